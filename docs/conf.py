@@ -1,5 +1,6 @@
 """How Sphinx makes the site of these pages (``make docs``): nothing is loaded from the network, and it is read from file://."""
 
+import re
 from pathlib import Path
 
 from pygments.lexers.special import TextLexer
@@ -7,15 +8,21 @@ from sphinx.application import Sphinx
 
 project = "AMP Studio"
 author = "AMP Studio contributors"
+project_copyright = f"2026 {author}"
 extensions = ["myst_parser"]
 myst_heading_anchors = 4
 # A block of commands or of a drawing has no language to be coloured in.
 highlight_language = "none"
 
 html_theme = "furo"
-html_title = "AMP Studio"
+release = version = re.findall(
+    r'__version__ = "(.*)"', (Path(__file__).parents[3] / "amp_studio/__init__.py").read_text()
+)[0]
+html_title = f"AMP Studio {release}"
 html_static_path = ["_static"]
 html_css_files = ["site.css"]
+html_js_files = [("search.js", {"defer": "defer"})]
+html_logo = html_favicon = "_static/logo.svg"
 html_copy_source = False
 html_show_sourcelink = False
 # Browsers do not let a page of file:// read the other pages, of which the lines below a hit are made.

@@ -1,7 +1,8 @@
 """Checks every link of the pages in a folder: its page or file must be there, and its anchor on that page.
 
-Only the folder is read: a link out of it by a path is broken, and one into the network is not followed. A
-picture, script or style that a page would load from the network is an error, because the site is read without one.
+What the search leads to is checked too. Only the folder is read: a link out of it by a path is broken, and one into
+the network is not followed. A picture, script or style that a page would load from the network is an error, because the
+site is read without one.
 """
 
 from __future__ import annotations
@@ -10,6 +11,8 @@ import sys
 from html.parser import HTMLParser
 from pathlib import Path
 from urllib.parse import unquote, urlsplit
+
+from reference_search import addresses
 
 LOADED = {"img": "src", "script": "src", "link": "href", "iframe": "src"}
 """Tag -> its attribute that names what a browser loads by itself."""
@@ -54,6 +57,12 @@ def faults(folder: Path) -> tuple[list[str], int, int]:
             followed += 1
             fault = _fault(address, path, pages, folder.resolve())
             found += [f"{here}: {fault}"] if fault else []
+    entries = folder.resolve() / "_static/search-entries.js"
+    if entries.is_file():
+        for address in addresses(entries.read_text(encoding="utf-8")):
+            followed += 1
+            fault = _fault(address, folder.resolve() / "index.html", pages, folder.resolve())
+            found += [f"search: {fault}"] if fault else []
     return list(dict.fromkeys(found)), len(pages), followed
 
 

@@ -12,7 +12,7 @@ from html import escape
 from urllib.parse import quote
 
 from amp_studio.schema import Group, Parameter, Rule, Schema
-from amp_studio.schema.model import ControlMessage, Messages
+from amp_studio.schema.model import ControlMessage, Messages, Table
 
 
 def heading(level: int, text: str) -> str:
@@ -63,6 +63,11 @@ def paragraph(text: str, strong: str = "") -> str:
     return f"<p>{lead}{escape(' '.join(text.split()))}</p>"
 
 
+def admonition(kind: str, title: str, text: str) -> str:
+    """Return a paragraph in a frame with a title: ``danger``, ``warning``, ``note``, ``caution``."""
+    return f'<div class="admonition {kind}"><p class="admonition-title">{escape(title)}</p>{paragraph(text)}</div>'
+
+
 def page(schema: Schema, title: str, *parts: str) -> str:
     """Return a page of a family.
 
@@ -73,6 +78,15 @@ def page(schema: Schema, title: str, *parts: str) -> str:
     above = f'<p><a href="../index.html">Reference</a> › <a href="index.html">{escape(schema.family.name)}</a></p>'
     head = "---\norphan: true\n---"
     return "\n\n".join([head, heading(1, f"{short}: {title}"), above, *filter(None, parts)])
+
+
+def natural(number: str) -> list[tuple[int, int, str]]:
+    """Return by what numbers are ordered as people count: P2 before P10."""
+    return [
+        (0, int(part), "") if part.isdecimal() else (1, 0, part)
+        for part in re.split(r"(\d+)", number)
+        if part
+    ]
 
 
 # -- where things are ----------------------------------------------------------
@@ -104,7 +118,29 @@ def rule_link(rule: Rule) -> str:
     return link("rules", rule.id, rule.title)
 
 
-def message_link(schema: Schema, message: ControlMessage) -> str:
+def message_link(schema: Schema, message: ControlMessage, folder: str = "") -> str:
     """Return a link to a message of the control."""
     page = next(messages_page(m) for m in schema.message_lists if message in m.messages)
-    return link(page, message.id, message.name)
+    return link(folder + page, message.id, message.name)
+
+
+def printed_tables(schema: Schema) -> list[Table]:
+    """Return the printed tables; messages of the control, which are tables too, have pages of their own."""
+    own = {every.id for every in schema.message_lists} | set(schema.messages)
+    return [printed for printed in schema.tables.values() if printed.id not in own]
+
+
+def page_links(pages: Iterable[str]) -> str:
+    """Return links to the pages of the manual."""
+    return ", ".join(link("pages", f"page-{page}", page) for page in dict.fromkeys(pages))
+
+
+def every_number(schema: Schema, parameter: Parameter) -> list[str]:
+    """Return the numbers of a parameter on all machine types, each once."""
+    here = [schema.on(machine.key).numbers(parameter) for machine in schema.family.machines]
+    return list(dict.fromkeys(number for numbers in here for number in numbers.values()))
+
+
+def first_number(schema: Schema, parameter: Parameter) -> str:
+    """Return the number by which a parameter with many is known; empty where it has none."""
+    return next(iter(every_number(schema, parameter)), "")

@@ -1,8 +1,7 @@
-"""Pages of the generated reference that list what several parameters share: messages, rules, steps, tables, numbers."""
+"""Pages of the generated reference that list what several parameters share: rules, steps, tables, numbers."""
 
 from __future__ import annotations
 
-import re
 from collections.abc import Iterator
 from html import escape
 
@@ -13,11 +12,12 @@ from reference_html import (
     heading,
     link,
     listed,
+    natural,
     page,
     paragraph,
     parameter_link,
     parameter_links,
-    rule_link,
+    printed_tables,
     table,
 )
 
@@ -26,37 +26,6 @@ from amp_studio.report import cells_of
 from amp_studio.report.manual_page import erratum_text
 from amp_studio.report.wording import severity_name
 from amp_studio.schema import Rule, Schema, read_address
-from amp_studio.schema.model import ControlMessage, Messages
-
-
-def messages(schema: Schema, every: Messages) -> str:
-    """Return the page of a list of messages: from what the control shows to the cause."""
-    parts = [part for message in every.messages for part in _message(schema, message)]
-    return page(schema, every.title, paragraph(every.note) if every.note else "", *parts)
-
-
-def _message(schema: Schema, message: ControlMessage) -> Iterator[str]:
-    yield anchors(message.id)
-    yield heading(2, message.name)
-    facts = [("Reaction", escape(message.reaction))]
-    if message.also:
-        facts.append(("Also printed as", escape("; ".join(message.also))))
-    if message.means:
-        facts.append(("Meaning", escape(message.means)))
-    if message.note:
-        facts.append(("Note", escape(message.note)))
-    parameters = parameter_links(schema, message.params)
-    if parameters:
-        facts.append(("Parameters, the nearest first", parameters))
-    found = {rule.id: rule for rule in schema.rules}
-    rules = "; ".join(rule_link(found[name]) for name in message.rules if name in found)
-    if rules:
-        facts.append(("Rules that find it in a file", rules))
-    facts.append(("Source", escape(f"page {', '.join(message.every_page)}")))
-    yield facts_list(facts)
-    for title, entries in (("Where to look", message.causes), ("What helps", message.cures)):
-        if entries:
-            yield f"<p><strong>{title}</strong></p>\n{listed(map(escape, entries), 'ol')}"
 
 
 def rules(schema: Schema) -> str:
@@ -81,7 +50,7 @@ def _rule(schema: Schema, rule: Rule) -> Iterator[str]:
         ("Must hold", f"<code>{escape(rule.check)}</code>"),
     ]
     facts += [("Suggested fix", f"<code>{escape(f'{fix.set} = {fix.value}')}</code>") for fix in rule.fix]
-    facts += [("In force instead", f"<code>{escape(f'{e.set} = {e.value}')}</code>") for e in rule.effective]
+    facts += [("Effective value", f"<code>{escape(f'{e.set} = {e.value}')}</code>") for e in rule.effective]
     facts.append(("Source", escape(f"page {rule.page}")))
     yield facts_list(facts)
 
@@ -118,7 +87,7 @@ def errata(schema: Schema) -> str:
 def tables(schema: Schema) -> str:
     """Return the page of the printed tables."""
     parts: list[str] = []
-    for printed in schema.tables.values():
+    for printed in printed_tables(schema):
         head, *cells = cells_of(printed)
         rows = ([escape(cell) for cell in row] for row in cells)
         parts += [
@@ -142,15 +111,6 @@ def numbers(schema: Schema) -> str:
                 label = here.instance_label((parameter.id, instance))
                 target = link(group_page(schema.group_of[parameter.id]), f"n-{number}", parameter.name)
                 rows[number, parameter.id] = f"{target}{escape(f', {label}') if label else ''}"
-    ordered = sorted(rows, key=lambda row: (_natural(row[0]), row[1]))
+    ordered = sorted(rows, key=lambda row: (natural(row[0]), row[1]))
     cells = ((escape(number), rows[number, name], escape(name)) for number, name in ordered)
     return page(schema, "Numbers", table(("Number", "Parameter", "Id"), cells))
-
-
-def _natural(number: str) -> list[tuple[int, int, str]]:
-    """Return by what numbers are ordered as people count: P2 before P10."""
-    return [
-        (0, int(part), "") if part.isdecimal() else (1, 0, part)
-        for part in re.split(r"(\d+)", number)
-        if part
-    ]

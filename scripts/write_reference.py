@@ -12,7 +12,9 @@ from html import escape
 from pathlib import Path
 
 from reference_html import (
+    admonition,
     anchors,
+    every_number,
     facts_list,
     group_page,
     heading,
@@ -22,13 +24,18 @@ from reference_html import (
     messages_page,
     page,
     page_link,
+    page_links,
     paragraph,
     parameter_link,
     parameter_links,
+    printed_tables,
     rule_link,
     table,
 )
-from reference_lists import commissioning, errata, messages, numbers, rules, tables
+from reference_lists import commissioning, errata, numbers, rules, tables
+from reference_manual import manual_pages
+from reference_messages import all_messages, messages
+from reference_search import guide_entries, search_script
 
 from amp_studio.guide import step_of, steps_of
 from amp_studio.report import facts, formula_lines, help_parts
@@ -38,10 +45,10 @@ from amp_studio.schema import Group, Parameter, Schema, family_ids, load_schema,
 
 def reference() -> dict[str, str]:
     """Return the text of every page by its path below ``reference/``."""
-    pages = {"index.md": overview()}
-    for family in family_ids():
-        schema = load_schema(family)
-        pages |= {f"{family}/{name}.md": text for name, text in family_pages(schema).items()}
+    schemas = [load_schema(family) for family in family_ids()]
+    pages = {"index.md": overview(), "messages.md": all_messages(schemas)}
+    for schema in schemas:
+        pages |= {f"{schema.family.family}/{name}.md": text for name, text in family_pages(schema).items()}
     return pages
 
 
@@ -74,12 +81,12 @@ def family_pages(schema: Schema) -> dict[str, str]:
     """Return the pages of one family by name."""
     pages = {group_page(group): group_text(schema, group) for group in schema.groups}
     pages |= {messages_page(listed): messages(schema, listed) for listed in schema.message_lists}
-    pages |= {"rules": rules(schema), "numbers": numbers(schema)}
+    pages |= {"rules": rules(schema), "numbers": numbers(schema), "pages": manual_pages(schema)}
     if schema.commissioning is not None:
         pages["commissioning"] = commissioning(schema)
     if schema.errata:
         pages["errata"] = errata(schema)
-    if schema.tables:
+    if printed_tables(schema):
         pages["tables"] = tables(schema)
     return pages | {"index": family_index(schema, pages)}
 
@@ -88,9 +95,10 @@ def family_index(schema: Schema, pages: Mapping[str, str]) -> str:
     """Return the page that leads to all others of a family."""
     titles = {
         "numbers": "Every number, in order",
+        "pages": "Pages of the manual, and what is taken from each",
         "commissioning": "Steps of commissioning",
         "rules": f"Rules ({len(schema.rules)})",
-        "tables": f"Tables ({len(schema.tables)})",
+        "tables": f"Tables ({len(printed_tables(schema))})",
         "errata": f"Contradictions in the manual ({len(schema.errata)})",
     }
     groups = [f"{page_link(group_page(g), group_title(g))} ({len(g.parameters)})" for g in schema.groups]
@@ -121,20 +129,21 @@ def group_text(schema: Schema, group: Group) -> str:
 
 def parameter_parts(schema: Schema, parameter: Parameter) -> Iterator[str]:
     """Yield the parts of the section of one parameter."""
-    every = dict.fromkeys(
-        f"n-{number}"
-        for m in schema.family.machines
-        for number in schema.on(m.key).numbers(parameter).values()
+    every = every_number(schema, parameter)
+    yield anchors(parameter.id, *(f"n-{number}" for number in every))
+    yield heading(2, " ".join([*every[:1], parameter.name]))
+    source = page_links((parameter.page, *parameter.pages.values()))
+    yield facts_list(
+        (title, f"{escape(schema.family.title)}, page {source}" if title == "Source" else escape(text))
+        for title, text in facts(schema, parameter)
     )
-    short = next(iter(every), "").removeprefix("n-")
-    yield anchors(parameter.id, *every)
-    yield heading(2, f"{short} {parameter.name}".strip())
-    yield facts_list((title, escape(text)) for title, text in facts(schema, parameter))
     for title, text in help_parts(schema, parameter):
         if title == "Related":
             yield f"<p><strong>Related.</strong> {parameter_links(schema, parameter.help.related)}</p>"
+        elif title in ("Danger", "Warning", "Note"):
+            yield admonition(title.lower(), title, text)
         elif title.startswith("Contradiction"):
-            yield f'<div class="admonition caution">{paragraph(text, title)}</div>'
+            yield admonition("caution", title, text)
         else:
             yield paragraph(text, title)
     for title, entries in linked(schema, parameter):
@@ -173,6 +182,11 @@ def linked(schema: Schema, parameter: Parameter) -> Iterator[tuple[str, list[str
         ],
     )
     yield (
+        "Tables",
+        [link("tables", t.id, t.title) + f" (page {t.page})" for t in printed_tables(schema)
+         if parameter.id in t.params],
+    )  # fmt: skip
+    yield (
         "Named by",
         [parameter_link(schema, other) for other in schema.parameters.values()
          if parameter.id in other.help.related and other.id not in parameter.help.related],
@@ -180,9 +194,11 @@ def linked(schema: Schema, parameter: Parameter) -> Iterator[tuple[str, list[str
 
 
 def main() -> None:
-    """Write the pages into the folder that is named."""
+    """Write the pages and what the search knows into the folder of the site's sources that is named."""
     folder = Path(sys.argv[1])
-    for name, text in reference().items():
+    pages = {f"reference/{name}": text for name, text in reference().items()}
+    pages["_static/search-entries.js"] = search_script(guide_entries(folder))
+    for name, text in pages.items():
         path = folder / name
         path.parent.mkdir(parents=True, exist_ok=True)
         path.write_text(text + "\n", encoding="utf-8")

@@ -8,6 +8,8 @@ from pathlib import Path
 
 import pytest
 from check_links import faults
+from reference_manual import cited_pages
+from reference_messages import ONLY_PRINTED
 from write_reference import reference
 
 from amp_studio.schema import family_ids, load_schema
@@ -28,6 +30,9 @@ def test_every_parameter_rule_and_message_has_one_place(family: str, pages: dict
     for message in schema.messages.values():
         assert f'<a id="{escape(message.id)}"></a>' in here
         assert escape(message.causes[0] if message.causes else message.reaction) in here
+        assert (
+            f"messages.html#{message.id}" in pages["messages.md"] or f'#{message.id}"' in pages["messages.md"]
+        )
     for erratum in schema.errata.values():
         assert f'<a id="{erratum.id}"></a>' in pages[f"{family}/errata.md"]
 
@@ -44,6 +49,61 @@ def test_every_link_leads_to_an_anchor(pages: dict[str, str], tmp_path: Path) ->
     found, count, links = faults(tmp_path)
     assert (found, count) == ([], len(few) + 2)
     assert links > 1_000
+
+
+@pytest.mark.parametrize("family", family_ids())
+def test_every_message_says_how_to_find_its_cause_or_that_nothing_is_printed(
+    family: str, pages: dict[str, str]
+) -> None:
+    schema = load_schema(family)
+    for every in schema.message_lists:
+        _, *sections = re.split("^## ", pages[f"{family}/messages-{every.id}.md"], flags=re.MULTILINE)
+        assert len(sections) == len(every.messages)
+        for message, section in zip(every.messages, sections, strict=True):
+            steps = re.findall("<li>(.+)</li>", section)
+            said = [
+                *message.causes,
+                *message.cures,
+                *(name for name in message.params if name in schema.parameters),
+            ]
+            assert len(steps) >= len(said), message.id
+            for name in (*message.params, *message.rules):
+                assert f'#{escape(name)}"' in section, (message.id, name)
+            assert (ONLY_PRINTED in section) == (not steps), message.id
+
+
+def test_a_message_without_a_printed_cause_leads_to_its_parameters_and_their_rules(
+    pages: dict[str, str],
+) -> None:
+    alarms = pages["grblhal/messages-alarms.md"]
+    (section,) = re.findall(r"^## ALARM\\:2 Soft limit\n.*?(?=^## )", alarms, re.MULTILINE | re.DOTALL)
+    assert "No cause is printed." in section
+    order = [
+        section.index(place)
+        for place in ("#limits.soft", "rules.html#grblhal.limits.no-travel", "#axis.max_travel")
+    ]
+    assert order == sorted(order)
+
+
+def test_a_page_of_the_printed_manual_leads_to_what_is_taken_from_it(pages: dict[str, str]) -> None:
+    (row,) = re.findall('<a id="page-7-20">.*?(?=<a id=)', pages["9pc/pages.md"], re.DOTALL)
+    for said in ("servo.excess_error", "messages-amp-messages.html#excess-following-error", "9pc.servo.excess-margin",
+                 "e-1750-range"):  # fmt: skip
+        assert said in row
+    assert 'page <a href="pages.html#page-7-20">7-20</a>' in pages["9pc/group-servo_position.md"]
+
+
+@pytest.mark.parametrize(
+    ("text", "pages"),
+    [
+        ("(page 7-20)", ["7-20"]),
+        ("bandwidth is needed (pages 3-5 and 3-6).", ["3-5", "3-6"]),
+        ("pages 1.5.1, 1.5.2 and A-1: it", ["1.5.1", "1.5.2", "A-1"]),
+        ("the page of its own", []),
+    ],
+)
+def test_the_pages_that_a_text_cites_are_read(text: str, pages: list[str]) -> None:
+    assert cited_pages(text) == pages
 
 
 def test_a_number_leads_to_its_parameter(pages: dict[str, str]) -> None:

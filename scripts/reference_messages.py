@@ -1,0 +1,106 @@
+"""Pages of the generated reference that lead from what a control shows to its cause."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable, Iterator
+from html import escape
+
+from reference_html import (
+    anchors,
+    facts_list,
+    first_number,
+    heading,
+    listed,
+    message_link,
+    page,
+    page_links,
+    paragraph,
+    parameter_link,
+    rule_link,
+)
+
+from amp_studio.schema import Rule, Schema, read_address
+from amp_studio.schema.model import ControlMessage, Messages
+
+ONLY_PRINTED = "Only the message is printed, and no parameter is connected with it."
+
+
+def messages(schema: Schema, every: Messages) -> str:
+    """Return the page of a list of messages, each with the way to its cause."""
+    find = f"<code>amp-studio find FILE.amp '{escape(every.messages[0].name)}'</code>"
+    parts = [
+        f"<p>With the file of a machine, {find} shows the values behind a message and the rules that are broken.</p>"
+    ]
+    parts += [paragraph(every.note)] if every.note else []
+    parts += [part for message in every.messages for part in _message(schema, message)]
+    return page(schema, every.title, *parts)
+
+
+def all_messages(schemas: Iterable[Schema]) -> str:
+    """Return the page that lists the messages of every family."""
+    parts = [
+        "# Messages of the controls",
+        "What it means, and how to find its cause: for every message that the manuals print.",
+    ]
+    for schema in schemas:
+        parts.append(heading(2, schema.family.name))
+        for every in schema.message_lists:
+            parts.append(f"<p><strong>{escape(every.title)}</strong></p>")
+            parts.append(
+                listed(
+                    message_link(schema, message, f"{schema.family.family}/") for message in every.messages
+                )
+            )
+    return "\n\n".join(parts)
+
+
+def _message(schema: Schema, message: ControlMessage) -> Iterator[str]:
+    yield anchors(message.id)
+    yield heading(2, message.name)
+    facts = [("Reaction", escape(message.reaction))]
+    if message.also:
+        facts.append(("Also printed as", escape("; ".join(message.also))))
+    if message.means:
+        facts.append(("Meaning", escape(message.means)))
+    if message.note:
+        facts.append(("Note", escape(message.note)))
+    facts.append(("Source", f"page {page_links(message.every_page)}"))
+    yield facts_list(facts)
+    steps = list(cause_steps(schema, message))
+    if steps:
+        yield "<p><strong>How to find the cause</strong></p>"
+        if not message.causes:
+            yield "<p>No cause is printed. These are the parameters connected with it, the nearest first.</p>"
+        yield listed(steps, "ol")
+    elif not message.cures:
+        yield f"<p>{ONLY_PRINTED}</p>"
+    if message.cures:
+        yield f"<p><strong>What helps</strong></p>\n{listed(map(escape, message.cures), 'ol')}"
+
+
+def cause_steps(schema: Schema, message: ControlMessage) -> Iterator[str]:
+    """Yield what to look at in turn: the printed causes, each parameter with its rules, the rules of no parameter."""
+    yield from map(escape, message.causes)
+    every = {rule.id: rule for rule in schema.rules}
+    left = [every[name] for name in message.rules if name in every]
+    for name in message.params:
+        if name not in schema.parameters:  # a control that describes itself may have it
+            continue
+        parameter = schema.parameters[name]
+        own = [rule for rule in left if _reads(rule, name)]
+        left = [rule for rule in left if rule not in own]
+        number = first_number(schema, parameter)
+        what = re.split(r"(?<=[.;])\s", " ".join(parameter.help.what.split()), maxsplit=1)[0].rstrip(";.")
+        step = f"{escape(number)} {parameter_link(schema, parameter)}: {escape(what)}.".lstrip()
+        yield step + (f" A file is checked by: {_rule_links(own)}." if own else "")
+    if left:
+        yield f"A file is also checked by: {_rule_links(left)}."
+
+
+def _reads(rule: Rule, name: str) -> bool:
+    return any(read_address(read)[0] == name for read in rule.reads.values())
+
+
+def _rule_links(rules: Iterable[Rule]) -> str:
+    return "; ".join(map(rule_link, rules))

@@ -1,0 +1,111 @@
+"""The search of the site, asked in a real Chromium on file://: the right page and anchor come first, without a server."""
+
+from __future__ import annotations
+
+import json
+import os
+from collections.abc import Iterator
+from pathlib import Path
+from urllib.parse import unquote
+
+import pytest
+from reference_search import addresses, guide_entries, search_script
+from ruamel.yaml import YAML
+from write_reference import reference
+
+from tests.report.browser import CHROMIUM, Browser
+
+DOCS = Path(__file__).parents[2] / "docs"
+QUERIES: list[tuple[str, str]] = [
+    (query, wanted.removeprefix("/") if wanted.startswith("/") else f"reference/{wanted}")
+    for query, wanted in YAML(typ="safe").load(Path(__file__).with_name("search_queries.yaml"))
+]
+FIELD = "form[role=search] input[name=q]"
+
+
+@pytest.fixture(scope="module")
+def script() -> str:
+    return search_script(guide_entries(DOCS))
+
+
+@pytest.fixture(scope="module")
+def site(script: str, tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """A page with the field of the site's pages, and the scripts; or the site that AMP_STUDIO_SITE names."""
+    if made := os.environ.get("AMP_STUDIO_SITE"):
+        return Path(made).resolve()
+    folder = tmp_path_factory.mktemp("site")
+    (folder / "_static").mkdir()
+    for name, text in {
+        "search-entries.js": script,
+        "search.js": (DOCS / "_static/search.js").read_text(encoding="utf-8"),
+    }.items():
+        (folder / "_static" / name).write_text(text, encoding="utf-8")
+    form = '<form role="search" action="search.html"><input name="q"></form>'
+    head = '<!doctype html><html data-content_root="./"><script src="_static/search.js"></script>'
+    for name in ("index.html", "search.html"):
+        (folder / name).write_text(
+            f'{head}<body>{form}<div id="search-results"></div></body></html>', encoding="utf-8"
+        )
+    return folder
+
+
+@pytest.fixture(scope="module")
+def browser(site: Path) -> Iterator[Browser]:
+    if CHROMIUM is None:
+        pytest.skip("no Chromium is installed")
+    with Browser(site / "index.html") as browser:
+        yield browser
+
+
+@pytest.fixture
+def field(browser: Browser, site: Path) -> Browser:
+    browser.go((site / "index.html").as_uri())
+    browser.click(FIELD)
+    browser.until("typeof searchEntries === 'function' && document.querySelector('.suggestions') !== null")
+    return browser
+
+
+def test_every_entry_leads_to_an_anchor(script: str) -> None:
+    pages = reference()
+    entries = [unquote(address) for address in addresses(script)]
+    assert len(entries) > 3_000
+    for address in entries:
+        if address.startswith("reference/"):
+            name, _, anchor = address.removeprefix("reference/").partition("#")
+            assert not anchor or f'id="{anchor}"' in pages[name.replace(".html", ".md")], address
+
+
+def test_what_people_type_has_the_right_place_first(field: Browser) -> None:
+    assert len(QUERIES) >= 40
+    field.type("1")  # the entries are loaded when somebody searches
+    field.until("document.querySelector('.suggestions a') !== null")
+    missed = {}
+    for query, wanted in QUERIES:
+        found = field.value(f"searchSite({json.dumps(query)})")
+        if not found or unquote(found[0]) != wanted:
+            missed[query] = found[:3]
+    assert not missed
+
+
+def test_a_typed_number_is_suggested_and_opened_by_the_keyboard(field: Browser) -> None:
+    field.type("1300")
+    first = "document.querySelector('.suggestions a')"
+    field.until(f"{first} !== null && {first}.textContent.includes('1300 Home Calibration')")
+    assert field.value(f"{first}.href").endswith("reference/9pc/group-home.html#n-1300")
+    assert field.value("document.querySelector('.suggestions').hidden") is False
+
+
+def test_the_page_of_results_begins_with_the_best_matches(browser: Browser, site: Path) -> None:
+    browser.go((site / "search.html").as_uri() + "?q=MOT-022")
+    first = "document.querySelector('#search-results ul.search a')"
+    browser.until(f"{first} !== null")
+    assert browser.value(f"{first}.href").endswith("reference/syntec/messages-alarms.html#mot-022")
+    assert browser.value(f"document.querySelector({json.dumps(FIELD)}).value") == "MOT-022"
+
+
+def test_markup_in_a_question_stays_text(browser: Browser, site: Path) -> None:
+    browser.go(
+        (site / "search.html").as_uri() + "?q=%3Cimg%20src%3Dx%20onerror%3D%22document.title%3D1%22%3E%20home"
+    )
+    browser.until("document.querySelector('#search-results ul.search a') !== null")
+    assert browser.value("document.querySelector('#search-results img')") is None
