@@ -68,17 +68,20 @@ def motion_figures(file: ParameterFile) -> Iterator[PrintedFigure]:
         return
     scenarios = {each.name for each in known.scenarios}
     assumed: dict[str, None] = {}
+    failed: dict[str, None] = {}
     for axis in known.axes:
         for scenario in (name for name in _SCENARIOS if name in scenarios):
             try:
                 trace = simulate(file, scenario, axis)
             except SimulationError as error:
-                yield PrintedFigure(f"{scenario.capitalize()}, axis {axis}", "", (f"Not simulated: {error}",))
+                failed[str(error)] = None
                 continue
             named = f"{axis} ({trace.letter})" if trace.letter and trace.letter != axis else axis
             drawn = plot_svg(trace, width=_WIDTH, unit=_UNIT, small_print=False)
             assumed |= dict.fromkeys(trace.assumptions)
             yield PrintedFigure(f"{scenario.capitalize()}, axis {named}", drawn)
+    if failed:
+        yield PrintedFigure("Not simulated", "", tuple(failed))
     if assumed:
         yield PrintedFigure("What was assumed", "", tuple(assumed))
 

@@ -31,6 +31,7 @@ def report_verb(options: argparse.Namespace) -> int:
             options.units,
             options.language,
             frozenset(options.without or ()),
+            options.paper,
         ),
         source=options.path,
         own=own,

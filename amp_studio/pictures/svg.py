@@ -201,4 +201,5 @@ def _texts(frame: Placement, width: float) -> Iterator[str]:
             )
             weight = ' font-weight="600"' if text.value else ""
             at = left + share * long
+            yield f'<rect x="{left:.1f}" y="{y - 9.5:.1f}" width="{long:.1f}" height="12" fill="{BASE}" fill-opacity="0.8"/>'
             yield f'<text x="{at:.1f}" y="{y:.1f}" fill="{INKS[text.sort]}" text-anchor="{anchor}"{weight}>{escape(text.text)} {value}</text>'

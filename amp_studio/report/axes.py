@@ -28,8 +28,8 @@ def axis_label(file: ParameterFile, axis: str) -> str:
 
 
 def axis_note(file: ParameterFile, axis: str) -> str:
-    """Return what is beside the letter of an axis: ``1 linear``; without its number if that is its name."""
-    number = axis if axis_letter(file, axis) not in ("", axis) else ""
+    """Return what is beside the name of an axis: ``1 linear``; without its number if the name has it."""
+    number = axis if axis_letter(file, axis) == axis_label(file, axis) != axis else ""
     return f"{number} {other_use(file, axis) or axis_kind(file, axis)}".strip()
 
 

@@ -7,9 +7,10 @@ from collections.abc import Iterator
 from amp_studio.files import ParameterFile
 from amp_studio.pictures import FilePicture, Scene, pictures_of, scene_svg
 
+from .axes import axis_label
 from .model import PrintedFigure
 
-WIDTH, HEIGHT = 620.0, 360.0
+WIDTH, HEIGHT = 620.0, 316.0
 """Size of a drawing in points of its letters: in the width of a page they are 8.5 points or more."""
 _MOST_PARTS = 8
 """Most parts of a picture that are all printed; of more (pairs of axes), each axis once."""
@@ -24,10 +25,15 @@ def _drawn(picture: FilePicture) -> Iterator[PrintedFigure]:
     for part in _parts(picture):
         scene = picture.scene(part)
         if _shows(scene):
-            title = f"{scene.title} {scene.subtitle.partition(',')[0]}".strip() if part else scene.title
+            title = f"{scene.title} {_name(picture, part, scene)}" if part else scene.title
             yield PrintedFigure(
                 title, scene_svg(scene, WIDTH, HEIGHT, notes=False), tuple(n.text for n in scene.notes)
             )
+
+
+def _name(picture: FilePicture, part: str, scene: Scene) -> str:
+    """Return which part a drawing shows: its axis as the tables name it, its axes, its spindle."""
+    return axis_label(picture.file, part) if picture.axes == 1 else scene.subtitle.partition(",")[0]
 
 
 def _shows(scene: Scene) -> bool:

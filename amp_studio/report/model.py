@@ -39,6 +39,11 @@ UNIT_CHOICES: dict[UnitChoice, str] = {
     "both": "those of the file, with the other system's below",
 }
 
+PaperSize = Literal["a4", "letter"]
+
+PAPER_SIZES: dict[PaperSize, tuple[str, str]] = {"a4": ("a4", "A4"), "letter": ("us-letter", "letter")}
+"""The paper of a PDF and of a printed web page -> its name in Typst, and in CSS."""
+
 MARKS: dict[str, str] = {
     "*": "differs from the printed default",
     "n": "set, and no default is printed",
@@ -49,6 +54,8 @@ MARKS: dict[str, str] = {
 
 
 _MANY_AXES = 4
+_LONGEST_NOTE = 160
+"""Characters of a note that are printed beside its value; all notes are printed whole in a chapter of their own."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -65,12 +72,25 @@ class Contents:
     """Code of the language of the report's own words (``language_codes``)."""
     without: frozenset[Chapter] = frozenset()
     """Chapters that are left out."""
+    paper: PaperSize = "a4"
 
     def __post_init__(self) -> None:
         if self.sort not in SORTS:
             raise ValueError(f"Unknown order '{self.sort}'. Known: {', '.join(SORTS)}")
         if self.units not in UNIT_CHOICES:
             raise ValueError(f"Unknown units '{self.units}'. Known: {', '.join(UNIT_CHOICES)}")
+        if self.paper not in PAPER_SIZES:
+            raise ValueError(f"Unknown paper '{self.paper}'. Known: {', '.join(PAPER_SIZES)}")
+
+    @property
+    def typst_paper(self) -> str:
+        """The paper's name in Typst."""
+        return PAPER_SIZES[self.paper][0]
+
+    @property
+    def css_paper(self) -> str:
+        """The paper's name in CSS."""
+        return PAPER_SIZES[self.paper][1]
 
     @property
     def text(self) -> str:
@@ -157,7 +177,12 @@ class ReportRow:
     def small_print(self) -> str:
         """The text below the value: the other unit system, the unit of entry, the bits of a word."""
         entered = f"in the file {self.entered}" if self.entered else ""
-        note = f"Note: {self.note}" if self.note else ""
+        short = (
+            self.note
+            if len(self.note) <= _LONGEST_NOTE
+            else f"{self.note[:_LONGEST_NOTE]}… (all of it under Notes)"
+        )
+        note = f"Note: {short}" if short else ""
         return "; ".join(part for part in (self.also, entered, self.detail, note) if part)
 
 

@@ -5,13 +5,14 @@ from __future__ import annotations
 import re
 from collections import Counter
 from collections.abc import Iterable, Sequence
-from itertools import groupby
+from itertools import groupby, pairwise
 
 from amp_studio.files import ParameterFile
 from amp_studio.guide import steps_of
 
 from .axes import axis_label, axis_note, printed_axes, scope_of
 from .model import Column, Grid, GridLine, Listing, ReportRow, Section, Sort
+from .number_text import split_count
 
 _WIDEST_GRID = 8
 """Most axes in one grid; further axes get another grid below."""
@@ -167,9 +168,21 @@ def _line_unit(present: list[ReportRow]) -> str:
 
 
 def numbers_of(rows: Sequence[ReportRow]) -> str:
-    """Return the numbers of one parameter's values: ``1300``, ``20020, 21020``, ``1300, 2300 … 5300``.
+    """Return the numbers of one parameter's values: ``1300``, ``20020, 21020``, ``1300, 2300 … 5300, 8300``.
 
-    Never a range: between two of them there are numbers of other parameters.
+    Never a range: between two of them there are numbers of other parameters. Those with … between them go on in equal steps.
     """
     numbers = list(dict.fromkeys(row.number for row in rows))
-    return ", ".join(numbers) if len(numbers) <= 3 else f"{numbers[0]}, {numbers[1]} … {numbers[-1]}"
+    runs: list[list[str]] = []
+    for number in numbers:
+        if runs and _goes_on(runs[-1], number):
+            runs[-1].append(number)
+        else:
+            runs.append([number])
+    return ", ".join(", ".join(run) if len(run) <= 3 else f"{run[0]}, {run[1]} … {run[-1]}" for run in runs)
+
+
+def _goes_on(run: list[str], number: str) -> bool:
+    """Return whether a number follows a run of numbers in the same step."""
+    heads, counts = zip(*map(split_count, [*run[-2:], number]), strict=True)
+    return len(set(heads)) == 1 and len({b - a for a, b in pairwise(counts)}) == 1

@@ -74,7 +74,7 @@ def _without_times(content: io.BytesIO) -> bytes:
 
 def _name(title: str, names: set[str]) -> str:
     """Return a name that a workbook allows and does not have yet."""
-    name = _FORBIDDEN.sub(" ", title).strip("' ")[:_MOST_NAME] or "WorkbookSheet"
+    name = _FORBIDDEN.sub(" ", title).strip("' ")[:_MOST_NAME] or "Sheet"
     chosen, n = name, 1
     while chosen.casefold() in names:
         n += 1

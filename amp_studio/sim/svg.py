@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Sequence
+from textwrap import wrap
 
 import numpy as np
 
@@ -24,6 +25,8 @@ UNIT, GAP = 132, 34
 DASH = "6 4"
 LABEL = 13.0
 """Height of a label; closer labels share one line."""
+FACT = 16
+"""Height of a line of facts below the title."""
 WRAP = 150
 """Characters in a line of small print."""
 
@@ -42,7 +45,8 @@ def plot_svg(
     right = width - MARGIN
     picture = picture_of(trace, before)
     parts: list[str] = []
-    y = float(TOP)
+    facts = _fact_lines(picture.facts, round(WRAP * width / WIDTH) - 14)
+    y = TOP + float(FACT * max(0, len(facts) - 1))
     if picture.rings:
         parts += ball_bar(picture, y, (LEFT + right) / 2)
         y += BALL + GAP + 14
@@ -73,10 +77,10 @@ def plot_svg(
     for line in _small_print(picture) if small_print else ():
         parts.append(text_svg(LEFT, y, line, size=10.5, fill=DIM))
         y += 14
-    return "\n".join([*_head(picture, width, math.ceil(y + 6)), *parts, "</svg>"]) + "\n"
+    return "\n".join([*_head(picture, facts, width, math.ceil(y + 6)), *parts, "</svg>"]) + "\n"
 
 
-def _head(picture: Picture, width: int, height: int) -> Iterator[str]:
+def _head(picture: Picture, facts: Sequence[str], width: int, height: int) -> Iterator[str]:
     yield (
         f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {width} {height}" width="{width}"'
         f' height="{height}" font-family="Inter, Helvetica, Arial, DejaVu Sans, sans-serif" font-size="12">'
@@ -84,9 +88,8 @@ def _head(picture: Picture, width: int, height: int) -> Iterator[str]:
     yield f'<rect width="{width}" height="{height}" fill="#ffffff"/>'
     yield text_svg(LEFT, 28, picture.title, size=17, weight="bold")
     colour = ERROR if picture.alarms else DIM
-    yield text_svg(
-        LEFT, 48, _elided(" · ".join(picture.facts), round(WRAP * width / WIDTH) - 14), fill=colour
-    )
+    for n, line in enumerate(facts):
+        yield text_svg(LEFT, 48 + FACT * n, line, fill=colour)
 
 
 def _small_print(picture: Picture) -> list[str]:
@@ -103,8 +106,13 @@ def _small_print(picture: Picture) -> list[str]:
     return lines
 
 
-def _elided(text: str, length: int) -> str:
-    return text if len(text) <= length else text[: length - 1].rstrip() + "…"
+def _fact_lines(facts: Sequence[str], length: int) -> list[str]:
+    """Return the facts in lines of a length, each fact whole where it is no longer than a line."""
+    lines: list[str] = []
+    for fact in facts:
+        joined = f"{lines[-1]} · {fact}" if lines else fact
+        lines[-1:] = [joined] if not lines or len(joined) <= length else [lines[-1], fact]
+    return [part for line in lines for part in wrap(line, length)]
 
 
 class _Frame:

@@ -17,6 +17,9 @@ COLOURS = {
 }
 """Colours that colour-blind readers can distinguish; the command is dashed as well."""
 
+LETTER = 0.5
+"""Width of a letter, about, in parts of its size."""
+
 
 def coordinate(value: float) -> str:
     """Return a coordinate with one decimal at most."""
@@ -47,11 +50,16 @@ def text_svg(
     fill: str = INK,
     over: bool = False,
 ) -> str:
-    """Return words; ``over`` curves with a white rim, so that they can be read."""
-    rim = ' stroke="#ffffff" stroke-width="4" stroke-linejoin="round" paint-order="stroke"' if over else ""
-    return (
+    """Return words; ``over`` curves on a light ground, so that they can be read: the rim of a letter would lie on the one before."""
+    long = LETTER * size * len(words)
+    left = x - {"start": 0.0, "middle": 0.5, "end": 1.0}[anchor] * long
+    ground = (
+        f'<rect x="{coordinate(left)}" y="{coordinate(y - 0.8 * size)}" width="{coordinate(long)}"'
+        f' height="{coordinate(size)}" fill="#ffffff" fill-opacity="0.7"/>'
+    )
+    return (ground if over else "") + (
         f'<text x="{coordinate(x)}" y="{coordinate(y)}" text-anchor="{anchor}" font-size="{size}" font-weight="{weight}"'
-        f' fill="{fill}"{rim}>{escape(words)}</text>'
+        f' fill="{fill}">{escape(words)}</text>'
     )
 
 

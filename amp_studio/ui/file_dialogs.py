@@ -134,7 +134,7 @@ class ReportDialog(_Form):
         self.add_buttons(self.tr("&Write Report"))
 
     def _browse(self) -> None:
-        endings = "PDF (*.pdf);;HTML (*.html);;CSV (*.csv);;Text (*.txt)"
+        endings = "PDF (*.pdf);;HTML (*.html);;Excel (*.xlsx);;CSV (*.csv);;JSON (*.json);;Text (*.txt)"
         text, chosen = QFileDialog.getSaveFileName(self, self.tr("Report"), self.path.text(), endings)
         if text:
             path = Path(text)

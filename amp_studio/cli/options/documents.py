@@ -40,6 +40,7 @@ def add(verbs: Verbs) -> None:
         default="file",
         help="units of the figures; both: those of the file, with the other system's beside them (default: file)",
     )
+    sub.add_argument("--paper", choices=("a4", "letter"), default="a4", help="paper of a PDF (default: a4)")
     sub = verbs.add(
         "form", "documentation", "tables to fill in by hand, as .pdf, .html, .xlsx or .csv", writes="output"
     )
