@@ -11,6 +11,7 @@ from PySide6.QtGui import QAction, QKeySequence
 from amp_studio.find import Entry, Finder, Hit, index_of
 from amp_studio.find.index import Index
 from amp_studio.schema import family_ids, load_schema
+from amp_studio.validate import Validator
 
 from .file_page import FilePage
 from .find_box import COMMANDS, FindBox
@@ -85,12 +86,15 @@ class FindActions(Translated):
             finder.forget_values()
 
     def _index(self) -> None:
-        """Index the words of the families of the open files in threads; a question that waits for one is asked again."""
-        for finder in self._finders.values():
+        """Index the words of the families of the open files in threads; a question that waits for one is asked again.
+
+        What the first edit of a machine type needs is worked out there too.
+        """
+        for page, finder in self._finders.items():
             key = (id(finder.schema), finder.machine)
             if key not in self._indexed | self._indexing:
                 self._indexing.add(key)
-                task = Task(lambda *_, own=finder: index_of(own.schema, own.machine))
+                task = Task(partial(_make_ready, finder, page.workspace.validator))
                 task.done.connect(partial(self._take_index, key))
                 task.begin()
 
@@ -247,3 +251,8 @@ def _every_family() -> tuple[Finder, ...]:
         index_of(schema, schema.family.default_machine)
         finders.append(Finder(schema, schema.family.default_machine))
     return tuple(finders)
+
+
+def _make_ready(finder: Finder, validator: Validator, *_: object) -> None:
+    index_of(finder.schema, finder.machine)
+    validator.prepare_edits()

@@ -8,8 +8,8 @@ first one has.
 What belongs to an open file lives as long as it is open: a collection need not look at it. With five files open, looking
 at all of it stalls the window for a quarter of a second; without them it is over in a third of a millisecond.
 
-What a file needs is made in the seconds after it was opened, and is then set apart. Until then only what is youngest is
-looked at, and often, for each look costs one frame of a scrolling table.
+What a file needs is made in the seconds after it was opened, and is then set apart. Until then only the youngest objects are
+collected, and often: each collection is paid by one frame of a scrolling table.
 """
 
 from __future__ import annotations

@@ -8,7 +8,7 @@ from itertools import pairwise
 
 import numpy as np
 import pyqtgraph as pg
-from PySide6.QtCore import Qt, Signal
+from PySide6.QtCore import Qt, QTimer, Signal
 from PySide6.QtGui import QColor, QFont, QKeyEvent
 
 from amp_studio.sim.picture import Curve, Panel, Picture, Ring, unheld
@@ -16,6 +16,7 @@ from amp_studio.sim.rounding import shown
 from amp_studio.sim.series import Series
 from amp_studio.sim.ticks import ring_levels
 
+from .plot_axis import plot_axes
 from .theme import Token, colour, scheme
 
 _INKS: dict[str, Token] = {
@@ -39,6 +40,10 @@ class MotionPlot(pg.GraphicsLayoutWidget):
         self.panels: list[pg.PlotItem] = []
         self.cursors: list[list[pg.InfiniteLine]] = []
         self._places: tuple[float, float] | None = None
+        self._pieces: Iterator[None] = iter(())
+        self._turns = QTimer(self)
+        """Runs while there is something left to draw."""
+        self._turns.timeout.connect(self._draw_piece)
         self._take_colours()
         scheme().changed.connect(self._take_colours)
 
@@ -53,37 +58,70 @@ class MotionPlot(pg.GraphicsLayoutWidget):
 
     def clear_picture(self) -> None:
         """Show nothing."""
+        self._pieces = iter(())
         self.clear()
         self.picture, self.panels, self.cursors = None, [], []
         self.read.emit("")
 
     def draw(self, picture: Picture) -> None:
-        """Draw a picture and remove the previous one."""
+        """Draw a picture and remove the previous one: a panel a turn of the event loop, and at the end all is shown at once."""
         same = self.picture is not None and self.picture.x_label == picture.x_label
+        self.setUpdatesEnabled(False)
         self.clear()
         self.picture, self.panels, self.cursors = picture, [], []
+        self._pieces = self._in_pieces(picture, same)
+        self._turns.start()
+
+    @property
+    def is_drawn(self) -> bool:
+        """Whether the whole picture is there."""
+        return not self._turns.isActive()
+
+    def finish(self) -> None:
+        """Draw what is left of the picture now."""
+        while not self.is_drawn:
+            self._draw_piece()
+
+    def _draw_piece(self) -> None:
+        if next(self._pieces, self) is self:
+            self._turns.stop()
+            self.setUpdatesEnabled(True)
+
+    def _in_pieces(self, picture: Picture, same: bool) -> Iterator[None]:
+        """Draw a picture; each piece takes a fraction of what the window may be away for."""
         row = 0
         if picture.rings:
             self._draw_rings(picture)
             row = 1
             self.ci.layout.setRowStretchFactor(0, 3)
+            yield
         for panel in picture.panels:
-            plot = self.addPlot(row=row, col=0)
+            plot = self.addPlot(row=row, col=0, axisItems=plot_axes(), enableMenu=False)
             self.ci.layout.setRowStretchFactor(row, max(1, round(2 * panel.height)))
+            yield
             self._draw_panel(plot, panel)
             self.panels.append(plot)
             row += 1
+            yield
+        self._link(picture)
+        yield
         self._finish(picture, same)
+        yield
+        self.ci.layout.activate()  # or all is painted twice
+        self.scene().prepareForPaint()
 
-    def _finish(self, picture: Picture, same: bool) -> None:
-        """Link the panels, and set their range and the cursors."""
-        first, last = _extent(picture)
+    def _link(self, picture: Picture) -> None:
+        """Link the panels."""
         for plot, (_, below) in zip(self.panels, pairwise([*self.panels, None]), strict=True):
             if below is not None:
                 plot.getAxis("bottom").setStyle(showValues=False)
             if plot is not self.panels[0]:
                 plot.setXLink(self.panels[0])
         self.panels[-1].setLabel("bottom", picture.x_label, color=self._ink["dim"])
+
+    def _finish(self, picture: Picture, same: bool) -> None:
+        """Set the range of the panels and the cursors."""
+        first, last = _extent(picture)
         self._fit(None)
         low, high = (math.log10(first), math.log10(last)) if picture.x_log else (first, last)
         self.panels[0].setXRange(low, high, padding=0.01)
@@ -101,7 +139,6 @@ class MotionPlot(pg.GraphicsLayoutWidget):
         plot.layout.setRowFixedHeight(0, 18)
         plot.showGrid(x=True, y=True, alpha=0.18)
         plot.hideButtons()
-        plot.setMenuEnabled(False)
         plot.setClipToView(True)
         for side in ("left", "bottom"):
             axis = plot.getAxis(side)
@@ -190,12 +227,11 @@ class MotionPlot(pg.GraphicsLayoutWidget):
 
     def _draw_rings(self, picture: Picture) -> None:
         """Draw the ball-bar plot: rings of equal deviation and the magnified paths."""
-        plot = self.addPlot(row=0, col=0)
+        plot = self.addPlot(row=0, col=0, enableMenu=False)
         plot.setAspectLocked(True)
         plot.hideAxis("left")
         plot.hideAxis("bottom")
         plot.hideButtons()
-        plot.setMenuEnabled(False)
         levels, most = ring_levels(picture.rings)
         scale = 0.5 / most
         turn = np.linspace(0.0, 2.0 * math.pi, 361)
@@ -217,6 +253,7 @@ class MotionPlot(pg.GraphicsLayoutWidget):
         """Show a part of the horizontal axis, or all of it; the vertical axes follow what is visible."""
         if self.picture is None or not self.panels:
             return
+        self.finish()
         first, last = span or _extent(self.picture)
         if self.picture.x_log:
             first, last = math.log10(first), math.log10(last)

@@ -80,6 +80,10 @@ class Validator:
         self._trials.changed(edited, (*addresses, *checks))
         return self.findings()
 
+    def prepare_edits(self) -> None:
+        """Work out now what the first update would wait for; another thread may do so."""
+        _ = self._plan.range_readers, self._plan.rule_readers
+
     def _present_circumstances(self) -> tuple[str, str, str]:
         header = self.file.header
         return self.file.machine, header.application, header.units

@@ -50,8 +50,8 @@ def view(window: MainWindow, qtbot: QtBot) -> MotionView:
 
 
 def settled(view: MotionView, qtbot: QtBot) -> None:
-    """Wait until no run is on its way."""
-    qtbot.waitUntil(lambda: view._task is None, timeout=WAIT_MS)
+    """Wait until no run is on its way and its picture is there."""
+    qtbot.waitUntil(lambda: view._task is None and view.plot.is_drawn, timeout=WAIT_MS)
 
 
 def field(view: MotionView, name: str) -> QLineEdit:
@@ -286,6 +286,7 @@ def test_a_bode_plot_is_painted_with_plain_numbers_on_its_axis(qtbot: QtBot) -> 
     qtbot.addWidget(plot)
     plot.resize(700, 500)
     plot.draw(picture_of(SCENARIOS["frequency"].run(tiny(gain=2500.0), {})))
+    plot.finish()
     assert not plot.grab().isNull()
     ticks = plot.panels[1].getAxis("bottom").tickStrings([-1.0, 0.301, 2.0, 2.7782], 1.0, 1.0)
     assert ticks == ["0.1", "2", "100", ""]

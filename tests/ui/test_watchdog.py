@@ -20,8 +20,6 @@ from .conftest import WAIT_MS, Control, action
 from .watchdog import Watchdog
 
 LIMIT_MS = 50.0
-KNOWN_MS = {"step response drawn": 300.0}
-"""What takes longer once: the plots of the first movement load their fonts and pens while Qt paints them (90 to 200 ms)."""
 
 
 def test_the_window_does_not_stall_over_its_work(
@@ -65,10 +63,9 @@ def test_the_window_does_not_stall_over_its_work(
         do("step response", action(window, "Motion").trigger, 1)
         dog.doing = "step response drawn"
         motion = window.findChildren(MotionView)[-1]
-        qtbot.waitUntil(lambda: motion.trace is not None, timeout=WAIT_MS)
+        qtbot.waitUntil(lambda: motion.trace is not None and motion.plot.is_drawn, timeout=WAIT_MS)
         QTest.qWait(50)
         do("motion closed", motion.close)
         dog.doing = "download and check"
         qtbot.waitUntil(lambda: not Task.running, timeout=WAIT_MS)
-    longer = dog.over(LIMIT_MS)
-    assert {doing: stall for doing, stall in longer.items() if stall > KNOWN_MS.get(doing, 0.0)} == {}
+    assert dog.over(LIMIT_MS) == {}
