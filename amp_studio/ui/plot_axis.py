@@ -11,6 +11,9 @@ from PySide6.QtGui import QPainter, QPicture
 class PlotAxis(pg.AxisItem):
     """Paints its lines and figures each time. A recording of them, as pyqtgraph plays it, looks up a font for every figure."""
 
+    picture: Any
+    """Where lines and figures are; pyqtgraph sets it to None to have it worked out again."""
+
     def paint(self, painter: QPainter, *_: object) -> None:
         if self.picture is None:
             self.picture = self._worked_out()
@@ -21,7 +24,6 @@ class PlotAxis(pg.AxisItem):
             painter.restore()
 
     def _worked_out(self) -> tuple[Any, ...]:
-        """Return where lines and figures are, until pyqtgraph forgets it by setting ``picture`` to None."""
         measured = QPicture()
         painter = QPainter(measured)
         if self.style["tickFont"]:
