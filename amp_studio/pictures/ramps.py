@@ -15,6 +15,7 @@ from amp_studio.sim.pieces import Piece, change, length
 from amp_studio.sim.ramps import exponential_pieces, leg
 
 from .figures import DrawnValue, ValueReader, nice
+from .frame import figure_text
 from .scene import Handle, Point, Polyline, Scale, Scene, Text
 
 HOLD = 1.8
@@ -133,7 +134,7 @@ def _scene(
     figures: ValueReader, axis: str, x: Scale, y: Scale, lines: Sequence[Polyline] = (), texts: Sequence[Text] = (),
     handles: Sequence[Handle] = (), distance: float | None = None, base: str = "",
 ) -> Scene:  # fmt: skip
-    way = f", speed over time, {distance:g} {base}" if distance else ""
+    way = f", speed over time, {figure_text(distance)} {base}" if distance else ""
     return Scene(
         "ramps", axis, "Ramps", f"{figures.axis(axis)}{way}", x, y,
         lines=tuple(lines), texts=tuple(texts), handles=tuple(handles), notes=tuple(figures.notes.values()),

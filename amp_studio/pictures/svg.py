@@ -5,7 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterator
 from html import escape
 
-from .frame import BOTTOM, Placement
+from .frame import Placement
+from .labels import Label, labels_of
 from .scene import Dot, FilledArea, Point, Polyline, Scene, ShapeSort
 
 WIDTH, HEIGHT = 720.0, 480.0
@@ -23,8 +24,13 @@ FILLS: dict[ShapeSort, str] = {
     "error": "url(#wrong)",
     "overlap": "#e8eaee",
 }
-LETTER = 6.0
-"""Width of a letter, about, in points."""
+LETTER, CAPITAL, STRONG = 6.6, 7.4, 1.1
+"""Width of a letter, about, in points; a strong text is so many times as wide."""
+_LETTERS = {
+    **dict.fromkeys("ijl.,:;'|!\u202f", 3.5),
+    **dict.fromkeys('frt ()[]-/"', 4.4),
+    **dict.fromkeys("mwMW%@", 10.0),
+}
 LINE = 13.0
 """Height of a line of text, in points."""
 WRAP = 118
@@ -52,7 +58,7 @@ def scene_svg(scene: Scene, width: float = WIDTH, drawn: float = HEIGHT, *, note
             for handle in scene.handles
             if handle.second and len(handle.drags) == 1
         ),
-        *_texts(frame, width),
+        *_texts(frame, width, drawn),
         "</g>",
         *(
             f'<text x="16" y="{HEAD + drawn + NOTE * (n + 0.7):g}" fill="{INKS["error"] if line.startswith("! ") else DIM}">{escape(line.removeprefix("! "))}</text>'
@@ -98,27 +104,11 @@ def _patterns() -> str:
 
 
 def _grid(frame: Placement) -> Iterator[str]:
-    scene = frame.scene
     right, bottom = frame.left + frame.width, frame.top + frame.height
-    for x, text in frame.ticks("x"):
+    for x, _ in frame.ticks("x"):
         yield f'<path d="M{x:.1f} {frame.top:.1f}V{bottom:.1f}" stroke="{GRID}"/>'
-        yield f'<text x="{x:.1f}" y="{bottom + 15:.1f}" fill="{DIM}" text-anchor="middle">{escape(text)}</text>'
-    for y, text in frame.ticks("y"):
+    for y, _ in frame.ticks("y"):
         yield f'<path d="M{frame.left:.1f} {y:.1f}H{right:.1f}" stroke="{GRID}"/>'
-        yield f'<text x="{frame.left - 8:.1f}" y="{y + 4:.1f}" fill="{DIM}" text-anchor="end">{escape(text)}</text>'
-    for at, _, unit in scene.y.rows:
-        yield f'<text x="{right + 10:.1f}" y="{frame.at((scene.x.low, at))[1] + 4:.1f}" fill="{DIM}">{escape(unit)}</text>'
-    yield f'<text x="{right:.1f}" y="{bottom + BOTTOM - 5:.1f}" fill="{DIM}" text-anchor="end">{escape(axis_text(scene, "x"))}</text>'
-    upright = axis_text(scene, "y")
-    fits = LETTER * len(upright) < frame.left - 8
-    x, anchor = (frame.left - 8, "end") if fits else (8.0, "start")
-    yield f'<text x="{x:.1f}" y="{frame.top - 10:.1f}" fill="{DIM}" text-anchor="{anchor}">{escape(upright)}</text>'
-
-
-def axis_text(scene: Scene, axis: str) -> str:
-    """Return what is measured along an axis: ``X, mm``."""
-    scale = scene.x if axis == "x" else scene.y
-    return ", ".join(part for part in (scale.label, scale.unit) if part) if not scale.rows else ""
 
 
 def _area(frame: Placement, area: FilledArea) -> str:
@@ -166,40 +156,32 @@ def _arrow(x: float, y: float, kind: str) -> str:
     return shaft + "".join(f"M{tip[0]:.1f} {tip[1]:.1f}L{a:.1f} {b:.1f}" for a, b in sides)
 
 
-ANCHORS = {
-    "left": ("start", 6.0, -6.0),
-    "inside": ("start", 6.0, 15.0),
-    "corner": ("end", -12.0, 22.0),
-    "right": ("end", -6.0, -6.0),
-    "middle": ("middle", 0.0, 4.0),
-    "above": ("middle", 0.0, -10.0),
-    "below": ("middle", 0.0, 20.0),
-}
-"""Anchor -> that of SVG, and how far a text lies from its point."""
+def measured(text: str, strong: bool) -> float:
+    """Return how wide a text is in the widest of the fonts that an SVG names, about, in points."""
+    wide = sum(_LETTERS.get(letter, CAPITAL if letter.isupper() else LETTER) for letter in text)
+    return wide * STRONG if strong else wide
 
 
-def _texts(frame: Placement, width: float) -> Iterator[str]:
-    """Yield the texts of a scene; one that would lie on another moves down by its height, a figure alone is left out."""
-    taken: list[tuple[float, float, float]] = []
-    for text in frame.scene.texts:
-        x, y = frame.at(text.at)
-        anchor, dx, dy = ANCHORS[text.anchor]
-        if text.anchor == "above" and text.value:
-            anchor = "start"
-        long = LETTER * (len(text.text) + len(text.value) + 1)
-        share = {"start": 0.0, "middle": 0.5, "end": 1.0}[anchor]
-        left = x + dx - share * long
-        left, y = max(min(left, width - long), 2.0), y + dy
-        while any(abs(y - at) < LINE and left < right and left + long > start for start, right, at in taken):
-            y += LINE
-            if not text.value:
-                break
-        else:
-            taken.append((left, left + long, y))
-            value = (
-                f'<tspan fill="{DIM}" font-weight="400">{escape(text.value)}</tspan>' if text.value else ""
-            )
-            weight = ' font-weight="600"' if text.value else ""
-            at = left + share * long
-            yield f'<rect x="{left:.1f}" y="{y - 9.5:.1f}" width="{long:.1f}" height="12" fill="{BASE}" fill-opacity="0.8"/>'
-            yield f'<text x="{at:.1f}" y="{y:.1f}" fill="{INKS[text.sort]}" text-anchor="{anchor}"{weight}>{escape(text.text)} {value}</text>'
+def _texts(frame: Placement, width: float, height: float) -> Iterator[str]:
+    """Yield the texts of a scene where each has room; one that has none is shown under the pointer."""
+    found = labels_of(frame, width, height, measured, LINE)
+    for at, text in found.left_out:
+        yield f'<circle cx="{at[0]:.1f}" cy="{at[1]:.1f}" r="9" fill="{BASE}" fill-opacity="0"><title>{escape(text)}</title></circle>'
+    for label in found.shown:
+        if label.leader:
+            (x1, y1), (x2, y2) = label.leader
+            yield f'<path d="M{x1:.1f} {y1:.1f}L{x2:.1f} {y2:.1f}" stroke="{INKS["second"]}" stroke-width="0.75"/>'
+    for label in found.shown:
+        if label.strong:
+            box = label.box
+            yield f'<rect x="{box.left:.1f}" y="{box.top:.1f}" width="{box.width:.1f}" height="{box.height:.1f}" fill="{BASE}" fill-opacity="0.8"/>'
+        yield _label(label)
+
+
+def _label(label: Label) -> str:
+    box, value = label.box, ""
+    if label.value:
+        value = f' <tspan fill="{DIM}" font-weight="400">{escape(label.value)}</tspan>'
+    weight = ' font-weight="600"' if label.strong else ""
+    x = box.left + 0.5 * box.width  # an estimated width is wrong by as much on both sides
+    return f'<text x="{x:.1f}" y="{box.top + 0.8 * box.height:.1f}" fill="{INKS[label.sort]}" text-anchor="middle"{weight}>{escape(label.text)}{value}</text>'

@@ -27,7 +27,7 @@ from .theme import CONTROL, GAP3, font
 from .workspace import Workspace
 
 _WITH_KEYS = 620
-"""Width from which the keys are told."""
+"""Width from which the keys are shown."""
 
 
 class HandleFooter(QFrame):

@@ -119,7 +119,7 @@ class PictureActions(QObject):
         self.window.settings.keep_pictures(layout)
 
     def _place(self, page: FilePage, place: Arrangement) -> None:
-        """Put the pictures where a person wants them; a smaller room than that needs is said."""
+        """Put the pictures into a place, or name in the status bar that the window is too small for it."""
         layout = replace(self.window.settings.pictures(), choice=place)
         self._keep(layout)
         page.middle.arrange(layout)

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 
-from PySide6.QtCore import QPointF, QRect, QSize, Qt, Signal
+from PySide6.QtCore import QPointF, QRect, QSize, QSizeF, Qt, Signal
 from PySide6.QtGui import QHideEvent, QKeyEvent, QMouseEvent, QPainter, QPaintEvent, QResizeEvent
-from PySide6.QtWidgets import QSizePolicy, QWidget
+from PySide6.QtWidgets import QSizePolicy, QToolTip, QWidget
 
 from amp_studio.files import RangeError
 from amp_studio.pictures import Handle, Scene, dragged, stepped
@@ -61,6 +61,8 @@ class PictureCanvas(QWidget):
         self._about: dict[Address, Finding] = {}
         """Likewise, or was compared in."""
         self._names: list[tuple[object, Address]] = []
+        self._left_out: tuple[tuple[tuple[float, float], str], ...] = ()
+        """Where a text has no room, and the text."""
         self.setMouseTracking(True)
         self.setAttribute(Qt.WidgetAttribute.WA_OpaquePaintEvent)
         self.setFocusPolicy(Qt.FocusPolicy.ClickFocus)
@@ -164,9 +166,9 @@ class PictureCanvas(QWidget):
             inner = self.rect().adjusted(16, 16, -16, -16)
             painter.drawText(QRect(inner), Qt.AlignmentFlag.AlignCenter | Qt.TextFlag.TextWordWrap, empty)
             return
-        shapes = ScenePainter(painter, self.place, float(self.width()))
+        shapes = ScenePainter(painter, self.place, QSizeF(self.size()))
         shapes.paint()
-        self._names = list(shapes.named)
+        self._names, self._left_out = list(shapes.named), shapes.labels.left_out
         chosen = self.handle
         corners_last = sorted(self.scene.handles, key=lambda handle: handle is chosen)
         found = ((handle, self._finding(handle, self._causes)) for handle in corners_last)
@@ -374,8 +376,20 @@ class PictureCanvas(QWidget):
         elif self._drag is None:
             super().keyPressEvent(event)
 
+    def tip(self, at: QPointF) -> str:
+        """Return what a tip shows at a place: the value of its handle, and texts that have no room there."""
+        lines = [text for (x, y), text in self._left_out if max(abs(x - at.x()), abs(y - at.y())) <= REACH]
+        if (index := self.nearest(at)) is not None:
+            handle = self.scene.handles[index]
+            lines.insert(0, f"{handle.label}: {handle.value}")
+        return "\n".join(lines)
+
     def event(self, event: object) -> bool:
-        """Keep menu keys away from a value that is being dragged."""
+        """Show tips; keep menu keys away from a value that is being dragged."""
+        if event.type() == event.Type.ToolTip:  # type: ignore[attr-defined]
+            tip = "" if self._drag is not None else self.tip(QPointF(event.pos()))  # type: ignore[attr-defined]
+            QToolTip.showText(event.globalPos(), tip, self)  # type: ignore[attr-defined]
+            return True
         if self._drag is not None and event.type() == event.Type.ShortcutOverride:  # type: ignore[attr-defined]
             event.accept()  # type: ignore[attr-defined]
             return True

@@ -5,12 +5,13 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import NamedTuple
 
-from PySide6.QtCore import QPointF, QRectF, Qt
-from PySide6.QtGui import QBrush, QColor, QFontMetricsF, QPainter, QPen, QPolygonF
+from PySide6.QtCore import QPointF, QRectF, QSizeF, Qt
+from PySide6.QtGui import QBrush, QColor, QFont, QFontMetricsF, QPainter, QPen, QPolygonF
 
-from amp_studio.pictures import Dot, FilledArea, Handle, Polyline, Scene, ShapeSort, Text
+from amp_studio.pictures import Dot, FilledArea, Handle, Polyline, Scene, ShapeSort
 from amp_studio.pictures.frame import Placement
-from amp_studio.pictures.svg import ANCHORS, ARROWS, axis_text
+from amp_studio.pictures.labels import Label, Labels, labels_of
+from amp_studio.pictures.svg import ARROWS
 from amp_studio.schema import Address
 
 from .theme import GAP, GAP2, RADIUS, Token, colour, font, severity_ink
@@ -28,8 +29,6 @@ TEXT_INKS: dict[ShapeSort, Token] = {
 }
 MOST_REASON = 380.0
 """Width of a reason in a tag, in logical pixels; the findings have the whole of it."""
-LEAST_ROW = 30.0
-"""Height of a row that has room for figures at its points; in lower ones only the first has them."""
 HANDLE = 9.0
 """Side of a handle in logical pixels."""
 
@@ -37,14 +36,14 @@ HANDLE = 9.0
 class ScenePainter:
     """Paints one scene in one place, and remembers where the names of parameters are."""
 
-    def __init__(self, painter: QPainter, place: Placement, width: float) -> None:
-        """Paint with a painter on a sheet so wide, in points."""
-        self._painter, self._place, self._scene, self._width = painter, place, place.scene, width
-        self._caption = font("caption")
-        self._measure = QFontMetricsF(self._caption)
+    def __init__(self, painter: QPainter, place: Placement, size: QSizeF) -> None:
+        """Paint with a painter on a sheet of a size in points."""
+        self._painter, self._place, self._scene = painter, place, place.scene
+        self._caption, self._strong = font("caption"), font("caption")
+        self._strong.setWeight(QFont.Weight.DemiBold)
+        self.labels = painted_labels(place, size)
         self.named: list[tuple[QRectF, Address]] = []
         """Where a name is that leads to its parameter."""
-        self._taken: list[QRectF] = []
 
     def paint(self) -> None:
         """Paint all of the scene but its handles."""
@@ -58,11 +57,12 @@ class ScenePainter:
             self._line(line)
         for dot in self._scene.dots:
             self._dot(dot)
-        rows = self._scene.y.rows
-        is_dense = len(rows) > 1 and self._place.height / len(rows) < LEAST_ROW
-        for text in self._scene.texts:
-            if not is_dense or (text.at[1] == rows[0][0] and text.anchor == "above"):
-                self._text(text)
+        painter.setPen(QPen(colour("edge"), 1))
+        for label in self.labels.shown:
+            if label.leader is not None:
+                painter.drawLine(QPointF(*label.leader[0]), QPointF(*label.leader[1]))
+        for label in self.labels.shown:
+            self._label(label)
 
     def _at(self, point: tuple[float, float]) -> QPointF:
         return QPointF(*self._place.at(point))
@@ -70,31 +70,11 @@ class ScenePainter:
     def _grid(self) -> None:
         painter, place = self._painter, self._place
         inner = QRectF(place.left, place.top, place.width, place.height)
-        for axis in ("x", "y"):
-            for at, text in place.ticks(axis):
-                painter.setPen(QPen(colour("grid"), 1))
-                if axis == "x":
-                    painter.drawLine(QPointF(at, inner.top()), QPointF(at, inner.bottom()))
-                    box = QRectF(at - 40, inner.bottom() + GAP, 80, 16)
-                    where = Qt.AlignmentFlag.AlignHCenter
-                else:
-                    painter.drawLine(QPointF(inner.left(), at), QPointF(inner.right(), at))
-                    box = QRectF(0, at - 8, inner.left() - GAP2, 16)
-                    where = Qt.AlignmentFlag.AlignRight
-                painter.setPen(colour("dim"))
-                painter.drawText(box, where | Qt.AlignmentFlag.AlignVCenter, text)
-        painter.setPen(colour("dim"))
-        right = Qt.AlignmentFlag.AlignRight
-        painter.drawText(
-            QRectF(inner.right() - 200, inner.bottom() + 18, 200, 16), right, axis_text(self._scene, "x")
-        )
-        upright = axis_text(self._scene, "y")
-        fits = self._measure.horizontalAdvance(upright) < inner.left() - GAP2
-        box = QRectF(0 if fits else GAP2, inner.top() - 24, inner.left() - GAP2 if fits else 300, 16)
-        painter.drawText(box, right if fits else Qt.AlignmentFlag.AlignLeft, upright)
-        for at, _, unit in self._scene.y.rows:
-            level = place.at((self._scene.x.low, at))[1]
-            painter.drawText(QPointF(inner.right() + GAP2, level + 4), unit)
+        painter.setPen(QPen(colour("grid"), 1))
+        for x, _ in place.ticks("x"):
+            painter.drawLine(QPointF(x, inner.top()), QPointF(x, inner.bottom()))
+        for y, _ in place.ticks("y"):
+            painter.drawLine(QPointF(inner.left(), y), QPointF(inner.right(), y))
 
     def _area(self, area: FilledArea) -> None:
         box = QRectF(self._at((area.left, area.top)), self._at((area.right, area.bottom))).normalized()
@@ -154,58 +134,39 @@ class ScenePainter:
             end = QPointF(tip.x() - 5.0 * dx - 4.0 * side * dy, tip.y() - 5.0 * dy - 4.0 * side * dx)
             self._painter.drawLine(tip, end)
 
-    # -- texts -------------------------------------------------------------------
-
-    def _text(self, text: Text) -> None:
-        """Paint a text where it is free; one that would lie on another moves down by its height."""
-        strong = font("caption")
-        strong.setWeight(strong.Weight.DemiBold if text.value else strong.weight())
-        name_width = QFontMetricsF(strong).horizontalAdvance(text.text)
-        value = f" {text.value}" if text.value else ""
-        width = name_width + self._measure.horizontalAdvance(value) + 2.0
-        anchor, dx, dy = ANCHORS[text.anchor]
-        if text.anchor == "above" and text.value:
-            anchor = "start"
-        at = self._at(text.at)
-        left = at.x() + dx - {"start": 0.0, "middle": 0.5, "end": 1.0}[anchor] * width
-        height = self._measure.height()
-        box = QRectF(left, at.y() + dy - self._measure.ascent(), width, height)
-        box = self._kept_inside(box)
-        if not text.value and any(taken.intersects(box) for taken in self._taken):
-            return  # a figure that the handle beside it has as well
-        box = self._free(box)
-        self._taken.append(box)
-        if text.address is not None:
-            self.named.append((box, text.address))
-        if text.value:
+    def _label(self, label: Label) -> None:
+        painter = self._painter
+        box = QRectF(label.box.left, label.box.top, label.box.width, label.box.height)
+        if label.address is not None:
+            self.named.append((box, label.address))
+        if label.strong:
             ground = colour("base")
             ground.setAlphaF(0.8)
-            self._painter.fillRect(box, ground)
-        base = QPointF(box.left(), box.top() + self._measure.ascent())
-        self._painter.setFont(strong)
-        self._painter.setPen(colour(TEXT_INKS.get(text.sort, "text")))
-        self._painter.drawText(base, text.text)
-        if value:
-            self._painter.setFont(self._caption)
-            self._painter.setPen(colour("dim"))
-            self._painter.drawText(QPointF(base.x() + name_width, base.y()), value)
-        self._painter.setFont(self._caption)
+            painter.fillRect(box, ground)
+        named = self._strong if label.strong else self._caption
+        measure = QFontMetricsF(named)
+        base = QPointF(box.left(), box.top() + measure.ascent())
+        painter.setFont(named)
+        painter.setPen(colour(TEXT_INKS.get(label.sort, "text")))
+        painter.drawText(base, label.text)
+        painter.setFont(self._caption)
+        if label.value:
+            painter.setPen(colour("dim"))
+            painter.drawText(
+                QPointF(base.x() + measure.horizontalAdvance(label.text), base.y()), f" {label.value}"
+            )
 
-    def _kept_inside(self, box: QRectF) -> QRectF:
-        right = self._width - 2.0
-        if box.right() > right:
-            box.moveRight(right)
-        box.moveLeft(max(box.left(), 2.0))
-        box.moveTop(max(box.top(), 1.0))
-        return box
 
-    def _free(self, box: QRectF) -> QRectF:
-        for _ in range(6):
-            over = next((taken for taken in self._taken if taken.intersects(box)), None)
-            if over is None:
-                break
-            box.moveTop(over.bottom() + 1.0)
-        return box
+def painted_labels(place: Placement, size: QSizeF) -> Labels:
+    """Return where the texts of a scene are in the font of the window, on a sheet of a size in points."""
+    caption, strong = font("caption"), font("caption")
+    strong.setWeight(QFont.Weight.DemiBold)
+    plain, bold = QFontMetricsF(caption), QFontMetricsF(strong)
+
+    def measure(text: str, is_strong: bool) -> float:
+        return (bold if is_strong else plain).horizontalAdvance(text) + 1.0
+
+    return labels_of(place, size.width(), size.height(), measure, max(plain.height(), bold.height()))
 
 
 def paint_handles(painter: QPainter, place: Placement, handles: Iterator[tuple[Handle, bool, str]]) -> None:

@@ -18,7 +18,7 @@ LEAST_WIDE, LEAST_TALL = 720, 380
 
 @dataclass(frozen=True)
 class PictureLayout:
-    """Where a person wants pictures, and how much of the room the table keeps then, in percent."""
+    """The chosen place of pictures, and how much of the room the table keeps then, in percent."""
 
     choice: Arrangement | None = None
     """None: wherever there is room."""
@@ -33,7 +33,7 @@ class PictureLayout:
 
     @classmethod
     def read(cls, kept: object) -> PictureLayout:
-        """Return what was stored; a text that is none of these is ignored."""
+        """Return what was stored; any other text is ignored."""
         parts = kept.split() if isinstance(kept, str) else []
         if len(parts) != 4 or not all(part in ("0", "1") or part.isdecimal() for part in parts[1:]):
             return cls()
@@ -97,7 +97,7 @@ class PictureSplit(QSplitter):
             self._arrange()
 
     def arrange(self, wanted: PictureLayout) -> None:
-        """Put the pictures where a person wants them."""
+        """Put the pictures into the chosen place."""
         self._wanted = wanted
         self._arrange()
 

@@ -110,11 +110,11 @@ class UserSettings:
         self._stored.setValue("left", side)
 
     def pictures(self) -> PictureLayout:
-        """Return where a person wants pictures."""
+        """Return the chosen place of pictures."""
         return PictureLayout.read(self._value("pictures"))
 
     def keep_pictures(self, layout: PictureLayout) -> None:
-        """Store where a person wants pictures."""
+        """Store the chosen place of pictures."""
         self._stored.setValue("pictures", str(layout))
 
     def bookmarks(self, path: Path) -> set[str]:

@@ -1,0 +1,233 @@
+"""Where the texts of a scene are, none on another: the same for a screen, which measures its font, and for paper.
+
+Figures of the scales come first, then the names of parameters, then figures at points. A name that has no room beside its point
+goes further away and gets a line to it, then it loses its value; what has no room at all is left out, and a tip has it.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass, replace
+from typing import Literal
+
+from amp_studio.schema import Address
+
+from .frame import Placement
+from .scene import Point, Scene, ShapeSort, Text
+
+Measure = Callable[[str, bool], float]
+"""Text, whether it is strong -> width in points."""
+_Align = Literal["start", "middle", "end"]
+ANCHORS: dict[str, tuple[_Align, float, float]] = {
+    "left": ("start", 6.0, -6.0),
+    "inside": ("start", 6.0, 15.0),
+    "corner": ("end", -12.0, 22.0),
+    "right": ("end", -6.0, -6.0),
+    "middle": ("middle", 0.0, 4.0),
+    "above": ("middle", 0.0, -10.0),
+    "below": ("middle", 0.0, 20.0),
+}
+"""Anchor -> which end of a text is there, and how far its base line is from its point."""
+_SHARES: dict[_Align, float] = {"start": 0.0, "middle": 0.5, "end": 1.0}
+_OTHERS = tuple(ANCHORS[anchor] for anchor in ("left", "right", "inside", "corner", "above", "below"))
+_SIDES: tuple[tuple[_Align, float], ...] = (("start", 8.0), ("end", -8.0), ("middle", 0.0))
+_NEAR, _FAR = 3, 9
+"""Lines that a name goes away from its point: if possible, and at most."""
+_LED = 16.0
+"""Distance in points from which a line leads from a point to its text."""
+_LEAST_ROW = 30.0
+"""Height of a row that has room for figures at its points; in lower ones only the first has them."""
+_HALF = 6.0
+"""Half the side of a handle or of a sign, and a bit."""
+
+
+@dataclass(frozen=True)
+class Box:
+    """A rectangle in points, y downwards."""
+
+    left: float
+    top: float
+    width: float
+    height: float
+
+    def overlaps(self, other: Box) -> bool:
+        """Return whether both have a place in common."""
+        return (
+            self.left < other.left + other.width
+            and other.left < self.left + self.width
+            and self.top < other.top + other.height
+            and other.top < self.top + self.height
+        )
+
+    def nearest(self, point: Point) -> Point:
+        """Return the place of the rectangle that is nearest to a point."""
+        x = min(max(point[0], self.left), self.left + self.width)
+        return x, min(max(point[1], self.top), self.top + self.height)
+
+
+@dataclass(frozen=True)
+class Label:
+    """A text in its place."""
+
+    box: Box
+    text: str
+    value: str = ""
+    """What follows in second ink."""
+    strong: bool = False
+    sort: ShapeSort = "dim"
+    address: Address | None = None
+    """The parameter it names."""
+    leader: tuple[Point, Point] | None = None
+    """From its point to it, where it is far away."""
+
+
+@dataclass(frozen=True)
+class Labels:
+    """All texts of a scene on a sheet."""
+
+    shown: tuple[Label, ...]
+    left_out: tuple[tuple[Point, str], ...]
+    """Where there was no room, and the text: for tips."""
+
+
+def labels_of(frame: Placement, width: float, height: float, measure: Measure, line: float) -> Labels:
+    """Return where the texts of a scene are on a sheet of a width and a height, in lines of a height."""
+    placing = _Placing(frame, width, height, measure, line)
+    placing.scales()
+    placing.texts()
+    return Labels(tuple(placing.shown), tuple(placing.left_out))
+
+
+def axis_text(scene: Scene, axis: str) -> str:
+    """Return what is measured along an axis: ``X, mm``."""
+    scale = scene.x if axis == "x" else scene.y
+    return ", ".join(part for part in (scale.label, scale.unit) if part) if not scale.rows else ""
+
+
+class _Placing:
+    def __init__(self, frame: Placement, width: float, height: float, measure: Measure, line: float) -> None:
+        self._frame, self._measure, self._line = frame, measure, line
+        self._width, self._height = width, height
+        self.shown: list[Label] = []
+        self.left_out: list[tuple[Point, str]] = []
+        signs = [*(h.at for h in frame.scene.handles), *(d.at for d in frame.scene.dots)]
+        self._signs = [
+            Box(x - _HALF, y - _HALF, 2 * _HALF, 2 * _HALF) for x, y in (frame.at(at) for at in signs)
+        ]
+
+    def _box(self, x: float, base: float, text: Text, value: str, align: _Align) -> Box:
+        """Return the place of a text whose base line begins, has its middle or ends at x."""
+        wide = self._measure(text.text, bool(text.value)) + (
+            self._measure(f" {value}", False) if value else 0.0
+        )
+        return Box(x - _SHARES[align] * wide, base - 0.8 * self._line, wide, self._line)
+
+    def _kept_inside(self, box: Box) -> Box:
+        left = min(box.left, self._width - 2.0 - box.width)
+        top = min(box.top, self._height - self._line)
+        return replace(box, left=max(left, 2.0), top=max(top, 0.0))
+
+    def _is_free(self, box: Box, *, signs: bool = False) -> bool:
+        if box.left + box.width > self._width or box.top + box.height > self._height:
+            return False
+        if any(label.box.overlaps(box) for label in self.shown):
+            return False
+        return not (signs and any(sign.overlaps(box) for sign in self._signs))
+
+    # -- scales --------------------------------------------------------------------
+
+    def scales(self) -> None:
+        """Place what is measured and the figures along both axes; a figure without room is left out."""
+        frame, scene, base = self._frame, self._frame.scene, 0.35 * self._line
+        right, bottom = frame.left + frame.width, frame.top + frame.height
+        upright = axis_text(scene, "y")
+        fits = self._measure(upright, False) < frame.left - 8.0
+        if fits:
+            self._figure(frame.left - 8.0, frame.top - 12.0, upright, "end")
+        else:
+            self._figure(8.0, frame.top - 12.0, upright, "start")
+        self._figure(right, bottom + 29.0, axis_text(scene, "x"), "end")
+        for level, text in frame.ticks("y"):
+            self._figure(frame.left - 8.0, level + base, text, "end")
+        for x, text in frame.ticks("x"):
+            self._figure(x, bottom + 15.0, text, "middle")
+        for at_row, _, unit in scene.y.rows:
+            self._figure(right + 8.0, frame.at((scene.x.low, at_row))[1] + base, unit, "start")
+
+    def _figure(self, x: float, base: float, text: str, align: _Align) -> None:
+        box = self._kept_inside(self._box(x, base, Text((x, base), text), "", align))
+        if text and self._is_free(box):
+            self.shown.append(Label(box, text))
+
+    # -- texts at points -------------------------------------------------------------
+
+    def texts(self) -> None:
+        """Place the texts at points, names before figures."""
+        scene = self._frame.scene
+        rows = scene.y.rows
+        is_dense = len(rows) > 1 and self._frame.height / len(rows) < _LEAST_ROW
+        for text in sorted(scene.texts, key=lambda each: not each.value):
+            point = self._frame.at(text.at)
+            is_first = not is_dense or (text.at[1] == rows[0][0] and text.anchor == "above")
+            label = self._placed(text, point) if is_first else None
+            if label is None:
+                self.left_out.append((point, f"{text.text} {text.value}".strip()))
+            else:
+                self.shown.append(label)
+
+    def _placed(self, text: Text, point: Point) -> Label | None:
+        """Return a text where it is free; None without room.
+
+        The name of a line goes far away rather than without its value, that of an area stays near.
+        """
+        if not text.value and not any(letter.isalpha() for letter in text.text):
+            found = self._found(text, point, "", 0, signs=False)  # a figure belongs to its point
+            return self._label(text, point, found, "")
+        is_area = text.anchor in ("above", "inside", "corner")
+        tries = [(text.value, _NEAR, True), ("", _NEAR, True), (text.value, _FAR, True)]
+        for value, far, signs in (
+            *(tries if is_area else tries[::2]),
+            (text.value, _FAR, False),
+            ("", _FAR, False),
+        ):
+            found = self._found(text, point, value, far, signs=signs)
+            if found is not None:
+                return self._label(text, point, found, value)
+        return None
+
+    def _label(self, text: Text, point: Point, box: Box | None, value: str) -> Label | None:
+        if box is None:
+            return None
+        end = box.nearest(point)
+        far = max(abs(end[0] - point[0]), abs(end[1] - point[1]))
+        leader = (point, end) if far > _LED else None
+        return Label(box, text.text, value, bool(text.value), text.sort, text.address, leader)
+
+    def _found(self, text: Text, point: Point, value: str, far: int, *, signs: bool) -> Box | None:
+        """Return the first free place of a text within so many lines; where it belongs at all, first."""
+        places = list(self._around(text, point, value, far))
+        inside = [box for box in places if self._kept_inside(box) == box]
+        for box in (self._kept_inside(places[0]), *inside, *map(self._kept_inside, places[1:])):
+            if self._is_free(box, signs=signs):
+                return box
+        return None
+
+    def _around(self, text: Text, point: Point, value: str, far: int) -> Iterator[Box]:
+        """Yield the places of a text, the wanted one first, then further and further away."""
+        align, dx, dy = ANCHORS[text.anchor]
+        if text.anchor == "above" and text.value:
+            align = "start"
+        yield self._box(point[0] + dx, point[1] + dy, text, value, align)
+        if far:
+            for align, dx, dy in _OTHERS:
+                yield self._box(point[0] + dx, point[1] + dy, text, value, align)
+        for lines in range(1, far + 1):
+            for sign in _turns(point[1] > 0.5 * self._height):
+                base = point[1] + sign * lines * self._line + 4.0
+                for align, dx in _SIDES:
+                    yield self._box(point[0] + dx, base, text, value, align)
+
+
+def _turns(is_low: bool) -> Sequence[int]:
+    """Return in which direction to look first, down or up: towards the middle of the sheet."""
+    return (-1, 1) if is_low else (1, -1)

@@ -1,0 +1,78 @@
+"""Texts of pictures lie on no other text, in whatever size a picture is drawn."""
+
+from __future__ import annotations
+
+import re
+from itertools import combinations
+from pathlib import Path
+
+import pytest
+
+from amp_studio.files import open_file
+from amp_studio.pictures import pictures_of, scene_svg
+from amp_studio.pictures.frame import Placement
+from amp_studio.pictures.labels import Box, labels_of
+from amp_studio.pictures.scene import Scale, Scene, Text
+from amp_studio.pictures.svg import LINE, measured
+
+EXAMPLES = sorted((Path(__file__).parents[2] / "examples").glob("*/*.amp"))
+SIZES = ((240.0, 110.0), (424.0, 190.0), (720.0, 480.0))
+
+
+def overlapping(found):
+    return [(a.text, b.text) for a, b in combinations(found.shown, 2) if a.box.overlaps(b.box)]
+
+
+@pytest.mark.parametrize("example", EXAMPLES, ids=lambda path: path.stem)
+def test_no_two_texts_of_a_picture_overlap_in_any_size_and_none_is_lost(example: Path) -> None:
+    for picture in pictures_of(open_file(example).file):
+        for part, _ in picture.parts:
+            scene = picture.scene(part)
+            for width, height in SIZES:
+                frame = Placement.within(scene, width, height)
+                found = labels_of(frame, width, height, measured, LINE)
+                assert overlapping(found) == [], (picture.name, part, width)
+                for label in found.shown:
+                    box = label.box
+                    assert box.left >= 0.0, (picture.name, part, width, label.text)
+                    assert box.left + box.width <= width, (picture.name, part, width, label.text)
+                    assert 0.0 <= box.top <= height - LINE, (picture.name, part, width, label.text)
+                named = [label.text for label in found.shown] + [text for _, text in found.left_out]
+                for text in scene.texts:
+                    assert any(each.startswith(text.text) for each in named), (picture.name, part, text.text)
+
+
+def crowd(count: int) -> Scene:
+    """Return a scene with so many names at one point."""
+    texts = tuple(Text((5.0, 5.0), f"Limit {n}", f"{n} mm", "right") for n in range(count))
+    return Scene("travel", "", "", "", Scale("X", "mm", 0.0, 10.0), Scale("Y", "mm", 0.0, 10.0), texts=texts)
+
+
+def test_names_at_one_point_go_away_from_it_with_a_line_to_each():
+    scene = crowd(8)
+    found = labels_of(Placement.within(scene, 424.0, 260.0), 424.0, 260.0, measured, LINE)
+    names = [label for label in found.shown if label.text.startswith("Limit")]
+    assert (len(names), overlapping(found), found.left_out) == (8, [], ())
+    assert names[0].leader is None
+    assert sum(label.leader is not None for label in names) >= 3
+    for label in names:
+        if label.leader:
+            assert label.box.nearest(label.leader[0]) == label.leader[1]
+
+
+def test_a_crowd_loses_its_values_then_texts_and_the_tips_have_them_all():
+    scene = crowd(60)
+    found = labels_of(Placement.within(scene, 240.0, 110.0), 240.0, 110.0, measured, LINE)
+    assert overlapping(found) == []
+    shown = {label.text for label in found.shown}
+    assert {text.partition(" mm")[0].rpartition(" ")[0] for _, text in found.left_out} == {
+        f"Limit {n}" for n in range(60)
+    } - shown
+    svg = scene_svg(scene, 240.0, 110.0)
+    assert len(re.findall("<title>Limit", svg)) == len(found.left_out) > 0
+
+
+def test_boxes_that_touch_do_not_overlap():
+    box = Box(0.0, 0.0, 10.0, 10.0)
+    assert not box.overlaps(Box(10.0, 0.0, 10.0, 10.0))
+    assert box.overlaps(Box(9.9, 9.9, 10.0, 10.0))

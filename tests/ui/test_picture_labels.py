@@ -1,0 +1,40 @@
+"""The texts of pictures in the font of the window: none on another, and a tip for what has no room."""
+
+from __future__ import annotations
+
+from itertools import combinations
+from pathlib import Path
+
+from PySide6.QtCore import QPointF, QSizeF
+
+from amp_studio.files import open_file
+from amp_studio.pictures import pictures_of
+from amp_studio.pictures.frame import Placement
+from amp_studio.ui.picture_canvas import PictureCanvas
+from amp_studio.ui.picture_paint import painted_labels
+
+EXAMPLES = sorted((Path(__file__).parents[2] / "examples").glob("*/*.amp"))
+SIZES = ((240.0, 110.0), (424.0, 190.0), (880.0, 520.0))
+
+
+def test_no_two_texts_of_any_picture_overlap_in_any_size(qapp):
+    for example in EXAMPLES:
+        for picture in pictures_of(open_file(example).file):
+            scene = picture.scene()
+            for size in SIZES:
+                found = painted_labels(Placement.within(scene, *size), QSizeF(*size))
+                over = [(a.text, b.text) for a, b in combinations(found.shown, 2) if a.box.overlaps(b.box)]
+                assert over == [], (example.stem, picture.name, size)
+
+
+def test_a_tip_has_the_value_of_a_handle_and_the_texts_that_have_no_room(workspace, qtbot):
+    picture = next(p for p in pictures_of(workspace.file) if p.name == "error")
+    canvas = PictureCanvas(workspace, lambda like: picture.scene("1", like))
+    qtbot.addWidget(canvas)
+    canvas.resize(160, 80)
+    canvas.grab()
+    handle = canvas.scene.handles[0]
+    assert canvas.tip(QPointF(*canvas.place.at(handle.at))).startswith(f"{handle.label}: {handle.value}")
+    assert canvas._left_out
+    (at, text) = canvas._left_out[0]
+    assert text in canvas.tip(QPointF(*at))
