@@ -7,6 +7,7 @@ site is read without one.
 
 from __future__ import annotations
 
+import re
 import sys
 from html.parser import HTMLParser
 from pathlib import Path
@@ -16,6 +17,7 @@ from reference_search import addresses
 
 LOADED = {"img": "src", "script": "src", "link": "href", "iframe": "src"}
 """Tag -> its attribute that names what a browser loads by itself."""
+_LOADED_BY_CSS = re.compile(r"""(?:url\(|@import)\s*["']?((?:https?:)?//[^"')\s;]+)""")
 NAMING = {"canonical", "search", "next", "prev", "index"}
 """``link`` tags that only name a page."""
 
@@ -57,6 +59,9 @@ def faults(folder: Path) -> tuple[list[str], int, int]:
             followed += 1
             fault = _fault(address, path, pages, folder.resolve())
             found += [f"{here}: {fault}"] if fault else []
+    for path in sorted(folder.rglob("*.css")):
+        text = path.read_text(encoding="utf-8")
+        found += [f"{path.relative_to(folder)}: loads {address}" for address in _LOADED_BY_CSS.findall(text)]
     entries = folder.resolve() / "_static/search-entries.js"
     if entries.is_file():
         for address in addresses(entries.read_text(encoding="utf-8")):

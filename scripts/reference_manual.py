@@ -87,7 +87,12 @@ def manual_pages(schema: Schema) -> str:
         chapters.setdefault(f"Chapter {chapter}" if dash else "", []).append(
             f'{anchors(f"page-{one}")}<div class="printed"><div>{escape(one)}</div>{listed(shown)}</div>'
         )
-    parts = [paragraph(f"{schema.family.title}: what each page says of which parameter.")]
+    parts = [
+        paragraph(
+            f"{schema.family.title}: what each page says of which parameter. "
+            "A page that is not listed only goes on with what the one before it began, or has nothing of a parameter."
+        )
+    ]
     for chapter, entries in chapters.items():
         parts += [heading(2, chapter)] if chapter and len(chapters) > 1 else []
         parts.append("\n".join(entries))

@@ -77,19 +77,35 @@ def guide_entries(folder: Path) -> list[Entry]:
         name = path.relative_to(folder).with_suffix("").as_posix()
         if name.startswith("reference/") or name == "changelog":
             continue
+        kind = "internals" if name in ("architecture", "contributing", "described", "schema") else "guide"
         known: set[str] = set()
         title = ""
-        text = re.sub(r"^```.*?^```", "", path.read_text(encoding="utf-8"), flags=re.MULTILINE | re.DOTALL)
-        for level, heading in re.findall(r"^(#{1,4}) (.+)$", text, re.MULTILINE):
-            plain = re.sub(r"\[(.*?)\]\(.*?\)|[`*]", r"\1", heading).strip()
+        text = path.read_text(encoding="utf-8").partition("```{toctree}")[0]
+        plain_text = re.sub(
+            r"^```.*?^```", lambda block: block[0].replace("#", " "), text, flags=re.MULTILINE | re.DOTALL
+        )
+        _, *sections = re.split(r"^(?=#{1,4} )", plain_text, flags=re.MULTILINE)
+        for section in sections:
+            heading, _, below = section.partition("\n")
+            plain = re.sub(r"\[(.*?)\]\(.*?\)|[`*]", r"\1", heading.lstrip("# ")).strip()
             # As Sphinx makes it of a heading: the second with the same words gets another.
             anchor = re.sub("^[-0-9]+|-+$", "", re.sub("[^a-z0-9]+", "-", plain.casefold()))
             if not anchor or anchor in known:
                 continue
             known.add(anchor)
-            title = plain if level == "#" else title
-            address = f"{name}.html" if level == "#" else _at(name, anchor)
-            found.append(["guide", plain, address, [], "" if plain == title else title, ""])
+            title = title or plain
+            address = _at(name, anchor) if len(known) > 1 else f"{name}.html"
+            more = f"{name} {title}" if plain != title else name
+            found.append(
+                [
+                    kind,
+                    plain,
+                    address,
+                    [],
+                    re.sub("[/-]", " ", more),
+                    _words(re.sub("<[^>]*>", " ", below)),
+                ]
+            )
     return found
 
 
@@ -100,7 +116,8 @@ def _parameter(schema: Schema, parameter: Parameter) -> Entry:
     labels += [bit.label for bit in parameter.bits or () if not bit.unknown]
     helped = parameter.help
     noted = (n.says for n in (*helped.danger, *helped.warning, *helped.note))
-    text = " ".join((group.name, group.section, helped.what, helped.find, helped.wrong, *noted))
+    units = schema.units_of(parameter)
+    text = " ".join((group.name, group.section, *units, helped.what, helped.find, helped.wrong, *noted))
     return ["parameter", f"{number} {parameter.name}".strip(), _at(group_page(group), parameter.id),
             [parameter.id, *every_number(schema, parameter)], "; ".join(labels), _words(text)]  # fmt: skip
 

@@ -6,7 +6,7 @@
   const MOST = 12;
   // What words are worth in a title, in choices and other spellings, in help; and what kinds are among equals.
   const WORTH = [8, 6, 1.5];
-  const KINDS = { parameter: 1, message: 1, guide: 0.9, table: 0.7, group: 0.75, step: 0.7, rule: 0.65, page: 0.6, contradiction: 0.5 };
+  const KINDS = { parameter: 1, message: 1, guide: 0.9, internals: 0.6, table: 0.7, group: 0.75, step: 0.7, rule: 0.5, page: 0.6, contradiction: 0.5 };
   const COMMON = new Set("a an and are as at be by do does for from how i in into is it my of on or per that the this to what when where which why with".split(" "));
   const root = document.documentElement.dataset.content_root || "./";
   let entries = null; // once they are loaded
@@ -131,24 +131,47 @@
     return hits.filter(({ score }) => score >= 0.25 * best).slice(0, MOST);
   };
 
-  const exactly = (query) => {
-    const page = query.match(/^(?:pages?|pg|p|seite|s)\b\.?\s*(?=[\da-z])(\S+)$/i);
+  const exactly = (typed) => {
+    const query = typed.replace(/^(?:parameter|param|number|no\.?|nr\.?)\s+(?=\S*\d)/i, "")
+      .replace(/^register\s+(?=\d)/i, "R").replace(/^setting\s+(?=\d)/i, "$$");
     const hits = [...(exact.get(bare(query)) || [])];
-    if (page) hits.push(...(exact.get(`page${page[1].toLowerCase()}`) || []));
     if (/^[\d.-]+[a-z]?$/i.test(query)) hits.push(...(exact.get(query.toLowerCase()) || []));
+    const page = query.match(/^(?:pages?|pg|p|seite|s|section|chapter)\b\.?\s*([\da-z][\w.-]*)$/i);
+    if (page) hits.push(...(exact.get(`page${page[1].toLowerCase()}`) || []));
+    if (page || /^\d+-\d+$/.test(query)) hits.push(...pageBefore(page ? page[1] : query, new Set(hits.map(([{ family }]) => family))));
     const last = query.match(/^[\w]+\.([\w]+)$/); // an id of which the group is another
     if (last && !hits.length)
       entries.forEach((entry) => entry.id.split(".").pop() === last[1].toLowerCase() && hits.push([entry, 50, entry.address]));
     return hits;
   };
 
+  // Nothing is listed for a page that only goes on with what the one before began: that one, of the families without a hit.
+  const pageBefore = (page, having) => {
+    const [, chapter, number] = page.toUpperCase().match(/^(.*?)(\d+)$/) || [];
+    const best = new Map();
+    entries.forEach((entry) => {
+      const [, own, at] = entry.kind === "page" ? entry.title.match(/^Page (.*?)(\d+)$/) || [] : [];
+      if (own === undefined || having.has(entry.family) || own !== chapter || !own || Number(at) >= Number(number)) return;
+      const other = best.get(entry.family);
+      if (!other || Number(at) > other[0]) best.set(entry.family, [Number(at), entry]);
+    });
+    return [...best.values()].map(([, entry]) => [entry, 70, entry.address]);
+  };
+
   const byWords = (query, add) => {
-    let words = [...new Set(wordsOf(query.replace(/_/g, " ").replace(/\.(?=\D)/g, " ")))];
-    if (words.some((word) => !COMMON.has(word))) words = words.filter((word) => !COMMON.has(word));
     const asked = wordsOf(query).join(" ");
+    const typed = wordsOf(query.replace(/_/g, " ").replace(/\.(?=\D)/g, " "));
+    let words = [...new Set(typed)];
+    if (words.some((word) => !COMMON.has(word))) words = words.filter((word) => !COMMON.has(word));
+    const titled = (word) => entries.some(({ texts }) => texts[0].includes(` ${word} `));
     const counted = words.map((word) => {
-      const likes = meant(word);
+      // Two words may be known as one: in position, inposition.
+      const at = typed.indexOf(word);
+      const joined = [at > 0 && typed[at - 1] + word, at + 1 < typed.length && word + typed[at + 1]]
+        .filter((one) => one && !/^\d+$/.test(one) && titled(one));
+      const likes = [...meant(word), ...joined.map((one) => [one, 1])];
       const values = entries.map(({ texts }) => worth(texts, likes));
+      (exact.get(word) || []).forEach(([entry]) => { values[entry.order] = 10; });
       const many = values.filter(Boolean).length;
       return { values, weight: 1 + Math.log((entries.length + 1) / (many + 1)) / Math.log(entries.length + 2), digits: /\d/.test(word) };
     });
@@ -249,7 +272,8 @@
       const hits = search(query);
       if (!hits.length) return;
       const list = element("ul", { className: "search" }, ...hits.map((hit) => element("li", {}, shown(hit, query))));
-      place.prepend(element("h2", { textContent: "Best matches" }), list);
+      place.classList.add("has-best");
+      place.prepend(element("h2", { className: "best", textContent: "Best matches" }), list);
     });
   };
 

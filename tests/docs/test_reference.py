@@ -2,17 +2,20 @@
 
 from __future__ import annotations
 
+import json
 import re
-from html import escape
+from html import escape, unescape
 from pathlib import Path
+from urllib.parse import unquote
 
 import pytest
 from check_links import faults
 from reference_manual import cited_pages
 from reference_messages import ONLY_PRINTED
+from reference_search import addresses, search_script
 from write_reference import reference
 
-from amp_studio.schema import family_ids, load_schema
+from amp_studio.schema import family_ids, load_schema, read_address
 
 
 @pytest.fixture(scope="module")
@@ -104,6 +107,64 @@ def test_a_page_of_the_printed_manual_leads_to_what_is_taken_from_it(pages: dict
 )
 def test_the_pages_that_a_text_cites_are_read(text: str, pages: list[str]) -> None:
     assert cited_pages(text) == pages
+
+
+def test_a_style_that_is_loaded_from_the_network_is_found(tmp_path: Path) -> None:
+    (tmp_path / "a.html").write_text("<p>", encoding="utf-8")
+    (tmp_path / "a.css").write_text(
+        "@import 'https://example.org/f.css'; p { background: url(b.svg) }", encoding="utf-8"
+    )
+    assert faults(tmp_path)[0] == ["a.css: loads https://example.org/f.css"]
+
+
+def test_what_the_search_leads_to_is_checked(tmp_path: Path) -> None:
+    (tmp_path / "_static").mkdir()
+    (tmp_path / "index.html").write_text('<p id="here">', encoding="utf-8")
+    entries = [["guide", title, f"index.html#{title}", [], "", ""] for title in ("here", "gone")]
+    script = f"searchEntries({json.dumps([{'folder': '', 'entries': entries}])});"
+    (tmp_path / "_static/search-entries.js").write_text(script, encoding="utf-8")
+    assert faults(tmp_path)[0] == ["search: index.html#gone has no such anchor"]
+
+
+def test_every_entry_of_the_search_leads_to_an_anchor(pages: dict[str, str]) -> None:
+    entries = [unquote(address) for address in addresses(search_script([]))]
+    assert len(entries) > 3_000
+    for address in entries:
+        name, _, anchor = address.removeprefix("reference/").partition("#")
+        assert not anchor or f'id="{anchor}"' in pages[name.replace(".html", ".md")], address
+
+
+@pytest.mark.parametrize("family", family_ids())
+def test_the_section_of_each_parameter_has_all_that_is_known_of_it(
+    family: str, pages: dict[str, str]
+) -> None:
+    schema = load_schema(family)
+    for group in schema.groups:
+        _, *sections = re.split("^## ", pages[f"{family}/group-{group.key}.md"], flags=re.MULTILINE)
+        for parameter, section in zip(group.parameters, sections, strict=True):
+            text = " ".join(unescape(section).split())
+            helped = parameter.help
+            notes = [n.says for n in (*helped.danger, *helped.warning, *helped.note)]
+            errata = [r.says for e in parameter.errata for r in schema.errata[e].readings]
+            labels = [choice.label for choice in parameter.choices or ()]
+            for said in (
+                helped.what,
+                helped.find,
+                helped.wrong,
+                *notes,
+                *errata,
+                *labels,
+                f">{parameter.page}</a>",
+            ):
+                assert " ".join(said.split()) in text, (parameter.id, said)
+            reading = [
+                r.id
+                for r in schema.rules
+                if any(read_address(read)[0] == parameter.id for read in r.reads.values())
+            ]
+            saying = [m.id for m in schema.messages_of(parameter.id)]
+            for anchor in (*helped.related, *reading, *saying):
+                assert f'#{anchor}"' in section, (parameter.id, anchor)
 
 
 def test_a_number_leads_to_its_parameter(pages: dict[str, str]) -> None:

@@ -121,7 +121,7 @@ class Browser:
 
     def press(self, key: str, shift: bool = False) -> None:
         """Press one named key."""
-        code = {"Enter": 13, "Escape": 27, "Tab": 9}[key]
+        code = {"Enter": 13, "Escape": 27, "Tab": 9, "ArrowDown": 40}[key]
         more = {"text": "\r"} if key == "Enter" else {}
         keys = {"key": key, "code": key, "windowsVirtualKeyCode": code, "modifiers": 8 if shift else 0}
         self._ask("Input.dispatchKeyEvent", type="keyDown", **keys, **more)
