@@ -15,6 +15,9 @@ SCENARIOS = {
 }
 """Scenario of any family -> where it is."""
 
+IDENTIFY = "identify"
+"""In the place of a scenario: the machine out of a record."""
+
 
 def scenario_names() -> tuple[str, ...]:
     """Return the scenarios of any family, then those that single families bring."""

@@ -76,9 +76,21 @@ class VerbParser(argparse.ArgumentParser):
             if name.startswith("--") and not any(option.startswith(name) for option in known):
                 self.error(unknown("option", name, known))
         found, unknown_texts = super().parse_known_args(args, namespace)
+        if self.verb:
+            unknown_texts = self._placed(found, unknown_texts)
         if self.verb and unknown_texts:
             self.error(unexpected(unknown_texts, self._option_string_actions))
         return found, unknown_texts
+
+    def _placed(self, found: argparse.Namespace, texts: list[str]) -> list[str]:
+        """Give optional arguments what came behind an option, which argparse does not; return what is left over."""
+        for action in self._actions:
+            may_take = not action.option_strings and action.nargs == "?" and texts
+            if may_take and not texts[0].startswith("-") and getattr(found, action.dest) is None:
+                value = self._get_value(action, texts.pop(0))
+                self._check_value(action, value)
+                setattr(found, action.dest, value)
+        return texts
 
     def _check_value(self, action: argparse.Action, value: Any) -> None:
         if action.choices is not None and value not in action.choices:

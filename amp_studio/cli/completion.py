@@ -10,7 +10,7 @@ import argparse
 import shlex
 from collections.abc import Iterable, Iterator, Sequence
 
-from amp_studio.scenarios import scenario_names
+from amp_studio.scenarios import IDENTIFY, scenario_names
 
 from .manual import example_names, families
 from .parser import parser, verbs_of
@@ -138,7 +138,7 @@ def _values(action: argparse.Action, values: Sequence[str], current: str) -> Ite
     if action.dest == "like":
         return example_names()
     if action.dest == "scenario":
-        return scenario_names()
+        return (*scenario_names(), IDENTIFY)
     if not values:
         return ()
     if action.dest in (

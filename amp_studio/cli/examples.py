@@ -105,6 +105,8 @@ EXAMPLES: dict[str, tuple[str, ...]] = {
         f"amp-studio simulate {MILL} --list",
         f"amp-studio simulate {MILL} step --axis X",
         f"amp-studio simulate {MILL} step --axis X --set move.distance=50 -o trace.csv",
+        f"amp-studio simulate {MILL} identify record.csv --axis X -o machine.yaml",
+        f"amp-studio simulate {MILL} step --axis X --machine machine.yaml",
     ),
     "picture": (
         f"amp-studio picture {MILL}",

@@ -7,17 +7,24 @@ from collections.abc import Sequence
 from dataclasses import asdict
 
 from amp_studio.files import ParameterFile, axis_instances, open_file
+from amp_studio.scenarios import IDENTIFY
 from amp_studio.schema import axis_meant
 from amp_studio.sim import (
     SimulationError,
     Trace,
+    identified_text,
+    identify,
     listing,
+    machine_for,
+    machine_settings,
     named_parameter,
+    read_machine,
     simulate,
     simulated_axes,
     titled,
     trace_summary,
     trace_text,
+    write_machine,
     write_trace,
 )
 
@@ -34,22 +41,26 @@ SETTING_GROUPS = ("move", "model", "tune", "gear", "cam")
 def simulate_verb(options: argparse.Namespace) -> int:
     """Move the machine; 1 where it raised an alarm."""
     if options.output:
-        check_replaced(options.output, options.path)
+        beside = (each for each in (options.record, options.machine_file) if each)
+        check_replaced(options.output, options.path, *beside)
     file = open_file(options.path).file
     if options.list:
         return _list(file, options.units, as_json=options.json)
     if options.scenario is None:
         raise UsageError("Name a scenario; amp-studio simulate PATH --list lists them")
+    if options.scenario == IDENTIFY:
+        return _identify(options, file)
+    if options.record or options.scale:
+        raise UsageError(f"a record and its scale belong to {IDENTIFY}, not to {options.scenario}")
     settings, own = _settings(options.assignments)
     told: list[str] = []
     before = file.copy()
     for address, value in wanted(file, own, told.append).items():
         file.set(address, value)
-    axis = (
-        axis_meant(file.evaluation, axis_instances(file) or simulated_axes(file), options.axis)
-        if options.axis
-        else None
-    )
+    axis = _axis(options, file)
+    if options.machine_file:
+        axis, machine = machine_for(file, read_machine(options.machine_file), axis)
+        settings = {**machine, **settings}
     system = options.units or file.header.units
     trace = simulate(file, options.scenario, axis, settings, system)
     for said in told:
@@ -63,6 +74,35 @@ def simulate_verb(options: argparse.Namespace) -> int:
     else:
         print(trace_text(trace))
     return 1 if trace.alarms else 0
+
+
+def _axis(options: argparse.Namespace, file: ParameterFile) -> str | None:
+    if not options.axis:
+        return None
+    return axis_meant(file.evaluation, axis_instances(file) or simulated_axes(file), options.axis)
+
+
+def _identify(options: argparse.Namespace, file: ParameterFile) -> int:
+    """Find the machine of an axis in a record of its drive."""
+    if options.record is None:
+        raise UsageError(
+            f"Name the record: amp-studio simulate {options.path} {IDENTIFY} RECORD.csv --axis X"
+        )
+    if options.assignments or options.machine_file:
+        raise UsageError(f"{IDENTIFY} takes neither --set nor --machine: it finds the machine")
+    trace = identify(file, options.record, _axis(options, file), options.scale, options.units)
+    if options.output and options.output.suffix.lower() in (".yaml", ".yml"):
+        write_machine(trace, file.schema.family.family, options.output, note)
+    elif options.output:
+        write_trace(trace, options.output, note)
+    if options.json:
+        machine = {"machine": machine_settings(trace)}
+        print_json(
+            trace_summary(trace, lambda parameter: named_parameter(file, parameter, trace.axis)) | machine
+        )
+    else:
+        print(identified_text(trace))
+    return 0
 
 
 def _earlier(
@@ -98,6 +138,7 @@ def _list(file: ParameterFile, system: str | None, *, as_json: bool) -> int:
         print(f"{scenario.name}: {scenario.title}")
         for name, text in scenario.settings.items():
             print(f"  {name:24}{text}")
+    print(f"{IDENTIFY} RECORD.csv: inertia, friction and weight of an axis, from a record of its drive")
     print("the machine, in every scenario:")
     for name, text in found.model.items():
         print(f"  {name:32}{text}")

@@ -11,9 +11,11 @@ from __future__ import annotations
 from . import one_thread as one_thread
 from .axis_parameters import AxisParameters, ParameterValue, ReadParameter
 from .errors import SimulationError
+from .identify import identified_text, identify, machine_settings
 from .law import AlarmText, AxisLaw, Law, Prediction, Ramp, Source, law_of, simulated_families
 from .listing import SimulationListing, listing
 from .machine import Machine
+from .machine_file import machine_for, machine_text, read_machine, write_machine
 from .model import model_settings
 from .scenarios import SCENARIOS, Scenario
 from .simulate import bind_axis, simulate, simulated_axes
@@ -43,12 +45,18 @@ __all__ = [
     "Trace",
     "address_of",
     "bind_axis",
+    "identified_text",
+    "identify",
     "law_of",
     "listing",
+    "machine_for",
+    "machine_settings",
+    "machine_text",
     "model_settings",
     "named_parameter",
     "plot_png",
     "plot_svg",
+    "read_machine",
     "simulate",
     "simulated_axes",
     "simulated_families",
@@ -56,5 +64,6 @@ __all__ = [
     "trace_csv",
     "trace_summary",
     "trace_text",
+    "write_machine",
     "write_trace",
 ]

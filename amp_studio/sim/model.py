@@ -114,13 +114,18 @@ def _coupled(machine: Machine, assumed: dict[str, str]) -> Machine:
     return replace(machine, resonance=frequency, damping=damping, inertia_ratio=ratio)
 
 
+def torque_unit(axis: AxisLaw) -> str:
+    """Return the unit of a torque of the machine: that of the output, % of rated torque behind a drive with a velocity loop."""
+    return "%" if axis.machine.velocity_per_output > 0.0 else axis.output_unit
+
+
 def assumptions(axis: AxisLaw) -> tuple[str, ...]:
     """Return all that is assumed about an axis: the control, then the figures of its machine with the way to set them."""
     return (*axis.assumptions, *(_assumption(axis, figure, why) for figure, why in axis.assumed.items()))
 
 
 def _assumption(axis: AxisLaw, figure: str, why: str) -> str:
-    torque = "%" if axis.machine.velocity_per_output > 0.0 else axis.output_unit
+    torque = torque_unit(axis)
     for name, (own, factor, unit, _) in _FIGURES.items():
         if own == figure:
             given = unit.format(u=axis.unit, torque=torque)

@@ -1,7 +1,6 @@
 """What a picture of a trace shows: panels with curves, limits and marks; `svg` and the program draw it.
 
-A time picture has linked axes for position, following error, velocity and output, and a close look at the
-settling; a frequency picture is a Bode plot; a circle is a ball-bar picture over the angle.
+A time picture has linked axes and a close look at the settling; a frequency picture is a Bode plot, a circle a ball-bar picture.
 """
 
 from __future__ import annotations
@@ -92,6 +91,8 @@ def picture_of(trace: Trace, before: Trace | None = None) -> Picture:
         picture = _bode(trace, before)
     elif "radius_deviation" in trace.columns:
         picture = _ballbar(trace, before)
+    elif "predicted_torque" in trace.columns:
+        picture = _fit(trace)
     else:
         picture = _motion(trace, before)
     return replace(
@@ -162,6 +163,10 @@ _TOLD = {
     "predicted_radius_error": "predicted {}",
     "reversal_spike": "reversal spike {}",
     "home_position": "home position {}",
+    "acceleration_per_output": "acceleration {} for one unit of torque",
+    "coulomb_friction": "dry friction {}",
+    "gravity": "gravity {}",
+    "r_squared": "r² {}",
     "overrun": "stops {} behind the limit",
     "time": "after {}",
 }
@@ -297,6 +302,21 @@ def _settling(trace: Trace, before: Trace | None) -> Panel | None:
         if curves
         else None
     )
+
+
+def _fit(trace: Trace) -> Picture:
+    """Return measured and predicted torque of a record, and what is left between them where it was used."""
+    names = {"torque": "measured", "predicted_torque": "predicted", "residual": "", "velocity": ""}
+    time, unit = trace.columns["time_s"], trace.units["torque"]
+    measured, predicted, rest, speed = (
+        Curve(words, time, np.nan_to_num(trace.columns[name]), "output" if words == "measured" else "actual")
+        for name, words in names.items()
+    )
+    return Picture("", (), "time (s)", (
+        Panel("torque", unit, (measured, predicted), height=2.0),
+        Panel("measured less predicted, where used", unit, (rest,), height=0.8),
+        Panel("velocity", trace.units["velocity"], (speed,), height=0.9),
+    ))  # fmt: skip
 
 
 # -- over frequency ------------------------------------------------------------

@@ -23,7 +23,7 @@ _ANGULAR = {"mm": "deg", "mm/min": "deg/min", "mm/s2": "deg/s2"}
 def units_of(description: str) -> tuple[str, ...]:
     """Return the units that a description names."""
     said = [part for found in _BRACKETS.findall(description) for part in found.split(" or ")]
-    return tuple(part for part in said if part in UNITS)
+    return tuple(unit for part in said if (unit := part.removesuffix(" per torque")) in UNITS)
 
 
 def read_settings(

@@ -11,6 +11,7 @@ import subprocess
 import sys
 from collections.abc import Iterator
 from concurrent.futures import ThreadPoolExecutor
+from math import copysign, cos, sin
 from pathlib import Path
 
 import pytest
@@ -34,6 +35,15 @@ EXAMPLE = Path(__file__).parents[2] / "examples" / "mill-1394" / MILL
 AT_A_CONTROL = ("emulate", "identify", "download", "verify", "upload", "restore")
 
 
+def drive_record() -> str:
+    """Return what a drive has recorded of an axis that swings."""
+    rows = ((n, 80.0 * sin(0.12 * n), 9.6 * cos(0.12 * n)) for n in range(300))
+    torques = ((n, v, t + 0.03 * v + copysign(2.0, v)) for n, v, t in rows)
+    return "time (s),velocity (mm/s),torque (%)\n" + "".join(
+        f"{n / 50},{v:.2f},{t:.2f}\n" for n, v, t in torques
+    )
+
+
 @pytest.fixture
 def here(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     """Return a folder with a copy of the example machine, another one that differs, a table of values, and a screen's."""
@@ -44,6 +54,8 @@ def here(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     assert cli.run(["set", "other.amp", "1300=2"]) == 0
     Path("laser.csv").write_text("position [mm],error [um]\n0,0\n100,4\n200,7\n200,9\n100,6\n0,2\n")
     assert cli.run(["export", MILL, "-o", "values.csv"]) == 0
+    Path("record.csv").write_text(drive_record())
+    Path("machine.yaml").write_text("family: 9pc\naxis: X\ntorque: '%'\nmodel: {gravity: 1.5}\n")
     return tmp_path
 
 

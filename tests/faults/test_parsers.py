@@ -77,6 +77,8 @@ READERS = {
     "cli/sheet.py": "damaged lists of a control's screen",
     "sheet/read_back.py": "damaged lists of a control's screen",
     "sheet/ticks.py": "damaged ticks of a sheet",
+    "sim/machine_file.py": "damaged machines of an axis",
+    "sim/drive_record.py": "damaged records of a drive",
     "sim/one_thread.py": "",  # sets a variable that is not there, reads none
     "sim/compiled.py": "",  # one switch of numba, compared with "0"
     "schema/units.py": "",  # a file of the program itself

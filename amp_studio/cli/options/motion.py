@@ -9,15 +9,26 @@ def add(verbs: Verbs) -> None:
     """Add the simulator and the demonstration."""
     sub = verbs.add("simulate", "motion", "check settings in motion", writes="output")
     sub.add_argument("path", type=path_of)
-    sub.add_argument("scenario", nargs="?")
+    sub.add_argument(
+        "scenario",
+        nargs="?",
+        help="what is simulated; or identify: inertia, friction and weight from a record",
+    )
+    sub.add_argument("record", nargs="?", type=path_of,
+                     help="identify: CSV of a drive with time, velocity or position, and torque; units in the heads")  # fmt: skip
     sub.add_argument("--list", action="store_true",
                      help="list the scenarios of this family, its axes, and what can be set")  # fmt: skip
     sub.add_argument("--axis")
     sub.add_argument("--set", action="append", default=[], metavar="PARAM=VALUE", dest="assignments")
+    sub.add_argument("--machine", dest="machine_file", type=path_of, metavar="FILE.yaml",
+                     help="the machine that identify has written; --set model.… has precedence")  # fmt: skip
+    sub.add_argument("--scale", metavar="TORQUE",
+                     help="identify: torque of the record for 1 %% (or 1 V) of the axis, as '0.056 A'")  # fmt: skip
     sub.add_argument(
         "--units", metavar="SYSTEM", help="unit system of settings and result; default: that of the file"
     )
-    sub.add_argument("-o", "--output", type=path_of)
+    sub.add_argument("-o", "--output", type=path_of,
+                     help="file to write: .csv, .svg, .png; of identify also .yaml, the machine")  # fmt: skip
     json_option(sub)
     sub = verbs.add(
         "picture", "picture", "draw zones, ramps, jog speeds, gears and gains of a file", writes="output"

@@ -1,0 +1,112 @@
+"""simulate identify: a record of a drive becomes the machine that the next simulation moves."""
+
+from __future__ import annotations
+
+import shutil
+from pathlib import Path
+
+import pytest
+
+MILL = Path(__file__).parents[2] / "examples" / "mill-1394" / "MILL_1394.amp"
+GIVEN = (
+    "--set",
+    "model.viscous_friction=0.4",
+    "--set",
+    "model.coulomb_friction=3",
+    "--set",
+    "model.gravity=2",
+)
+
+
+@pytest.fixture
+def mill(tmp_path: Path) -> Path:
+    path = tmp_path / "mill.amp"
+    shutil.copy(MILL, path)
+    return path
+
+
+@pytest.fixture
+def record(amp, mill: Path) -> Path:
+    path = mill.with_name("record.csv")
+    assert amp("simulate", mill, "home", "--axis", "X", *GIVEN, "-o", path).code == 0
+    return path
+
+
+def test_the_machine_is_written_and_simulated_with(amp, mill: Path, record: Path) -> None:
+    machine = mill.with_name("machine.yaml")
+    said = amp("simulate", mill, "identify", record, "--axis", "X", "-o", machine)
+    assert said.code == 0
+    assert "Coulomb friction             3.000" in said.out
+    assert machine.read_text().startswith("# The machine of axis X")
+    given = amp("simulate", mill, "step", *GIVEN, "--json").json["result"]["peak_torque"]["value"]
+    found = amp("simulate", mill, "step", "--machine", machine, "--json").json["result"]["peak_torque"][
+        "value"
+    ]
+    assert found == pytest.approx(given, rel=1e-3)
+    lighter = amp("simulate", mill, "step", "--machine", machine, "--set", "model.gravity=0", "--json").json
+    assert lighter["result"]["peak_torque"]["value"] == pytest.approx(given - 2.0, rel=0.01)
+    assert mill.read_bytes() == MILL.read_bytes()
+
+
+def test_json_has_each_figure_its_standard_error_and_the_settings(amp, mill: Path, record: Path) -> None:
+    found = amp("simulate", mill, "identify", record, "--axis", "X", "--json").json
+    assert (found["scenario"], found["axis"], found["letter"]) == ("identify", "1", "X")
+    assert found["result"]["gravity"] == {"value": pytest.approx(2.0, rel=1e-3), "unit": "%"}
+    assert found["result"]["gravity_standard_error"]["value"] < 0.001
+    assert found["result"]["rows_used"]["value"] > 1000
+    assert found["machine"].keys() == {f"model.{name}" for name in ("acceleration_per_output", "viscous_friction", "coulomb_friction", "gravity")}  # fmt: skip
+
+
+@pytest.mark.parametrize(("name", "begin"), [("fit.svg", b"<svg"), ("fit.png", b"\x89PNG"), ("fit.csv", b"time_s,velocity [mm/min],torque [%],predicted_torque [%],residual [%]")])  # fmt: skip
+def test_the_fit_is_a_picture_or_a_table(amp, mill: Path, record: Path, name: str, begin: bytes) -> None:
+    assert amp("simulate", mill, "identify", record, "--axis", "X", "-o", mill.with_name(name)).code == 0
+    assert mill.with_name(name).read_bytes().startswith(begin)
+
+
+@pytest.mark.parametrize(
+    ("arguments", "words"),
+    [
+        (["identify"], "Name the record: amp-studio simulate "),
+        (["identify", "gone.csv"], "No such file"),
+        (["identify", "record.csv", "--set", "model.gravity=1"], "identify takes neither --set nor --machine"),
+        (["identify", "record.csv", "--machine", "record.csv"], "identify takes neither --set nor --machine"),
+        (["identify", "record.csv", "--axis", "B"], "the axis moves in deg"),
+        (["identify", "record.csv", "-o", "fit.txt"], "unknown format of a trace"),
+        (["identify", "record.csv", "-o", "record.csv"], "record.csv"),
+        (["identify", "record.csv", "-o", "mill.amp"], "mill.amp"),
+        (["identify", "mill.amp"], "mill.amp: No line names the columns"),
+        (["step", "record.csv"], "a record and its scale belong to identify, not to step"),
+        (["step", "--scale", "5 A"], "a record and its scale belong to identify, not to step"),
+        (["step", "--machine", "mill.amp"], "describes no machine"),
+        (["step", "--machine", "gone.yaml"], "gone.yaml"),
+    ],
+)  # fmt: skip
+def test_what_cannot_be_used_is_told_in_one_line_and_nothing_is_written(
+    amp, mill: Path, record: Path, monkeypatch: pytest.MonkeyPatch, arguments: list[str], words: str
+) -> None:
+    monkeypatch.chdir(mill.parent)
+    before = sorted(path.name for path in mill.parent.iterdir()), record.read_bytes()
+    said = amp("simulate", "mill.amp", *arguments)
+    assert said.code == 2
+    assert words in said.err
+    assert len(said.err.splitlines()) == 1
+    assert (sorted(path.name for path in mill.parent.iterdir()), record.read_bytes()) == before
+
+
+@pytest.mark.parametrize(
+    "order", ["--axis X identify record.csv", "identify --axis X record.csv", "identify record.csv --axis X"]
+)
+def test_options_may_come_before_the_scenario_and_the_record(
+    amp, mill: Path, record: Path, monkeypatch: pytest.MonkeyPatch, order: str
+) -> None:
+    monkeypatch.chdir(mill.parent)
+    assert "axis 1 (X)" in amp("simulate", "mill.amp", *order.split()).out
+
+
+def test_what_is_too_much_is_still_refused(amp, mill: Path) -> None:
+    said = amp("simulate", mill, "--axis", "X", "step", "record.csv", "more.csv")
+    assert (said.code, "Unexpected argument: more.csv" in said.err) == (2, True)
+
+
+def test_the_list_names_it(amp, mill: Path) -> None:
+    assert "identify RECORD.csv: inertia, friction and weight" in amp("simulate", mill, "--list").out

@@ -1,0 +1,76 @@
+"""Damaged records of drives and descriptions of machines: each is refused in one line, or gives finite figures."""
+
+from __future__ import annotations
+
+import math
+from functools import cache
+from pathlib import Path
+
+import numpy as np
+
+from amp_studio.files import ParameterFile, ParameterFileError, open_file
+from amp_studio.sim import SimulationError, machine_for, read_machine, simulate
+from amp_studio.sim.drive_record import drive_record_of, speed_factor
+from amp_studio.sim.friction import fit_friction
+
+from .texts import REPOSITORY, mutants, violations
+
+MACHINES = (
+    (
+        "# machine\nfamily: 9pc\naxis: X\ntorque: '%'\nmodel:\n  acceleration_per_output: 41.5 mm/s2\n  viscous_friction: '0.35'\n"
+        "  coulomb_friction: 2\n  gravity: -0.1\nidentified:\n  record: drive.csv\n"
+    ),
+    "family: 9pc\naxis: '2'\ntorque: '%'\nmodel: {backlash: 0.01 mm, delay: 1.5, resonance: 60}\n",
+)
+
+
+def _record(head: str, separator: str, decimal: str) -> str:
+    time = np.arange(0.0, 3.0, 0.02)
+    velocity = 80.0 * np.sin(6.0 * time)
+    torque = 9.6 * np.cos(6.0 * time) + 0.03 * velocity + 2.0 * np.sign(velocity) + 0.5
+    rows = zip(time, velocity, torque, strict=True)
+    return f"{head}\n" + "".join(
+        separator.join(f"{n:.3f}" for n in row).replace(".", decimal) + "\n" for row in rows
+    )
+
+
+RECORDS = (
+    _record("time (s),velocity (mm/s),torque (%)", ",", "."),
+    "Drive 1\n" + _record("Zeit [s];Lage [mm];Strom [A]", ";", ","),
+    _record("t\tv\ttorque\ns\tmm/min\t%", "\t", "."),
+)
+
+
+def fuzz_records(seed: int, count: int) -> list[str]:
+    """Damage records; a fit that comes out is a number with a standard error."""
+
+    def look(text: str) -> None:
+        found = drive_record_of(text)
+        factor = speed_factor(found, "mm")
+        if found.velocity is not None:
+            fit = fit_friction(found.time, found.torque, velocity=found.velocity * factor)
+        else:
+            assert found.position is not None
+            fit = fit_friction(found.time, found.torque, position=found.position * factor)
+        assert np.isfinite(fit.coefficients).all()
+        assert np.isfinite(fit.covariance).all()
+        assert math.isfinite(fit.r_squared)
+
+    return violations(mutants(RECORDS, seed, count), look, (SimulationError,))
+
+
+@cache
+def _mill() -> ParameterFile:
+    return open_file(REPOSITORY / "examples/mill-1394/MILL_1394.amp").file
+
+
+def fuzz_machines(folder: Path, seed: int, count: int) -> list[str]:
+    """Damage descriptions of machines, and move the axis with what is taken."""
+    path = folder / "machine.yaml"
+
+    def look(text: str) -> None:
+        path.write_bytes(text.encode("utf-8", "surrogatepass"))
+        axis, settings = machine_for(_mill(), read_machine(path), None)
+        simulate(_mill(), "velocity", axis, {**settings, "move.duration": 0.02})
+
+    return violations(mutants(MACHINES, seed, count), look, (SimulationError, ParameterFileError))
