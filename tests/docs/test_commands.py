@@ -27,6 +27,7 @@ RUN = {
     "docs/howto/compare-machines.md": (),
     "docs/howto/own-rules.md": ("machine.amp",),
     "docs/howto/tune-an-axis.md": ("machine.amp",),
+    "docs/howto/identify-friction.md": (),
     "docs/commissioning.md": ("mill.amp",),
     "docs/reports.md": ("mill.amp",),
 }
