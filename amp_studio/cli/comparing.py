@@ -19,6 +19,7 @@ from amp_studio.files import (
     open_file,
 )
 from amp_studio.files.by_schema import by_schema
+from amp_studio.report import dangers_of_change
 from amp_studio.schema import MASKED, Value, show_value, write_value
 
 from .console import note, print_json, progress
@@ -192,7 +193,9 @@ def print_comparison(
     file: ParameterFile, found: Comparison, secrets: bool,
     other: tuple[ParameterFile, Sequence[Difference]] | None = None,
 ) -> None:  # fmt: skip
-    """Print each difference and how many there are; ``file`` is one of the two sides.
+    """Print each difference and how many there are, and note what the manual calls dangerous about them.
+
+    ``file`` is one of the two sides.
 
     ``other`` is the second side with what only its schema has.
     """
@@ -201,6 +204,8 @@ def print_comparison(
     second, of_second = other or (file, ())
     for difference in of_second:
         print_difference(second, difference, secrets)
+    for danger in (*dangers_of_change(file, found.differences), *dangers_of_change(second, of_second)):
+        note(f"danger: {danger.line}")
     more = len(of_second)
     print(f"{len(found.differences) + more} differ, {found.same} are the same, {found.not_set_in_a + more} not set in A, "
           f"{found.not_set_in_b} not set in B")  # fmt: skip

@@ -12,10 +12,11 @@ from typing import TYPE_CHECKING, Any
 if TYPE_CHECKING:
     from .build import build_report
     from .by_rule import FindingGroup, finding_axes, finding_groups, fix_lines, fix_text
+    from .dangers import dangers_of_change
     from .describe import definition
     from .finding_lines import finding_json, finding_text, suppressed_text
     from .findings import alike, same_finding_text
-    from .manual_page import facts, formula_lines, help_parts, one_line, page_of, range_text
+    from .manual_page import GRADES, facts, formula_lines, help_parts, one_line, page_of, range_text
     from .model import (
         CHAPTERS,
         SORTS,
@@ -37,6 +38,7 @@ _PLACES = {
     "CHAPTERS": "model",
     "Chapter": "model",
     "Contents": "model",
+    "GRADES": "manual_page",
     "ExchangeLine": "model",
     "PrintedFigure": "model",
     "FORMATS": "write",
@@ -54,6 +56,7 @@ _PLACES = {
     "build_report": "build",
     "cells_of": "printed_table",
     "counted": "wording",
+    "dangers_of_change": "dangers",
     "definition": "describe",
     "facts": "manual_page",
     "finding_json": "finding_lines",
@@ -85,6 +88,7 @@ def __getattr__(name: str) -> Any:
 __all__ = [
     "CHAPTERS",
     "FORMATS",
+    "GRADES",
     "SORTS",
     "UNIT_CHOICES",
     "Chapter",
@@ -99,6 +103,7 @@ __all__ = [
     "build_report",
     "cells_of",
     "counted",
+    "dangers_of_change",
     "definition",
     "facts",
     "finding_axes",

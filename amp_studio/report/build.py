@@ -26,6 +26,7 @@ from amp_studio.schema import Address, Schema, label_of
 from amp_studio.validate import NO_RULES, BuilderRules, Finding, Validator
 
 from .axes import printed_axes, scope_of
+from .dangers import dangers_of
 from .drawings import drawings
 from .findings import joined_places, notes_of, suppressed_notes
 from .manual_page import help_parts
@@ -80,6 +81,7 @@ def build_report(
         axis_heads=heads,
         axes=axes,
         notes=notes_of(file, findings, anchors) + suppressed_notes(file, validator.suppressed, anchors),
+        dangers=dangers_of(file.schema, printed),
         forced=_forced(file, found.rows),
         not_set=tuple(_not_set(found.rows)),
         sections=sections_of(file, printed, contents.sort),

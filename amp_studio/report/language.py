@@ -33,6 +33,10 @@ class Language:
                 return own.format(*(self.text(group) for group in found.groups()))
         return english
 
+    def of_help(self, title: str) -> str:
+        """Return the title of a part of a parameter's help: its Note is the manual's, not a person's."""
+        return self.phrases.get(f"help: {title}") or self.text(title)
+
     def counted(self, number: int, noun: str) -> str:
         """Return ``1 error``, ``2 errors`` in this language."""
         if noun in self.nouns:

@@ -6,6 +6,7 @@ import inspect
 import re
 import textwrap
 from collections.abc import Iterable, Iterator, Sequence
+from typing import Literal
 
 from amp_studio.guide import step_of, steps_of
 from amp_studio.schema import (
@@ -312,6 +313,14 @@ def _at_the_control(parameter: Parameter) -> Iterator[str]:
 
 
 # -- help ----------------------------------------------------------------------
+
+
+GRADES: dict[str, Literal["danger", "warning", "note"]] = {
+    "Danger": "danger",
+    "Warning": "warning",
+    "Note": "note",
+}
+"""Title of a graded part of the help -> its grade."""
 
 
 def help_parts(schema: Schema, parameter: Parameter) -> list[tuple[str, str]]:

@@ -274,6 +274,21 @@ class PrintedFigure:
 
 
 @dataclass(frozen=True, slots=True)
+class Danger:
+    """What the manual calls dangerous about some of the printed values."""
+
+    says: str
+    page: str
+    about: tuple[tuple[str, str], ...]
+    """(anchor, label) of each parameter."""
+
+    @property
+    def line(self) -> str:
+        """All of it in one line."""
+        return f"{', '.join(label for _, label in self.about)}: {self.says} (page {self.page})"
+
+
+@dataclass(frozen=True, slots=True)
 class ExchangeLine:
     """One exchange with a control, as the record has it."""
 
@@ -320,6 +335,8 @@ class Report:
     axis_heads: tuple[str, ...]
     axes: tuple[tuple[str, ...], ...]
     notes: tuple[Note, ...]
+    dangers: tuple[Danger, ...]
+    """Of values that are active and not the printed default."""
     forced: tuple[ReportRow, ...]
     not_set: tuple[tuple[str, str, str], ...]
     """(number, parameter, places) of each active parameter without a value."""

@@ -6,15 +6,19 @@ from base64 import b64encode
 from pathlib import Path
 
 from .language import ENGLISH, Language, language_of
+from .manual_page import GRADES
 from .model import MARKS, Report, printable
 from .templating import filled
 
 
 def render_html(report: Report, own: Path | None = None) -> bytes:
     """Return the page in UTF-8; every text is escaped. ``own`` is a template of the project. Raises TemplateMistakeError."""
-    return filled_page(
-        "report.html.j2", own, language_of(report.contents.language), report=report, marks=MARKS
-    )
+    language = language_of(report.contents.language)
+    help_texts = {
+        parameter: [(GRADES.get(title, ""), language.of_help(title), text) for title, text in parts]
+        for parameter, parts in report.help.items()
+    }
+    return filled_page("report.html.j2", own, language, report=report, marks=MARKS, help=help_texts)
 
 
 def filled_page(name: str, own: Path | None = None, language: Language = ENGLISH, **values: object) -> bytes:

@@ -24,6 +24,7 @@ def render_text(report: Report) -> bytes:
 def _lines(report: Report) -> Iterator[str]:
     yield from _title(report)
     yield from _findings(report)
+    yield from _dangers(report)
     yield from _values("FORCED OUT OF RANGE", report.forced)
     yield from _not_set(report)
     for section in report.sections:
@@ -96,6 +97,15 @@ def _finding(note: Note) -> Iterator[str]:
         yield from _wrapped(", ".join(label for _, label in note.about), "    about  ")
     if note.fix:
         yield from _wrapped(note.fix, "    fix    ")
+
+
+def _dangers(report: Report) -> Iterator[str]:
+    if report.dangers:
+        yield from _heading("DANGERS")
+        for danger in report.dangers:
+            yield from _wrapped(f"{danger.says} (page {danger.page})", "  DANGER  ")
+            yield from _wrapped("; ".join(label for _, label in danger.about), "          ")
+        yield ""
 
 
 def _values(title: str, rows: Sequence[ReportRow]) -> Iterator[str]:

@@ -9,12 +9,13 @@ from amp_studio.files import axis_letter
 from amp_studio.files.local_time import day_and_time, with_days_and_times
 from amp_studio.files.notes import group_note, value_note
 from amp_studio.files.storage_text import storage_text
-from amp_studio.report import facts, formula_lines, help_parts, tables_of
+from amp_studio.report import GRADES, facts, formula_lines, help_parts, tables_of
 from amp_studio.report.wording import severity_name, state_name
 from amp_studio.schema import Address, Value, limits, real_value, same_value, show_value, shown
 from amp_studio.schema.bit_fields import labels_of_word
 from amp_studio.validate import NOT_SET, Finding, rule_title
 
+from .hazard import hazard_html
 from .pages import drawn, link
 from .theme import colour, icon_html, severity_html
 from .translated import Translated
@@ -177,10 +178,14 @@ class DetailPage(Translated):
         schema = self._workspace.file.schema
         parameter = schema.parameters[address[0]]
         lines = []
+        titles = self._titles()
         for title, text in help_parts(schema, parameter):
+            if title in GRADES:
+                lines.append(hazard_html(GRADES[title], text))
+                continue
             related = [link(schema, r) for r in parameter.help.related if r in schema.parameters]
             body = ", ".join(related) if title == "Related" else html.escape(text)
-            lines.append(f"<p><b>{title}</b><br>{body}</p>")
+            lines.append(f"<p><b>{titles.get(title, title)}</b><br>{body}</p>")
         if messages := schema.messages_of(parameter.id):
             names = (f'<a href="{MESSAGE}{m.id}">{html.escape(m.name)}</a>' for m in messages)
             lines.append(f"<p><b>{self.tr('Messages of the control')}</b><br>{'<br>'.join(names)}</p>")
@@ -191,6 +196,15 @@ class DetailPage(Translated):
         lines += [drawn(table) for table in tables_of(schema, parameter)]
         lines.append(f"<p><small>{html.escape(schema.family.title)}, page {schema.page(address)}</small></p>")
         return "".join(lines)
+
+    def _titles(self) -> dict[str, str]:
+        """Return the titles of a help's parts in the language of the window."""
+        return {
+            "What it does": self.tr("What it does"),
+            "How to find its value": self.tr("How to find its value"),
+            "When it is wrong": self.tr("When it is wrong"),
+            "Related": self.tr("Related"),
+        }
 
     def _where_else(self, address: Address) -> str:
         """Return the value on disk, in the control, at the last download and in the other open files."""

@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 from PySide6.QtWidgets import (
     QDialog,
     QHBoxLayout,
     QLabel,
     QPushButton,
+    QScrollArea,
     QTreeWidget,
     QTreeWidgetItem,
     QVBoxLayout,
@@ -14,8 +17,11 @@ from PySide6.QtWidgets import (
 )
 
 from amp_studio.files import Comparison, ParameterFile
+from amp_studio.report import dangers_of_change
+from amp_studio.report.model import Danger
 from amp_studio.schema import show_value
 
+from .hazard import hazard_html
 from .translated import tr
 
 
@@ -92,5 +98,19 @@ class DownloadPreview(QDialog):
         buttons.addWidget(cancel)
         layout = QVBoxLayout(self)
         layout.addWidget(text)
-        layout.addWidget(self.list)
+        layout.addWidget(self.list, 2)
+        if dangers := dangers_of_change(file, found.differences):
+            layout.addWidget(self._dangers(dangers), 1)
         layout.addLayout(buttons)
+
+    def _dangers(self, dangers: Sequence[Danger]) -> QWidget:
+        """Return what the manual calls dangerous about the values that change, one line each; it scrolls where they are many."""
+        self.dangers = QLabel(hazard_html("danger", *(danger.line for danger in dangers)))
+        self.dangers.setWordWrap(True)
+        self.dangers.setAccessibleName(self.tr("Dangers of the values that change"))
+        area = QScrollArea()
+        area.setWidgetResizable(True)
+        area.setFrameShape(QScrollArea.Shape.NoFrame)
+        area.setWidget(self.dangers)
+        area.setAccessibleName(self.tr("Dangers of the values that change"))
+        return area

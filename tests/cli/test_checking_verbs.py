@@ -252,6 +252,15 @@ def test_differences_for_a_person_are_one_line_each_and_counted(amp, mill: Path,
     assert "1 not set in A, 1 not set in B" in total
 
 
+def test_what_the_manual_calls_dangerous_about_a_difference_is_one_line(amp, mill: Path, twin: Path) -> None:
+    assert amp("set", twin, "1300=1.5", "1595=Minus", "2595=Minus").code == 0
+    said = amp("diff", mill, twin)
+    assert said.err == (
+        "danger: Sign of Position Feedback (Axis 1, 2): A wrong sign can make the axis run away. (page 7-36)\n"
+    )
+    assert len(said.out.splitlines()) == 4, "three differences and their count"
+
+
 def test_diff_writes_nothing(amp, mill: Path, twin: Path, folder) -> None:
     before = folder()
     amp("diff", mill, twin)

@@ -14,7 +14,7 @@ from amp_studio.report import SORTS, UNIT_CHOICES, Contents, Sort, build_report,
 from amp_studio.report.language import language_codes, language_of
 from amp_studio.report.model import MARKS
 from amp_studio.report.templating import TEMPLATES
-from amp_studio.schema import family_ids
+from amp_studio.schema import family_ids, load_schema
 
 GERMAN = language_of("de")
 LITERAL = re.compile(r'\b_\("([^"]+)"\)')
@@ -48,6 +48,12 @@ def test_phrases_with_a_part_that_changes() -> None:
     assert GERMAN.text("Home Calibration") == "Home Calibration", "a name is that of the manual"
     with pytest.raises(ValueError, match="Unknown language 'fr'"):
         language_of("fr")
+
+
+@pytest.mark.parametrize("family", family_ids())
+def test_a_group_keeps_the_name_that_the_manual_prints(family: str) -> None:
+    names = [g.section or g.name for g in load_schema(family).groups]
+    assert [name for name in names if GERMAN.text(name) != name and name not in GERMAN.phrases] == []
 
 
 @pytest.mark.parametrize("sort", SORTS)

@@ -126,6 +126,16 @@ def preview(window: MainWindow) -> QWidget:
     return DownloadPreview(file, compare(file.schema, file.values, other), window)
 
 
+def test_the_preview_of_a_download_names_the_dangers_of_what_changes(window: MainWindow) -> None:
+    shown = preview(window)
+    assert isinstance(shown, DownloadPreview)
+    assert "Excess Error (Axis 1): This limit guards against damage and injury" in shown.dangers.text()
+    same = window.workspace.file
+    assert not hasattr(
+        DownloadPreview(same, compare(same.schema, same.values, same.values), window), "dangers"
+    )
+
+
 def project_check(window: MainWindow) -> QWidget:
     checked = check_files([window.workspace.path], lambda *_: None, threading.Event())
     return ProjectCheckDialog(checked, lambda *_: None, window)

@@ -8,6 +8,7 @@ from PySide6.QtCore import QUrl
 
 from amp_studio.schema import Value
 from amp_studio.ui.main_window import MainWindow
+from amp_studio.ui.theme import colour
 
 from .conftest import WAIT_MS
 
@@ -26,6 +27,14 @@ def test_help_says_what_it_is_where_it_counts_and_what_is_allowed(window: MainWi
     assert window.detail.axes.choice == "1"
     for part in ("Allowed here: 0 to", "What it does", "page 7-"):
         assert part in page(window)
+
+
+def test_a_danger_stands_in_a_box_before_the_help(window: MainWindow) -> None:
+    window.go_to(EXCESS)
+    shown = page(window)
+    assert "DANGER\nThis limit guards against damage and injury" in shown
+    assert shown.index("DANGER") < shown.index("What it does") < shown.index("The order must be")
+    assert colour("errorbg").name() in window.detail.page.toHtml()
 
 
 def test_facts_are_folded_until_they_are_wanted(window: MainWindow) -> None:

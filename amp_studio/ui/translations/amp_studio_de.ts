@@ -585,6 +585,18 @@ Woher ist bekannt, was sie enthält?</translation>
             <source>not set</source>
             <translation>nicht gesetzt</translation>
         </message>
+        <message>
+            <source>Danger</source>
+            <translation>Gefahr</translation>
+        </message>
+        <message>
+            <source>Warning</source>
+            <translation>Warnung</translation>
+        </message>
+        <message>
+            <source>Note</source>
+            <translation>Notiz</translation>
+        </message>
     </context>
     <context>
         <name>AddAxisDialog</name>
@@ -1320,6 +1332,22 @@ Einen anderen Namen wählen.</translation>
             <translation>{unmet} von {number} nicht erfüllt</translation>
         </message>
         <message>
+            <source>What it does</source>
+            <translation>Was er bewirkt</translation>
+        </message>
+        <message>
+            <source>How to find its value</source>
+            <translation>Wie sein Wert zu finden ist</translation>
+        </message>
+        <message>
+            <source>When it is wrong</source>
+            <translation>Wenn er falsch ist</translation>
+        </message>
+        <message>
+            <source>Related</source>
+            <translation>Verwandt</translation>
+        </message>
+        <message>
             <source>Saved</source>
             <translation>Gespeichert</translation>
         </message>
@@ -1453,6 +1481,10 @@ Die Steuerung muss im Not-Halt sein.</translation>
         <message>
             <source>Cancel</source>
             <translation>Abbrechen</translation>
+        </message>
+        <message>
+            <source>Dangers of the values that change</source>
+            <translation>Gefahren der Werte, die sich ändern</translation>
         </message>
     </context>
     <context>

@@ -1,0 +1,48 @@
+"""What the manual calls dangerous about values that are printed or about to change, each statement once."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+
+from amp_studio.files import Difference, ParameterFile
+from amp_studio.schema import Schema
+
+from .findings import joined_places
+from .model import Danger, ReportRow
+
+
+def dangers_of(schema: Schema, rows: Iterable[ReportRow]) -> tuple[Danger, ...]:
+    """Return the dangers of values that are active and were chosen by somebody: not the printed default."""
+    chosen = (row for row in rows if row.state == "in-force" and (row.is_changed or row.no_default))
+    return _grouped(schema, ((row.id, row.anchor, row.name, row.place) for row in chosen))
+
+
+def dangers_of_change(file: ParameterFile, differences: Iterable[Difference]) -> tuple[Danger, ...]:
+    """Return the dangers of values that differ; ``file`` is one of the two sides."""
+    machine, parameters = file.machine_schema, file.schema.parameters
+    addresses = (difference.address for difference in differences)
+    return _grouped(
+        file.schema,
+        (
+            (i, f"{i}@{instance}", parameters[i].name, machine.instance_label((i, instance)))
+            for i, instance in addresses
+        ),
+    )
+
+
+def _grouped(schema: Schema, values: Iterable[tuple[str, str, str, str]]) -> tuple[Danger, ...]:
+    """Return each statement with the values that it is about: (id, anchor, name, place) of each."""
+    found: dict[tuple[str, str], dict[str, tuple[str, str, list[str]]]] = {}
+    for parameter, anchor, name, place in values:
+        for danger in schema.parameters[parameter].help.danger:
+            about = found.setdefault((" ".join(danger.says.split()), danger.page), {})
+            about.setdefault(parameter, (anchor, name, []))[2].append(place)
+    return tuple(
+        Danger(says, page, tuple((anchor, _label(name, places)) for anchor, name, places in about.values()))
+        for (says, page), about in found.items()
+    )
+
+
+def _label(name: str, places: Iterable[str]) -> str:
+    named = [place for place in places if place]
+    return f"{name} ({joined_places(named)})" if named else name
