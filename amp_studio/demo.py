@@ -88,7 +88,10 @@ def _in_terminal() -> int:
     found = compare(file.schema, file.values, open_file(upload).file.values)
     _print_step(7, f"compared: {len(found.differences)} values differ, {found.same} are the same")
     print(f"Done in {time.monotonic() - begin:.1f} s. Everything is in {folder}")
-    print("Next: amp-studio --help, or amp-studio on a machine with a display.")
+    program = (
+        sys.argv[0] if Path(sys.argv[0]).stem == "amp-studio" else "amp-studio"
+    )  # need not be on the path
+    print(f"Next: {program} --help, or {program} on a machine with a display.")
     return 0 if outcome.verified and not found.differences and not counts["error"] else 1
 
 

@@ -74,6 +74,7 @@ DOCUMENTS = (
     "README.md",
     "CONTRIBUTING.md",
     "docs/architecture.md",
+    "docs/commands.md",
     "docs/commissioning.md",
     "docs/described.md",
     "docs/formats.md",

@@ -1,141 +1,255 @@
-"""Every command of README and of the pages of docs is run here word for word, or is in the list of those that cannot be."""
+"""Every command of README, CONTRIBUTING, the pages of docs and the examples is run here word for word, one after the other.
+
+Only an address or a device that is not here is replaced: a port that somebody has, a serial line, a host of a plant.
+"""
 
 from __future__ import annotations
 
 import os
-import shlex
 import shutil
-import subprocess
-import sys
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
+from concurrent.futures import ThreadPoolExecutor
+from contextlib import closing
 from pathlib import Path
 
 import pytest
 
 from amp_studio import cli
-from amp_studio.cli.parser import parser as parser_of
-from amp_studio.cli.parser import verbs_of
+from amp_studio.cli import console
+from amp_studio.transfer.links.endpoint import parse_endpoint
+from amp_studio.transfer.links.opening import listen
+from amp_studio.transfer.plain.line import ByteLine, Patience
+from amp_studio.transfer.plain.receiver import BlockReceiver
+from amp_studio.transfer.plain.sender import BlockSender
+from amp_studio.transfer.plain.ymodem import PlainFile, send_batch
 
-ROOT = Path(__file__).parents[2]
-MILL = ROOT / "examples/mill-1394/MILL_1394.amp"
+from .pages import PROGRAMS, ROOT, documents, first_word, is_form, lines_of, text_of, verbs
+from .stage import Stage
 
-RUN = {
-    "docs/tutorial.md": (),
-    "docs/howto/first-download.md": ("mill.amp",),
-    "docs/howto/num-table.md": (),
-    "docs/howto/grblhal-board.md": (),
-    "docs/howto/compare-machines.md": (),
-    "docs/howto/own-rules.md": ("machine.amp",),
-    "docs/howto/tune-an-axis.md": ("machine.amp",),
-    "docs/howto/identify-friction.md": (),
-    "docs/commissioning.md": ("mill.amp",),
-    "docs/reports.md": ("mill.amp",),
+EXAMPLES = ROOT / "examples"
+MILL = EXAMPLES / "mill-1394/MILL_1394.amp"
+
+CANNOT_RUN = {
+    "pipx install .": "installs from the network",
+    "py -m venv .venv": "Windows",
+    r".venv\Scripts\python -m pip install --require-hashes -r requirements\dev.lock": "Windows",
+    r".venv\Scripts\python -m pip install --no-index --no-deps --no-build-isolation --editable .": "Windows",
+    r".venv\Scripts\python -m pytest -n 2 --dist worksteal": "Windows",
+    ". .venv/bin/activate": "the tests have their own environment; make run has made this one",
+    "keyring set amp-studio tls://192.168.0.5:9643": "asks for a password, for the keyring of the person",
+    "git mergetool --tool=amp": "a window in which a person settles a conflict; tests/ui/test_merge_program.py",
+    "amp-studio send A.txt B.txt --to rfc2217://192.168.0.9:2217 --protocol ymodem": "a device server; tests/transfer/links/test_rfc2217.py",
 }
-"""Page whose commands are run one after the other -> the files that are there before, copies of the example mill."""
+"""Command that is not run, and why."""
 
-SLOW = {"docs/reports.md"}
-"""Five papers take ten seconds; the tests of the report print each of them."""
+COPIES = {
+    "docs/howto/first-download.md": {"mill.amp": MILL},
+    "docs/howto/own-rules.md": {"machine.amp": MILL},
+    "docs/howto/tune-an-axis.md": {"machine.amp": MILL},
+    "docs/commissioning.md": {"mill.amp": MILL},
+    "docs/reports.md": {"mill.amp": MILL, "a.amp": MILL, "b.amp": MILL, "c.amp": MILL, "old.amp": MILL, "other.amp": MILL},
+    "docs/merging.md": {"mill.amp": MILL, "other.amp": MILL, "base.amp": MILL, "ours.amp": MILL, "theirs.amp": MILL},
+    "docs/protocols/acr-terminal.md": {"router.amp": EXAMPLES / "acromill-router/ROUTER.amp"},
+    "docs/protocols/num-table.md": {"mill.amp": EXAMPLES / "num-1060-mill/MILL_1060.amp"},
+    "docs/protocols/plain-files.md": {"PROGRAM.txt": MILL},
+    "docs/protocols/password.md": {
+        name: ROOT / "tests/transfer/links/certificates" / source
+        for name, source in {"control.pem": "control.pem", "control.key": "control.key", "plant.pem": "authority.pem"}.items()
+    },
+}  # fmt: skip
+"""Document -> the files that are there before its first command."""
 
-ONLY_READ = {
-    "README.md": "an overview: files of several machines, and controls at addresses that are examples",
-    "docs/formats.md": "files that a control has sent",
-    "docs/merging.md": "three states of a file that people have worked on",
-    "docs/protocols/acr-terminal.md": "a card at a serial port",
-    "docs/protocols/grblhal.md": "a board at a serial port",
-    "docs/protocols/num-table.md": "a control at a serial port, and a person at its keys",
-    "docs/protocols/password.md": "certificates of a plant",
-    "docs/protocols/plain-files.md": "a control at a serial port",
-    "docs/sheet.md": "a control at which somebody keys in",
+CONTROLS = {
+    "docs/protocols/acr-terminal.md": {
+        "/dev/ttyUSB0": "acromill --listen pty:?protocol=terminal",
+        "192.168.0.7:23": "acromill --listen tcp://127.0.0.1:0?protocol=terminal",
+    },
+    "docs/protocols/grblhal.md": {"/dev/ttyUSB0": "grblhal --listen pty:?protocol=grbl"},
+    "docs/protocols/num-table.md": {"/dev/ttyUSB0": "num --listen pty:?protocol=peripheral"},
 }
-"""Page whose commands are excused from being run, and why; that the program understands them is checked."""
+"""Document -> what is used for a device or a host of a plant: an emulated control."""
 
-UNEQUAL = {"diff": 1, "compare": 1}
-"""Verb -> its exit code where something differs, which is what the pages show; 0 is right as well."""
-
-
-def commands(page: str) -> list[str]:
-    """Return the command lines of a page, without what is behind them as a comment."""
-    lines = (ROOT / page).read_text(encoding="utf-8").splitlines()
-    return [line.strip() for line in lines if line.startswith("    amp-studio ")]
-
-
-def words(line: str) -> list[str]:
-    return shlex.split(line, comments=True)[1:]
-
-
-def pages() -> Iterator[str]:
-    for path in (ROOT / "README.md", *sorted((ROOT / "docs").rglob("*.md"))):
-        page = path.relative_to(ROOT).as_posix()
-        if commands(page):
-            yield page
-
-
-def test_every_page_with_commands_is_run_or_excused() -> None:
-    assert set(pages()) <= set(RUN) | set(ONLY_READ)
-    assert not set(RUN) & set(ONLY_READ)
-    assert all(commands(page) for page in RUN)
-
-
-@pytest.mark.parametrize("page", sorted(ONLY_READ))
-def test_the_program_understands_every_command_of_a_page_that_is_not_run(page: str, here: Path) -> None:
-    Path("machines").mkdir()
-    verbs = verbs_of(parser_of())
-    for line in commands(page):
-        verb, *arguments = words(line.replace(" | ", " # "))
-        if verb in verbs:
-            verbs[verb].parse_args(arguments)
-        else:
-            assert Path(verb).suffix == ".amp", line
+DIFFERS = ("diff", "compare")
+"""Verbs that end with 1 where something differs, which is what documents show."""
+FINDS = {
+    ("CONTRIBUTING.md", "amp-studio validate try.amp"),
+    ("docs/tutorial.md", "amp-studio validate mill.amp"),
+    ("docs/tutorial.md", "amp-studio fix mill.amp --dry-run"),
+    ("docs/commands.md", "amp-studio validate second.amp"),
+    ("docs/commands.md", "amp-studio validate second.amp --why"),
+    ("docs/commands.md", "amp-studio fix second.amp --dry-run"),
+    ("docs/commands.md", "amp-studio fix second.amp --safe"),
+    ("docs/merging.md", "amp-studio merge base.amp ours.amp theirs.amp --dry-run"),
+}
+"""(document, command) that shows errors or conflicts and so may end with 1."""
 
 
 @pytest.fixture
-def here(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+def stage(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Stage]:
+    """Return an empty folder with the examples; the desktop program opens no window."""
     monkeypatch.chdir(tmp_path)
-    return tmp_path
+    monkeypatch.setattr(
+        "amp_studio.ui.main", lambda files: int(not all(Path(file).is_file() for file in files))
+    )
+    shutil.copytree(EXAMPLES, "examples")
+    if not os.environ.get(
+        "AMP_STUDIO_FULL"
+    ):  # a second a paper, which tests/report sets; all else of a paper is made
+        monkeypatch.setattr("amp_studio.report.pdf._compiled", lambda source, root, **form: [b"%PDF-"])
+    stage = Stage(tmp_path)
+    yield stage
+    stage.close()
 
 
-@pytest.mark.parametrize("page", sorted(RUN))
-def test_the_commands_of_a_page_work_word_for_word_one_after_the_other(
-    page: str, here: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
-    if page in SLOW and not os.environ.get("AMP_STUDIO_FULL"):
-        pytest.skip("AMP_STUDIO_FULL=1 runs it")
-    for name in RUN[page]:
-        shutil.copy(MILL, name)
+def prepare(page: str, stage: Stage, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Put there what a document begins with."""
+    for name, source in COPIES.get(page, {}).items():
+        shutil.copy(source, name)
+    for text, words in CONTROLS.get(page, {}).items():
+        control, at = stage.control(words.split())
+        stage.replaced[text] = at.removeprefix("serial:").removeprefix("tcp://").partition("?")[0]
+        if page == "docs/protocols/num-table.md":
+            press_what_is_shown(stage.keys_of(control), monkeypatch)
+            stage.replaced["baud=9600"] = (
+                "baud=115200"  # the program keeps to the rate of a line, also of one that has none
+            )
+    if page.startswith("examples/"):
+        os.chdir(Path(page).parent)
     if page == "docs/howto/own-rules.md":
-        text = (ROOT / page).read_text(encoding="utf-8")
-        Path("rules.yaml").write_text(text.partition("```yaml\n")[2].partition("```")[0], encoding="utf-8")
-    controls: list[subprocess.Popen[str]] = []
-    try:
-        for line in commands(page):
-            verb, *arguments = words(line)
-            if verb == "emulate":
-                controls.append(emulated(arguments))
-                continue
-            code = cli.run([verb, *arguments])
-            unfinished = page == "docs/tutorial.md" and line.endswith(
-                "--dry-run"
-            )  # errors are left; its last check has none
-            assert code in (0, UNEQUAL.get(verb, int(unfinished))), (line, capsys.readouterr().err)
-    finally:
-        for control in controls:
-            control.kill()
-            control.communicate()
+        Path("rules.yaml").write_text(own_rules(), encoding="utf-8")
+    if page == "docs/merging.md":
+        make_sides(stage)
+    if page == "docs/protocols/password.md":
+        Path("password").write_text("correct horse\n", encoding="utf-8")
+        monkeypatch.setenv("AMP_STUDIO_PASSWORD", "correct horse")
 
 
-def emulated(arguments: list[str]) -> subprocess.Popen[str]:
-    """Start a control, and return it when it listens."""
-    command = [sys.executable, "-m", "amp_studio.cli", "emulate", *arguments]
-    control = subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
-    assert control.stdout is not None
-    if not control.stdout.readline():
-        pytest.skip(f"the port of the page is taken: {control.communicate()[1]}")
-    return control
+def make_sides(stage: Stage) -> None:
+    """Make the sides of a merge, in a repository with two commits."""
+    for name, value in (("ours.amp", "1300=1"), ("theirs.amp", "1300=2"), ("other.amp", "1300=3")):
+        assert cli.run(["set", name, value]) == 0
+    who = "-c user.name=a -c user.email=a@b -c commit.gpgsign=false"
+    for n in (1, 2):
+        assert cli.run(["set", "mill.amp", f"1300={n}"]) == 0
+        assert stage.run(f"git init -q && git add mill.amp && git {who} commit -q -m {n}") == 0
 
 
-def test_own_rules_of_the_page_find_something(here: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    text = (ROOT / "docs/howto/own-rules.md").read_text(encoding="utf-8")
-    Path("rules.yaml").write_text(text.partition("```yaml\n")[2].partition("```")[0], encoding="utf-8")
+def press_what_is_shown(press: Callable[[str], None], monkeypatch: pytest.MonkeyPatch) -> None:
+    """Be the person at the keys of a NUM control, who does what the program shows."""
+    shown = console.print_notice
+
+    def read(text: str, end: str = "\n") -> None:
+        shown(text, end=end)
+        for item, keys in (("3 UNLOAD", "exit unload enter start"), ("2 LOAD", "exit load enter")):
+            if item in text:
+                for key in keys.split():
+                    press(key)
+
+    monkeypatch.setattr(console, "print_notice", read)
+
+
+def own_rules() -> str:
+    """Return the rules that the page shows."""
+    text: str = text_of("docs/howto/own-rules.md")
+    return text.partition("```yaml\n")[2].partition("```")[0]
+
+
+@pytest.mark.parametrize("page", [page for page in documents() if page != "docs/protocols/plain-files.md"])
+def test_the_commands_of_a_document_work_word_for_word_one_after_the_other(
+    page: str, stage: Stage, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    prepare(page, stage, monkeypatch)
+    printed = []
+    for line in lines_of(page):
+        if line in CANNOT_RUN or is_form(line):
+            continue
+        may_be_1 = (page, line) in FINDS or line.removeprefix("amp-studio ").startswith(DIFFERS)
+        code = stage.run(line)
+        shown = capsys.readouterr()
+        assert code == 0 or (code == 1 and may_be_1), (line, code, shown.err)
+        printed.append(shown.out)
+    if page == "README.md":
+        assert [text for text in printed if text][
+            -1
+        ] == "my-mill.amp: 0 errors, 0 warnings, 0 recommendations\n"
+
+
+PLAIN = "docs/protocols/plain-files.md"
+
+
+def receive(line: ByteLine) -> None:
+    receiver = BlockReceiver(line)
+    assert receiver.receive(None).startswith(MILL.read_bytes())
+    receiver.finish()
+
+
+def read_tape(line: ByteLine) -> None:
+    assert line.get(107, 10) == bytes(100) + b"%\nG0 X0", "a leader, the sign, and the text"
+
+
+def send_one(line: ByteLine) -> None:
+    sender = BlockSender(line, long_blocks=False)
+    sender.await_start()
+    sender.send(b"N1")
+
+
+def send(name: str) -> Callable[[ByteLine], None]:
+    return lambda line: send_batch(BlockSender(line, long_blocks=True), [PlainFile(name, b"N1")])
+
+
+OTHER_ENDS = (
+    receive,
+    send_one,
+    send("came.txt"),
+    read_tape,
+)
+"""What is at the other end of each line of the page, in its order."""
+
+
+def test_plain_files_go_over_a_line_word_for_word(stage: Stage, monkeypatch: pytest.MonkeyPatch) -> None:
+    prepare(PLAIN, stage, monkeypatch)
+    Path("TAPE.txt").write_text("G0 X0\n", encoding="ascii")
+    Path("folder").mkdir()
+    for line, end in zip(
+        (line for line in lines_of(PLAIN) if line not in CANNOT_RUN and not is_form(line)),
+        OTHER_ENDS,
+        strict=True,
+    ):
+        with closing(listen(parse_endpoint("pty:"))) as listener, ThreadPoolExecutor(1) as pool:
+            stage.replaced |= dict.fromkeys(("/dev/ttyUSB0", "COM3"), listener.endpoint.device)
+            link = listener.accept(10)
+            assert link is not None
+            served = pool.submit(end, ByteLine(link, Patience(ask=0.1)))
+            assert stage.run(line) == 0, line
+            served.result(10)
+    assert Path("BACK.txt").read_bytes() == b"N1"
+    assert Path("folder/came.txt").read_bytes() == b"N1"
+
+
+def test_what_cannot_be_run_is_a_short_list_of_commands_that_documents_have() -> None:
+    written = {line for page in documents() for line in lines_of(page)}
+    assert set(CANNOT_RUN) <= written
+    assert len(CANNOT_RUN) <= 9
+    assert {line for _, line in FINDS} <= written
+    assert {*COPIES, *CONTROLS} <= set(documents())
+
+
+def test_forms_name_verbs_and_options_that_there_are() -> None:
+    forms = [line.split() for page in documents() for line in lines_of(page) if is_form(line)]
+    assert len(forms) > 10
+    for _, verb, *words in (form for form in forms if form[0] in PROGRAMS and form[1] != "VERB"):
+        known = verbs()[verb]._option_string_actions
+        assert [word for word in words if word.startswith("-") and word not in known] == [], (verb, words)
+
+
+def test_every_verb_is_on_the_page_of_commands() -> None:
+    shown = {line.split()[1] for line in lines_of("docs/commands.md") if first_word(line) == "amp-studio"}
+    assert set(verbs()) - shown == {"send", "receive", "demo", "completion"}
+    assert "send" in text_of("docs/protocols/plain-files.md")
+
+
+def test_own_rules_of_the_page_find_something(stage: Stage, capsys: pytest.CaptureFixture[str]) -> None:
+    Path("rules.yaml").write_text(own_rules(), encoding="utf-8")
     shutil.copy(MILL, "machine.amp")
     cli.run(["validate", "machine.amp"])
     assert "ours have 10 mm at most" in capsys.readouterr().out

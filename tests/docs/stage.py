@@ -1,0 +1,101 @@
+"""Where the commands of a document are run: an empty folder, with the controls that it names."""
+
+from __future__ import annotations
+
+import os
+import shlex
+import shutil
+import subprocess
+import sys
+from collections.abc import Callable
+from pathlib import Path
+from urllib.parse import urlsplit
+
+from amp_studio import cli
+
+from .pages import PROGRAMS, ROOT
+
+OF_A_PLANT = "192.168.0.5"
+"""Host of a document's control that listens for a whole network."""
+
+
+class Stage:
+    """The present folder, and what is put in the place of an address or a device that is not here: a free port, a pseudo terminal."""
+
+    def __init__(self, folder: Path) -> None:
+        self.folder = folder
+        self.replaced: dict[str, str] = {}
+        """A text of the document -> what is used here."""
+        self._controls: list[subprocess.Popen[str]] = []
+
+    def here(self, line: str) -> str:
+        """Return a command with the addresses that are used here."""
+        for text, used in self.replaced.items():
+            line = line.replace(text, used)
+        return line
+
+    def run(self, line: str) -> int:
+        """Run one command and return its exit code."""
+        words = shlex.split(self.here(line))
+        if words[0] == "make":
+            return subprocess.run(
+                ["make", "--dry-run", *words[1:]], cwd=ROOT, stdout=subprocess.DEVNULL, check=False
+            ).returncode
+        if words[0] not in PROGRAMS:
+            return self._in_a_shell(line)
+        if words[1] == "emulate":
+            self._listen(words[2:])
+            return 0
+        return cli.run(words[1:])
+
+    def _in_a_shell(self, line: str) -> int:
+        """Run a command of the system, in a shell that finds the program."""
+        program = self.folder / "bin" / "amp-studio"
+        program.parent.mkdir(exist_ok=True)
+        program.write_text(f'#!/bin/sh\nexec "{sys.executable}" -m amp_studio.cli "$@"\n', encoding="utf-8")
+        program.chmod(0o755)
+        env = {
+            **os.environ,
+            "PATH": f"{program.parent}{os.pathsep}{os.environ['PATH']}",
+            "PYTHONPATH": str(ROOT),
+        }
+        return subprocess.run([shutil.which("bash") or "sh", "-c", line], env=env, check=False).returncode
+
+    def _listen(self, words: list[str]) -> None:
+        """Start the control of a document at its address; where the port is taken, at a free one, which the next commands get."""
+        place = urlsplit(words[words.index("--listen") + 1])
+        control, at = self.control(words)
+        if not at:  # somebody else listens there
+            free = [word.replace(f":{place.port}", ":0") for word in words]
+            control, at = self.control(free)
+        assert at, control.communicate()[1]
+        if place.port:
+            used = urlsplit(at).port
+            self.replaced |= {
+                f"{host}:{place.port}": f"127.0.0.1:{used}" for host in ("127.0.0.1", OF_A_PLANT)
+            }
+
+    def control(self, words: list[str]) -> tuple[subprocess.Popen[str], str]:
+        """Start an emulated control; returns it and where it listens, "" where it has ended."""
+        command = [sys.executable, "-m", "amp_studio.cli", "emulate", *words]
+        pipe = subprocess.PIPE
+        control = subprocess.Popen(command, stdin=pipe, stdout=pipe, stderr=pipe, text=True)
+        self._controls.append(control)
+        assert control.stdout is not None
+        return control, control.stdout.readline().strip().removeprefix("listening on ")
+
+    def keys_of(self, control: subprocess.Popen[str]) -> Callable[[str], None]:
+        """Return what presses a key of a control."""
+
+        def press(key: str) -> None:
+            assert control.stdin is not None
+            control.stdin.write(f"{key}\n")
+            control.stdin.flush()
+
+        return press
+
+    def close(self) -> None:
+        """End every control."""
+        for control in self._controls:
+            control.kill()
+            control.communicate()
