@@ -20,6 +20,8 @@ CHROMIUM = next(
     None,
 )
 _PATIENCE_S = 30.0
+_NAVIGATED = "Inspected target navigated or closed"
+"""The answer to a click that leads to another page, and to a question in that moment: nothing is known yet."""
 
 
 def _high(end: int) -> int:
@@ -87,6 +89,8 @@ class Browser:
                 text, self._read = self._read.split(b"\0", 1)
                 answer = json.loads(text)
                 if answer.get("id") == self._count:
+                    if answer.get("error", {}).get("message") == _NAVIGATED:
+                        return {"result": {}}
                     assert "error" not in answer, answer["error"]
                     return dict(answer["result"])
             ready, _, _ = select.select([self._in], [], [], max(end - time.monotonic(), 0))
