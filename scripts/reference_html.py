@@ -12,7 +12,7 @@ from html import escape
 from urllib.parse import quote
 
 from amp_studio.schema import Group, Parameter, Rule, Schema
-from amp_studio.schema.model import ControlMessage, Messages, Table
+from amp_studio.schema.model import ControlMessage, Erratum, Messages, Table
 
 
 def heading(level: int, text: str) -> str:
@@ -64,8 +64,8 @@ def paragraph(text: str, strong: str = "") -> str:
 
 
 def admonition(kind: str, title: str, text: str) -> str:
-    """Return a paragraph in a frame with a title: ``danger``, ``warning``, ``note``, ``caution``."""
-    return f'<div class="admonition {kind}"><p class="admonition-title">{escape(title)}</p>{paragraph(text)}</div>'
+    """Return HTML in a frame with a title: ``danger``, ``warning``, ``note``, ``caution``."""
+    return f'<div class="admonition {kind}"><p class="admonition-title">{escape(title)}</p>{text}</div>'
 
 
 def page(schema: Schema, title: str, *parts: str) -> str:
@@ -133,6 +133,15 @@ def printed_tables(schema: Schema) -> list[Table]:
 def page_links(pages: Iterable[str]) -> str:
     """Return links to the pages of the manual."""
     return ", ".join(link("pages", f"page-{page}", page) for page in dict.fromkeys(pages))
+
+
+def contradiction(erratum: Erratum) -> str:
+    """Return the readings of a contradiction of the manual, which of them is used, and why."""
+    readings = listed(
+        f"page {page_links([r.page])}: {escape(' '.join(r.says.split()))}" for r in erratum.readings
+    )
+    used = escape(" ".join(erratum.taken.split()).rstrip("."))
+    return f"{readings}\n<p><strong>Used here:</strong> {used}.</p>\n{paragraph(erratum.why)}"
 
 
 def every_number(schema: Schema, parameter: Parameter) -> list[str]:

@@ -7,13 +7,16 @@ from html import escape
 
 from reference_html import (
     anchors,
+    contradiction,
     facts_list,
     group_page,
     heading,
     link,
     listed,
+    message_link,
     natural,
     page,
+    page_links,
     paragraph,
     parameter_link,
     parameter_links,
@@ -23,7 +26,6 @@ from reference_html import (
 
 from amp_studio.guide import steps_of
 from amp_studio.report import cells_of
-from amp_studio.report.manual_page import erratum_text
 from amp_studio.report.wording import severity_name
 from amp_studio.schema import Rule, Schema, read_address
 
@@ -51,7 +53,9 @@ def _rule(schema: Schema, rule: Rule) -> Iterator[str]:
     ]
     facts += [("Suggested fix", f"<code>{escape(f'{fix.set} = {fix.value}')}</code>") for fix in rule.fix]
     facts += [("Effective value", f"<code>{escape(f'{e.set} = {e.value}')}</code>") for e in rule.effective]
-    facts.append(("Source", escape(f"page {rule.page}")))
+    finds = [message_link(schema, m) for m in schema.messages.values() if rule.id in m.rules]
+    facts += [("Message of the control", ", ".join(finds))] if finds else []
+    facts.append(("Source", f"page {page_links([rule.page])}"))
     yield facts_list(facts)
 
 
@@ -78,7 +82,7 @@ def errata(schema: Schema) -> str:
         parts += [
             anchors(erratum.id),
             heading(2, erratum.id),
-            paragraph(erratum_text(erratum)),
+            contradiction(erratum),
             f"<p>Parameters: {parameter_links(schema, erratum.params) or 'none'}</p>",
         ]
     return page(schema, "Contradictions in the manual", *parts)

@@ -14,6 +14,7 @@ from pathlib import Path
 from reference_html import (
     admonition,
     anchors,
+    contradiction,
     every_number,
     facts_list,
     group_page,
@@ -141,11 +142,12 @@ def parameter_parts(schema: Schema, parameter: Parameter) -> Iterator[str]:
         if title == "Related":
             yield f"<p><strong>Related.</strong> {parameter_links(schema, parameter.help.related)}</p>"
         elif title in ("Danger", "Warning", "Note"):
-            yield admonition(title.lower(), title, text)
-        elif title.startswith("Contradiction"):
-            yield admonition("caution", title, text)
-        else:
+            yield admonition(title.lower(), title, paragraph(text))
+        elif not title.startswith("Contradiction"):
             yield paragraph(text, title)
+    for name in parameter.errata:
+        if name in schema.errata:
+            yield admonition("caution", "Contradiction in the manual", contradiction(schema.errata[name]))
     for title, entries in linked(schema, parameter):
         shown = listed(entries)
         if shown:

@@ -180,12 +180,12 @@
     entries.forEach((entry, n) => {
       const missing = counted.filter(({ values }) => !values[n]);
       if (missing.length > Math.floor(words.length / (all ? 4 : 2)) || missing.length === words.length || missing.some(({ digits }) => digits)) return;
-      const title = entry.texts[0].trim();
       let score = counted.reduce((sum, { values, weight }) => sum + weight * values[n], 0) / total;
-      const name = wordsOf(entry.title).join(" ");
-      if (name === asked || name.replace(/^\S*\d\S* /, "") === asked) score += 6; // with its number or without
-      else if (title.startsWith(asked)) score += 3;
-      else if (title.includes(asked)) score += 2;
+      const title = wordsOf(entry.title).join(" ");
+      const name = title.replace(/^\S*\d\S* /, ""); // without its number
+      if (title === asked || name === asked) score += 6;
+      else if (title.startsWith(asked) || `${name} `.startsWith(`${asked} `)) score += 3;
+      else if (entry.texts[0].includes(asked)) score += 2;
       add(entry, score * KINDS[entry.kind] * 0.4 ** missing.length, entry.address);
     });
   };
