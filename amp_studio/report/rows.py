@@ -170,15 +170,21 @@ def _converted(value: Value | None, unit: str) -> Value | None:
 
 
 def _bits(parameter: Parameter, value: Value | None) -> str:
-    """Return the meaning of the set bits and the fields of a packed word."""
+    """Return the meaning of the set bits and the fields of a packed word; bits of one lost figure have it once."""
     if not parameter.bits or value is None or isinstance(value.value, (str, bool)):
         return ""
     word, parts = int(value.value), []
+    lost: dict[str, list[int]] = {}
+    for bit in parameter.bits:
+        if bit.unknown and bit.width == 1 and field_value(bit, word):
+            lost.setdefault(bit.label, []).append(bit.bit)
     for bit in parameter.bits:
         field = field_value(bit, word)
         if bit.choices or bit.width > 1:
             label = next((c.label for c in bit.choices or () if c.raw == field), str(field))
             parts.append(f"{bit.label}: {label}")
-        elif field:
+        elif field and len(lost.get(bit.label, ())) < 2:
             parts.append(f"bit {bit.bit}: {bit.label}")
+        elif field and bit.bit == lost[bit.label][0]:
+            parts.append(f"bits {', '.join(map(str, lost[bit.label]))}: {bit.label}")
     return "; ".join(parts)

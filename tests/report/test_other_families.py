@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from amp_studio.files import Header, ParameterFile
+from amp_studio.files import Header, ParameterFile, new_file
 from amp_studio.report import FORMATS, SORTS, Contents, build_report, write_report
 from amp_studio.report.model import Grid, Sort
 from amp_studio.schema import Schema, Value
@@ -61,6 +61,14 @@ def test_the_bits_of_a_word_are_said_in_words(wide: ParameterFile) -> None:
     assert rows["word.mode@0"].detail == "bit 0: Axis turns; bit 3: Second gear; Loop: closed"
     assert rows["word.mode@1"].detail == "Loop: open"
     assert rows["word.mode@2"].detail == ""
+
+
+def test_bits_that_one_lost_figure_would_name_have_its_name_once() -> None:
+    file = new_file("57c422b")
+    for instance, word in (("X", 0x11C), ("Y", 0x8)):
+        file.set(("setup.switches", instance), Value(word))
+    found = {row.instance: row.detail for row in build_report(file).rows() if row.id == "setup.switches"}
+    assert found == {"X": "bits 2, 3, 4, 8: Unnamed (figure 4.3)", "Y": "bit 3: Unnamed (figure 4.3)"}
 
 
 def test_an_empty_text_is_not_taken_for_a_missing_one(wide: ParameterFile) -> None:
