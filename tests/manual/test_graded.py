@@ -21,7 +21,7 @@ MARKED = {  # as often as the text of each manual has the word before a statemen
     "57c422b": {"danger": 3, "warning": 6, "caution": 2},
     "acromill": {"caution": 1, "note": 5},
     "syntec": {"warn": 1, "note": 1, "attention": 1},
-    "grblhal": {"note": 10, "beware": 1},
+    "grblhal": {"note": 11, "beware": 1},
 }
 GRAVE = ("attention", "danger", "warning", "warn", "caution")
 
