@@ -12,6 +12,9 @@ from pathlib import Path
 from urllib.parse import urlsplit
 
 from amp_studio import cli
+from amp_studio.schema import load_schema
+from amp_studio.schema.load import load_compiled
+from amp_studio.schema.registration import Registration, register, unregister
 
 from .pages import PROGRAMS, ROOT
 
@@ -27,6 +30,7 @@ class Stage:
         self.replaced: dict[str, str] = {}
         """A text of the document -> what is used here."""
         self._controls: list[subprocess.Popen[str]] = []
+        self._families: list[str] = []
 
     def here(self, line: str) -> str:
         """Return a command with the addresses that are used here."""
@@ -94,8 +98,23 @@ class Stage:
 
         return press
 
+    def write(self, files: dict[str, str]) -> None:
+        """Write the files that a document shows; a family of facts among them is known from now on."""
+        for name, text in files.items():
+            path = self.folder / name
+            path.parent.mkdir(parents=True, exist_ok=True)
+            path.write_text(text, encoding="utf-8")
+            if path.name == "family.yaml" and path.parent.name not in self._families:
+                self._families.append(path.parent.name)
+                register(Registration(path.parent.name, facts=path.parent))
+
     def close(self) -> None:
-        """End every control."""
+        """End every control, and forget the families of the document."""
+        for family in self._families:
+            unregister(family)
+        if self._families:
+            load_compiled.cache_clear()
+            load_schema.cache_clear()
         for control in self._controls:
             control.kill()
             control.communicate()

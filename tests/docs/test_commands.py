@@ -5,17 +5,21 @@ Only an address or a device that is not here is replaced: a port that somebody h
 
 from __future__ import annotations
 
+import json
 import os
+import re
 import shutil
 from collections.abc import Callable, Iterator
 from concurrent.futures import ThreadPoolExecutor
 from contextlib import closing
 from pathlib import Path
 
+import jsonschema
 import pytest
 
 from amp_studio import cli
 from amp_studio.cli import console
+from amp_studio.schema.yaml_reader import read_yaml
 from amp_studio.transfer.links.endpoint import parse_endpoint
 from amp_studio.transfer.links.opening import listen
 from amp_studio.transfer.plain.line import ByteLine, Patience
@@ -23,7 +27,7 @@ from amp_studio.transfer.plain.receiver import BlockReceiver
 from amp_studio.transfer.plain.sender import BlockSender
 from amp_studio.transfer.plain.ymodem import PlainFile, send_batch
 
-from .pages import PROGRAMS, ROOT, documents, first_word, is_form, lines_of, text_of, verbs
+from .pages import PROGRAMS, ROOT, documents, files_of, first_word, is_form, lines_of, text_of, verbs
 from .stage import Stage
 
 EXAMPLES = ROOT / "examples"
@@ -59,6 +63,12 @@ COPIES = {
 }  # fmt: skip
 """Document -> the files that are there before its first command."""
 
+BEGINS_WITH = {
+    "docs/howto/add-parameter.md": ("docs/howto/add-family.md",),
+    "docs/howto/add-rule.md": ("docs/howto/add-family.md", "docs/howto/add-parameter.md"),
+}
+"""Document -> those whose files it goes on with."""
+
 CONTROLS = {
     "docs/protocols/acr-terminal.md": {
         "/dev/ttyUSB0": "acromill --listen pty:?protocol=terminal",
@@ -73,6 +83,7 @@ DIFFERS = ("diff", "compare")
 """Verbs that end with 1 where something differs, which is what documents show."""
 FINDS = {
     ("CONTRIBUTING.md", "amp-studio validate try.amp"),
+    ("docs/howto/add-rule.md", "amp-studio validate fast.amp"),
     ("docs/tutorial.md", "amp-studio validate mill.amp"),
     ("docs/tutorial.md", "amp-studio fix mill.amp --dry-run"),
     ("docs/commands.md", "amp-studio validate second.amp"),
@@ -82,6 +93,15 @@ FINDS = {
     ("docs/merging.md", "amp-studio merge base.amp ours.amp theirs.amp --dry-run"),
 }
 """(document, command) that shows errors or conflicts and so may end with 1."""
+
+SEEN = {
+    "docs/howto/identify-friction.md": (r"viscous friction +0\.(399|400)\d* ±", r"Coulomb friction +3\.\d* ±", r"gravity +2\.\d* ±"),
+    "docs/howto/add-family.md": ("ld2 +LD2 step drive +3 parameters", "Travel per Turn", "slide.amp: 0 errors, 0 warnings"),
+    "docs/howto/add-parameter.md": ("Highest Speed", "20 mm/s", "table.amp: 0 errors, 0 warnings", "P4"),
+    "docs/howto/add-rule.md": ("the motor gets 64000 steps a second", "-> 8437 mm/min", "fast.amp: 0 errors, 0 warnings, 0 rec"),
+    "docs/howto/write-template.md": ("mill.pdf", "mill.html"),
+}  # fmt: skip
+"""Document -> what its commands print, one after the other, as it promises."""
 
 
 @pytest.fixture
@@ -115,8 +135,8 @@ def prepare(page: str, stage: Stage, monkeypatch: pytest.MonkeyPatch) -> None:
             )
     if page.startswith("examples/"):
         os.chdir(Path(page).parent)
-    if page == "docs/howto/own-rules.md":
-        Path("rules.yaml").write_text(own_rules(), encoding="utf-8")
+    for shown in (*BEGINS_WITH.get(page, ()), page):
+        stage.write(files_of(shown))
     if page == "docs/merging.md":
         make_sides(stage)
     if page == "docs/protocols/password.md":
@@ -148,12 +168,6 @@ def press_what_is_shown(press: Callable[[str], None], monkeypatch: pytest.Monkey
     monkeypatch.setattr(console, "print_notice", read)
 
 
-def own_rules() -> str:
-    """Return the rules that the page shows."""
-    text: str = text_of("docs/howto/own-rules.md")
-    return text.partition("```yaml\n")[2].partition("```")[0]
-
-
 @pytest.mark.parametrize("page", [page for page in documents() if page != "docs/protocols/plain-files.md"])
 def test_the_commands_of_a_document_work_word_for_word_one_after_the_other(
     page: str, stage: Stage, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
@@ -168,6 +182,10 @@ def test_the_commands_of_a_document_work_word_for_word_one_after_the_other(
         shown = capsys.readouterr()
         assert code == 0 or (code == 1 and may_be_1), (line, code, shown.err)
         printed.append(shown.out)
+    everything = "".join(printed)
+    assert re.search(".*".join(SEEN.get(page, ())), everything, re.DOTALL), everything
+    if page == "docs/howto/write-template.md":
+        assert "<h2>Service</h2>" in Path("mill.html").read_text(encoding="utf-8")
     if page == "README.md":
         assert [text for text in printed if text][
             -1
@@ -231,7 +249,7 @@ def test_what_cannot_be_run_is_a_short_list_of_commands_that_documents_have() ->
     assert set(CANNOT_RUN) <= written
     assert len(CANNOT_RUN) <= 9
     assert {line for _, line in FINDS} <= written
-    assert {*COPIES, *CONTROLS} <= set(documents())
+    assert {*COPIES, *CONTROLS, *SEEN, *BEGINS_WITH} <= set(documents())
 
 
 def test_forms_name_verbs_and_options_that_there_are() -> None:
@@ -249,7 +267,17 @@ def test_every_verb_is_on_the_page_of_commands() -> None:
 
 
 def test_own_rules_of_the_page_find_something(stage: Stage, capsys: pytest.CaptureFixture[str]) -> None:
-    Path("rules.yaml").write_text(own_rules(), encoding="utf-8")
+    stage.write(files_of("docs/howto/own-rules.md"))
     shutil.copy(MILL, "machine.amp")
     cli.run(["validate", "machine.amp"])
     assert "ours have 10 mm at most" in capsys.readouterr().out
+
+
+@pytest.mark.parametrize(
+    "page", ["docs/howto/add-family.md", "docs/howto/add-parameter.md", "docs/howto/add-rule.md"]
+)
+def test_the_facts_of_a_page_fit_the_schemas_that_they_name(page: str) -> None:
+    for name, text in files_of(page).items():
+        used = (ROOT / name).parent / text.splitlines()[0].partition("$schema=")[2]
+        schema = json.loads(Path(os.path.normpath(used)).read_text(encoding="utf-8"))
+        jsonschema.validate(read_yaml(text).data, schema)
