@@ -24,6 +24,7 @@ html_css_files = ["site.css"]
 html_js_files = [("search.js", {"defer": "defer"})]
 html_logo = html_favicon = "_static/logo.svg"
 html_copy_source = False
+html_use_index = False  # nothing is in it
 html_show_sourcelink = False
 # Browsers do not let a page of file:// read the other pages, of which the lines below a hit are made.
 html_show_search_summary = False

@@ -28,6 +28,8 @@ class Page(HTMLParser):
     def __init__(self, text: str) -> None:
         super().__init__()
         self.anchors: set[str] = set()
+        self.twice: set[str] = set()
+        """Anchors that are on the page more than once."""
         self.links: list[str] = []
         self.loaded: list[str] = []
         self.feed(text)
@@ -35,6 +37,7 @@ class Page(HTMLParser):
     def handle_starttag(self, tag: str, attrs: list[tuple[str, str | None]]) -> None:
         """Note what a tag is, leads to, or loads."""
         given = {name: value for name, value in attrs if value is not None}
+        self.twice |= {given["id"]} & self.anchors if "id" in given else set()
         self.anchors |= {given[name] for name in ("id", "name") if name in given}
         if tag == "a" and "href" in given:
             self.links.append(given["href"])
@@ -53,6 +56,7 @@ def faults(folder: Path) -> tuple[list[str], int, int]:
     for path, page in pages.items():
         here = path.relative_to(folder.resolve())
         found += [f"{here}: loads {address}" for address in page.loaded if _is_remote(address)]
+        found += [f"{here}: the anchor {anchor} is there twice" for anchor in sorted(page.twice)]
         for address in page.links:
             if urlsplit(address).scheme or address.startswith("//"):
                 continue

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterable
+from functools import cache
 from html import escape
 from urllib.parse import quote
 
@@ -23,6 +24,16 @@ def heading(level: int, text: str) -> str:
 def anchors(*names: str) -> str:
     """Return places to which links may go."""
     return "".join(f'<a id="{escape(name)}"></a>' for name in dict.fromkeys(names))
+
+
+def heading_id(text: str) -> str:
+    """Return the anchor that Sphinx makes of a heading, the first of its page with these words."""
+    return re.sub("^[-0-9]+|-+$", "", re.sub("[^a-z0-9]+", "-", text.casefold()))
+
+
+def section(name: str, text: str, *more: str) -> str:
+    """Return a heading of the second level and its anchors; one that Sphinx makes too is not made twice."""
+    return f"{anchors(*(one for one in (name, *more) if one != heading_id(text)))}\n\n{heading(2, text)}".lstrip()
 
 
 def link(page: str, anchor: str, text: str) -> str:
@@ -148,6 +159,22 @@ def every_number(schema: Schema, parameter: Parameter) -> list[str]:
     """Return the numbers of a parameter on all machine types, each once."""
     here = [schema.on(machine.key).numbers(parameter) for machine in schema.family.machines]
     return list(dict.fromkeys(number for numbers in here for number in numbers.values()))
+
+
+@cache
+def _owners(schema: Schema) -> dict[tuple[str, str], str]:
+    owners: dict[tuple[str, str], str] = {}
+    for group in schema.groups:
+        for parameter in group.parameters:
+            for number in every_number(schema, parameter):
+                owners.setdefault((group.key, number), parameter.id)
+    return owners
+
+
+def number_anchor(schema: Schema, parameter: Parameter, number: str) -> str:
+    """Return where a number leads on the page of its group; what several parameters share, to the parameter itself."""
+    group = schema.group_of[parameter.id].key
+    return f"n-{number}" if _owners(schema)[group, number] == parameter.id else parameter.id
 
 
 def first_number(schema: Schema, parameter: Parameter) -> str:

@@ -6,21 +6,21 @@ from collections.abc import Iterator
 from html import escape
 
 from reference_html import (
-    anchors,
     contradiction,
     facts_list,
     group_page,
-    heading,
     link,
     listed,
     message_link,
     natural,
+    number_anchor,
     page,
     page_links,
     paragraph,
     parameter_link,
     parameter_links,
     printed_tables,
+    section,
     table,
 )
 
@@ -37,8 +37,7 @@ def rules(schema: Schema) -> str:
 
 
 def _rule(schema: Schema, rule: Rule) -> Iterator[str]:
-    yield anchors(rule.id)
-    yield heading(2, rule.title)
+    yield section(rule.id, rule.title)
     reads = ", ".join(
         f"<code>{escape(name)}</code> {parameter_link(schema, read_address(read)[0])}"
         for name, read in rule.reads.items()
@@ -65,9 +64,8 @@ def commissioning(schema: Schema) -> str:
     parts = [paragraph(f"{schema.commissioning.why} (page {schema.commissioning.page})")]
     for step in steps_of(schema):
         parts += [
-            anchors(f"step-{step.number}"),
-            heading(2, f"Step {step.number}: {step.title}"),
-            paragraph(f"{step.what} (page {step.page})"),
+            section(f"step-{step.number}", f"Step {step.number}: {step.title}"),
+            f"<p>{escape(' '.join(step.what.split()))} (page {page_links([step.page])})</p>",
             listed(parameter_link(schema, parameter) for parameter in step.parameters),
         ]
         if step.again:
@@ -80,8 +78,7 @@ def errata(schema: Schema) -> str:
     parts: list[str] = []
     for erratum in schema.errata.values():
         parts += [
-            anchors(erratum.id),
-            heading(2, erratum.id),
+            section(erratum.id, erratum.id),
             contradiction(erratum),
             f"<p>Parameters: {parameter_links(schema, erratum.params) or 'none'}</p>",
         ]
@@ -95,8 +92,7 @@ def tables(schema: Schema) -> str:
         head, *cells = cells_of(printed)
         rows = ([escape(cell) for cell in row] for row in cells)
         parts += [
-            anchors(printed.id),
-            heading(2, f"{printed.title} (page {printed.page})"),
+            section(printed.id, f"{printed.title} (page {printed.page})"),
             table(head, rows),
         ]
         parts += [paragraph(printed.note)] if printed.note else []
@@ -113,7 +109,11 @@ def numbers(schema: Schema) -> str:
         for parameter in schema.parameters.values():
             for instance, number in here.numbers(parameter).items():
                 label = here.instance_label((parameter.id, instance))
-                target = link(group_page(schema.group_of[parameter.id]), f"n-{number}", parameter.name)
+                target = link(
+                    group_page(schema.group_of[parameter.id]),
+                    number_anchor(schema, parameter, number),
+                    parameter.name,
+                )
                 rows[number, parameter.id] = f"{target}{escape(f', {label}') if label else ''}"
     ordered = sorted(rows, key=lambda row: (natural(row[0]), row[1]))
     cells = ((escape(number), rows[number, name], escape(name)) for number, name in ordered)

@@ -20,6 +20,7 @@ from reference_html import (
     rule_link,
 )
 
+from amp_studio.guide import steps_of
 from amp_studio.report import facts, help_parts
 from amp_studio.report.wording import state_name
 from amp_studio.schema import Parameter, Schema
@@ -61,6 +62,12 @@ def printed_on(schema: Schema) -> dict[str, dict[str, list[str]]]:
         add(message.every_page, "Messages", message_link(schema, message))
     for printed in printed_tables(schema):
         add([printed.page], "Tables", link("tables", printed.id, printed.title))
+    for step in steps_of(schema) if schema.commissioning is not None else ():
+        add(
+            [step.page],
+            "Commissioning",
+            link("commissioning", f"step-{step.number}", f"Step {step.number}: {step.title}"),
+        )
     for rule in schema.rules:
         add([rule.page], "Rules", rule_link(rule))
     for erratum in schema.errata.values():

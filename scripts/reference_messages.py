@@ -7,7 +7,6 @@ from collections.abc import Iterable, Iterator
 from html import escape
 
 from reference_html import (
-    anchors,
     facts_list,
     first_number,
     heading,
@@ -18,6 +17,7 @@ from reference_html import (
     paragraph,
     parameter_link,
     rule_link,
+    section,
 )
 
 from amp_studio.schema import Rule, Schema, read_address
@@ -56,8 +56,7 @@ def all_messages(schemas: Iterable[Schema]) -> str:
 
 
 def _message(schema: Schema, message: ControlMessage) -> Iterator[str]:
-    yield anchors(message.id)
-    yield heading(2, message.name)
+    yield section(message.id, message.name)
     facts = [("Reaction", escape(message.reaction))]
     if message.also:
         facts.append(("Also printed as", escape("; ".join(message.also))))
@@ -83,17 +82,22 @@ def cause_steps(schema: Schema, message: ControlMessage) -> Iterator[str]:
     """Yield what to look at in turn: the printed causes, each parameter with its rules, the rules of no parameter."""
     yield from map(escape, message.causes)
     every = {rule.id: rule for rule in schema.rules}
-    left = [every[name] for name in message.rules if name in every]
-    for name in message.params:
-        if name not in schema.parameters:  # a control that describes itself may have it
-            continue
+    rules = [every[name] for name in message.rules if name in every]
+    names = [name for name in message.params if name in schema.parameters]  # a described control has its own
+    reading = {name: [rule for rule in rules if _reads(rule, name)] for name in names}
+    # A rule is named once: at the one of its parameters that the fewest rules read, which it is most about.
+    own = {
+        rule.id: min((n for n in names if rule in reading[n]), key=lambda n: len(reading[n]), default="")
+        for rule in rules
+    }
+    for name in names:
         parameter = schema.parameters[name]
-        own = [rule for rule in left if _reads(rule, name)]
-        left = [rule for rule in left if rule not in own]
         number = first_number(schema, parameter)
         what = re.split(r"(?<=[.;])\s", " ".join(parameter.help.what.split()), maxsplit=1)[0].rstrip(";.")
         step = f"{escape(number)} {parameter_link(schema, parameter)}: {escape(what)}.".lstrip()
-        yield step + (f" A file is checked by: {_rule_links(own)}." if own else "")
+        checked = [rule for rule in rules if own[rule.id] == name]
+        yield step + (f" A file is checked by: {_rule_links(checked)}." if checked else "")
+    left = [rule for rule in rules if not own[rule.id]]
     if left:
         yield f"A file is also checked by: {_rule_links(left)}."
 

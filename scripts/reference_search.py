@@ -13,7 +13,7 @@ from collections.abc import Iterable, Iterator
 from pathlib import Path
 from urllib.parse import quote
 
-from reference_html import every_number, first_number, group_page, messages_page, printed_tables
+from reference_html import every_number, first_number, group_page, heading_id, messages_page, printed_tables
 from reference_manual import printed_on
 
 from amp_studio.guide import steps_of
@@ -88,9 +88,8 @@ def guide_entries(folder: Path) -> list[Entry]:
         for section in sections:
             heading, _, below = section.partition("\n")
             plain = re.sub(r"\[(.*?)\]\(.*?\)|[`*]", r"\1", heading.lstrip("# ")).strip()
-            # As Sphinx makes it of a heading: the second with the same words gets another.
-            anchor = re.sub("^[-0-9]+|-+$", "", re.sub("[^a-z0-9]+", "-", plain.casefold()))
-            if not anchor or anchor in known:
+            anchor = heading_id(plain)
+            if not anchor or anchor in known:  # the second with the same words gets another
                 continue
             known.add(anchor)
             title = title or plain

@@ -13,7 +13,6 @@ from pathlib import Path
 
 from reference_html import (
     admonition,
-    anchors,
     contradiction,
     every_number,
     facts_list,
@@ -23,6 +22,7 @@ from reference_html import (
     listed,
     message_link,
     messages_page,
+    number_anchor,
     page,
     page_link,
     page_links,
@@ -31,6 +31,7 @@ from reference_html import (
     parameter_links,
     printed_tables,
     rule_link,
+    section,
     table,
 )
 from reference_lists import commissioning, errata, numbers, rules, tables
@@ -131,8 +132,8 @@ def group_text(schema: Schema, group: Group) -> str:
 def parameter_parts(schema: Schema, parameter: Parameter) -> Iterator[str]:
     """Yield the parts of the section of one parameter."""
     every = every_number(schema, parameter)
-    yield anchors(parameter.id, *(f"n-{number}" for number in every))
-    yield heading(2, " ".join([*every[:1], parameter.name]))
+    places = (number_anchor(schema, parameter, number) for number in every)
+    yield section(parameter.id, " ".join([*every[:1], parameter.name]), *places)
     source = page_links((parameter.page, *parameter.pages.values()))
     yield facts_list(
         (title, f"{escape(schema.family.title)}, page {source}" if title == "Source" else escape(text))
@@ -163,7 +164,7 @@ def linked(schema: Schema, parameter: Parameter) -> Iterator[tuple[str, list[str
             "Commissioning",
             [
                 link("commissioning", f"step-{s.number}", f"Step {s.number} of {len(steps)}: {s.title}")
-                + f" (page {s.page})"
+                + f" (page {page_links([s.page])})"
                 for s in steps
                 if s is own or parameter in s.again
             ],
@@ -171,21 +172,21 @@ def linked(schema: Schema, parameter: Parameter) -> Iterator[tuple[str, list[str
     yield (
         "Messages of the control",
         [
-            f"{message_link(schema, m)} (page {', '.join(m.every_page)})"
+            f"{message_link(schema, m)} (page {page_links(m.every_page)})"
             for m in schema.messages_of(parameter.id)
         ],
     )
     yield (
         "Rules that read it",
         [
-            f"{severity_name(rule.severity)}: {rule_link(rule)} (page {rule.page})"
+            f"{severity_name(rule.severity)}: {rule_link(rule)} (page {page_links([rule.page])})"
             for rule in schema.rules
             if any(read_address(read)[0] == parameter.id for read in rule.reads.values())
         ],
     )
     yield (
         "Tables",
-        [link("tables", t.id, t.title) + f" (page {t.page})" for t in printed_tables(schema)
+        [link("tables", t.id, t.title) + f" (page {page_links([t.page])})" for t in printed_tables(schema)
          if parameter.id in t.params],
     )  # fmt: skip
     yield (

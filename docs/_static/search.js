@@ -34,7 +34,10 @@
         known.forEach((name, n) => {
           const number = kind === "parameter" && n > 0;
           const page = kind === "page";
-          const at = number ? `${folder}${address.split("#")[0]}#n-${encodeURIComponent(name)}` : entry.address;
+          const place = `${folder}${address.split("#")[0]}#n-${encodeURIComponent(name)}`;
+          // What several parameters of a group share is the anchor of the first.
+          const shared = (exact.get(bare(name)) || []).some(([, , other]) => other === place);
+          const at = number && !shared ? place : entry.address;
           know(page ? `page${name.toLowerCase()}` : bare(name), entry, page ? 99 : 100, at);
           if (page && /[-.]|^[A-Z]/.test(name)) know(name.toLowerCase(), entry, 90, at);
           const word = number && name.match(/^(.*\d)[a-z]\d+$/i); // P21 of P21N0
@@ -96,7 +99,7 @@
     let best = 0;
     likes.forEach(([word, like]) => texts.forEach((text, n) => {
       const at = text.indexOf(` ${word}`);
-      if (at >= 0) best = Math.max(best, WORTH[n] * like * (text.includes(` ${word.trim()} `) ? 1 : 0.85));
+      if (at >= 0) best = Math.max(best, WORTH[n] * like * (text.includes(` ${word.trim()} `) ? 1 : n === 2 ? 0.6 : 0.85));
     }));
     return best;
   };
@@ -278,8 +281,13 @@
   };
 
   const start = () => {
-    document.querySelectorAll("form[role=search] input[name=q]").forEach(suggest);
     const place = document.getElementById("search-results");
+    if (place) { // on a phone the other field is folded away
+      const field = element("input", { name: "q", type: "search", ariaLabel: "Search" });
+      const form = element("form", { className: "front-search", role: "search", action: "search.html" }, field);
+      place.before(form);
+    }
+    document.querySelectorAll("form[role=search] input[name=q]").forEach(suggest);
     if (place) results(place);
   };
   if (document.readyState === "loading") document.addEventListener("DOMContentLoaded", start);
