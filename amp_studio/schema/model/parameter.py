@@ -200,7 +200,7 @@ class HelpNote(Model):
 
 
 class Help(Model):
-    """The parameter in our own words; ``find`` and ``wrong`` may be empty for a plain choice."""
+    """The parameter in our own words; ``find`` and ``wrong`` are empty only for what the control writes itself."""
 
     what: str
     find: str = ""
