@@ -5,9 +5,10 @@ from __future__ import annotations
 import json
 import sys
 from collections.abc import Callable, Sequence
+from pathlib import Path
 from typing import Any
 
-from amp_studio.schema import Schema, UnknownFamilyError, load_schema
+from amp_studio.schema import Schema, UnknownFamilyError, family_ids, load_schema
 from amp_studio.schema.quoting import quoted
 
 from .errors import UsageError
@@ -36,6 +37,16 @@ def family(name: str) -> Schema:
         return load_schema(name)
     except UnknownFamilyError as error:
         raise UsageError(str(error)) from None
+
+
+def is_family(text: str) -> bool:
+    """Return whether a text names a family, and not a file; raises UsageError where there is neither."""
+    if text in family_ids():
+        return True
+    path = Path(text)
+    if not path.suffix and len(path.parts) == 1 and not path.exists():
+        family(text)
+    return False
 
 
 def progress(of: str = "") -> Callable[[str, int, int], None]:

@@ -8,10 +8,9 @@ from pathlib import Path
 from amp_studio.dossier import write_dossier
 from amp_studio.files import new_file, open_file, real_path
 from amp_studio.report import Contents
-from amp_studio.schema import family_ids
 from amp_studio.validate import RULES_FILE, rules_beside
 
-from .console import note
+from .console import is_family, note
 from .errors import UsageError
 from .output import check_replaced
 
@@ -46,7 +45,7 @@ def form_verb(options: argparse.Namespace) -> int:
     from amp_studio.report.form import form_paper
     from amp_studio.report.paper import write_paper
 
-    if options.what in family_ids():
+    if is_family(options.what):
         file, everything = new_file(options.what, options.machine), True
     else:
         if options.machine is not None:

@@ -26,10 +26,10 @@ from amp_studio.guide import (
 from amp_studio.report.check_list import OpenValue, open_value
 from amp_studio.report.finding_lines import finding_json
 from amp_studio.report.wording import counted
-from amp_studio.schema import Address, Schema, addresses_meant, family_ids, show_value
+from amp_studio.schema import Address, Schema, addresses_meant, show_value
 from amp_studio.validate import SEVERITIES, Validator, rules_beside
 
-from .console import family, note, print_json
+from .console import family, is_family, note, print_json
 from .errors import UsageError
 from .files import value_row
 from .output import check_replaced, note_all
@@ -43,7 +43,7 @@ _MOST = 12
 def guide_verb(options: argparse.Namespace) -> int:
     """Print the steps of a family, or how far a file has come in them; tick a step, keep its defaults, print the check list."""
     asked_for = options.step or options.at
-    if str(options.path) in family_ids():
+    if is_family(str(options.path)):
         if any(getattr(options, key) for key in (*_CHANGING, "next", "output")):
             raise UsageError(
                 f"{options.path} is a family: only the guide of a file has ticks and open values"

@@ -20,9 +20,20 @@ EXIT_CODES = (
     "3  something was changed before it failed; the message describes the present state",
     "4  it is not known whether the control changed; the message explains how to find out",
 )
-_FAMILY = ("schema", "show", "tables", "find", "calculate", "new", "import", "emulate")
-_PARAM = ("show", "set", "get", "note", "fix", "simulate")
-_ADDRESS = ("diff", "emulate", "identify", "download", "verify", "upload", "restore", "send", "receive")
+_FAMILY = ("schema", "show", "tables", "find", "calculate", "new", "guide", "form", "import", "emulate")
+_PARAM = ("show", "set", "get", "note", "guide", "fix", "merge", "sheet", "simulate")
+_ADDRESS = (
+    "diff",
+    "sheet",
+    "emulate",
+    "identify",
+    "download",
+    "verify",
+    "upload",
+    "restore",
+    "send",
+    "receive",
+)
 _PARAMETERS = (
     "1300                 the number in the manual",
     "home.calibration@X   id and axis, by letter or number",
@@ -33,10 +44,22 @@ _VALUES = (
     "12.5, '10 ipm'       a number, in the unit of entry or with its unit",
     "yes, no              yes/no, or the label or letter of a choice (a)",
     "raw:-1               what the control stores",
-    "0x05                 a mask; bit by bit: P3N0.5=yes",
+    "0x05                 a mask; by the labels of its bits: 'Axis 1, Axis 5'; bit by bit: P3N0.5=yes",
+    "=25.4/5000           an expression: 1340==25.4/5000, 1750='=Y*1.1' (the parameter on axis Y), 1350='=rapid@X*0.05'",
     "not-set              clears the value: 1300=not-set (an empty value is refused)",
     "Units: mm, in, deg, mm/min, ipm, deg/min, rpm, ms, s, %, V, Hz",
 )
+_FORMATS = (
+    "csv                  table of values, of every family (.csv)",
+    "patch                patch sheet of a 9/PC (.patch)",
+    "num                  NUM parameter table (.par .num .txt)",
+    "acr                  ACR command script (.acr)",
+    "bsc                  ballscrew compensation of an ACR controller (.bsc)",
+    "basic                AutoMax BASIC task (.bas)",
+    "registers            AutoMax register table (.reg)",
+    "grbl                 Grbl settings, as $$ lists them (.settings .grbl .nc)",
+)
+"""Name and endings of every text format; here, because help loads no room (a test compares them)."""
 _ADDRESSES = (
     "tcp://HOST:PORT      a control in the network",
     "tls://HOST:PORT      the same over TLS: ?ca=FILE.pem or ?fingerprint=sha256:… checks its certificate",
@@ -74,6 +97,8 @@ def sections(verb: str) -> Iterator[tuple[str, tuple[str, ...]]]:
         yield "PARAM", _PARAMETERS
     if verb in ("set", "simulate"):
         yield "VALUE", _VALUES
+    if verb in ("import", "export"):
+        yield "FORMAT", _FORMATS
     if verb in _ADDRESS:
         yield "ADDRESS", _ADDRESSES
     if verb in EXAMPLES:

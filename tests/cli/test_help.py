@@ -19,8 +19,9 @@ import pytest
 from amp_studio import cli
 from amp_studio.cli.examples import EXAMPLES, MILL
 from amp_studio.cli.man_page import man_page
-from amp_studio.cli.manual import families
+from amp_studio.cli.manual import families, sections
 from amp_studio.cli.parser import parser, verbs_of
+from amp_studio.formats.import_export import all_formats
 from amp_studio.scenarios import scenario_names
 from amp_studio.schema import family_ids
 from amp_studio.sim import SCENARIOS as SIMULATED
@@ -30,6 +31,7 @@ from amp_studio.transfer.plain.line import ByteLine
 from amp_studio.transfer.plain.receiver import BlockReceiver
 from amp_studio.transfer.plain.sender import BlockSender
 from amp_studio.transfer.plain.ymodem import PlainFile, send_batch
+from tests.docs.stage import Stage
 
 EXAMPLE = Path(__file__).parents[2] / "examples" / "mill-1394" / MILL
 AT_A_CONTROL = ("emulate", "identify", "download", "verify", "upload", "restore")
@@ -44,18 +46,28 @@ def drive_record() -> str:
     )
 
 
-@pytest.fixture
-def here(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+@pytest.fixture(scope="module")
+def prepared(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """Return a folder with a copy of the example machine, another one that differs, a table of values, and a screen's."""
+    folder = tmp_path_factory.mktemp("examples")
+    mill, other = (Path(shutil.copy(EXAMPLE, folder / name)) for name in (MILL, "other.amp"))
+    assert cli.run(["set", str(other), "1300=2"]) == 0
+    assert cli.run(["export", str(mill), "-o", str(folder / "values.csv")]) == 0
+    for name, text in (
+        ("screen.txt", "1300 0.00000\n"),
+        ("laser.csv", "position [mm],error [um]\n0,0\n100,4\n200,7\n200,9\n100,6\n0,2\n"),
+        ("record.csv", drive_record()),
+        ("machine.yaml", "family: 9pc\naxis: X\ntorque: '%'\nmodel: {gravity: 1.5}\n"),
+    ):
+        (folder / name).write_text(text, encoding="utf-8")
+    return folder
+
+
+@pytest.fixture
+def here(prepared: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    """Return a copy of that folder, which is the present one."""
+    shutil.copytree(prepared, tmp_path, dirs_exist_ok=True)
     monkeypatch.chdir(tmp_path)
-    Path("screen.txt").write_text("1300 0.00000\n")
-    shutil.copy(EXAMPLE, MILL)
-    shutil.copy(EXAMPLE, "other.amp")
-    assert cli.run(["set", "other.amp", "1300=2"]) == 0
-    Path("laser.csv").write_text("position [mm],error [um]\n0,0\n100,4\n200,7\n200,9\n100,6\n0,2\n")
-    assert cli.run(["export", MILL, "-o", "values.csv"]) == 0
-    Path("record.csv").write_text(drive_record())
-    Path("machine.yaml").write_text("family: 9pc\naxis: X\ntorque: '%'\nmodel: {gravity: 1.5}\n")
     return tmp_path
 
 
@@ -99,6 +111,14 @@ def test_help_of_every_verb_has_examples_and_exit_codes_and_explains_every_argum
     assert [action.dest for action in sub._actions if not action.help] == []
 
 
+def test_help_names_the_text_formats_that_there_are() -> None:
+    shown = dict(sections("import"))["FORMAT"]
+    assert dict(sections("export"))["FORMAT"] == shown
+    for line, each in zip(sorted(shown), sorted(all_formats(), key=lambda each: each.key), strict=True):
+        assert line.split()[0] == each.key
+        assert line.endswith(f"({' '.join((each.ending, *each.other_endings))})")
+
+
 def test_the_parser_of_one_verb_is_the_one_among_all() -> None:
     for verb, sub in verbs_of(parser()).items():
         alone = verbs_of(parser(verb))
@@ -125,21 +145,12 @@ def test_an_example_works_word_for_word(line: str, here: Path, capsys: pytest.Ca
 
 
 def test_the_examples_at_a_control_work_word_for_word_one_after_the_other(here: Path) -> None:
-    (emulate,) = EXAMPLES["emulate"]
-    run = [sys.executable, "-m", "amp_studio.cli"]
-    with subprocess.Popen(
-        [*run, *shlex.split(emulate)[1:]], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True
-    ) as control:
-        try:
-            first = control.stdout.readline()
-            if not first:
-                pytest.skip(f"the port of the example is taken: {control.stderr.read()}")
-            for verb in AT_A_CONTROL[1:]:
-                for line in EXAMPLES[verb]:
-                    done = subprocess.run([*run, *shlex.split(line)[1:]], capture_output=True, check=False)
-                    assert done.returncode == 0, (line, done.stderr)
-        finally:
-            control.kill()
+    stage = Stage(here)
+    try:
+        for line in (line for verb in AT_A_CONTROL for line in EXAMPLES[verb]):
+            assert stage.run(line) == 0, line
+    finally:
+        stage.close()
 
 
 def test_the_examples_of_plain_files_work_word_for_word(here: Path) -> None:
@@ -155,8 +166,9 @@ def test_the_examples_of_plain_files_work_word_for_word(here: Path) -> None:
         (example,) = EXAMPLES[verb]
         try:
             listening = socket.create_server(("127.0.0.1", port))
-        except OSError:
-            pytest.skip("the port of the example is taken")
+        except OSError:  # somebody else listens there
+            listening = socket.create_server(("127.0.0.1", 0))
+        example = example.replace(f":{port} ", f":{listening.getsockname()[1]} ")
         with listening, ThreadPoolExecutor(1) as pool:
             served = pool.submit(lambda: end(ByteLine(TcpLink(Endpoint("tcp"), listening.accept()[0]))))  # noqa: B023
             assert cli.run(shlex.split(example)[1:]) == 0
@@ -187,6 +199,15 @@ def test_the_examples_of_plain_files_work_word_for_word(here: Path) -> None:
             "schema 9pc --group=home-parameters",
             "Unknown group 'home-parameters'. Did you mean: Home Parameters",
         ),
+        (
+            "form 9PC -o form.pdf",
+            "Unknown family '9PC'. Known: 57c422b, 9pc, acromill, grblhal, num, syntec.",
+        ),
+        (
+            "guide nmu",
+            "Unknown family 'nmu'. Known: 57c422b, 9pc, acromill, grblhal, num, syntec. Did you mean: num",
+        ),
+        ("form nmu.amp -o form.pdf", "nmu.amp: "),
         ("tables 9pc accdec-code", "Unknown table 'accdec-code'. Did you mean: accdec-codes"),
         (
             "calculate 9pc gain_break_pont",

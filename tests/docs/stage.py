@@ -76,7 +76,7 @@ class Stage:
         if place.port:
             used = urlsplit(at).port
             self.replaced |= {
-                f"{host}:{place.port}": f"127.0.0.1:{used}" for host in ("127.0.0.1", OF_A_PLANT)
+                f"{host}:{place.port}": f"127.0.0.1:{used}" for host in ("127.0.0.1", "localhost", OF_A_PLANT)
             }
 
     def control(self, words: list[str]) -> tuple[subprocess.Popen[str], str]:

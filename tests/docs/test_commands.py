@@ -266,6 +266,40 @@ def test_every_verb_is_on_the_page_of_commands() -> None:
     assert "send" in text_of("docs/protocols/plain-files.md")
 
 
+def keys_of(found: object) -> list[str]:
+    """Return the keys of a JSON document, and in brackets those of the parts of a list."""
+    if isinstance(found, list):
+        return ["[", *found[0], "]"] if found and isinstance(found[0], dict) else []
+    assert isinstance(found, dict)
+    return [
+        word
+        for key, value in found.items()
+        for word in (key, *(keys_of(value) if isinstance(value, list) else ()))
+    ]
+
+
+def test_the_page_of_commands_has_the_keys_of_every_json_document(
+    stage: Stage, capsys: pytest.CaptureFixture[str]
+) -> None:
+    shutil.copy(MILL, "mill.amp")
+    shutil.copy(MILL, "second.amp")
+    cli.run(["set", "second.amp", "1750=4"])
+    cli.run(["note", "second.amp", "1750", "lower"])
+    rows = re.findall(
+        r"^\| `([^`]+)` \| (.*) \|$",
+        text_of("docs/commands.md").partition("with `--json` |")[2],
+        re.MULTILINE,
+    )
+    assert len(rows) == 20
+    for line, described in rows:
+        capsys.readouterr()
+        assert cli.run([*line.split(), "--json"]) in (0, 1)
+        words = keys_of(json.loads(capsys.readouterr().out))
+        listed = iter(words)
+        missing = [word for word in re.findall(r"`(\w+)`", described) if word not in listed]
+        assert missing == [], (line, missing, words)
+
+
 def test_own_rules_of_the_page_find_something(stage: Stage, capsys: pytest.CaptureFixture[str]) -> None:
     stage.write(files_of("docs/howto/own-rules.md"))
     shutil.copy(MILL, "machine.amp")

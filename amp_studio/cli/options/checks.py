@@ -82,7 +82,7 @@ def _comparing(verbs: Verbs) -> None:
     sub = verbs.add("merge", "merging", "three-way merge by parameter", writes="output")
     for name in ("base", "ours", "theirs"):
         sub.add_argument(name, type=path_of)
-    sub.add_argument("-o", "--output", type=path_of)
+    sub.add_argument("-o", "--output", type=path_of, help="file to write; not needed with --dry-run")
     sub.add_argument(
         "--take",
         metavar="[PARAM=]SIDE",

@@ -77,8 +77,8 @@ def add(verbs: Verbs) -> None:
     )
     sub.add_argument("text", type=path_of, metavar="FILE")
     sub.add_argument("-o", "--output", type=path_of, required=True)
-    sub.add_argument("--family", help="where the text does not show it")
-    sub.add_argument("--format", help="where the text does not show it")
+    sub.add_argument("--family", help="control family, where the text does not show it")
+    sub.add_argument("--format", help="format of the text, where it does not show it")
     sub.add_argument(
         "--keep-unknown", action="store_true", help="keep what is not understood, to be written back"
     )
@@ -88,5 +88,5 @@ def add(verbs: Verbs) -> None:
     )
     sub.add_argument("path", type=path_of)
     sub.add_argument("-o", "--output", type=path_of, required=True)
-    sub.add_argument("--format", help="where the ending does not show it")
+    sub.add_argument("--format", help="format of the text, where the ending of OUTPUT does not show it")
     secrets_option(sub)

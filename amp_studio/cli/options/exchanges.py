@@ -29,7 +29,11 @@ def add(verbs: Verbs) -> None:
 
 def _controls(verbs: Verbs) -> None:
     """Add the verbs about emulated controls, and what answers at an address."""
-    sub = verbs.add("emulate", "control", "an emulated control that takes downloads and gives uploads")
+    sub = verbs.add(
+        "emulate",
+        "control",
+        "an emulated control that takes downloads and gives uploads, until quit or Ctrl-C",
+    )
     sub.add_argument("family")
     sub.add_argument("--listen", required=True, metavar="ADDRESS")
     sub.add_argument("--state", type=folder, metavar="DIR", help="where the control keeps its memory")

@@ -25,7 +25,7 @@ def add(verbs: Verbs) -> None:
     sub.add_argument("--scale", metavar="TORQUE",
                      help="identify: torque of the record for 1 %% (or 1 V) of the axis, as '0.056 A'")  # fmt: skip
     sub.add_argument(
-        "--units", metavar="SYSTEM", help="unit system of settings and result; default: that of the file"
+        "--units", metavar="SYSTEM", help="metric or inch, for settings and result (default: as the file)"
     )
     sub.add_argument("-o", "--output", type=path_of,
                      help="file to write: .csv, .svg, .png; of identify also .yaml, the machine")  # fmt: skip
@@ -36,7 +36,7 @@ def add(verbs: Verbs) -> None:
     sub.add_argument("path", type=path_of)
     sub.add_argument("name", nargs="?", help="the picture; without one the pictures of the file are listed")
     sub.add_argument("--part", help="the axes (X,Y), the axis or the spindle; default: the first one")
-    sub.add_argument("-o", "--output", type=path_of)
+    sub.add_argument("-o", "--output", type=path_of, help="file to write (.svg)")
     json_option(sub)
     sub = verbs.add(
         "demo",
