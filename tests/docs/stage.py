@@ -75,9 +75,8 @@ class Stage:
         assert at, control.communicate()[1]
         if place.port:
             used = urlsplit(at).port
-            self.replaced |= {
-                f"{host}:{place.port}": f"127.0.0.1:{used}" for host in ("127.0.0.1", "localhost", OF_A_PLANT)
-            }
+            hosts = {"127.0.0.1": "127.0.0.1", "localhost": "localhost", OF_A_PLANT: "127.0.0.1"}
+            self.replaced |= {f"{host}:{place.port}": f"{here}:{used}" for host, here in hosts.items()}
 
     def control(self, words: list[str]) -> tuple[subprocess.Popen[str], str]:
         """Start an emulated control; returns it and where it listens, "" where it has ended."""
