@@ -212,8 +212,8 @@ def _one_direction(speed: Series, width: int) -> npt.NDArray[np.bool_]:
     ends = (width - 1) // 2, width // 2
     smooth = _box(np.pad(speed, ends, mode="edge"), width)
     top = float(np.quantile(np.abs(smooth), 0.99))
-    length = 3 * width - 2
-    sides = ((smooth > STANDSTILL * top).astype(np.float64), (smooth < -STANDSTILL * top).astype(np.float64))
+    length = 3 * width  # and a row at each end, which is in the means of three rows
+    sides = (np.pad(side * smooth > STANDSTILL * top, 1).astype(np.float64) for side in (1.0, -1.0))
     return np.asarray(sum(_box(side, length) > 1.0 - 0.5 / length for side in sides), dtype=bool)
 
 

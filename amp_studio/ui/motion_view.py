@@ -39,6 +39,7 @@ from amp_studio.sim import (
 from amp_studio.sim.listing import SimulationListing
 from amp_studio.sim.picture import picture_of, settling_span
 
+from .machine_page import MachinePage
 from .motion_plot import MotionPlot
 from .motion_results import AssumptionsPage, FiguresPage, RecommendationsPage, name_of
 from .motion_settings import SettingsForm, refill, scrolled
@@ -86,7 +87,11 @@ class MotionView(QWidget):
         self.scenario, self.axis = QComboBox(), QComboBox()
         for box in (self.scenario, self.axis):
             box.setSizeAdjustPolicy(QComboBox.SizeAdjustPolicy.AdjustToMinimumContentsLengthWithIcon)
-        self.settings, self.machine = SettingsForm(self.run), SettingsForm(self.run)
+        self.settings = SettingsForm(self.run)
+        self.machine_page = MachinePage(
+            self.run, lambda: (self._workspace.file, str(self.axis.currentData())), self._fail
+        )
+        self.machine = self.machine_page.form
         self.run_button, self.save_button = QPushButton(self.tr("&Run")), QPushButton(self.tr("&Save…"))
         self.settling, self.all_of_it = (
             QPushButton(self.tr("&Zoom to Settling")),
@@ -120,16 +125,6 @@ class MotionView(QWidget):
         tools.addStretch()
         tools.addWidget(self.run_button)
         tools.addWidget(self.save_button)
-        machine = QWidget()
-        column = QVBoxLayout(machine)
-        note = QLabel(
-            self.tr(
-                "What the control does not know. An empty field takes what is assumed or given by parameters."
-            )
-        )
-        note.setWordWrap(True)
-        column.addWidget(note)
-        column.addWidget(scrolled(self.machine))
         self.tabs = QTabWidget()
         self.tabs.setDocumentMode(True)
         pages = (
@@ -137,7 +132,11 @@ class MotionView(QWidget):
             (self.recommendations, self.tr("Recommended")),
             (self.assumptions, self.tr("Assumed")),
         )
-        for page, title in (*pages, (machine, self.tr("Machine")), (self.values, self.tr("Cursors"))):
+        for page, title in (
+            *pages,
+            (self.machine_page, self.tr("Machine")),
+            (self.values, self.tr("Cursors")),
+        ):
             self.tabs.addTab(page, title)
         side = QWidget()
         right = QVBoxLayout(side)

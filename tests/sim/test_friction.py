@@ -118,6 +118,16 @@ def test_times_that_were_rounded_or_jitter_are_evened_out(clean: dict[str, Serie
     assert fit.coefficients == pytest.approx(TRUE, rel=0.02, abs=0.02)
 
 
+@pytest.mark.parametrize("rows", [30, 52, 400])
+def test_few_rows_in_a_swing_are_enough(rows: int) -> None:
+    """A row beside the turn contains torque of both directions as soon as it is averaged with its neighbours."""
+    time = np.arange(12 * rows) * (1.0 / rows)
+    velocity, acceleration = 80.0 * np.sin(2.0 * np.pi * time), 160.0 * np.pi * np.cos(2.0 * np.pi * time)
+    torque = INERTIA * acceleration + VISCOUS * velocity + DRY * np.sign(np.round(velocity, 6)) + WEIGHT
+    fit = fit_friction(time, torque, velocity=velocity)
+    assert fit.coefficients == pytest.approx(TRUE, rel=0.03)
+
+
 def test_only_rows_of_one_direction_count(clean: dict[str, Series]) -> None:
     """At a standstill the torque is anything up to the static friction."""
     standing = np.abs(clean["velocity"]) < 0.1

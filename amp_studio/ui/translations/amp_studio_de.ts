@@ -2423,6 +2423,81 @@ Importieren und als erzwungen kennzeichnen?</translation>
         </message>
     </context>
     <context>
+        <name>IdentifyDialog</name>
+        <message>
+            <source>Machine from a Record — {name}</source>
+            <translation>Maschine aus einer Aufzeichnung – {name}</translation>
+        </message>
+        <message>
+            <source>Measured and predicted torque</source>
+            <translation>Gemessenes und berechnetes Drehmoment</translation>
+        </message>
+        <message>
+            <source>only for A, Nm or N: 0.056 A</source>
+            <translation>nur bei A, Nm oder N: 0,056 A</translation>
+        </message>
+        <message>
+            <source>Torque of the record for 1 % of rated torque, or for 1 V of output</source>
+            <translation>Drehmoment der Aufzeichnung für 1 % des Nennmoments oder für 1 V Ausgang</translation>
+        </message>
+        <message>
+            <source>&amp;Use in Simulation</source>
+            <translation>In der &amp;Simulation verwenden</translation>
+        </message>
+        <message>
+            <source>&amp;Save Machine…</source>
+            <translation>Maschine s&amp;peichern…</translation>
+        </message>
+        <message>
+            <source>Cancel</source>
+            <translation>Abbrechen</translation>
+        </message>
+        <message>
+            <source>S&amp;cale</source>
+            <translation>S&amp;kala</translation>
+        </message>
+        <message>
+            <source>Reading the Record</source>
+            <translation>Aufzeichnung wird gelesen</translation>
+        </message>
+        <message>
+            <source>Acceleration for one unit of torque</source>
+            <translation>Beschleunigung je Einheit Drehmoment</translation>
+        </message>
+        <message>
+            <source>Viscous friction at 1000 mm/min</source>
+            <translation>Viskose Reibung bei 1000 mm/min</translation>
+        </message>
+        <message>
+            <source>Coulomb friction</source>
+            <translation>Coulombsche Reibung</translation>
+        </message>
+        <message>
+            <source>Gravity</source>
+            <translation>Gewicht</translation>
+        </message>
+        <message>
+            <source>{used} of {all}</source>
+            <translation>{used} von {all}</translation>
+        </message>
+        <message>
+            <source>Rows</source>
+            <translation>Zeilen</translation>
+        </message>
+        <message>
+            <source>Save Machine</source>
+            <translation>Maschine speichern</translation>
+        </message>
+        <message>
+            <source>Machine (*.yaml)</source>
+            <translation>Maschine (*.yaml)</translation>
+        </message>
+        <message>
+            <source>{path} written</source>
+            <translation>{path} geschrieben</translation>
+        </message>
+    </context>
+    <context>
         <name>LanguageActions</name>
         <message>
             <source>La&amp;nguage</source>
@@ -2458,6 +2533,45 @@ Importieren und als erzwungen kennzeichnen?</translation>
         <message>
             <source>Project</source>
             <translation>Projekt</translation>
+        </message>
+    </context>
+    <context>
+        <name>MachinePage</name>
+        <message>
+            <source>What the control does not know. An empty field takes what is assumed or given by parameters.</source>
+            <translation>Was die Steuerung nicht kennt. Ein leeres Feld nimmt, was angenommen wird oder Parameter angeben.</translation>
+        </message>
+        <message>
+            <source>From a Recor&amp;d…</source>
+            <translation>Aus Auf&amp;zeichnung…</translation>
+        </message>
+        <message>
+            <source>&amp;Open Machine…</source>
+            <translation>Maschine ö&amp;ffnen…</translation>
+        </message>
+        <message>
+            <source>Find inertia, friction and weight in a record of the drive (CSV)</source>
+            <translation>Trägheit, Reibung und Gewicht in einer Aufzeichnung des Antriebs finden (CSV)</translation>
+        </message>
+        <message>
+            <source>Take the figures of a machine file (YAML)</source>
+            <translation>Die Werte einer Maschinendatei übernehmen (YAML)</translation>
+        </message>
+        <message>
+            <source>Record of a Drive</source>
+            <translation>Aufzeichnung eines Antriebs</translation>
+        </message>
+        <message>
+            <source>Records (*.csv *.txt);;All files (*)</source>
+            <translation>Aufzeichnungen (*.csv *.txt);;Alle Dateien (*)</translation>
+        </message>
+        <message>
+            <source>Machine</source>
+            <translation>Maschine</translation>
+        </message>
+        <message>
+            <source>Machine (*.yaml)</source>
+            <translation>Maschine (*.yaml)</translation>
         </message>
     </context>
     <context>
@@ -3323,10 +3437,6 @@ Die nummerierten Parameter von Maschinensteuerungen: bearbeiten, prüfen, drucke
         <message>
             <source>A&amp;xis</source>
             <translation>A&amp;chse</translation>
-        </message>
-        <message>
-            <source>What the control does not know. An empty field takes what is assumed or given by parameters.</source>
-            <translation>Was die Steuerung nicht kennt. Ein leeres Feld nimmt, was angenommen wird oder Parameter angeben.</translation>
         </message>
         <message>
             <source>Figures</source>
