@@ -113,6 +113,22 @@ def messages_page(messages: Messages) -> str:
     return f"messages-{messages.id}"
 
 
+def list_pages(schema: Schema) -> dict[str, str]:
+    """Return the pages that list something of the whole family, with their titles."""
+    titles = {
+        "numbers": "Every number, in order",
+        "pages": "Pages of the manual, and what is taken from each",
+        "rules": f"Rules ({len(schema.rules)})",
+    }
+    if schema.commissioning is not None:
+        titles["commissioning"] = "Steps of commissioning"
+    if printed := printed_tables(schema):
+        titles["tables"] = f"Tables ({len(printed)})"
+    if schema.errata:
+        titles["errata"] = f"Contradictions in the manual ({len(schema.errata)})"
+    return titles
+
+
 def parameter_link(schema: Schema, parameter: Parameter | str) -> str:
     """Return a link to a parameter."""
     found = schema.parameters[parameter] if isinstance(parameter, str) else parameter

@@ -13,7 +13,15 @@ from collections.abc import Iterable, Iterator
 from pathlib import Path
 from urllib.parse import quote
 
-from reference_html import every_number, first_number, group_page, heading_id, messages_page, printed_tables
+from reference_html import (
+    every_number,
+    first_number,
+    group_page,
+    heading_id,
+    list_pages,
+    messages_page,
+    printed_tables,
+)
 from reference_manual import printed_on
 
 from amp_studio.guide import steps_of
@@ -45,6 +53,12 @@ def family_entries(schema: Schema) -> Iterator[Entry]:
     for every in schema.message_lists:
         for message in every.messages:
             yield _message(message, messages_page(every))
+    own = schema.family
+    yield ["list", own.name, "index.html", [own.family, own.short, own.name], "", _words(own.what)]
+    for name, title in (
+        list_pages(schema) | {messages_page(m): m.title for m in schema.message_lists}
+    ).items():
+        yield ["list", title, f"{name}.html", [], "", ""]
     for group in schema.groups:
         title = f"{group.name}: {group.section}" if group.section else group.name
         yield ["group", title, f"{group_page(group)}.html", [group.key], "", ""]

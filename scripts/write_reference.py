@@ -7,7 +7,7 @@ opinion than the program. Sphinx makes the site of them (``make docs``).
 from __future__ import annotations
 
 import sys
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator
 from html import escape
 from pathlib import Path
 
@@ -19,6 +19,7 @@ from reference_html import (
     group_page,
     heading,
     link,
+    list_pages,
     listed,
     message_link,
     messages_page,
@@ -81,35 +82,29 @@ def overview() -> str:
 
 def family_pages(schema: Schema) -> dict[str, str]:
     """Return the pages of one family by name."""
-    pages = {group_page(group): group_text(schema, group) for group in schema.groups}
-    pages |= {messages_page(listed): messages(schema, listed) for listed in schema.message_lists}
-    pages |= {"rules": rules(schema), "numbers": numbers(schema), "pages": manual_pages(schema)}
-    if schema.commissioning is not None:
-        pages["commissioning"] = commissioning(schema)
-    if schema.errata:
-        pages["errata"] = errata(schema)
-    if printed_tables(schema):
-        pages["tables"] = tables(schema)
-    return pages | {"index": family_index(schema, pages)}
-
-
-def family_index(schema: Schema, pages: Mapping[str, str]) -> str:
-    """Return the page that leads to all others of a family."""
-    titles = {
-        "numbers": "Every number, in order",
-        "pages": "Pages of the manual, and what is taken from each",
-        "commissioning": "Steps of commissioning",
-        "rules": f"Rules ({len(schema.rules)})",
-        "tables": f"Tables ({len(printed_tables(schema))})",
-        "errata": f"Contradictions in the manual ({len(schema.errata)})",
+    lists = {
+        "numbers": numbers,
+        "pages": manual_pages,
+        "commissioning": commissioning,
+        "rules": rules,
+        "tables": tables,
+        "errata": errata,
     }
+    pages = {"index": family_index(schema)}
+    pages |= {group_page(group): group_text(schema, group) for group in schema.groups}
+    pages |= {messages_page(listed): messages(schema, listed) for listed in schema.message_lists}
+    return pages | {name: lists[name](schema) for name in list_pages(schema)}
+
+
+def family_index(schema: Schema) -> str:
+    """Return the page that leads to all others of a family."""
     groups = [f"{page_link(group_page(g), group_title(g))} ({len(g.parameters)})" for g in schema.groups]
     shown = [f"{page_link(messages_page(m), m.title)} ({len(m.messages)})" for m in schema.message_lists]
     parts = [
         heading(1, schema.family.name),
         paragraph(f"{schema.family.title} ({schema.family.document}). {schema.family.what}"),
         heading(2, "Look up"),
-        listed(page_link(name, title) for name, title in titles.items() if name in pages),
+        listed(page_link(name, title) for name, title in list_pages(schema).items()),
         heading(2, "Parameters by group"),
         listed(groups),
     ]

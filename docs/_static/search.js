@@ -6,7 +6,7 @@
   const MOST = 12;
   // What words are worth in a title, in choices and other spellings, in help; and what kinds are among equals.
   const WORTH = [8, 6, 1.5];
-  const KINDS = { parameter: 1, message: 1, guide: 0.9, internals: 0.6, table: 0.7, group: 0.75, step: 0.7, rule: 0.5, page: 0.6, contradiction: 0.5 };
+  const KINDS = { parameter: 1, message: 1, guide: 0.9, internals: 0.6, table: 0.7, group: 0.75, list: 0.75, step: 0.7, rule: 0.5, page: 0.6, contradiction: 0.5 };
   const COMMON = new Set("a an and are as at be by do does for from how i in into is it my of on or per that the this to what when where which why with".split(" "));
   const root = document.documentElement.dataset.content_root || "./";
   let entries = null; // once they are loaded
@@ -117,8 +117,11 @@
   };
 
   const search = (typed) => {
-    const whole = typed.trim().replace(/\s+/g, " ").slice(0, 200);
-    if (!whole) return [];
+    // Which axis, bit or value is meant decides no place: 1300@X, $3=1, R66 bit 3, axis 2 home calibration.
+    const asked = typed.trim().replace(/\s+/g, " ").slice(0, 200);
+    const plain = asked.replace(/(@\w+|\s?=\s?[-.\d]+| bit \d+| axis (\d+|[a-z]))$|^axis (\d+|[a-z]) (?=\S)/i, "");
+    if (!entries || !plain) return [];
+    const whole = exactly(asked).length ? asked : plain;
     const own = exactly(whole);
     const [query, family] = own.length ? [whole, ""] : ofFamily(whole);
     const found = new Map();
@@ -212,7 +215,8 @@
     const number = decodeURIComponent((address.split("#n-")[1] || ""));
     const title = number && !entry.title.startsWith(`${number} `) ? `${number} ${entry.title.replace(/^\S*\d\S* /, "")}` : entry.title;
     const choice = chosen(entry, query);
-    const detail = [entry.kind, entry.id, choice].filter(Boolean).join(" · ");
+    const guide = /^(guide|internals)$/.test(entry.kind) && entry.address.replace(/\.html.*/, "");
+    const detail = [guide ? "guide" : entry.kind, entry.id || guide, choice].filter(Boolean).join(" · ");
     const lines = [element("span", { className: "found-title", textContent: title }), element("span", { className: "found-detail", textContent: detail })];
     if (entry.family) lines.unshift(element("span", { className: "found-family", textContent: entry.family }));
     return element("a", { href: root + address, className: "found" }, ...lines);
