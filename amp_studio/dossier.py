@@ -2,13 +2,20 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from datetime import datetime
 from pathlib import Path
 
 from amp_studio.files import Notify, ParameterFile, real_path, text_of_name
 from amp_studio.files.local_time import local_time
-from amp_studio.report import Contents, ExchangeLine, PrintedFigure, report_pages, write_report
+from amp_studio.report import (
+    Contents,
+    ExchangeLine,
+    PrintedFigure,
+    SetReport,
+    set_report,
+    write_report,
+)
 from amp_studio.validate import NO_RULES, BuilderRules
 
 _DRAWN = (".pdf", ".html")
@@ -41,19 +48,19 @@ def write_dossier(
     )  # fmt: skip
 
 
-def dossier_pages(
+def set_dossier(
     file: ParameterFile,
     contents: Contents,
     ppi: int,
     *,
     source: Path,
+    motion: Sequence[PrintedFigure],
     own: BuilderRules = NO_RULES,
     notify: Notify = lambda _note: None,
-) -> list[bytes]:
-    """Return the pages of what ``write_dossier`` writes as PDF, as PNG with ``ppi`` pixels to the inch, for a printer."""
-    return report_pages(
-        file, contents, ppi, source=source, own=own, notify=notify,
-        motion=() if "motion" in contents.without else tuple(motion_figures(file)),
+) -> SetReport:
+    """Return the pages of what ``write_dossier`` writes as PDF; ``motion`` was drawn before (``motion_figures``), as that takes longest."""
+    return set_report(
+        file, contents, ppi, source=source, own=own, notify=notify, motion=motion,
         exchanges=() if "exchanges" in contents.without else tuple(exchanges_of(source)),
     )  # fmt: skip
 

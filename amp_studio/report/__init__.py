@@ -19,20 +19,23 @@ if TYPE_CHECKING:
     from .manual_page import GRADES, facts, formula_lines, help_parts, one_line, page_of, range_text
     from .model import (
         CHAPTERS,
+        PAPER_SIZES,
         SORTS,
         UNIT_CHOICES,
         Chapter,
         Contents,
         ExchangeLine,
+        PaperSize,
         PrintedFigure,
         Report,
         Sort,
         UnitChoice,
     )
+    from .pdf import Place, SetReport
     from .printed_table import cells_of, table_lines, tables_of
     from .why import why_parts, why_text
     from .wording import counted
-    from .write import FORMATS, report_pages, write_report
+    from .write import FORMATS, set_report, write_report
 
 _PLACES = {
     "CHAPTERS": "model",
@@ -40,6 +43,9 @@ _PLACES = {
     "Contents": "model",
     "GRADES": "manual_page",
     "ExchangeLine": "model",
+    "PAPER_SIZES": "model",
+    "PaperSize": "model",
+    "Place": "pdf",
     "PrintedFigure": "model",
     "FORMATS": "write",
     "FindingGroup": "by_rule",
@@ -72,7 +78,8 @@ _PLACES = {
     "tables_of": "printed_table",
     "why_parts": "why",
     "why_text": "why",
-    "report_pages": "write",
+    "SetReport": "pdf",
+    "set_report": "write",
     "write_report": "write",
 }
 """Name -> its module."""
@@ -89,14 +96,18 @@ __all__ = [
     "CHAPTERS",
     "FORMATS",
     "GRADES",
+    "PAPER_SIZES",
     "SORTS",
     "UNIT_CHOICES",
     "Chapter",
     "Contents",
     "ExchangeLine",
     "FindingGroup",
+    "PaperSize",
+    "Place",
     "PrintedFigure",
     "Report",
+    "SetReport",
     "Sort",
     "UnitChoice",
     "alike",
@@ -117,8 +128,8 @@ __all__ = [
     "one_line",
     "page_of",
     "range_text",
-    "report_pages",
     "same_finding_text",
+    "set_report",
     "suppressed_text",
     "table_lines",
     "tables_of",

@@ -7,12 +7,17 @@ but the report's date depends on the time of printing.
 
 from __future__ import annotations
 
+import json
 import re
+from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
+
+from amp_studio.schema import Address
 
 from .language import ENGLISH, Language, language_of
 from .model import MARKS, Report, printable
-from .templating import TEMPLATES, TemplateMistakeError, filled
+from .templating import TEMPLATES, TemplateMistakeError, filled, line_of_source
 
 _BREAK = "\u200b"
 """Zero-width space: a possible line break."""
@@ -59,10 +64,48 @@ def _breakable(text: str) -> str:
     return _LONG_RUN.sub(lambda run: _JOINT.sub(rf"\g<0>{_BREAK}", run.group()), text)
 
 
-def typst_source(report: Report, own: Path | None = None) -> str:
-    """Return the report as Typst; ``own`` is a template of the project. Raises TemplateMistakeError."""
+@dataclass(frozen=True, slots=True)
+class Place:
+    """Where a value is in a report: the page, counted from 1, and points from its left and its upper edge."""
+
+    page: int
+    x: float
+    y: float
+
+
+@dataclass(frozen=True)
+class SetReport:
+    """A report as pictures of its pages, which knows where each value is on them."""
+
+    pages: tuple[bytes, ...]
+    """Each as PNG."""
+    source: str
+    root: Path
+
+    def places(self) -> dict[Address, Place]:
+        """Return where each value is, which takes half as long as the pages; a project's template can leave them out."""
+        import typst
+
+        found = json.loads(typst.query(
+            self.source.encode("utf-8"), "<amp-places>", field="value", **_options(self.source, self.root)))  # fmt: skip
+        return {
+            (anchor.rpartition("@")[0], anchor.rpartition("@")[2]): Place(page, x, y)
+            for anchor, page, x, y in (found[0] if found else ())
+        }
+
+
+def typst_source(report: Report, own: Path | None = None, *, places: bool = False) -> str:
+    """Return the report as Typst; ``own`` is a template of the project. Raises TemplateMistakeError.
+
+    With ``places`` it has marks at each value.
+    """
     source = filled_template(
-        "report.typ.j2", own, language_of(report.contents.language), report=report, marks=MARKS
+        "report.typ.j2",
+        own,
+        language_of(report.contents.language),
+        report=report,
+        marks=MARKS,
+        places=places,
     )
     if own is not None and _PACKAGE.search(source):
         raise TemplateMistakeError(own, "imports a package of Typst, which would be loaded from the network")
@@ -95,18 +138,19 @@ def _drawing(svg: str) -> Exact:
 
 def render_pdf(report: Report, own: Path | None = None) -> bytes:
     """Return the PDF; equal reports have equal bytes. ``own`` is a template of the project. Raises TemplateMistakeError."""
-    (pdf,) = _set(report, own, format="pdf")
+    (pdf,) = _set(typst_source(report, own), own, format="pdf")
     return pdf
 
 
-def render_pages(report: Report, ppi: int, own: Path | None = None) -> list[bytes]:
+def set_pages(report: Report, ppi: int, own: Path | None = None) -> SetReport:
     """Return each page as PNG, ``ppi`` pixels to the inch; ``own`` is a template of the project. Raises TemplateMistakeError."""
-    return _set(report, own, format="png", ppi=ppi)
+    source = typst_source(report, own, places=True)
+    pages = _set(source, own, format="png", ppi=ppi)
+    return SetReport(tuple(pages), source, own.parent if own else TEMPLATES)
 
 
-def _set(report: Report, own: Path | None, **form: object) -> list[bytes]:
+def _set(source: str, own: Path | None, **form: object) -> list[bytes]:
     """Return the files that Typst makes of a report; raises TemplateMistakeError."""
-    source = typst_source(report, own)
     if own is None:
         return _compiled(source, TEMPLATES, **form)
     from typst import TypstError
@@ -114,7 +158,8 @@ def _set(report: Report, own: Path | None, **form: object) -> list[bytes]:
     try:
         return _compiled(source, own.parent, **form)
     except TypstError as error:
-        raise TemplateMistakeError(own, f"Typst: {error}") from None
+        line = line_of_source(own, source, error.diagnostic)
+        raise TemplateMistakeError(own, f"{line}Typst: {error}") from None
 
 
 def typeset(source: str) -> bytes:
@@ -127,10 +172,10 @@ def _compiled(source: str, root: Path, **form: object) -> list[bytes]:
     """Return what Typst makes of source that may read the files under ``root``: one file, or one for each page."""
     import typst
 
-    own_fonts = _FOREIGN.search(source) is None
-    # The root is given because Typst takes the working folder otherwise, which may be gone;
-    # the library's stubs require the type of the source, the library itself does not.
-    made = typst.compile(  # type: ignore[call-overload]
-        source.encode("utf-8"), root=root, ignore_system_fonts=own_fonts, **form
-    )
+    made = typst.compile(source.encode("utf-8"), **_options(source, root), **form)  # type: ignore[call-overload]
     return [made] if isinstance(made, bytes) else list(made)
+
+
+def _options(source: str, root: Path) -> dict[str, Any]:
+    """Return how Typst reads a source; the root is given because Typst takes the working folder otherwise, which may be gone."""
+    return {"root": root, "ignore_system_fonts": _FOREIGN.search(source) is None}

@@ -24,6 +24,11 @@ _MOST_OUTPUT = 64 * 2**20
 _PATIENCE_S = 20.0
 _LONGEST_MISTAKE = 500
 _HALF = re.compile("[\ud800-\udfff]")
+_COMPLAINT = re.compile(r"\.typ:(\d+):\d+")
+"""The line in a complaint of Typst, which is one of the source that a template has written."""
+_EXPRESSION = re.compile(r"\{\{.*?\}\}|\{%.*?%\}|\{#.*?#\}")
+_LEAST_SHAPE = 4
+"""Characters beside expressions that make a line known."""
 _MISTAKES = (
     ArithmeticError, AssertionError, AttributeError, LookupError, MemoryError, RuntimeError, TypeError, ValueError,
 )  # fmt: skip
@@ -109,6 +114,26 @@ def _bounded(environment: Environment, own: Path, values: Mapping[str, object]) 
     if _HALF.search(text):
         raise TemplateMistakeError(own, "writes half a character, as \\ud800")
     return text
+
+
+def line_of_source(own: Path, source: str, diagnostic: str) -> str:
+    """Return ``line 7: ``, the line of a template that has written what Typst complains of; empty where it is not known."""
+    written = source.splitlines()
+    lines = [_shape(line) for line in own.read_text("utf-8").splitlines()]
+    for number in map(int, _COMPLAINT.findall(diagnostic)):
+        text = written[number - 1].strip() if number <= len(written) else ""
+        found = [n for n, shape in enumerate(lines, 1) if shape and shape.fullmatch(text)]
+        if len(found) == 1:
+            return f"line {found[0]}: "
+    return ""
+
+
+def _shape(line: str) -> re.Pattern[str] | None:
+    """Return what a line of a template can become; None where it is little more than an expression."""
+    parts = _EXPRESSION.split(line.strip())
+    if len("".join(parts).replace(" ", "")) < _LEAST_SHAPE:
+        return None
+    return re.compile(".*".join(map(re.escape, parts)))
 
 
 def _line(own: Path, error: BaseException) -> str:

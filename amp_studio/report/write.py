@@ -13,7 +13,7 @@ from .build import build_report
 from .everything import render_json, render_workbook
 from .model import Contents, ExchangeLine, PrintedFigure, Report
 from .page import render_html
-from .pdf import render_pages, render_pdf
+from .pdf import SetReport, render_pdf, set_pages
 from .table_csv import render_csv
 from .templating import TemplateMistakeError, own_template
 from .text import render_text
@@ -65,7 +65,7 @@ def write_report(
     )
 
 
-def report_pages(
+def set_report(
     file: ParameterFile,
     contents: Contents,
     ppi: int,
@@ -75,8 +75,8 @@ def report_pages(
     motion: Sequence[PrintedFigure] = (),
     exchanges: Sequence[ExchangeLine] = (),
     notify: Notify = lambda _note: None,
-) -> list[bytes]:
-    """Return the pages of a report as PNG, for a printer: what ``write_report`` writes as PDF, ``ppi`` pixels to the inch."""
+) -> SetReport:
+    """Return the pages of what ``write_report`` writes as PDF, as pictures with ``ppi`` pixels to the inch: for the eye and for a printer."""
     report = build_report(
         file,
         contents,
@@ -88,10 +88,10 @@ def report_pages(
     )
     template = own_template(real_path(source).parent, "report.typ.j2")
     try:
-        return render_pages(report, ppi, template)
+        return set_pages(report, ppi, template)
     except TemplateMistakeError as error:
-        notify(f"{error}. The standard report was printed")
-        return render_pages(report, ppi)
+        notify(f"{error}. The standard report is used")
+        return set_pages(report, ppi)
 
 
 def _rendered(report: Report, ending: str, folder: Path | None, notify: Notify) -> bytes:

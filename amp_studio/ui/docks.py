@@ -21,6 +21,10 @@ _PANELS = (
     ("Findings", Qt.DockWidgetArea.BottomDockWidgetArea, 202),
 )
 """Name of a dock, where it is and how wide or high, until somebody arranges them."""
+PREVIEW = "Preview"
+"""Name of the dock of the report, which is closed until somebody opens it."""
+_PREVIEW_SHARE, _PREVIEW_LEAST, _PREVIEW_MOST = 0.36, 384, 560
+"""Its share of the window's width, and the least and most pixels."""
 _LEAST_TABLE = 320
 """Width in pixels that a kept arrangement must leave to the table."""
 WIDE, LEFT_WIDE, LOW = 1200, 900, 620
@@ -68,6 +72,34 @@ class Docks(Translated):
             self.docks.append(dock)
             self._stacks[title], self._heads[title] = stack, head
         self._share_the_bottom()
+        self.preview = QDockWidget(tr("Report Preview"), window)
+        self.preview.setObjectName(PREVIEW)
+        self._place_preview()
+        self.preview.hide()
+
+    def _place_preview(self) -> None:
+        """Put the preview at the right edge, beside the parameter."""
+        self._window.addDockWidget(Qt.DockWidgetArea.RightDockWidgetArea, self.preview)
+        self._window.splitDockWidget(self._dock("Parameter"), self.preview, Qt.Orientation.Horizontal)
+
+    def take_preview(self, panel: QWidget, head: QWidget) -> None:
+        """Put the preview into its dock, once it is wanted."""
+        self.preview.setWidget(panel)
+        self.preview.setTitleBarWidget(head)
+        head.setAccessibleName(tr("Report Preview"))
+
+    @property
+    def _preview_width(self) -> int:
+        return min(max(int(self._size.width() * _PREVIEW_SHARE), _PREVIEW_LEAST), _PREVIEW_MOST)
+
+    def show_preview(self, wanted: bool) -> None:
+        """Show or hide the preview; the other panels make room as in a small window."""
+        self.preview.setVisible(wanted)
+        self.fit(self._size)
+        if wanted and not self.preview.isFloating():
+            beside = [] if self._dock("Parameter").isHidden() else [(self._dock("Parameter"), _PANELS[1][2])]
+            docks, widths = zip(*beside, (self.preview, self._preview_width), strict=True)
+            self._window.resizeDocks(docks, widths, Qt.Orientation.Horizontal)
 
     def _share_the_bottom(self) -> None:
         """Make room for the parameter in the dock of the findings, with a segment that chooses between them."""
@@ -116,7 +148,7 @@ class Docks(Translated):
             if not self._is_first and self._arranged is None:
                 self._widen()
                 self._arranged = self._window.saveState()
-            for dock in self.docks:
+            for dock in (*self.docks, self.preview):
                 dock.hide()
             return
         for title, panel in page.panels.items():
@@ -134,20 +166,27 @@ class Docks(Translated):
 
     def _restore(self, kept: QByteArray) -> None:
         """Arrange the docks as they were, unless that leaves the table no room or hides everything off the screen."""
+        self._widen()  # as it was when this arrangement was kept
         if not self._window.restoreState(kept):
             return
-        self._settings.bring_back(self.docks)
+        self._settings.bring_back((*self.docks, self.preview))
         centre = self._window.centralWidget()
-        if self._window.isVisible() and centre.width() < min(_LEAST_TABLE, self._window.width() // 3):
+        if not self.preview.isHidden():  # it has its room from the other panels (fit), not from the table
+            width = min(self.preview.width(), self._preview_width)
+            self._window.resizeDocks([self.preview], [width], Qt.Orientation.Horizontal)
+        elif self._window.isVisible() and centre.width() < min(_LEAST_TABLE, self._window.width() // 3):
             self.reset()
 
     def reset(self) -> None:
-        """Dock everything in its place, in its size."""
+        """Dock everything in its place, in its size; the preview is closed."""
         self._widen()
+        self.preview.setFloating(False)
+        self.preview.hide()
         for dock, (_, area, _) in zip(self.docks, _PANELS, strict=True):
             dock.setFloating(False)
             self._window.addDockWidget(area, dock)
             dock.show()
+        self._place_preview()
         for dock, (_, area, size) in zip(self.docks, _PANELS, strict=True):
             below = area == Qt.DockWidgetArea.BottomDockWidgetArea
             self._window.resizeDocks(
@@ -168,8 +207,10 @@ class Docks(Translated):
         self._size = size
         if self._is_first or self._arranged is not None:
             return
-        self._take("Parameter", size.width() < WIDE)
-        self._take("Groups", size.width() < LEFT_WIDE)
+        is_beside = not self.preview.isHidden() and not self.preview.isFloating()
+        width = size.width() - (self._preview_width if is_beside else 0)
+        self._take("Parameter", width < WIDE)
+        self._take("Groups", width < LEFT_WIDE)
         self._fold(size.height() < LOW)
 
     def show(self, title: str) -> None:

@@ -1,4 +1,4 @@
-"""The file menu: new, open, save, save as, recover, facts, report."""
+"""The file menu: new, open, save, save as, recover, facts."""
 
 from __future__ import annotations
 
@@ -27,6 +27,7 @@ from amp_studio.report.wording import counted
 from amp_studio.validate import Validator, rules_beside
 
 from .compare_actions import FILTER, CompareActions
+from .document_actions import DocumentActions
 from .file_page import FilePage
 from .format_actions import FormatActions
 from .questions import ask
@@ -54,7 +55,6 @@ class FileActions(Translated):
         save = act(self.tr("&Save"), window.save, keys.Save, "edit", "floppy-disk")
         save_as = act(self.tr("Save &As…"), self.save_as, "Ctrl+Shift+S")
         close = act(self.tr("&Close"), self.close, keys.Close)
-        report = act(self.tr("&Report…"), self.report, keys.Print, "file", "printer", self.tr("Report"))
         menu = window.menuBar().addMenu(self.tr("&File"))
         menu.addActions([new, opened])
         self.recent = RecentFiles(window, self.open_path)
@@ -67,7 +67,8 @@ class FileActions(Translated):
         self.formats = FormatActions(window, self.ask_path, self.write_new)
         menu.addActions(self.formats.actions)
         menu.addSeparator()
-        menu.addActions([report, act(self.tr("&Machine Facts…"), self.facts, None, "edit")])
+        self.documents = DocumentActions(window)
+        menu.addActions([*self.documents.actions, act(self.tr("&Machine Facts…"), self.facts, None, "edit")])
         menu.addSeparator()
         menu.addAction(act(self.tr("E&xit"), window.close, keys.Quit, ""))
         self.last_session: list[Path] = window.settings.session()
@@ -346,12 +347,6 @@ class FileActions(Translated):
         dialog = FactsDialog(workspace.file.header, self.window)
         if dialog.exec():
             workspace.do(self.tr("Machine facts"), lambda: vars(workspace.file.header).update(dialog.texts()))
-
-    def report(self) -> None:
-        """Print the file as PDF, HTML, CSV or text."""
-        from .printing import print_report
-
-        print_report(self.window, self._workspace())
 
 
 def _opened(how: Callable[[Path], Document], path: Path) -> CheckedDocument:

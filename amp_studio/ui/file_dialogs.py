@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import cast
 
 from PySide6.QtCore import QRegularExpression
 from PySide6.QtGui import QRegularExpressionValidator
@@ -23,11 +22,12 @@ from PySide6.QtWidgets import (
 )
 
 from amp_studio.files import Header, ProjectInfo
-from amp_studio.report import UNIT_CHOICES, Contents, Sort, UnitChoice
-from amp_studio.report.language import language_codes, language_of
+from amp_studio.report import Contents
 from amp_studio.schema import family_ids, load_schema
 
 from .questions import show_message
+from .report_options import ReportOptions
+from .translated import tr
 
 
 class _Form(QDialog):
@@ -88,41 +88,24 @@ class FactsDialog(_Form):
 class ReportDialog(_Form):
     """Asks for path, order and content of a report."""
 
-    def __init__(self, path: Path, parent: QWidget | None = None) -> None:
+    def __init__(self, path: Path, parent: QWidget | None = None, contents: Contents | None = None) -> None:
         super().__init__(self.tr("Report"), parent)
         self.setMinimumWidth(560)
-        self.sort = QComboBox()
-        for key, name in (
-            ("axis", self.tr("Axis and non-axis parameters")),
-            ("number", self.tr("By parameter number")),
-            ("group", self.tr("By group")),
-        ):
-            self.sort.addItem(name, key)
-        self.sort.setCurrentIndex(2)
-        self.changed = QCheckBox(self.tr("Only values that &differ from the default"))
-        self.inactive = QCheckBox(self.tr("Also what the control &ignores on this machine"))
-        self.units = QComboBox()
-        for choice, name in UNIT_CHOICES.items():
-            self.units.addItem(name[0].upper() + name[1:], choice)
+        self.options = ReportOptions(contents or Contents())
         self.show_it = QCheckBox(self.tr("O&pen the report when it is written"))
         self.path = QLineEdit(str(path.with_suffix(".pdf").absolute()))
-        self.path.setToolTip(self.tr("The file extension sets the format: .pdf, .html, .csv or .txt"))
+        self.path.setToolTip(
+            self.tr("The file extension sets the format: .pdf, .html, .xlsx, .csv, .json or .txt")
+        )
         browse = QPushButton(self.tr("&Browse…"))
         browse.setAutoDefault(False)
         browse.clicked.connect(self._browse)
         row = QHBoxLayout()
         row.addWidget(self.path)
         row.addWidget(browse)
-        label = QLabel(self.tr("&File (.pdf .html .csv .txt)"))
+        label = QLabel(self.tr("&File"))
         label.setBuddy(self.path)
-        self.form.addRow(self.tr("&Order"), self.sort)
-        self.language = QComboBox()
-        for code in language_codes():
-            self.language.addItem(language_of(code).name, code)
-        self.form.addRow(self.tr("&Units"), self.units)
-        self.form.addRow(self.tr("&Language"), self.language)
-        self.form.addRow("", self.changed)
-        self.form.addRow("", self.inactive)
+        self.form.addRow(self.options)
         self.form.addRow(label, row)
         self.form.addRow("", self.show_it)
         self.to_printer = False
@@ -134,13 +117,8 @@ class ReportDialog(_Form):
         self.add_buttons(self.tr("&Write Report"))
 
     def _browse(self) -> None:
-        endings = "PDF (*.pdf);;HTML (*.html);;Excel (*.xlsx);;CSV (*.csv);;JSON (*.json);;Text (*.txt)"
-        text, chosen = QFileDialog.getSaveFileName(self, self.tr("Report"), self.path.text(), endings)
-        if text:
-            path = Path(text)
-            self.path.setText(
-                text if path.suffix else str(path.with_suffix(chosen[chosen.index("*") + 1 : -1]))
-            )
+        if path := ask_report_path(self, self.path.text()):
+            self.path.setText(str(path))
 
     def _print(self) -> None:
         self.to_printer = True
@@ -153,9 +131,26 @@ class ReportDialog(_Form):
 
     def contents(self) -> Contents:
         """Return what the report contains, and how."""
-        sort, units = cast(Sort, self.sort.currentData()), cast(UnitChoice, self.units.currentData())
-        language = str(self.language.currentData())
-        return Contents(sort, self.changed.isChecked(), self.inactive.isChecked(), units, language)
+        return self.options.contents()
+
+
+def ask_report_path(parent: QWidget, near: str) -> Path | None:
+    """Ask where a report goes; its ending, or that of the chosen kind, is the format. None where nothing was chosen."""
+    endings = "PDF (*.pdf);;HTML (*.html);;Excel (*.xlsx);;CSV (*.csv);;JSON (*.json);;Text (*.txt)"
+    text, chosen = QFileDialog.getSaveFileName(parent, tr("Report"), near, endings)
+    if not text:
+        return None
+    return path_of_kind(text, chosen)
+
+
+PAPER_KINDS = "PDF (*.pdf);;HTML (*.html);;Excel (*.xlsx);;CSV (*.csv)"
+"""What a paper is saved as (``report.paper``)."""
+
+
+def path_of_kind(text: str, kind: str) -> Path:
+    """Return a path from a file dialog, with the ending of the chosen kind where it has none."""
+    path = Path(text)
+    return path if path.suffix else path.with_suffix(kind[kind.index("*") + 1 : -1])
 
 
 class ProjectDialog(_Form):

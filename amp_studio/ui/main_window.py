@@ -25,6 +25,7 @@ from .guide_actions import GuideActions
 from .language_actions import LanguageActions
 from .left_panel import as_side
 from .picture_actions import PictureActions
+from .preview_actions import PreviewActions
 from .program_icon import program_icon
 from .project_actions import ProjectActions
 from .project_files import ProjectFiles
@@ -66,6 +67,8 @@ class MainWindow(StudioWindow):
         self.view = ViewActions(self)
         self.pictures = PictureActions(self)
         self.view.menu.addActions([self.pictures.action, self.pictures.save])
+        self.preview = PreviewActions(self)
+        self.view.menu.addAction(self.preview.action)
         self.filters = FilterActions(self, self.view.menu)
         self.edits.menu.addAction(self.filters.bookmark)
         self.themes = ThemeActions(self, self.view.menu)
@@ -210,6 +213,7 @@ class MainWindow(StudioWindow):
         self.guide.show_state()
         self.view.check(workspace)
         self.pictures.check(self.page)
+        self.preview.check()
         self.tools.show_units()
         self.status.show_file(workspace, self.settings.control())
         if workspace is None:

@@ -10,13 +10,12 @@ from PySide6.QtWidgets import QFileDialog, QWidget
 from amp_studio.files import Merge, check_output
 from amp_studio.files.merging import Side
 
+from .file_dialogs import PAPER_KINDS, path_of_kind
 from .merge_model import SIDES
 from .merge_sources import MergeSource
 from .message_bar import MessageBar
 from .task import in_background
 from .translated import tr
-
-_KINDS = "PDF (*.pdf);;HTML (*.html);;Excel (*.xlsx);;CSV (*.csv)"
 
 
 def save_merge_report(
@@ -25,11 +24,10 @@ def save_merge_report(
     """Write a comparison as a paper; shows where it is, or the error. ``beside`` is the file that is compared."""
     title = tr("Report of the comparison")
     near = beside.with_name(f"{beside.stem}-comparison.pdf")
-    text, kind = QFileDialog.getSaveFileName(window, title, str(near), _KINDS)
+    text, kind = QFileDialog.getSaveFileName(window, title, str(near), PAPER_KINDS)
     if not text:
         return
-    path = Path(text)
-    path = path if path.suffix else path.with_suffix(kind[kind.index("*") + 1 : -1])
+    path = path_of_kind(text, kind)
     names: dict[Side, str] = {
         SIDES[column]: f"{source.title}, {source.note}" if source.note else source.title
         for column, source in sorted(chosen.items())

@@ -5,13 +5,13 @@ from __future__ import annotations
 import threading
 from collections.abc import Sequence
 from functools import partial
+from pathlib import Path
 from typing import TYPE_CHECKING
 
 from PySide6.QtCore import QPoint, QRect, Qt, QUrl
 from PySide6.QtGui import QDesktopServices, QImage, QPageLayout, QPainter
 
 from amp_studio.files import check_output
-from amp_studio.report import Contents
 
 from .file_dialogs import ReportDialog
 from .studio_window import StudioWindow
@@ -27,16 +27,24 @@ PPI = 200
 
 
 def print_report(window: StudioWindow, workspace: Workspace) -> None:
-    """Print a file as PDF, HTML, CSV or text; nothing where the dialog is cancelled."""
-    dialog = ReportDialog(workspace.path, window)
+    """Ask what a report contains, and write it or show it as it is printed; nothing where the dialog is cancelled."""
+    dialog = ReportDialog(workspace.path, window, window.report_choice.contents)
     if not dialog.exec():
         return
-    path, contents, show = dialog.output, dialog.contents(), dialog.show_it.isChecked()
+    path, show = dialog.output, dialog.show_it.isChecked()
+    window.report_choice.contents = dialog.contents()
     if dialog.to_printer:
-        _preview(window, workspace, contents)
+        _preview(window, workspace)
         return
+    write_to(window, workspace, path)
+    if show:
+        QDesktopServices.openUrl(QUrl.fromLocalFile(str(path)))
+
+
+def write_to(window: StudioWindow, workspace: Workspace, path: Path) -> None:
+    """Write the report as it was last chosen, in the format of the file's ending."""
     check_output(path, workspace.path)
-    file = workspace.file.copy()
+    file, contents = workspace.file.copy(), window.report_choice.contents
     notes: list[str] = []
 
     def work(_: TaskProgress, __: threading.Event) -> None:
@@ -51,35 +59,67 @@ def print_report(window: StudioWindow, workspace: Workspace) -> None:
             notify=notes.append,
         )
 
-    ProgressDialog("Report", work, window, f"Writing {path.name} …", cancellable=False).run()
-    window.show_status("; ".join([f"{path} written", *notes]))
-    if show:
-        QDesktopServices.openUrl(QUrl.fromLocalFile(str(path)))
+    ProgressDialog(
+        tr("Report"), work, window, tr("Writing {name} …").format(name=path.name), cancellable=False
+    ).run()
+    window.show_status("; ".join([tr("{path} written").format(path=path), *notes]))
 
 
-def _preview(window: StudioWindow, workspace: Workspace, contents: Contents) -> None:
-    """Show the pages of a report as they are printed; the system's dialog of printers is a button of the preview."""
-    from PySide6.QtPrintSupport import QPrinter, QPrintPreviewDialog
+def _set_for_paper(window: StudioWindow, workspace: Workspace) -> Sequence[bytes]:
+    """Return the pages of the report for a printer."""
+    file, contents, notes = workspace.file.copy(), window.report_choice.contents, list[str]()
 
-    file, notes = workspace.file.copy(), list[str]()
+    def work(_: TaskProgress, __: threading.Event) -> tuple[bytes, ...]:
+        from amp_studio.dossier import motion_figures, set_dossier
 
-    def work(_: TaskProgress, __: threading.Event) -> list[bytes]:
-        from amp_studio.dossier import dossier_pages
+        motion = () if "motion" in contents.without else tuple(motion_figures(file))
+        return set_dossier(
+            file,
+            contents,
+            PPI,
+            source=workspace.path,
+            motion=motion,
+            own=workspace.validator.own,
+            notify=notes.append,
+        ).pages
 
-        return dossier_pages(
-            file, contents, PPI, source=workspace.path, own=workspace.validator.own, notify=notes.append
-        )
+    pages: Sequence[bytes] = ProgressDialog(
+        tr("Report"), work, window, tr("Setting the pages …"), cancellable=False
+    ).run()
+    if notes:
+        window.show_status("; ".join(notes))
+    return pages
 
-    pages = ProgressDialog(tr("Report"), work, window, tr("Setting the pages …"), cancellable=False).run()
+
+def _printer_for(workspace: Workspace) -> QPrinter:
+    from PySide6.QtPrintSupport import QPrinter
+
     printer = QPrinter(QPrinter.PrinterMode.HighResolution)
     printer.setDocName(workspace.path.stem)
-    preview = QPrintPreviewDialog(printer, window)
+    return printer
+
+
+def print_now(window: StudioWindow, workspace: Workspace) -> None:
+    """Print the report as it was last chosen, on a printer that the system's dialog asks for."""
+    from PySide6.QtPrintSupport import QPrintDialog
+
+    printer = _printer_for(workspace)
+    dialog = QPrintDialog(printer, window)
+    if dialog.exec():
+        put_on_paper(_set_for_paper(window, workspace), printer)
+    dialog.deleteLater()
+
+
+def _preview(window: StudioWindow, workspace: Workspace) -> None:
+    """Show the pages of a report as they are printed; the system's dialog of printers is a button of the preview."""
+    from PySide6.QtPrintSupport import QPrintPreviewDialog
+
+    pages, printer = _set_for_paper(window, workspace), _printer_for(workspace)
+    preview = QPrintPreviewDialog(printer, window)  # which does not keep the printer alive
     preview.setWindowTitle(tr("Report"))
     preview.paintRequested.connect(partial(put_on_paper, pages))
     preview.exec()
     preview.deleteLater()
-    if notes:
-        window.show_status("; ".join(notes))
 
 
 def put_on_paper(pages: Sequence[bytes], printer: QPrinter) -> None:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import hashlib
 import re
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from pathlib import Path
 
 from PySide6.QtCore import QByteArray, QRect, QSettings, QStandardPaths
@@ -17,6 +17,7 @@ from .picture_split import PictureLayout
 from .theme import ThemeChoice, as_choice
 
 _NEVER_STORED = re.compile(rb"@\s*(?:Variant|DateTime)")
+_REPORT = ("sort", "changed", "inactive", "units", "language", "without", "paper")
 _LEAST = 320, 200
 """Least useful width and height of the window in pixels."""
 
@@ -116,6 +117,16 @@ class UserSettings:
     def keep_pictures(self, layout: PictureLayout) -> None:
         """Store the chosen place of pictures."""
         self._stored.setValue("pictures", str(layout))
+
+    def report(self) -> dict[str, str]:
+        """Return what a report contains, as it was stored: name -> choice."""
+        kept = {name: self._value(f"report/{name}") for name in _REPORT}
+        return {name: choice for name, choice in kept.items() if isinstance(choice, str)}
+
+    def keep_report(self, choices: Mapping[str, str]) -> None:
+        """Store what a report contains."""
+        for name in _REPORT:
+            self._stored.setValue(f"report/{name}", choices[name])
 
     def bookmarks(self, path: Path) -> set[str]:
         """Return the ids of the parameters that this person has bookmarked in a file."""

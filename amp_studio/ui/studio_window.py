@@ -27,6 +27,7 @@ from .garbage import look_again
 from .group_list import GroupList
 from .parameter_table import ParameterTable
 from .questions import ask, show_message
+from .report_options import ReportChoice
 from .settings import UserSettings
 from .task import in_background
 from .theme import icon
@@ -49,6 +50,7 @@ class StudioWindow(QMainWindow):
         self.tabs = FileTabs()
         self.summaries = FileSummaries(self)
         self.settings = UserSettings()
+        self.report_choice = ReportChoice(self.settings, self)
         self.docks = Docks(self, self.settings)
         self.actions_needing: dict[Needs, list[QAction]] = {
             "": [],

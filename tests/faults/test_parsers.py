@@ -69,6 +69,8 @@ READERS = {
     "formats/values_csv.py": "damaged texts of controls",
     "report/language.py": "",  # a file of the program itself
     "report/page.py": "",  # the program's own drawings, in letters of base64
+    "report/pdf.py": "",  # what Typst found on pages that it has set
+    "report/starting_template.py": "",  # a file of the program itself
     "report/templating.py": "hostile templates of a project",
     "schema/compiled_cache.py": "damaged cache",
     "schema/file_error.py": "damaged YAML",

@@ -35,7 +35,7 @@ def test_the_report_holds_what_is_edited_and_not_what_is_saved(
 ) -> None:
     path = tmp_path / "report.csv"
     window.edits.commit(("servo.excess_error", "1"), "3.75 mm")
-    accept(ReportDialog, lambda d: (d.path.setText(str(path)), d.changed.setChecked(True)))
+    accept(ReportDialog, lambda d: (d.path.setText(str(path)), d.options.changed.setChecked(True)))
     action(window, "Report").trigger()
     assert "3.75" in path.read_text(encoding="utf-8")
 
@@ -99,7 +99,7 @@ def test_a_report_is_shown_as_pages_and_goes_to_a_printer(
 
     monkeypatch.setattr(QPrintPreviewDialog, "exec", printed)
     monkeypatch.setattr("amp_studio.ui.printing.PPI", 40)
-    accept(ReportDialog, lambda d: (d.changed.setChecked(True), setattr(d, "to_printer", True)))
+    accept(ReportDialog, lambda d: (d.options.changed.setChecked(True), setattr(d, "to_printer", True)))
     action(window, "Report").trigger()
     assert shown == ["Report"]
     content = out.read_bytes()

@@ -108,6 +108,10 @@
             <translation>Nr.</translation>
         </message>
         <message>
+            <source>Report Preview</source>
+            <translation>Berichtsvorschau</translation>
+        </message>
+        <message>
             <source>Parameter</source>
             <translation>Parameter</translation>
         </message>
@@ -576,6 +580,10 @@ Woher ist bekannt, was sie enthält?</translation>
         <message>
             <source>Report</source>
             <translation>Bericht</translation>
+        </message>
+        <message>
+            <source>Writing {name} …</source>
+            <translation>{name} wird geschrieben …</translation>
         </message>
         <message>
             <source>Setting the pages …</source>
@@ -1469,6 +1477,37 @@ Einen anderen Namen wählen.</translation>
         </message>
     </context>
     <context>
+        <name>DocumentActions</name>
+        <message>
+            <source>&amp;Report…</source>
+            <translation>&amp;Bericht…</translation>
+        </message>
+        <message>
+            <source>Report</source>
+            <translation>Bericht</translation>
+        </message>
+        <message>
+            <source>&amp;Form to Fill In…</source>
+            <translation>F&amp;ormular zum Ausfüllen…</translation>
+        </message>
+        <message>
+            <source>New Report &amp;Template…</source>
+            <translation>Neue Berichts&amp;vorlage…</translation>
+        </message>
+        <message>
+            <source>Form to Fill In</source>
+            <translation>Formular zum Ausfüllen</translation>
+        </message>
+        <message>
+            <source>{path} written</source>
+            <translation>{path} geschrieben</translation>
+        </message>
+        <message>
+            <source>New Report Template</source>
+            <translation>Neue Berichtsvorlage</translation>
+        </message>
+    </context>
+    <context>
         <name>DownloadPreview</name>
         <message>
             <source>{counts} The download replaces all parameters in the control. Values that are not set in this file are not sent. The control's present parameters are saved beside the file first.
@@ -1745,14 +1784,6 @@ Behaltene Kopie: {kept}</translation>
         <message>
             <source>&amp;Close</source>
             <translation>Sch&amp;ließen</translation>
-        </message>
-        <message>
-            <source>&amp;Report…</source>
-            <translation>&amp;Bericht…</translation>
-        </message>
-        <message>
-            <source>Report</source>
-            <translation>Bericht</translation>
         </message>
         <message>
             <source>&amp;File</source>
@@ -3626,6 +3657,17 @@ Die nummerierten Parameter von Maschinensteuerungen: bearbeiten, prüfen, drucke
         </message>
     </context>
     <context>
+        <name>PageView</name>
+        <message>
+            <source>Pages of the report</source>
+            <translation>Seiten des Berichts</translation>
+        </message>
+        <message>
+            <source>Page {page} of {count}</source>
+            <translation>Seite {page} von {count}</translation>
+        </message>
+    </context>
+    <context>
         <name>ParameterTable</name>
         <message>
             <source>Read by</source>
@@ -3764,6 +3806,87 @@ Die nummerierten Parameter von Maschinensteuerungen: bearbeiten, prüfen, drucke
         <message>
             <source>Set {name}</source>
             <translation>{name} setzen</translation>
+        </message>
+    </context>
+    <context>
+        <name>PreviewActions</name>
+        <message>
+            <source>Rep&amp;ort Preview</source>
+            <translation>Berich&amp;tsvorschau</translation>
+        </message>
+        <message>
+            <source>Preview</source>
+            <translation>Vorschau</translation>
+        </message>
+        <message>
+            <source>Smaller (-)</source>
+            <translation>Kleiner (-)</translation>
+        </message>
+        <message>
+            <source>Larger (+)</source>
+            <translation>Größer (+)</translation>
+        </message>
+        <message>
+            <source>Fit the width (0)</source>
+            <translation>Auf volle Breite (0)</translation>
+        </message>
+        <message>
+            <source>Turn to the value that is selected in the table</source>
+            <translation>Zu dem Wert blättern, der in der Tabelle gewählt ist</translation>
+        </message>
+        <message>
+            <source>Export…</source>
+            <translation>Exportieren…</translation>
+        </message>
+        <message>
+            <source>Export</source>
+            <translation>Exportieren</translation>
+        </message>
+        <message>
+            <source>Print…</source>
+            <translation>Drucken…</translation>
+        </message>
+        <message>
+            <source>Print</source>
+            <translation>Drucken</translation>
+        </message>
+        <message>
+            <source>Close (Ctrl+5)</source>
+            <translation>Schließen (Strg+5)</translation>
+        </message>
+    </context>
+    <context>
+        <name>PreviewHead</name>
+        <message>
+            <source>Report</source>
+            <translation>Bericht</translation>
+        </message>
+        <message>
+            <source>Page</source>
+            <translation>Seite</translation>
+        </message>
+        <message>
+            <source>Contents of the report</source>
+            <translation>Inhalt des Berichts</translation>
+        </message>
+    </context>
+    <context>
+        <name>PreviewPanel</name>
+        <message>
+            <source>Report preview</source>
+            <translation>Berichtsvorschau</translation>
+        </message>
+        <message>
+            <source>Setting the pages …</source>
+            <translation>Die Seiten werden gesetzt …</translation>
+        </message>
+        <message>
+            <source>Open the &amp;Folder</source>
+            <translation>&amp;Ordner öffnen</translation>
+        </message>
+        <message>
+            <source>{name} is not in this report.</source>
+            <translation>{name} steht nicht in diesem Bericht.</translation>
         </message>
     </context>
     <context>
@@ -4273,16 +4396,67 @@ Hier erlaubt: {allowed}</translation>
             <translation>Bericht</translation>
         </message>
         <message>
-            <source>Axis and non-axis parameters</source>
-            <translation>Parameter mit und ohne Achse</translation>
+            <source>O&amp;pen the report when it is written</source>
+            <translation>Bericht danach ö&amp;ffnen</translation>
+        </message>
+        <message>
+            <source>&amp;Browse…</source>
+            <translation>&amp;Suchen…</translation>
+        </message>
+        <message>
+            <source>The file extension sets the format: .pdf, .html, .xlsx, .csv, .json or .txt</source>
+            <translation>Die Dateiendung bestimmt das Format: .pdf, .html, .xlsx, .csv, .json oder .txt</translation>
+        </message>
+        <message>
+            <source>&amp;File</source>
+            <translation>&amp;Datei</translation>
+        </message>
+        <message>
+            <source>Pre&amp;view and Print…</source>
+            <translation>&amp;Vorschau und drucken…</translation>
+        </message>
+        <message>
+            <source>&amp;Write Report</source>
+            <translation>Bericht schre&amp;iben</translation>
+        </message>
+    </context>
+    <context>
+        <name>ReportOptions</name>
+        <message>
+            <source>By group</source>
+            <translation>Nach Gruppen</translation>
         </message>
         <message>
             <source>By parameter number</source>
             <translation>Nach Parameternummer</translation>
         </message>
         <message>
-            <source>By group</source>
-            <translation>Nach Gruppen</translation>
+            <source>Axis and non-axis parameters</source>
+            <translation>Parameter mit und ohne Achse</translation>
+        </message>
+        <message>
+            <source>By step of commissioning</source>
+            <translation>Nach Schritten der Inbetriebnahme</translation>
+        </message>
+        <message>
+            <source>As in the file</source>
+            <translation>Wie in der Datei</translation>
+        </message>
+        <message>
+            <source>Metric</source>
+            <translation>Metrisch</translation>
+        </message>
+        <message>
+            <source>Inch</source>
+            <translation>Zoll</translation>
+        </message>
+        <message>
+            <source>Both, the other system's below</source>
+            <translation>Beide, das andere System darunter</translation>
+        </message>
+        <message>
+            <source>US Letter</source>
+            <translation>US Letter</translation>
         </message>
         <message>
             <source>Only values that &amp;differ from the default</source>
@@ -4293,20 +4467,20 @@ Hier erlaubt: {allowed}</translation>
             <translation>Auch was die Steuerung hier &amp;nicht beachtet</translation>
         </message>
         <message>
-            <source>O&amp;pen the report when it is written</source>
-            <translation>Bericht danach ö&amp;ffnen</translation>
+            <source>Pi&amp;ctures</source>
+            <translation>&amp;Bilder</translation>
         </message>
         <message>
-            <source>The file extension sets the format: .pdf, .html, .csv or .txt</source>
-            <translation>Die Dateiendung bestimmt das Format: .pdf, .html, .csv oder .txt</translation>
+            <source>&amp;Motion, simulated</source>
+            <translation>Bewe&amp;gung, simuliert</translation>
         </message>
         <message>
-            <source>&amp;Browse…</source>
-            <translation>&amp;Suchen…</translation>
+            <source>E&amp;xchanges with controls</source>
+            <translation>Aus&amp;tausch mit Steuerungen</translation>
         </message>
         <message>
-            <source>&amp;File (.pdf .html .csv .txt)</source>
-            <translation>&amp;Datei (.pdf .html .csv .txt)</translation>
+            <source>&amp;Signatures</source>
+            <translation>&amp;Unterschriften</translation>
         </message>
         <message>
             <source>&amp;Order</source>
@@ -4318,15 +4492,15 @@ Hier erlaubt: {allowed}</translation>
         </message>
         <message>
             <source>&amp;Language</source>
-            <translation>&amp;Sprache</translation>
+            <translation>Sprac&amp;he</translation>
         </message>
         <message>
-            <source>Pre&amp;view and Print…</source>
-            <translation>&amp;Vorschau und drucken…</translation>
+            <source>P&amp;aper</source>
+            <translation>&amp;Papier</translation>
         </message>
         <message>
-            <source>&amp;Write Report</source>
-            <translation>Bericht &amp;schreiben</translation>
+            <source>Chapters</source>
+            <translation>Kapitel</translation>
         </message>
     </context>
     <context>

@@ -1,0 +1,277 @@
+"""The report of the file in front beside its table, set again in the background a moment after each edit."""
+
+from __future__ import annotations
+
+import threading
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import TYPE_CHECKING
+from weakref import WeakKeyDictionary
+
+from PySide6.QtCore import QTimer, QUrl, Signal
+from PySide6.QtGui import QDesktopServices
+from PySide6.QtWidgets import QProgressBar, QVBoxLayout, QWidget
+
+from amp_studio.files import describe, real_path
+from amp_studio.report import Contents
+from amp_studio.report.templating import OWN
+from amp_studio.schema import Address
+
+from .file_page import FilePage
+from .message_bar import MessageBar
+from .page_view import PageView, Spot
+from .preview_head import PreviewHead
+from .report_options import ReportChoice
+from .task import Task, TaskProgress
+from .template_watch import TemplateWatch
+
+if TYPE_CHECKING:
+    from amp_studio.report import Place, PrintedFigure, SetReport
+
+    from .workspace import Workspace
+
+WAIT_MS = 500
+"""Milliseconds after an edit until the report is set again."""
+PPI, SHARP_PPI = 96, 192
+"""Pixels to the inch of the pages, and of those that are seen from near."""
+_NEAR = 1.7
+"""Zoom, in pixels to the point, from which the finer pages are wanted."""
+
+
+@dataclass
+class _Shown:
+    """What is known of the report of one file."""
+
+    pages: tuple[bytes, ...] = ()
+    ppi: int = PPI
+    places: dict[Address, Place] = field(default_factory=dict)
+    motion: tuple[PrintedFigure, ...] = ()
+    """The drawings of the simulator, which come later than the pages: those of the time before are shown until then."""
+    spot: Spot = field(default_factory=lambda: Spot(0, 0.0))
+    notes: tuple[str, ...] = ()
+
+
+class PreviewPanel(QWidget):
+    """Pages, a message about the project's template, and a line while pages are being set."""
+
+    _set = Signal(object, object, tuple, tuple)
+    """From the thread: which file, its pages, the drawings in them, notes."""
+    _placed = Signal(object, object)
+    """From the thread: which file, where its values are."""
+    value_wanted = Signal(object)
+    """The address of a value that was clicked."""
+
+    def __init__(self, choice: ReportChoice) -> None:
+        super().__init__()
+        self.setAccessibleName(self.tr("Report preview"))
+        self._choice = choice
+        self._page: FilePage | None = None
+        self._known: WeakKeyDictionary[Workspace, _Shown] = WeakKeyDictionary()
+        self._task: Task | None = None
+        self._is_stale = False
+        self.follows = True
+        """Whether the pages turn to the value that is selected in the table."""
+        self.bar = MessageBar()
+        self.busy = QProgressBar()
+        self.busy.setRange(0, 0)
+        self.busy.setFixedHeight(2)
+        self.busy.setTextVisible(False)
+        policy = self.busy.sizePolicy()
+        policy.setRetainSizeWhenHidden(True)
+        self.busy.setSizePolicy(policy)
+        self.busy.hide()
+        self.view = PageView()
+        self.head = PreviewHead(choice.contents)
+        layout = QVBoxLayout(self)
+        layout.setContentsMargins(0, 0, 0, 0)
+        layout.setSpacing(0)
+        for widget in (self.bar, self.busy, self.view):
+            layout.addWidget(widget)
+        self.setFocusProxy(self.view)
+        self._wait = QTimer(self)
+        self._wait.setSingleShot(True)
+        self._wait.timeout.connect(self._begin)
+        self._watch = TemplateWatch(self)
+        self._watch.changed.connect(self.set_again)
+        self._set.connect(self._show_pages)
+        self._placed.connect(self._show_places)
+        self.view.turned.connect(self.head.show_page)
+        self.view.value_clicked.connect(self.value_wanted)
+        self.view.zoomed.connect(self._look_from_near)
+        self.head.page_wanted.connect(self.view.go_to_page)
+        self.head.contents_wanted.connect(self._choose)
+        choice.changed.connect(self._chosen)
+
+    # -- which file --------------------------------------------------------------------------
+
+    def show_page(self, page: FilePage | None) -> None:
+        """Show the report of another file; of none it is empty."""
+        if page is self._page:
+            return
+        if self._page is not None:
+            self._shown().spot = self.view.spot()
+            self._page.selected.disconnect(self._follow)
+            self._page.workspace.changed.disconnect(self.set_again)
+            self._page.workspace.saved.disconnect(self.set_again)
+        self._page = page
+        self.bar.hide()
+        self.view.empty = self.tr("Setting the pages …") if page else ""
+        if page is None:
+            self._wait.stop()
+            self._watch.watch(None)
+            self.view.show_pages((), PPI)
+            self.head.show_count(0)
+            return
+        page.selected.connect(self._follow)
+        page.workspace.changed.connect(self.set_again)
+        page.workspace.saved.connect(self.set_again)
+        self._watch.watch(real_path(page.workspace.path).parent)
+        known = self._shown()
+        self.view.show_pages(known.pages, known.ppi, known.spot)
+        self.view.show_places(known.places)
+        self.head.show_count(len(known.pages))
+        self._tell(known.notes)
+        self._follow(page.table_view.address())
+        self.set_again()
+
+    def _shown(self) -> _Shown:
+        assert self._page is not None
+        return self._known.setdefault(self._page.workspace, _Shown())
+
+    # -- what it contains ----------------------------------------------------------------------
+
+    def _choose(self, contents: Contents) -> None:
+        self._choice.contents = contents
+
+    def _chosen(self) -> None:
+        self.head.options.show_contents(self._choice.contents)
+        self.set_again()
+
+    def _look_from_near(self) -> None:
+        if self._page is not None and self._wanted_ppi() > self._shown().ppi:
+            self.set_again()
+
+    def _wanted_ppi(self) -> int:
+        return SHARP_PPI if self.view.scale() * self.devicePixelRatioF() > _NEAR else PPI
+
+    # -- setting it ----------------------------------------------------------------------------
+
+    def set_again(self, *_: object) -> None:
+        """Set the pages a moment from now; at once more when what is being set now is ready."""
+        self._is_stale = True
+        if self._page is not None and self.isVisible():
+            self._wait.start(WAIT_MS)
+
+    def showEvent(self, event: object) -> None:
+        """Set what has changed while nobody looked."""
+        super().showEvent(event)  # type: ignore[arg-type]
+        if self._is_stale:
+            self.set_again()
+
+    def _begin(self) -> None:
+        if self._page is None or not self.isVisible() or self._task is not None:
+            return  # one at a time: its end begins the next
+        self._is_stale = False
+        self._task = Task(self._work(self._page.workspace))
+        self._task.failed.connect(self._failed)
+        self._task.finished.connect(self._ended)
+        self.busy.show()
+        self._task.begin()
+
+    def _work(self, workspace: Workspace) -> Callable[[TaskProgress, threading.Event], None]:
+        """Return what the thread does: pages with the drawings there are, their places, then again with new drawings."""
+        file, contents, ppi = workspace.file.copy(), self._choice.contents, self._wanted_ppi()
+        own, source, known = workspace.validator.own, workspace.path, self._shown().motion
+
+        def pages(motion: tuple[PrintedFigure, ...]) -> None:
+            from amp_studio.dossier import set_dossier
+
+            notes: list[str] = []
+            found = set_dossier(
+                file, contents, ppi, source=source, motion=motion, own=own, notify=notes.append
+            )
+            self._set.emit(workspace, (found, ppi), motion, tuple(notes))
+            self._placed.emit(workspace, found.places())
+
+        def work(_: TaskProgress, cancelled: threading.Event) -> None:
+            from amp_studio.dossier import motion_figures
+
+            pages(known)
+            drawn: list[PrintedFigure] = []
+            if "motion" in contents.without:
+                return
+            for figure in motion_figures(file):
+                if cancelled.is_set():
+                    return
+                drawn.append(figure)
+            if tuple(drawn) != known:
+                pages(tuple(drawn))
+
+        return work
+
+    def _show_pages(
+        self,
+        workspace: Workspace,
+        found: tuple[SetReport, int],
+        motion: tuple[PrintedFigure, ...],
+        notes: tuple[str, ...],
+    ) -> None:
+        (report, ppi), known = found, self._known.setdefault(workspace, _Shown())
+        # An equal page stays the same object, by which the view knows that it need not be decoded again.
+        before = dict.fromkeys(known.pages)
+        kept = {page: page for page in before}
+        known.pages = tuple(kept.get(page, page) for page in report.pages)
+        known.ppi, known.motion, known.notes = ppi, motion, notes
+        if self._page is not None and workspace is self._page.workspace:
+            self.view.show_pages(known.pages, ppi)
+            self.head.show_count(len(known.pages))
+            self.head.show_page(self.view.spot().page + 1)
+            self._tell(notes)
+
+    def _show_places(self, workspace: Workspace, places: dict[Address, Place]) -> None:
+        self._known.setdefault(workspace, _Shown()).places = places
+        if self._page is not None and workspace is self._page.workspace:
+            self.view.show_places(places)
+
+    def _failed(self, error: Exception) -> None:
+        self.bar.say(str(error), "error")
+
+    def _ended(self) -> None:
+        self._task = None
+        self.busy.hide()
+        if self._is_stale:
+            self.set_again()
+
+    def _tell(self, notes: tuple[str, ...]) -> None:
+        """Show what the project's template has wrong, with a way to it; nothing where it is right."""
+        if not notes:
+            self.bar.hide()
+            return
+        self.bar.say("\n".join(notes), "warning", (self.tr("Open the &Folder"), self.open_templates))
+
+    def open_templates(self) -> None:
+        """Show the folder of the project's templates."""
+        if self._page is not None:
+            folder: Path = real_path(self._page.workspace.path).parent / OWN
+            QDesktopServices.openUrl(QUrl.fromLocalFile(str(folder)))
+
+    # -- from the table, and back --------------------------------------------------------------
+
+    def _follow(self, address: object) -> None:
+        self.view.mark(address, scroll=self.follows)  # type: ignore[arg-type]
+
+    def set_follows(self, follows: bool) -> None:
+        """Turn the pages to the selected value from now on, or only mark it."""
+        self.follows = follows
+        if follows:
+            self.go_to_selected()
+
+    def go_to_selected(self) -> None:
+        """Turn to the value that is selected in the table, and say where it is not in the report."""
+        address = self._page.table_view.address() if self._page is not None else None
+        if address is None or self._page is None or not self.view.places:
+            return
+        if not self.view.mark(address, scroll=True):
+            name = describe(self._page.workspace.file, address)
+            self.bar.say(self.tr("{name} is not in this report.").format(name=name))

@@ -1,0 +1,69 @@
+"""Notices when somebody saves the report templates of a project, or the pictures that they show."""
+
+from __future__ import annotations
+
+from itertools import islice
+from pathlib import Path
+
+from PySide6.QtCore import QFileSystemWatcher, QObject, QTimer, Signal
+
+from amp_studio.report.templating import OWN
+
+SETTLE_MS = 150
+"""Milliseconds to wait, as an editor may write a file in several steps."""
+
+
+_MOST = 200
+"""Files of a folder that are watched."""
+
+
+class TemplateWatch(QObject):
+    """Watches the folder ``templates`` beside a file, also while there is none yet."""
+
+    changed = Signal()
+
+    def __init__(self, parent: QObject | None = None) -> None:
+        super().__init__(parent)
+        self._folder: Path | None = None
+        self._state: object = None
+        self._watcher = QFileSystemWatcher(self)
+        self._timer = QTimer(self)
+        self._timer.setSingleShot(True)
+        self._timer.setInterval(SETTLE_MS)
+        self._timer.timeout.connect(self._look)
+        self._watcher.fileChanged.connect(lambda _: self._timer.start())
+        self._watcher.directoryChanged.connect(lambda _: self._timer.start())
+
+    def watch(self, folder: Path | None) -> None:
+        """Watch the templates of a project's folder; None watches nothing."""
+        if folder == self._folder:
+            return
+        self._folder = folder
+        if known := [*self._watcher.files(), *self._watcher.directories()]:
+            self._watcher.removePaths(known)
+        self._state = self._read()
+
+    def _look(self) -> None:
+        before, self._state = self._state, self._read()
+        if before != self._state:
+            self.changed.emit()
+
+    def _read(self) -> object:
+        """Return what the folder has, and watch what is new: a rename over a file ends the watch of that file."""
+        if self._folder is None:
+            return None
+        found: list[tuple[str, int, int]] = []
+        paths = [str(self._folder)]
+        try:
+            for path in sorted(islice((self._folder / OWN).iterdir(), _MOST)):
+                if path.is_file():
+                    known = path.stat()
+                    found.append((path.name, known.st_mtime_ns, known.st_size))
+                    paths.append(str(path))
+            paths.append(str(self._folder / OWN))
+        except OSError:  # there is no folder, or it goes away just now
+            found = []
+        watched = {*self._watcher.files(), *self._watcher.directories()}
+        if new := [path for path in paths if path not in watched]:
+            self._watcher.addPaths(new)
+        return found
