@@ -24,9 +24,9 @@ def render_text(report: Report) -> bytes:
 def _lines(report: Report) -> Iterator[str]:
     yield from _title(report)
     yield from _findings(report)
-    yield from _dangers(report)
     yield from _values("FORCED OUT OF RANGE", report.forced)
     yield from _not_set(report)
+    yield from _dangers(report)
     for section in report.sections:
         yield from _heading(section.title.upper())
         for part in section.parts:
