@@ -6,6 +6,7 @@ text has no translation.
 
 from __future__ import annotations
 
+import ast
 import shutil
 import subprocess
 import sys
@@ -24,9 +25,27 @@ def updated(path: Path) -> bytes:
         copy = Path(shutil.copy(path, folder))
         tool = Path(sys.executable).with_name("pyside6-lupdate")
         modules = sorted(str(module) for module in UI.glob("*.py"))
+        unseen = Path(folder) / "in_f_strings.py"
+        unseen.write_text("".join(f"{call}\n" for call in calls_in_f_strings()), encoding="utf-8")
+        modules.append(str(unseen))
         options = ["-no-obsolete", "-locations", "none", "-silent"]
+        if path.stem.endswith("_en"):  # the texts are English: only the forms of numbers are missing
+            options.append("-pluralonly")
         subprocess.run([tool, *options, *modules, "-ts", copy], check=True, capture_output=True)
         return with_known(copy.read_bytes(), path.read_bytes())
+
+
+def calls_in_f_strings() -> list[str]:
+    """Return the calls of ``tr`` within f-strings, where lupdate does not look, as calls of their own."""
+    found = set()
+    for module in UI.glob("*.py"):
+        for node in ast.walk(ast.parse(module.read_text("utf-8"))):
+            if isinstance(node, ast.JoinedStr):
+                for call in ast.walk(node):
+                    if isinstance(call, ast.Call) and ast.unparse(call.func) in ("tr", "self.tr"):
+                        several = ', "", 1' if len(call.args) > 2 else ""
+                        found.add(f"tr({ast.unparse(call.args[0])}{several})")
+    return sorted(found)
 
 
 def with_known(content: bytes, before: bytes) -> bytes:

@@ -9,6 +9,7 @@ from .editing import dragged, stepped
 from .record import scene_json
 from .scene import Dot, Drag, FilledArea, Handle, PictureNote, Polyline, Scene, ShapeSort, Text
 from .svg import scene_svg
+from .words import scene_in_words
 
 __all__ = [
     "Dot",
@@ -25,6 +26,7 @@ __all__ = [
     "draw",
     "drawn_in",
     "pictures_of",
+    "scene_in_words",
     "scene_json",
     "scene_svg",
     "stepped",

@@ -29,6 +29,7 @@ from .axes import printed_axes, scope_of
 from .dangers import dangers_of
 from .drawings import drawings
 from .findings import joined_places, notes_of, suppressed_notes
+from .language import language_of
 from .manual_page import help_parts
 from .model import SORTS, UNIT_CHOICES, Contents, ExchangeLine, PrintedFigure, Report, ReportRow
 from .rows import Rows, row_of, rows_of
@@ -84,8 +85,8 @@ def build_report(
         dangers=dangers_of(file.schema, printed),
         forced=_forced(file, found.rows),
         not_set=tuple(_not_set(found.rows)),
-        sections=sections_of(file, printed, contents.sort),
-        pictures=() if "pictures" in contents.without else drawings(file),
+        sections=sections_of(file, printed, contents.sort, language_of(contents.language)),
+        pictures=() if "pictures" in contents.without else drawings(file, language_of(contents.language)),
         motion=() if "motion" in contents.without else tuple(motion),
         exchanges=() if "exchanges" in contents.without else tuple(exchanges),
         help={i: tuple(_help(file.schema, i)) for i in dict.fromkeys(row.id for row in printed)},

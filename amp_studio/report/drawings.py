@@ -5,9 +5,10 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from amp_studio.files import ParameterFile
-from amp_studio.pictures import FilePicture, Scene, pictures_of, scene_svg
+from amp_studio.pictures import FilePicture, Scene, pictures_of, scene_in_words, scene_svg
 
 from .axes import axis_label
+from .language import ENGLISH, Language
 from .model import PrintedFigure
 
 WIDTH, HEIGHT = 620.0, 316.0
@@ -16,14 +17,14 @@ _MOST_PARTS = 8
 """Most parts of a picture that are all printed; of more (pairs of axes), each axis once."""
 
 
-def drawings(file: ParameterFile) -> tuple[PrintedFigure, ...]:
-    """Return each picture of a file that shows something, part by part."""
-    return tuple(figure for picture in pictures_of(file) for figure in _drawn(picture))
+def drawings(file: ParameterFile, language: Language = ENGLISH) -> tuple[PrintedFigure, ...]:
+    """Return each picture of a file that shows something, part by part, in a language."""
+    return tuple(figure for picture in pictures_of(file) for figure in _drawn(picture, language))
 
 
-def _drawn(picture: FilePicture) -> Iterator[PrintedFigure]:
+def _drawn(picture: FilePicture, language: Language) -> Iterator[PrintedFigure]:
     for part in _parts(picture):
-        scene = picture.scene(part)
+        scene = scene_in_words(picture.scene(part), language.title)
         if _shows(scene):
             title = f"{scene.title} {_name(picture, part, scene)}" if part else scene.title
             yield PrintedFigure(

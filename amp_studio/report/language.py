@@ -1,4 +1,7 @@
-"""The languages of documents: the words of the program's own frame. Names, choices, help and findings stay as they are."""
+"""The languages of documents, and in the window of what is made below it: the words of the program's own frame.
+
+Names, choices, help and findings stay as they are.
+"""
 
 from __future__ import annotations
 
@@ -22,6 +25,9 @@ class Language:
     patterns: tuple[tuple[re.Pattern[str], str], ...] = ()
     nouns: dict[str, tuple[str, str]] = field(default_factory=dict)
     """Noun of a count -> one, several."""
+    titles: dict[str, str] = field(default_factory=dict)
+    """Titles of steps, pictures and pages -> their own: a parameter may have the same name, which stays."""
+    title_patterns: tuple[tuple[re.Pattern[str], str], ...] = ()
 
     def text(self, english: str) -> str:
         """Return a phrase in this language; as it is where the language has no other words for it."""
@@ -36,6 +42,16 @@ class Language:
     def of_help(self, title: str) -> str:
         """Return the title of a part of a parameter's help: its Note is the manual's, not a person's."""
         return self.phrases.get(f"help: {title}") or self.text(title)
+
+    def title(self, english: str) -> str:
+        """Return what the program itself calls something: the title of a step or a picture, a heading, a note of a picture."""
+        known = self.titles.get(english)
+        if known is not None:
+            return known
+        for pattern, own in self.title_patterns:
+            if found := pattern.fullmatch(english):
+                return own.format(*(self.title(group) for group in found.groups()))
+        return self.text(english)
 
     def counted(self, number: int, noun: str) -> str:
         """Return ``1 error``, ``2 errors`` in this language."""
@@ -67,6 +83,12 @@ def language_of(code: str) -> Language:
         code,
         data["name"],
         data["phrases"],
-        tuple((re.compile(pattern), own) for pattern, own in data["patterns"].items()),
+        _compiled(data["patterns"]),
         {noun: (one, several) for noun, (one, several) in data["nouns"].items()},
+        data["titles"],
+        _compiled(data["title_patterns"]),
     )
+
+
+def _compiled(patterns: dict[str, str]) -> tuple[tuple[re.Pattern[str], str], ...]:
+    return tuple((re.compile(pattern), own) for pattern, own in patterns.items())

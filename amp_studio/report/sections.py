@@ -11,6 +11,7 @@ from amp_studio.files import ParameterFile
 from amp_studio.guide import steps_of
 
 from .axes import axis_label, axis_note, printed_axes, scope_of
+from .language import ENGLISH, Language
 from .model import Column, Grid, GridLine, Listing, ReportRow, Section, Sort
 from .number_text import split_count
 
@@ -18,12 +19,14 @@ _WIDEST_GRID = 8
 """Most axes in one grid; further axes get another grid below."""
 
 
-def sections_of(file: ParameterFile, rows: Sequence[ReportRow], sort: Sort) -> tuple[Section, ...]:
-    """Return the rows in one of the orders; empty sections are left out."""
+def sections_of(
+    file: ParameterFile, rows: Sequence[ReportRow], sort: Sort, language: Language = ENGLISH
+) -> tuple[Section, ...]:
+    """Return the rows in one of the orders, steps with their titles in a language; empty sections are left out."""
     if sort == "number":
         return _by_number(rows)
     if sort == "steps":
-        return _by_step(file, rows)
+        return _by_step(file, rows, language)
     return _by_axis(file, rows) if sort == "axis" else _by_group(file, rows)
 
 
@@ -85,7 +88,7 @@ def _group_title(file: ParameterFile, row: ReportRow) -> str:
 # -- by step of commissioning --------------------------------------------------
 
 
-def _by_step(file: ParameterFile, rows: Sequence[ReportRow]) -> tuple[Section, ...]:
+def _by_step(file: ParameterFile, rows: Sequence[ReportRow], language: Language) -> tuple[Section, ...]:
     """Return one section for each step, its values in the order in which they are set."""
     by_parameter: dict[str, list[ReportRow]] = {}
     for row in rows:
@@ -94,7 +97,7 @@ def _by_step(file: ParameterFile, rows: Sequence[ReportRow]) -> tuple[Section, .
     for step in steps_of(file.schema):
         own = [row for parameter in step.parameters for row in by_parameter.get(parameter.id, ())]
         if own:
-            title = f"{step.number} {step.title}"
+            title = f"{step.number} {language.title(step.title)}"
             sections.append(Section(f"step-{step.number}", title, tuple(_group_parts(file, "", own))))
     return tuple(sections)
 

@@ -36,9 +36,7 @@ class BlockPreview(QDialog):
         self.resize(640, 420)
         changes, refused = len(entry.changed), len(entry.refused)
         summary = [
-            (self.tr("1 cell") if len(entry.cells) == 1 else self.tr("%n cells", "", len(entry.cells)))
-            + ": "
-            + self.tr("%n change", "", changes),
+            self.tr("%n cells", "", len(entry.cells)) + ": " + self.tr("%n change", "", changes),
             self.tr("%n the same", "", entry.same),
             self.tr("%n refused", "", refused),
         ]

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable
 
 from PySide6.QtCore import Qt
@@ -33,7 +34,7 @@ class CalculatorDialog(QDialog):
         own = workspace.file.schema.parameters[address[0]].formulas if address else ()
         self.formula = QComboBox()
         for name in (*own, *(name for name in sorted(self._known) if name not in own)):
-            self.formula.addItem(name.replace("_", " ").capitalize(), name)
+            self.formula.addItem(self._known[name].title, name)
         self.description, self.outcome = QLabel(), QLabel()
         for label in (self.description, self.outcome):
             label.setWordWrap(True)
@@ -60,17 +61,22 @@ class CalculatorDialog(QDialog):
             field = self.fields[argument.name] = QLineEdit()
             field.setPlaceholderText(argument.default or argument.example)
             field.textChanged.connect(self._work_out)
-            self._form.insertRow(2 + n, argument.name.replace("_", " "), field)
+            self._form.insertRow(2 + n, argument.title, field)
         self._work_out()
 
     def _work_out(self, *_: object) -> None:
         texts = {name: field.text() for name, field in self.fields.items()}
         self.use.setEnabled(False)
         self.use.setText(self.tr("Use the result as a value"))
+        arguments = self._known[self.formula.currentData()].arguments
+        missing = [a.title for a in arguments if a.default is None and not texts[a.name].strip()]
+        if missing:
+            self.outcome.setText(self.tr("Still needed: {names}").format(names="; ".join(missing)))
+            return
         try:
             result = calculate(self._family, self.formula.currentData(), texts)
         except ValueError as error:
-            self.outcome.setText(f"{error}.".replace("..", "."))
+            self.outcome.setText(self._titled(f"{error}.".replace("..", ".")))
             return
         self.outcome.setText(shown_result(result))
         if self._address and isinstance(result, (int, float)) and not isinstance(result, bool):
@@ -82,6 +88,15 @@ class CalculatorDialog(QDialog):
                 )
             )
             self.use.setEnabled(self._workspace.may_edit)
+
+    def _titled(self, text: str) -> str:
+        """Return a message with the titles of the formula and of its arguments for their names."""
+        calculator = self._known[self.formula.currentData()]
+        for named in (calculator, *calculator.arguments):
+            text = (
+                re.sub(rf"(?<![\w']){named.name}(?![\w'])", named.title, text) if "_" in named.name else text
+            )
+        return text
 
     def _use(self) -> None:
         if self._address and self._commit(self._address, self.outcome.text()):

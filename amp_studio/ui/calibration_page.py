@@ -40,6 +40,7 @@ from amp_studio.schema.values import read_exact
 
 from .error_plot import ErrorPlot, ErrorTrace
 from .theme import GAP2, ROW, colour, font
+from .translated import worded
 from .tuning_target import TuningTarget
 
 _AT, _FIGURE, _ERROR = range(3)
@@ -206,7 +207,7 @@ class CalibrationPage(QWidget):
         self.fault.setText(fault)
         self.fault.setStyleSheet(f"color: {colour('warn').name()}")
         self.fault.setVisible(bool(fault))
-        self.limits.setText("\n".join(lines))
+        self.limits.setText("\n".join(worded(line) for line in lines))
         self._fill(table)
         self.plot.draw(
             (ErrorTrace(self.tr("error that the table takes away"), table.curve, "sel"),), table.unit

@@ -16,7 +16,7 @@ from amp_studio.schema import Address, UnitError, Value, convert, show_value, sh
 from amp_studio.schema.bit_fields import labels_of_word
 from amp_studio.validate import NOT_SET
 
-from .translated import Translated, tr
+from .translated import Translated, tr, worded
 from .workspace import Workspace
 
 CellKind = Literal["value", "not set", "absent"]
@@ -149,7 +149,7 @@ class ShownValues(Translated):
         lines += [f.message for f in self.workspace.findings_of(address) if f.rule != NOT_SET]
         if not state.is_active:
             page = self.tr(" (page {page})").format(page=state.page) if state.page else ""
-            lines.append(f"{state_name(state.state).capitalize()}: {state.why}{page}")
+            lines.append(f"{worded(state_name(state.state)).capitalize()}: {state.why}{page}")
         if address in self.effective:
             used = self.text(address, self.effective[address])
             lines.append(tr("Effective value in the control: {value}").format(value=used))

@@ -18,7 +18,7 @@ from amp_studio.validate import NOT_SET, Finding, rule_title
 from .hazard import hazard_html
 from .pages import drawn, link
 from .theme import colour, icon_html, severity_html
-from .translated import Translated
+from .translated import Translated, worded
 from .workspace import Workspace
 
 USE, FOLD, DOWNLOAD, CALCULATE, MESSAGE = "use:", "fold:", "download:", "calculate:", "message:"
@@ -79,7 +79,11 @@ class DetailPage(Translated):
         parameter = file.schema.parameters[address[0]]
         if parameter.bits and value is not None and isinstance(value.value, int) and not parameter.secret:
             return html.escape(f"{labels_of_word(parameter, value.value)} ({hex_text(value.value)})")
-        text = show_value(parameter, value, secrets=self._workspace.secrets)
+        text = (
+            self.tr("not set")
+            if value is None
+            else show_value(parameter, value, secrets=self._workspace.secrets)
+        )
         real = None if parameter.secret else real_value(file.evaluation, address, value)
         return html.escape(f"{text} = {show_value(parameter, real)}" if real else text)
 
@@ -94,7 +98,9 @@ class DetailPage(Translated):
         state = file.evaluation.state(address)
         if not state.is_active:
             page = self.tr(" (page {page})").format(page=state.page) if state.page else ""
-            lines.append(f"<i>{state_name(state.state).capitalize()}: {html.escape(state.why)}{page}.</i>")
+            lines.append(
+                f"<i>{worded(state_name(state.state)).capitalize()}: {html.escape(state.why)}{page}.</i>"
+            )
         if allowed := self._allowed(address):
             lines.append(f"{self.tr('Allowed here:')} <b>{html.escape(allowed)}</b>")
         return f"<p>{'<br>'.join(lines)}</p>" if lines else ""
@@ -108,7 +114,9 @@ class DetailPage(Translated):
         if found is None:
             return self.tr("no bounds printed, in {shown}").format(shown=shown(unit)) if unit else ""
         sources = [s for s in (found.low_from, found.high_from) if s]
-        text = found.text() + "".join(f" (set by {file.machine_schema.label(s)})" for s in sources)
+        text = worded(found.text()) + "".join(
+            self.tr(" (set by {name})").format(name=file.machine_schema.label(s)) for s in sources
+        )
         return text + (
             self.tr(" — no range in degrees is printed; the metric numbers are used")
             if found.borrowed
@@ -153,15 +161,19 @@ class DetailPage(Translated):
         dim = colour("dim").name()
         broken = self.findings(address)
         for finding in broken:
-            cited = f' <span style="color:{dim}">{html.escape(finding.cited)}</span>' if finding.page else ""
-            mark = f"{severity_html(finding.severity)} <b>{severity_name(finding.severity).capitalize()}:</b>"
+            cited = (
+                f' <span style="color:{dim}">{html.escape(worded(finding.cited))}</span>'
+                if finding.page
+                else ""
+            )
+            mark = f"{severity_html(finding.severity)} <b>{worded(severity_name(finding.severity)).capitalize()}:</b>"
             lines.append(f"<p>{mark} {html.escape(finding.message)}{cited}</p>")
         rules = workspace.validator.rules_of(address)
         unmet = {finding.rule for finding in broken}
         met = [rule for rule in rules if rule.id not in unmet]
         shown_rules = met if "rules" in self.opened or len(met) <= _RULES else met[:_RULES]
         for rule in shown_rules:
-            page = f'<span style="color:{dim}">{html.escape(rule.cited)}</span>'
+            page = f'<span style="color:{dim}">{html.escape(worded(rule.cited))}</span>'
             lines.append(f"<p>{icon_html('check', 'text')} {html.escape(rule.title)} {page}</p>")
         if len(shown_rules) < len(met):
             more = self.tr("{number} more are met").format(number=len(met) - len(shown_rules))
@@ -178,14 +190,13 @@ class DetailPage(Translated):
         schema = self._workspace.file.schema
         parameter = schema.parameters[address[0]]
         lines = []
-        titles = self._titles()
         for title, text in help_parts(schema, parameter):
             if title in GRADES:
                 lines.append(hazard_html(GRADES[title], text))
                 continue
             related = [link(schema, r) for r in parameter.help.related if r in schema.parameters]
             body = ", ".join(related) if title == "Related" else html.escape(text)
-            lines.append(f"<p><b>{titles.get(title, title)}</b><br>{body}</p>")
+            lines.append(f"<p><b>{worded(title)}</b><br>{body}</p>")
         if messages := schema.messages_of(parameter.id):
             names = (f'<a href="{MESSAGE}{m.id}">{html.escape(m.name)}</a>' for m in messages)
             lines.append(f"<p><b>{self.tr('Messages of the control')}</b><br>{'<br>'.join(names)}</p>")
@@ -194,17 +205,10 @@ class DetailPage(Translated):
                 f"<p><b>{self.tr('Formulas')}</b></p>" + "".join(f"<p>{html.escape(t)}</p>" for t in formulas)
             )
         lines += [drawn(table) for table in tables_of(schema, parameter)]
-        lines.append(f"<p><small>{html.escape(schema.family.title)}, page {schema.page(address)}</small></p>")
+        lines.append(
+            f"<p><small>{html.escape(schema.family.title)}, {worded(f'page {schema.page(address)}')}</small></p>"
+        )
         return "".join(lines)
-
-    def _titles(self) -> dict[str, str]:
-        """Return the titles of a help's parts in the language of the window."""
-        return {
-            "What it does": self.tr("What it does"),
-            "How to find its value": self.tr("How to find its value"),
-            "When it is wrong": self.tr("When it is wrong"),
-            "Related": self.tr("Related"),
-        }
 
     def _where_else(self, address: Address) -> str:
         """Return the value on disk, in the control, at the last download and in the other open files."""
@@ -271,10 +275,10 @@ class DetailPage(Translated):
             f'<a href="{FOLD}facts" style="color:{ink}; text-decoration:none">{arrow} {self.tr("Facts")}</a>'
         )
         if not is_open:
-            brief = ", ".join(text for name, text in found if name in ("Takes effect", "Access"))
+            brief = ", ".join(worded(text) for name, text in found if name in ("Takes effect", "Access"))
             return title, f'<p style="color:{ink}">{html.escape(brief)}</p>'
         rows = "".join(
-            f'<tr><td style="color:{ink}">{html.escape(k)}&nbsp;&nbsp;</td><td>{html.escape(v)}</td></tr>'
+            f'<tr><td style="color:{ink}">{html.escape(worded(k))}&nbsp;&nbsp;</td><td>{html.escape(v)}</td></tr>'
             for k, v in found
         )
         return title, f"<table cellpadding=2>{rows}</table>"

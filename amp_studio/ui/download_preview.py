@@ -22,7 +22,7 @@ from amp_studio.report.model import Danger
 from amp_studio.schema import show_value
 
 from .hazard import hazard_html
-from .translated import tr
+from .translated import tr, worded
 
 
 class DifferenceList(QTreeWidget):
@@ -47,7 +47,7 @@ class DifferenceList(QTreeWidget):
         self.items = [
             QTreeWidgetItem([
                 schema.on(machine).label(difference.address),
-                schema.on(machine).instance_label(difference.address),
+                worded(schema.on(machine).instance_label(difference.address)),
                 self.tr("not in this file") if difference.a is None else self.tr("only in this file") if difference.b is None else self.tr("different"),
                 *(show_value(schema.parameters[difference.address[0]], v, secrets=secrets)
                   for v in difference.in_one_unit()),

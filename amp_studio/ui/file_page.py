@@ -22,6 +22,7 @@ from .left_panel import LeftPanel
 from .message_bar import MessageBar
 from .parameter_table import ParameterTable
 from .picture_split import PictureSplit
+from .translated import worded
 from .value_table import ValueTable
 from .workspace import Workspace
 
@@ -201,7 +202,7 @@ class FilePage(QWidget):
             return ""
         if len(chosen := self.table_view.cells.addresses()) > 1:
             return self._range_text(chosen)
-        place = file.machine_schema.instance_label(address)
+        place = worded(file.machine_schema.instance_label(address))
         return "   ".join(text for text in (describe(file, address), place) if text)
 
     def _range_text(self, chosen: list[Address]) -> str:

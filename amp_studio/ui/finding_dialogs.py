@@ -26,6 +26,7 @@ from amp_studio.schema import Address, written
 from amp_studio.validate import Finding, explain
 
 from .theme import severity_html, severity_icon
+from .translated import worded
 from .workspace import Workspace
 
 
@@ -52,7 +53,7 @@ class WhyDialog(QDialog):
 
     def _written(self, workspace: Workspace, finding: Finding) -> str:
         file, why = workspace.file, explain(workspace.validator, finding)
-        mark = f"{severity_html(finding.severity)} <b>{severity_name(finding.severity).capitalize()}:</b>"
+        mark = f"{severity_html(finding.severity)} <b>{worded(severity_name(finding.severity)).capitalize()}:</b>"
         lines, before = [f"<p>{mark} {html.escape(finding.message)}</p><table cellpadding=3>"], ""
         for title, text, address in why_parts(file, finding, why):
             cell = html.escape(text)

@@ -25,6 +25,7 @@ from .theme import (
     paint_icon,
     severity_icon,
 )
+from .translated import worded
 
 Part = Literal["fix", "why", "go", "more"]
 _WIDEST_FIX, _WIDEST_RULE, _PAGE, _MORE, _INDENT = 300, 320, 76, 22, 22
@@ -125,7 +126,9 @@ class FindingsDelegate(QStyledItemDelegate):
         painter.setPen(colour("dim"))
         if is_rule:
             right = Qt.AlignmentFlag.AlignRight | Qt.AlignmentFlag.AlignVCenter
-            painter.drawText(place.page, right, self._elided(self._small, group.cited, place.page.width()))
+            painter.drawText(
+                place.page, right, self._elided(self._small, worded(group.cited), place.page.width())
+            )
             paint_icon(painter, place.parts["more"].adjusted(3, 0, -3, 0), "dots-three", colour("dim"))
         elif not place.rule.isEmpty():
             title = self._elided(self._small, group.title, place.rule.width())

@@ -11,6 +11,7 @@ from amp_studio.report import FindingGroup, finding_axes, finding_groups, fix_te
 from amp_studio.report.wording import severity_name
 from amp_studio.validate import Finding
 
+from .translated import worded
 from .workspace import Workspace
 
 Index = QModelIndex | QPersistentModelIndex
@@ -99,5 +100,5 @@ class FindingsModel(QAbstractItemModel):
     def data(self, index: Index, role: int = Qt.ItemDataRole.DisplayRole) -> Any:
         if role in (Qt.ItemDataRole.DisplayRole, Qt.ItemDataRole.AccessibleTextRole):
             axes = f" ({', '.join(axes)})" if (axes := self.axes_of(index)) else ""
-            return f"{severity_name(self.group(index).severity)}: {self.text_of(index)}{axes}"
+            return f"{worded(severity_name(self.group(index).severity))}: {self.text_of(index)}{axes}"
         return None

@@ -8,7 +8,7 @@ from amp_studio.schema import Address
 
 from .file_page import FilePage
 from .studio_window import StudioWindow
-from .translated import Translated, tr
+from .translated import Translated, tr, worded
 
 
 class GuideActions(Translated):
@@ -63,7 +63,7 @@ class GuideActions(Translated):
         steps = step_of(page.workspace.file.schema)
         first = steps[here[0]].number if here else 0
         passed = [
-            each.step.title
+            worded(each.step.title)
             for each in page.workspace.progress.steps[first : steps[found[0]].number - 1]
             if each.state == "not begun"
         ]
@@ -91,7 +91,7 @@ class GuideActions(Translated):
         if each.ticked and each.state != "done":
             left = tr("{title} is ticked. Left: {open} values not set, {errors} errors.")
             self.window.show_status(
-                left.format(title=step.title, open=len(each.open), errors=each.count("error"))
+                left.format(title=worded(step.title), open=len(each.open), errors=each.count("error"))
             )
 
     def keep_defaults(self, step: SetupStep | None = None) -> None:

@@ -23,6 +23,7 @@ from amp_studio.report.wording import severity_name
 from amp_studio.validate import Finding
 
 from .theme import ICON, MESSAGE, STATUS, TOOLS, font, icon, severity_icon
+from .translated import worded
 
 _NARROW, _NARROWER = 1240, 1120
 """Widths below which the heading, and the words of a button, leave."""
@@ -209,7 +210,7 @@ class FindingList(QListWidget):
         self.clear()
         for finding in found:
             item = QListWidgetItem(severity_icon(finding.severity), finding.message)
-            item.setToolTip(severity_name(finding.severity))
+            item.setToolTip(worded(severity_name(finding.severity)))
             item.setData(Qt.ItemDataRole.UserRole, finding)
             self.addItem(item)
 

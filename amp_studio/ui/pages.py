@@ -8,6 +8,8 @@ from amp_studio.report import cells_of
 from amp_studio.schema import Schema
 from amp_studio.schema.model import Table
 
+from .translated import worded
+
 LINK = "param:"
 
 
@@ -21,7 +23,7 @@ def drawn(table: Table) -> str:
     head, *rows = [[html.escape(cell) for cell in row] for row in cells_of(table)]
     lines = ["<tr>" + "".join(f"<th align=left>{cell}</th>" for cell in head) + "</tr>"]
     lines += ["<tr>" + "".join(f"<td>{cell}</td>" for cell in row) + "</tr>" for row in rows]
-    title = f"<h4>{html.escape(table.title)} (page {table.page})</h4>"
+    title = f"<h4>{html.escape(table.title)} ({worded(f'page {table.page}')})</h4>"
     return (
         f"{title}<table cellpadding=3>{''.join(lines)}</table><p><small>{html.escape(table.note)}</small></p>"
     )

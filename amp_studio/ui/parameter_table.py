@@ -17,6 +17,7 @@ from amp_studio.schema import Address, Parameter
 from amp_studio.schema.address import whole_of
 
 from .cell_look import CellLook, ShownValues
+from .translated import worded
 from .workspace import Workspace
 
 Index = QModelIndex | QPersistentModelIndex
@@ -279,7 +280,8 @@ class ParameterTable(QAbstractTableModel):
         name = self.columns[column]
         if name not in self._axis_heads:
             label = self.workspace.file.schema.family.scopes["global"].label
-            self._axis_heads[name] = ("", label) if name == CONTROL else axis_head(self.workspace.file, name)
+            letter, what = ("", label) if name == CONTROL else axis_head(self.workspace.file, name)
+            self._axis_heads[name] = letter, worded(what)
         return self._axis_heads[name]
 
     @property
@@ -311,7 +313,7 @@ class ParameterTable(QAbstractTableModel):
     def _name(self, shown: TableRow) -> str:
         if shown.section or not shown.instance:
             return shown.section or shown.parameter.name
-        place = self.workspace.file.machine_schema.instance_label(next(iter(shown.cells.values())))
+        place = worded(self.workspace.file.machine_schema.instance_label(next(iter(shown.cells.values()))))
         if CONTROL not in shown.cells:
             place = place.rpartition(", ")[2]  # the column is the axis
         return f"{shown.parameter.name}, {place}" if place else shown.parameter.name

@@ -16,12 +16,13 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
-from amp_studio.pictures import FilePicture, Scene
+from amp_studio.pictures import FilePicture, Scene, scene_in_words
 
 from .elided_label import ElidedLabel
 from .picture_canvas import PictureCanvas
 from .segment import Segment
 from .theme import GAP2, GAP3, HEAD, colour, font, icon, scheme
+from .translated import worded
 from .workspace import Workspace
 
 MOST_PARTS = 6
@@ -51,7 +52,7 @@ class PictureCard(QFrame):
         self.title.setFont(font("text", own=True))
         self.subtitle.setFont(font("small"))
         self.subtitle.setForegroundRole(QPalette.ColorRole.PlaceholderText)
-        self.parts = Segment(self.tr("Part of {name}").format(name=picture.title))
+        self.parts = Segment(self.tr("Part of {name}").format(name=worded(picture.title)))
         self.parts.chosen.connect(self.show_part)
         self.more_parts = QComboBox()
         self.more_parts.setAccessibleName(self.parts.accessibleName())
@@ -65,7 +66,7 @@ class PictureCard(QFrame):
         self.enlarge = QToolButton()
         self.enlarge.setIcon(icon("arrows-out-simple"))
         self.enlarge.setToolTip(self.tr("Show this picture alone"))
-        self.enlarge.setAccessibleName(self.tr("Show {name} alone").format(name=picture.title))
+        self.enlarge.setAccessibleName(self.tr("Show {name} alone").format(name=worded(picture.title)))
         self.enlarge.clicked.connect(lambda: self.enlarged.emit(self.picture.name))
         head = QHBoxLayout()
         head.setContentsMargins(GAP3, 0, GAP2, 0)
@@ -94,7 +95,7 @@ class PictureCard(QFrame):
         self._describe()
 
     def _draw(self, like: Scene | None) -> Scene:
-        return self.picture.scene(self.part, like)
+        return scene_in_words(self.picture.scene(self.part, like), worded)
 
     def show_part(self, key: str) -> None:
         """Draw another part."""

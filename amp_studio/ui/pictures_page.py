@@ -19,6 +19,7 @@ from .handle_footer import HandleFooter
 from .picture_card import PictureCard
 from .pictures_head import PicturesHead
 from .theme import GAP2, HEAD
+from .translated import worded
 from .workspace import Workspace
 
 ALL = "all"
@@ -95,7 +96,7 @@ class PicturesPage(QWidget):
     # -- which pictures --------------------------------------------------------------
 
     def _build(self) -> None:
-        options = [(name, picture.title, "") for name, picture in self._pictures.items()]
+        options = [(name, worded(picture.title), "") for name, picture in self._pictures.items()]
         self.head.offer([(ALL, self.tr("All"), ""), *options])
         if not self._pictures:
             nothing = QLabel(self.tr("This family has no pictures."))

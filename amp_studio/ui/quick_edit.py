@@ -13,6 +13,7 @@ from amp_studio.schema import Address, UnknownParameterError, meant
 
 from .choice_box import ChoiceBox
 from .parameter_table import ParameterTable
+from .translated import worded
 from .value_delegate import allowed_text
 
 
@@ -66,9 +67,9 @@ class QuickEdit(QDialog):
             return
         self._show(address)
         file = self._workspace.file
-        place = file.machine_schema.instance_label(address) or self.tr("Control")
+        place = worded(file.machine_schema.instance_label(address)) or self.tr("Control")
         state = file.evaluation.state(address)
-        inactive = "" if state.is_active else f"\n{state_name(state.state).capitalize()}: {state.why}"
+        inactive = "" if state.is_active else f"\n{worded(state_name(state.state)).capitalize()}: {state.why}"
         allowed = allowed_text(self._workspace, address)
         bounds = self.tr("\nAllowed here: {allowed}").format(allowed=allowed) if allowed else ""
         self.name.setText(

@@ -10,6 +10,7 @@ from amp_studio.report.wording import severity_name
 from amp_studio.validate import SEVERITIES, not_set
 
 from .theme import GAP2, GAP3, SMALL_ICON, STATUS, font, icon, severity_icon
+from .translated import worded
 from .workspace import Workspace
 
 
@@ -63,15 +64,14 @@ class StatusLine(QObject):
             return
         for severity, button in self.counts.items():
             number = workspace.count(severity)
-            self._show(button, number, severity_name(severity))
+            self._show(button, number, worded(severity_name(severity)))
         self._show(self.not_set, len(not_set(workspace.findings)), self.tr("not set"))
         self.not_set.setText(self.tr("{number} not set").format(number=len(not_set(workspace.findings))))
         file = workspace.file
         count = workspace.changes()
-        some = self.tr("1 unsaved change") if count == 1 else self.tr("%n unsaved changes", "", count)
-        self.changes.setText(some if count else "")
+        self.changes.setText(self.tr("%n unsaved changes", "", count) if count else "")
         self.changes.setVisible(bool(count))
-        units = self.tr("as entered") if workspace.as_entered else file.header.units
+        units = self.tr("as entered") if workspace.as_entered else worded(file.header.units)
         parts = [
             file.schema.family.name,
             next(m.name for m in file.schema.family.machines if m.key == file.machine),

@@ -28,6 +28,7 @@ from amp_studio.validate import SEVERITIES
 
 from .place_tree import COUNTS, INK, KEY, PICTURE, RIGHT, PlaceTree
 from .theme import FIGURE_SPACE, GAP, GAP2, GAP3, SMALL_CONTROL, Token, colour, font, icon
+from .translated import worded
 from .workspace import Workspace
 
 _PICTURES: dict[StepState, tuple[str, Token]] = {
@@ -155,7 +156,7 @@ class StepsPanel(QWidget):
     def _fill(self) -> None:
         for each in self._workspace.progress.steps:
             step = each.step
-            item = QTreeWidgetItem([f"{str(step.number).rjust(2, FIGURE_SPACE)}  {step.title}"])
+            item = QTreeWidgetItem([f"{str(step.number).rjust(2, FIGURE_SPACE)}  {worded(step.title)}"])
             item.setData(0, KEY, step)
             self.tree.addTopLevelItem(item)
             self._items[step.id] = item
@@ -170,15 +171,15 @@ class StepsPanel(QWidget):
             head.setFlags(Qt.ItemFlag.ItemIsEnabled)
             head.setData(0, INK, "dim")
             self.tree.addTopLevelItem(head)
-        item = QTreeWidgetItem([guide.title])
+        item = QTreeWidgetItem([worded(guide.title)])
         item.setData(0, KEY, guide)
         item.setData(0, PICTURE, ("list-numbers", "dim"))
         for n, step in enumerate(guide.steps, 1):
-            below = QTreeWidgetItem([f"{n}  {step.title}"])
+            below = QTreeWidgetItem([f"{n}  {worded(step.title)}"])
             below.setData(0, KEY, step)
             below.setToolTip(
                 0,
-                self.tr("{title}, page {page}").format(title=step.title, page=step.page)
+                self.tr("{title}, page {page}").format(title=worded(step.title), page=step.page)
                 + (f": {step.what}" if step.what else ""),
             )
             item.addChild(below)
@@ -263,7 +264,7 @@ class StepsPanel(QWidget):
             below.setData(0, KEY, places[0])
             below.setData(0, PICTURE, ("circle-dashed", "dim"))
             below.setData(0, RIGHT, self._instances(places))
-            labels = ", ".join(filter(None, (here.instance_label(a) for a in places)))
+            labels = ", ".join(filter(None, (worded(here.instance_label(a)) for a in places)))
             below.setToolTip(0, " – ".join(filter(None, (here.label(places[0]), labels))))
             below.setData(
                 0,
@@ -339,7 +340,9 @@ class StepsPanel(QWidget):
     def _show(self, step: SetupStep) -> None:
         self._here = step
         parameters = list(step.parameters)
-        self.chosen.emit(self.tr("Step {number}").format(number=step.number) + f" › {step.title}", parameters)
+        self.chosen.emit(
+            self.tr("Step {number}").format(number=step.number) + f" › {worded(step.title)}", parameters
+        )
         self._later.start(0)
 
     def _show_guide(self, place: object) -> None:
@@ -349,9 +352,9 @@ class StepsPanel(QWidget):
         names = dict.fromkeys(name for step in steps for name in step.params)  # type: ignore[attr-defined]  # GuideStep
         every = self._workspace.file.schema.parameters
         parameters: list[Parameter] = [every[name] for name in names]
-        self.chosen.emit(place.title, parameters)  # type: ignore[attr-defined]  # both have one
+        self.chosen.emit(worded(place.title), parameters)  # type: ignore[attr-defined]  # both have one
 
 
 def _tip(step: SetupStep) -> str:
-    page = f", page {step.page}" if step.page else ""
-    return f"{step.title}{page}" + (f": {step.what}" if step.what else "")
+    page = ", " + worded(f"page {step.page}") if step.page else ""
+    return f"{worded(step.title)}{page}" + (f": {step.what}" if step.what else "")

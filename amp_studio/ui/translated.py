@@ -1,16 +1,20 @@
 """Texts in the language of the window.
 
-The words are in ``translations/amp_studio_LANGUAGE.ts``, which Qt Linguist edits and ``make translations`` keeps up to date.
+The words are in ``translations/amp_studio_LANGUAGE.ts``, which Qt Linguist edits and ``make translations`` keeps up to date;
+the English file has the forms of numbers alone. What is made below the window has its words in the languages of reports.
 The file is read as it is: nothing has to be compiled, and one word has one translation wherever it is written.
 """
 
 from __future__ import annotations
 
+from functools import lru_cache
 from pathlib import Path
 from typing import Final
 from xml.etree import ElementTree as ET
 
 from PySide6.QtCore import QCoreApplication, QLibraryInfo, QLocale, QTranslator
+
+from amp_studio.report.language import language_of
 
 FOLDER = Path(__file__).parent / "translations"
 LANGUAGES: Final = {"en": "English", "de": "Deutsch"}
@@ -20,6 +24,19 @@ LANGUAGES: Final = {"en": "English", "de": "Deutsch"}
 def tr(text: str, disambiguation: str = "", n: int = -1) -> str:
     """Return a text in the language of the window; ``%n`` is ``n`` in its proper form."""
     return QCoreApplication.translate("", text, disambiguation, n)
+
+
+def worded(text: str) -> str:
+    """Return a text that was made below the window (the title of a step or a picture, a severity, ``page 7-20``) in its language.
+
+    The words are those of reports in that language. Facts (names, help, rules) have none and stay as they are.
+    """
+    return text if _spoken == "en" else _worded(_spoken, text)
+
+
+@lru_cache(maxsize=4096)
+def _worded(code: str, text: str) -> str:
+    return language_of(code).title(text)
 
 
 class Translated:
@@ -47,8 +64,8 @@ class FileTranslator(QTranslator):
                 self.words[source] = translation.text
 
     def isEmpty(self) -> bool:
-        """Return whether it has no words."""
-        return not self.words
+        """Return whether it has no words and no forms."""
+        return not (self.words or self.plurals)
 
     def translate(
         self, context: str | None, source_text: str, disambiguation: str | None = None, n: int = -1
@@ -61,6 +78,7 @@ class FileTranslator(QTranslator):
 
 
 _installed: list[QTranslator] = []
+_spoken = "en"
 
 
 def language_in_use(choice: str) -> str:
@@ -80,10 +98,11 @@ def speak(choice: str) -> str:
     for translator in _installed:
         application.removeTranslator(translator)
     _installed.clear()
-    if code == "en":
-        return code
+    global _spoken  # noqa: PLW0603  # the program has one language, as its translators have
+    _spoken = code
     own_of_qt = QTranslator()
-    if own_of_qt.load(f"qtbase_{code}", QLibraryInfo.path(QLibraryInfo.LibraryPath.TranslationsPath)):
+    folder = QLibraryInfo.path(QLibraryInfo.LibraryPath.TranslationsPath)
+    if code != "en" and own_of_qt.load(f"qtbase_{code}", folder):
         _installed.append(own_of_qt)
     _installed.append(FileTranslator(FOLDER / f"amp_studio_{code}.ts"))
     for translator in _installed:

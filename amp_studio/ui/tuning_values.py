@@ -28,6 +28,7 @@ from amp_studio.schema import Address, Value, axis_name, limits, show_value, sho
 from amp_studio.schema.values import read_exact
 
 from .theme import GAP2, ROW, colour
+from .translated import worded
 from .tuning_target import TuningTarget, effect_words
 
 _INSTANCE, _NAME, _VALUE, _ALLOWED, _EFFECT = range(5)
@@ -56,7 +57,7 @@ class ValuesPage(QWidget):
         self.note = QLabel()
         self.note.setWordWrap(True)
         self.table = QTableWidget(0, 5)
-        self.table.setAccessibleName(self.tr("Values to tune: {page}").format(page=page.title))
+        self.table.setAccessibleName(self.tr("Values to tune: {page}").format(page=worded(page.title)))
         self.table.setHorizontalHeaderLabels(
             [
                 self.tr("Axis"),
@@ -163,7 +164,7 @@ class ValuesPage(QWidget):
         self._filling = False
         page = self.tr("Page {page}.").format(page=self.page.page)
         none = self.tr("No axis of this file has any of these values.") if not addresses else ""
-        self.note.setText(" ".join(filter(None, (none, self.page.note, page))))
+        self.note.setText(" ".join(filter(None, (none, worded(self.page.note), page))))
         may = self.target.may_edit and bool(addresses)
         for widget in (self.decrease, self.increase, self.replace, self.add, self.step, self.read):
             if widget is not None:
@@ -181,7 +182,7 @@ class ValuesPage(QWidget):
             self._instance(address),
             file.machine_schema.label(address),
             show_value(parameter, file.get(address)),
-            allowed.text() if allowed else "",
+            worded(allowed.text()) if allowed else "",
             effect_words(file.schema, address),
         )
         may = self.target.may_edit and state.is_active
@@ -204,7 +205,7 @@ class ValuesPage(QWidget):
         """Return which axis, spindle or gear it is, an axis with its letter."""
         assert self.target is not None
         file = self.target.file
-        label = file.machine_schema.instance_label(address) or self.tr("Control")
+        label = worded(file.machine_schema.instance_label(address)) or self.tr("Control")
         letter = (
             axis_name(file.evaluation, address[1]) if file.machine_schema.scopes[address[0]] == "axis" else ""
         )

@@ -30,6 +30,7 @@ from .questions import ask
 from .segment import Segment
 from .task import ProgressDialog, Task
 from .theme import CONTROL, GAP2, icon
+from .translated import worded
 from .tuning_target import ControlTarget, ControlWork, FileTarget, TuningTarget
 from .tuning_values import ValuesPage, undo_actions
 from .workspace import Workspace
@@ -112,7 +113,7 @@ class TuningWindow(QWidget):
                 widget.addWidget(values)
                 widget.setChildrenCollapsible(False)
                 self._later[widget] = partial(self._make_answer, widget, values)
-            titles.append((page.title, widget))
+            titles.append((worded(page.title), widget))
         if offered.table is not None:
             holder = QWidget()
             QVBoxLayout(holder).setContentsMargins(0, 0, 0, 0)

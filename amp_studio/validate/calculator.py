@@ -22,6 +22,13 @@ _LONGEST = 500
 """Most characters that are shown of the message of a formula about its arguments."""
 _YES_NO = {"yes": True, "true": True, "1": True, "no": False, "false": False, "0": False}
 
+_CAPITALS = ("blu", "css", "dac", "dcm", "dda", "led", "num", "oem", "plc", "sercos", "ssi")
+_UNITS = {
+    **{u: u for u in ("ms", "s", "mm", "deg", "amps", "volts", "rpm")},
+    "us": "µs", "hz": "Hz", "mhz": "MHz", "kbytes": "KB",
+}  # fmt: skip
+"""Last word of a name -> the unit that it is."""
+
 
 @dataclass(frozen=True)
 class Argument:
@@ -32,6 +39,11 @@ class Argument:
     """Its type, as the formula declares it."""
     default: str | None
     """What counts where nothing is given; None where it has to be."""
+
+    @property
+    def title(self) -> str:
+        """Its name for a person: ``Max contouring``, ``Scan, in ms``."""
+        return _title(self.name)
 
     @property
     def example(self) -> str:
@@ -50,6 +62,20 @@ class Calculator:
     name: str
     description: str
     arguments: tuple[Argument, ...]
+
+    @property
+    def title(self) -> str:
+        """Its name for a person: ``Lead from threads per inch``."""
+        return _title(self.name)
+
+
+def _title(name: str) -> str:
+    """Return a name as a person reads it; a unit at its end is named as one."""
+    words = [word.upper() if word in _CAPITALS else word for word in name.split("_")]
+    if len(words) > 1 and words[-1] in _UNITS and words[-2] != "per":
+        words[-2:] = [f"{words[-2]}, in", _UNITS[words[-1]]]
+    text = " ".join(words)
+    return text[:1].upper() + text[1:]
 
 
 @cache

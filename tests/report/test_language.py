@@ -46,6 +46,7 @@ def test_phrases_with_a_part_that_changes() -> None:
     assert GERMAN.text("2 errors, 1 warning") == "2 Fehler, 1 Warnung"
     assert GERMAN.counted(2, "advice") == "2 Empfehlungen"
     assert GERMAN.text("Home Calibration") == "Home Calibration", "a name is that of the manual"
+    assert GERMAN.title("Home Calibration") == "Referenzpunktverschiebung", "the title of a page is ours"
     with pytest.raises(ValueError, match="Unknown language 'fr'"):
         language_of("fr")
 

@@ -26,6 +26,7 @@ from amp_studio.files import Document, ParameterFile, content_of, new_file, open
 from amp_studio.ui.main_window import MainWindow
 from amp_studio.ui.menu_commands import commands
 from amp_studio.ui.task import ProgressDialog, Task
+from amp_studio.ui.translated import speak
 from amp_studio.ui.workspace import Workspace
 
 from .alt_letters import doubled, texts_of
@@ -104,6 +105,12 @@ class Person:
         self.labels.append(label)
         assert self._texts, f"nothing is typed: {title}"
         return self._texts.pop(0), True
+
+
+@pytest.fixture(autouse=True, scope="session")
+def _english(qapp: QApplication) -> None:
+    """Give the program its forms of numbers: ``1 value``, ``2 values``."""
+    speak("en")
 
 
 @pytest.fixture

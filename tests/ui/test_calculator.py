@@ -25,7 +25,7 @@ def test_the_formulas_of_the_parameter_come_first_and_the_result_can_be_used(win
     assert tuple(dialog.formula.itemData(n) for n in range(len(own))) == own
     dialog.formula.setCurrentText("Gain break point")
     dialog.fields["max_contouring"].setText("4000")
-    assert dialog.outcome.text() == "gain_break_point needs gain."
+    assert dialog.outcome.text() == "Still needed: Gain"
     assert not dialog.use.isEnabled()
     dialog.fields["gain"].setText("1")
     assert dialog.outcome.text() == "4"

@@ -318,7 +318,7 @@ def test_new_errors_are_shown_before_the_file_gets_them(
     show(shown, EXCESS)
     press(shown, "b")
     qtbot.waitUntil(shown.outcome.found.isEnabled, timeout=WAIT_MS)
-    assert "New errors: " in shown.outcome.found.text()
+    assert "1 new error" in shown.outcome.found.text()
     shown.outcome.merge.click()
     assert shown.findings.isVisible()
     assert window.workspace.file.get(EXCESS) == Value(11.0, "mm"), "nothing has been changed yet"

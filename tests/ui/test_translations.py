@@ -12,8 +12,11 @@ import pytest
 from PySide6.QtCore import QCoreApplication
 from PySide6.QtWidgets import QMenu
 
+from amp_studio.files import open_file
+from amp_studio.guide import steps_of
+from amp_studio.pictures import pictures_of, scene_in_words
 from amp_studio.ui.main_window import MainWindow
-from amp_studio.ui.translated import FOLDER, LANGUAGES, FileTranslator, language_in_use, speak, tr
+from amp_studio.ui.translated import FOLDER, LANGUAGES, FileTranslator, language_in_use, speak, tr, worded
 
 ROOT = Path(__file__).parents[2]
 FILES = [FOLDER / f"amp_studio_{code}.ts" for code in LANGUAGES if code != "en"]
@@ -74,6 +77,55 @@ def test_numbers_have_their_form_and_what_has_no_translation_stays() -> None:
     assert tr("%n axes", "", 1) == "1 Achse"
     assert tr("%n axes", "", 3) == "3 Achsen"
     assert tr("Not a text of the window") == "Not a text of the window"
+
+
+def test_english_numbers_have_their_form_too() -> None:
+    speak("en")
+    assert tr("%n axes", "", 1) == "1 axis"
+    assert tr("%n axes", "", 3) == "3 axes"
+    assert tr("Conflicts left: %n", "", 1) == "1 conflict left"
+    assert tr("&File") == "&File"
+
+
+def test_a_text_within_an_f_string_has_a_translation_too() -> None:
+    """lupdate does not look there."""
+    words = FileTranslator(FILES[0]).words
+    assert words["Allowed here:"] == "Hier erlaubt:"
+
+
+@pytest.mark.usefixtures("german")
+def test_what_is_made_below_the_window_is_in_the_words_of_reports_and_facts_stay() -> None:
+    assert worded("Zones and overtravel") == "Zonen und Endlagen"
+    assert worded("page 7-20") == "Seite 7-20"
+    assert worded("-9.999 to 9.999 mm") == "-9.999 bis 9.999 mm"
+    assert worded("Axis 3") == "Achse 3"
+    assert worded("Axis Calibration, X: not set") == "Axis Calibration, X: nicht gesetzt"
+    assert worded("Excess Error") == "Excess Error"
+
+
+@pytest.mark.usefixtures("german")
+def test_every_step_and_every_picture_of_every_family_has_a_german_name(checkout: Path) -> None:
+    for path in sorted((checkout / "examples").glob("*/*.amp")):
+        file = open_file(path).file
+        for step in steps_of(file.schema):
+            assert worded(step.title) != step.title or step.title == "DDA", step.title
+        for picture in pictures_of(file):
+            assert worded(picture.title) != picture.title, picture.title
+            scene = picture.scene()
+            assert scene_in_words(scene, worded).subtitle != scene.subtitle or len(scene.subtitle) < 3
+
+
+@pytest.mark.usefixtures("german")
+def test_the_page_of_a_parameter_has_no_english_frame(
+    open_window: Callable[..., MainWindow], path: Path
+) -> None:
+    window = open_window(path)
+    window.go_to(("servo.excess_error", "1"))
+    text = window.page.detail.page.toPlainText()
+    for english in ("Allowed", "What it does", ", page", "Calculate", "Formulas", "Facts"):
+        assert english not in text, english
+    assert window.page.table.titles[0] == "X 1 linear"
+    assert "Achse 1" in window.status.value.text()
 
 
 def test_the_language_is_that_of_the_choice_or_of_the_system() -> None:

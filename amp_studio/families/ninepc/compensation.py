@@ -36,7 +36,7 @@ class NinePcTable:
     is_even = False
     decimals = DECIMALS
     switching = (
-        "Homing the axis switches its calibration on; {CAL STATUS} switches it off until it is homed again (page 36-10). "
+        "Homing the axis switches its calibration on; the softkey CAL STATUS switches it off until it is homed again (page 36-10). "
         "That is a state of the control and not in a file."
     )
 

@@ -605,6 +605,77 @@ Woher ist bekannt, was sie enthält?</translation>
             <source>Note</source>
             <translation>Notiz</translation>
         </message>
+        <message>
+            <source>Allowed here:</source>
+            <translation>Hier erlaubt:</translation>
+        </message>
+        <message>
+            <source>Calculate…</source>
+            <translation>Berechnen…</translation>
+        </message>
+        <message numerus="yes">
+            <source>Conflicts left: %n</source>
+            <translation>
+                <numerusform>Noch %n Konflikt</numerusform>
+                <numerusform>Noch %n Konflikte</numerusform>
+            </translation>
+        </message>
+        <message>
+            <source>Facts</source>
+            <translation>Fakten</translation>
+        </message>
+        <message>
+            <source>Formulas</source>
+            <translation>Formeln</translation>
+        </message>
+        <message>
+            <source>No rule uses this parameter.</source>
+            <translation>Keine Regel liest diesen Parameter.</translation>
+        </message>
+        <message>
+            <source>No saved changes of {name} yet.</source>
+            <translation>Noch keine gespeicherten Änderungen von {name}.</translation>
+        </message>
+        <message>
+            <source>Page {pages}</source>
+            <translation>Seite {pages}</translation>
+        </message>
+        <message>
+            <source>Show all</source>
+            <translation>Alle zeigen</translation>
+        </message>
+        <message>
+            <source>Show them</source>
+            <translation>Anzeigen</translation>
+        </message>
+        <message>
+            <source>Show</source>
+            <translation>Zeigen</translation>
+        </message>
+        <message>
+            <source>The manual does not print the text of this message.</source>
+            <translation>Das Handbuch druckt den Text dieser Meldung nicht.</translation>
+        </message>
+        <message>
+            <source>Use</source>
+            <translation>Übernehmen</translation>
+        </message>
+        <message>
+            <source>as stored in the control</source>
+            <translation>wie in der Steuerung gespeichert</translation>
+        </message>
+        <message>
+            <source>effective value in the control</source>
+            <translation>wirksamer Wert in der Steuerung</translation>
+        </message>
+        <message>
+            <source>page</source>
+            <translation>Seite</translation>
+        </message>
+        <message>
+            <source>taken</source>
+            <translation>übernommen</translation>
+        </message>
     </context>
     <context>
         <name>AddAxisDialog</name>
@@ -826,10 +897,6 @@ Woher ist bekannt, was sie enthält?</translation>
             <source>Paste from a Spreadsheet</source>
             <translation>Aus einer Tabellenkalkulation einfügen</translation>
         </message>
-        <message>
-            <source>1 cell</source>
-            <translation>1 Zelle</translation>
-        </message>
         <message numerus="yes">
             <source>%n cells</source>
             <translation>
@@ -903,6 +970,10 @@ Woher ist bekannt, was sie enthält?</translation>
         <message>
             <source>Use the result as a value</source>
             <translation>Das Ergebnis als Wert nehmen</translation>
+        </message>
+        <message>
+            <source>Still needed: {names}</source>
+            <translation>Noch nötig: {names}</translation>
         </message>
         <message>
             <source>Use the result as the value of {label}{what}</source>
@@ -1316,12 +1387,20 @@ Einen anderen Namen wählen.</translation>
             <translation>Verlauf</translation>
         </message>
         <message>
+            <source>not set</source>
+            <translation>nicht gesetzt</translation>
+        </message>
+        <message>
             <source> (page {page})</source>
             <translation> (Seite {page})</translation>
         </message>
         <message>
             <source>no bounds printed, in {shown}</source>
             <translation>keine Grenzen gedruckt, in {shown}</translation>
+        </message>
+        <message>
+            <source> (set by {name})</source>
+            <translation> (bestimmt durch {name})</translation>
         </message>
         <message>
             <source> — no range in degrees is printed; the metric numbers are used</source>
@@ -1338,22 +1417,6 @@ Einen anderen Namen wählen.</translation>
         <message>
             <source>{unmet} of {number} not met</source>
             <translation>{unmet} von {number} nicht erfüllt</translation>
-        </message>
-        <message>
-            <source>What it does</source>
-            <translation>Was er bewirkt</translation>
-        </message>
-        <message>
-            <source>How to find its value</source>
-            <translation>Wie sein Wert zu finden ist</translation>
-        </message>
-        <message>
-            <source>When it is wrong</source>
-            <translation>Wenn er falsch ist</translation>
-        </message>
-        <message>
-            <source>Related</source>
-            <translation>Verwandt</translation>
         </message>
         <message>
             <source>Saved</source>
@@ -4668,10 +4731,6 @@ Hier erlaubt: {allowed}</translation>
         <message>
             <source>{number} not set</source>
             <translation>{number} nicht gesetzt</translation>
-        </message>
-        <message>
-            <source>1 unsaved change</source>
-            <translation>1 ungespeicherte Änderung</translation>
         </message>
         <message numerus="yes">
             <source>%n unsaved changes</source>

@@ -1,0 +1,25 @@
+"""A scene in another language: its titles, scales, names and notes; the names of parameters stay."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import replace
+
+from .scene import Scale, Scene
+
+PhraseWords = Callable[[str], str]
+"""English phrase -> the phrase of a language, or the same."""
+
+
+def scene_in_words(scene: Scene, words: PhraseWords) -> Scene:
+    """Return a scene with its phrases in a language."""
+
+    def scale(own: Scale) -> Scale:
+        return replace(own, label=words(own.label)) if own.label else own
+
+    texts = tuple(replace(t, text=words(t.text), value=words(t.value)) for t in scene.texts)
+    notes = tuple(replace(note, text=words(note.text)) for note in scene.notes)
+    return replace(
+        scene, title=words(scene.title), subtitle=words(scene.subtitle), x=scale(scene.x), y=scale(scene.y), texts=texts,
+        notes=notes,
+    )  # fmt: skip
