@@ -92,10 +92,9 @@ class CalculatorDialog(QDialog):
     def _titled(self, text: str) -> str:
         """Return a message with the titles of the formula and of its arguments for their names."""
         calculator = self._known[self.formula.currentData()]
-        for named in (calculator, *calculator.arguments):
-            text = (
-                re.sub(rf"(?<![\w']){named.name}(?![\w'])", named.title, text) if "_" in named.name else text
-            )
+        titles = {calculator.name: calculator.title, **{a.name: a.title for a in calculator.arguments}}
+        for name, title in titles.items():
+            text = re.sub(rf"\b{name}\b", title, text) if "_" in name else text
         return text
 
     def _use(self) -> None:
