@@ -11,7 +11,7 @@ from amp_studio.schema import (
 )
 from amp_studio.schema.model import BoundRef, Choice, StateRule
 
-from .manual_page import entry_units, erratum_text
+from .manual_page import GRADES, entry_units, erratum_text
 from .number_text import sharing_numbers
 
 
@@ -49,6 +49,11 @@ def definition(schema: Schema, parameter: Parameter) -> dict[str, Any]:
         "patch": parameter.patchable,
         "access": parameter.access,
     }
+    for grade in GRADES.values():
+        if statements := getattr(parameter.help, grade):
+            found[grade] = [s.model_dump() for s in statements]
+    if parameter.bare:
+        found["bare"] = parameter.bare
     if parameter.range_variants:
         found["range_variants"] = [
             {"when": v.when, "ranges": {u: [_bound(b) for b in r] for u, r in v.ranges.items()}}

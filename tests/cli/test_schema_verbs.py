@@ -55,6 +55,12 @@ def test_a_definition_has_the_promised_shape(definitions) -> None:
     assert all(isinstance(found[key], str) for key in ("available_when", "help", "errata"))
 
 
+def test_a_definition_has_what_the_manual_warns_of_and_what_a_bare_number_is(definitions) -> None:
+    sign, teeth = definitions["servo.position_sign"], definitions["servo.position_gear_teeth"]
+    assert sign["danger"] == [{"says": "A wrong sign can make the axis run away.", "page": "7-36"}]
+    assert (teeth["bare"], "danger" in teeth) == ("teeth", False)
+
+
 def test_every_definition_keeps_the_contract(definitions) -> None:
     assert list(load_schema("9pc").parameters) == list(definitions)
     for name, found in definitions.items():
