@@ -12,7 +12,7 @@ from fractions import Fraction
 from pathlib import Path
 
 from amp_studio.files import text_of_name
-from amp_studio.schema.regular_file import read_file
+from amp_studio.schema.regular_file import read_table_text
 
 from . import renishaw
 from .cells import is_number, lines_of, number_of, separator_of, split
@@ -40,12 +40,7 @@ _BASE = {"mm": "mm", "in": "mm", "um": "mm", "deg": "deg", "arcsec": "deg", "cou
 
 def read_measured_file(path: Path, answers: MeasurementAnswers, usual_unit: str = "mm") -> Measurement:
     """Read a file of measured points; raises MeasurementError with its name, and OSError where it cannot be read."""
-    content = read_file(path)
-    wide = content[:2] in (b"\xff\xfe", b"\xfe\xff")  # "Unicode text" of a spreadsheet
-    try:
-        text = content.decode("utf-16" if wide else "utf-8-sig")
-    except UnicodeDecodeError:
-        text = content.decode("cp1252", errors="replace")  # a degree sign of an older program
+    text = read_table_text(path)
     try:
         return read_measurement(text, answers, usual_unit)
     except MeasurementError as error:

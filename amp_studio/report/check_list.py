@@ -9,12 +9,13 @@ from datetime import datetime
 from pathlib import Path
 
 from amp_studio import __version__
-from amp_studio.files import Notify, ParameterFile, axis_letter, write_atomic
+from amp_studio.files import Notify, ParameterFile, axis_letter
 from amp_studio.files.local_time import with_local_times
 from amp_studio.guide import GuideProgress, StepProgress
 from amp_studio.schema import Address, limits
 from amp_studio.validate import SEVERITIES
 
+from .endings import write_by_ending
 from .model import printable
 from .page import filled_page
 from .pdf import filled_template, typeset
@@ -179,9 +180,4 @@ CHECK_LIST_FORMATS: dict[str, Callable[[CheckList], bytes]] = {
 
 def write_check_list(checks: CheckList, path: Path, notify: Notify = lambda _note: None) -> None:
     """Write a check list, whole or not at all, in the format of the path's ending; raises ValueError, SaveError."""
-    render = CHECK_LIST_FORMATS.get(path.suffix.lower())
-    if render is None:
-        raise ValueError(
-            f"{path.name}: unknown format of a check list. Use the file extension {', '.join(CHECK_LIST_FORMATS)}"
-        )
-    write_atomic(path, render(checks), keep_backup=False, notify=notify)
+    write_by_ending(path, CHECK_LIST_FORMATS, checks, "a check list", notify)

@@ -11,10 +11,11 @@ from datetime import datetime
 from pathlib import Path
 
 from amp_studio import __version__
-from amp_studio.files import Notify, write_atomic
+from amp_studio.files import Notify
 from amp_studio.files.spreadsheet import text_cell
 from amp_studio.sheet import Instruction, Sheet, SheetEntry, Stage
 
+from .endings import write_by_ending
 from .model import printable
 from .page import filled_page
 from .pdf import filled_template, typeset
@@ -196,9 +197,4 @@ SHEET_FORMATS: dict[str, Callable[[PrintedSheet], bytes]] = {
 
 def write_sheet(printed: PrintedSheet, path: Path, notify: Notify = lambda _note: None) -> None:
     """Write a sheet, whole or not at all, in the format of the path's ending; raises ValueError, SaveError."""
-    render = SHEET_FORMATS.get(path.suffix.lower())
-    if render is None:
-        raise ValueError(
-            f"{path.name}: unknown format of a sheet. Use the file extension {', '.join(SHEET_FORMATS)}"
-        )
-    write_atomic(path, render(printed), keep_backup=False, notify=notify)
+    write_by_ending(path, SHEET_FORMATS, printed, "a sheet", notify)

@@ -51,6 +51,16 @@ def read_file(path: Path, limit: int = MOST_BYTES, *, follow: bool = True, tail:
     return content
 
 
+def read_table_text(path: Path) -> str:
+    """Return the text of a table that an instrument or a spreadsheet wrote, in the encoding that it has; raises OSError."""
+    content = read_file(path)
+    wide = content[:2] in (b"\xff\xfe", b"\xfe\xff")  # "Unicode text" of a spreadsheet
+    try:
+        return content.decode("utf-16" if wide else "utf-8-sig")
+    except UnicodeDecodeError:
+        return content.decode("cp1252", errors="replace")  # a degree sign of an older program
+
+
 def demand_file(found: os.stat_result) -> None:
     """Raise OSError for what is not a file."""
     kind = stat.S_IFMT(found.st_mode)

@@ -15,7 +15,7 @@ import numpy as np
 
 from amp_studio.files import text_of_name
 from amp_studio.schema import canonical, dimension, unit_named
-from amp_studio.schema.regular_file import read_file
+from amp_studio.schema.regular_file import read_table_text
 from amp_studio.schema.units import UnitError
 
 from .errors import SimulationError
@@ -79,12 +79,7 @@ class DriveRecord:
 
 def read_drive_record(path: Path) -> DriveRecord:
     """Read a record from a file; raises SimulationError with its name, and OSError where it cannot be read."""
-    content = read_file(path)
-    wide = content[:2] in (b"\xff\xfe", b"\xfe\xff")  # "Unicode text" of a spreadsheet
-    try:
-        text = content.decode("utf-16" if wide else "utf-8-sig")
-    except UnicodeDecodeError:
-        text = content.decode("cp1252", errors="replace")  # a degree sign of an older program
+    text = read_table_text(path)
     try:
         return drive_record_of(text)
     except SimulationError as error:

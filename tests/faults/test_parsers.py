@@ -14,7 +14,7 @@ from .campaigns import CAMPAIGNS
 
 PROGRAM = Path(families.__file__).parents[1]
 CALLS = {
-    "read_file", "read_yaml", "read_yaml_file", "loads", "reader", "recv", "readLine", "readAllStandardError", "unpack_from",
+    "read_file", "read_table_text", "read_yaml", "read_yaml_file", "loads", "reader", "recv", "readLine", "readAllStandardError", "unpack_from",
     "model_validate_json", "validate_python", "QSettings", "read_bytes", "read_text", "parse_qsl", "fromhex", "parse_args",
     "clipboard", "input", "comports", "os.read", "read_entries", "read_expression", "read_content", "decode_image",
     "decode_content", "decode", "read_block", "feed", "get_template",
