@@ -1,0 +1,195 @@
+"""The result of a comparison goes into the file as one step, into a new file, or on paper."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from PySide6.QtCore import Qt
+from PySide6.QtTest import QTest
+
+from amp_studio.files import content_of, open_file
+from amp_studio.schema import Value
+from amp_studio.ui.main_window import MainWindow
+from amp_studio.ui.merge_model import BASE, NAME, RESULT, A, B
+from amp_studio.ui.merge_sources import MergeSource
+from amp_studio.ui.merge_window import MergeWindow
+from tests.ui.conftest import WAIT_MS, Person, on_disk
+
+from .steps import CALIBRATION, EXCESS, RAPID, merge, press, result, show
+
+
+def test_the_result_goes_into_the_file_as_one_step_once_no_conflict_is_left(
+    three: MergeWindow, window: MainWindow, qtbot
+) -> None:
+    file = window.workspace.file
+    assert not three.outcome.merge.isEnabled()
+    show(three, EXCESS)
+    press(three, "b")
+    with qtbot.waitSignal(three.destroyed, timeout=WAIT_MS):
+        merge(three, qtbot)
+    assert [file.get(a) for a in (EXCESS, CALIBRATION, RAPID)] == [
+        Value(13.0, "mm"), Value(1.0, "mm"), Value(190.0, "mm/s")
+    ]  # fmt: skip
+    assert "Merged with CNC_1" in window.page.bar.text.text()
+    window.edits.undo.trigger()
+    assert (file.get(EXCESS), file.get(RAPID)) == (Value(12.0, "mm"), Value(10000.0, "mm/min"))
+
+
+def test_header_and_unknown_entries_come_along_and_go_back_with_one_undo(
+    window: MainWindow, shown: MergeWindow, qtbot
+) -> None:
+    file = window.workspace.file
+    before = content_of(file)
+    other = file.copy()
+    other.header.notes, other.unknown["future.thing"] = "new spindle", "7"
+    shown.use(B, MergeSource("other.amp", "", other))
+    shown.tree.selectAll()
+    press(shown, "b")
+    merge(shown, qtbot)
+    assert (file.header.notes, file.unknown) == ("new spindle", {"future.thing": "7"})
+    assert window.workspace.is_dirty
+    assert window.save()
+    assert on_disk(window.workspace.path).unknown == {"future.thing": "7"}
+    window.edits.undo.trigger()
+    assert content_of(file) == before
+
+
+def test_new_errors_are_shown_before_the_file_gets_them(
+    window: MainWindow, shown: MergeWindow, qtbot
+) -> None:
+    other = window.workspace.file.copy()
+    other.values[EXCESS] = Value(0.5, "mm")
+    shown.use(B, MergeSource("other.amp", "", other))
+    show(shown, EXCESS)
+    press(shown, "b")
+    qtbot.waitUntil(shown.outcome.found.isEnabled, timeout=WAIT_MS)
+    assert "1 new error" in shown.outcome.found.text()
+    shown.outcome.merge.click()
+    assert shown.findings.isVisible()
+    assert window.workspace.file.get(EXCESS) == Value(11.0, "mm"), "nothing has been changed yet"
+    assert "Anyway" in shown.outcome.merge.text()
+    shown.outcome.merge.click()
+    assert window.workspace.file.get(EXCESS) == Value(0.5, "mm")
+
+
+def test_a_result_that_cannot_be_checked_is_not_merged(shown: MergeWindow, monkeypatch, qtbot) -> None:
+    def fail(*_: object) -> None:
+        raise ValueError("no such rule")
+
+    monkeypatch.setattr("amp_studio.ui.merge_check.ResultCheck", fail)
+    other = shown.merge.a.copy()
+    other.set(EXCESS, Value(12.0, "mm"))
+    shown.use(B, MergeSource("other.amp", "", other))
+    shown.model.choose(shown.merge.differing, "b")
+    qtbot.waitUntil(shown.message.isVisible, timeout=WAIT_MS)
+    assert shown.message.text.text() == "The result cannot be checked, and so not merged: no such rule"
+    assert not shown.outcome.merge.isEnabled()
+
+
+def test_the_result_is_saved_as_a_new_file_and_the_open_one_stays(
+    three: MergeWindow, window: MainWindow, person: Person, tmp_path: Path
+) -> None:
+    show(three, EXCESS)
+    press(three, "b")
+    mine = window.workspace
+    mine.path.write_text(mine.path.read_text().replace("\nvalues:", "\n# by J. Doe\nvalues:", 1))
+    person.chooses(tmp_path / "merged.amp")
+    three.outcome.save.click()
+    merged = on_disk(tmp_path / "merged.amp")
+    assert (merged.get(EXCESS), merged.get(CALIBRATION)) == (Value(13.0, "mm"), Value(1.0, "mm"))
+    assert "# by J. Doe" in (tmp_path / "merged.amp").read_text(), "remarks stay"
+    assert mine.file.get(EXCESS) == Value(12.0, "mm")
+
+
+def test_the_comparison_is_written_as_a_report(three: MergeWindow, person: Person, tmp_path: Path) -> None:
+    person.chooses(tmp_path / "comparison.csv")
+    three.outcome.report.click()
+    written = (tmp_path / "comparison.csv").read_text("utf-8-sig")
+    assert "not settled" in written
+    assert "Rapid Feedrate for Positioning" in written
+    assert three.message.text.text() == "comparison.csv written."
+
+
+def test_a_lathe_is_compared_with_a_mill_and_what_exists_there_only_is_named(
+    shown: MergeWindow, window: MainWindow, checkout: Path
+) -> None:
+    lathe = open_file(checkout / "examples" / "lathe-ls176" / "LATHE_LS176.amp").file
+    source = shown.sources.other(window.workspace.file, lathe, "LATHE_LS176.amp", "")
+    shown.use(B, source)
+    assert "another machine type (lathe)" in shown.message.text.text()
+    shown.view.only_differences.click()
+    only_there = [r for r in shown.merge.differing if r.id.part == "value" and not shown.model.may_type(r)]
+    assert only_there
+    for row in shown.merge.rows:
+        assert all(shown.model.text(row, column) is not None for column in range(RESULT + 1))
+    shown.view.only_active.click()
+    shown.tree.show_row(only_there[0])
+    shown.view.only_active.click()
+    shown.tree.show_row(only_there[0])
+    assert "not on this machine type" in shown.detail.facts.text()
+
+
+def test_a_group_that_was_folded_stays_folded(three: MergeWindow, window: MainWindow, qtbot) -> None:
+    head = three.model.index(0, NAME)
+    three.tree.setExpanded(head, False)
+    window.edits.commit(("home.calibration", "2"), "1 mm")
+    qtbot.waitUntil(lambda: len(three.merge.differing) == 4, timeout=WAIT_MS)
+    folds = [three.tree.isExpanded(three.model.index(n, NAME)) for n in range(len(three.model.groups))]
+    assert folds == [False, *[True] * (len(folds) - 1)]
+
+
+def test_the_machine_type_and_entries_of_others_are_taken_and_not_typed(shown: MergeWindow) -> None:
+    other = shown.merge.a.copy()
+    other.header.notes, other.header.extra, other.unknown["future.thing"] = "n", {"bay": 7}, "1"
+    shown.use(B, MergeSource("other.amp", "", other))
+    can = {row.id.key: shown.model.may_type(row) for row in shown.merge.differing}
+    assert can == {"notes": True, "extra.bay": False, "future.thing": False}
+
+
+def test_two_sources_of_which_none_is_the_open_file_are_not_merged_into_it(shown: MergeWindow) -> None:
+    other = shown.merge.a.copy()
+    other.set(EXCESS, Value(3.0, "mm"))
+    shown.show_merge({A: MergeSource("one.amp", "", other), B: MergeSource("two.amp", "", shown.merge.b)})
+    assert not shown.outcome.merge.isEnabled()
+    assert "Neither A nor B is the open file" in shown.outcome.merge.toolTip()
+    assert shown.outcome.save.isEnabled()
+
+
+def test_the_comparison_follows_an_edit_of_the_file_and_keeps_what_was_chosen(
+    three: MergeWindow, window: MainWindow, qtbot
+) -> None:
+    show(three, EXCESS)
+    press(three, "b")
+    window.edits.commit(("home.calibration", "2"), "1 mm")
+    qtbot.waitUntil(lambda: len(three.merge.differing) == 4, timeout=WAIT_MS)
+    assert result(three, EXCESS) == Value(13.0, "mm")
+    assert three.tree.row().address == EXCESS
+
+
+def test_an_edit_just_before_merge_is_not_overwritten(three: MergeWindow, window: MainWindow, qtbot) -> None:
+    show(three, EXCESS)
+    press(three, "b")
+    qtbot.waitUntil(three.outcome.merge.isEnabled, timeout=WAIT_MS)
+    window.workspace.edit("just now", {CALIBRATION: Value(5.0, "mm")})
+    three.outcome.merge.click()
+    assert window.workspace.file.get(EXCESS) == Value(12.0, "mm"), "what is shown is not what would be merged"
+    merge(three, qtbot)
+    file = window.workspace.file
+    assert (file.get(EXCESS), file.get(CALIBRATION)) == (Value(13.0, "mm"), Value(5.0, "mm"))
+
+
+def test_without_a_base_there_are_no_conflicts_to_show(three: MergeWindow) -> None:
+    three.view.only_conflicts.click()
+    three.view.two.click()
+    assert not three.view.only_conflicts.isChecked()
+    assert len(three.model.groups) == len({three.merge.group_title(row) for row in three.merge.differing})
+    three.view.three.click()
+    assert three.chosen[BASE].title == "Last saved"
+
+
+def test_it_closes_with_escape_and_with_its_file(shown: MergeWindow, window: MainWindow, qtbot) -> None:
+    again = window.files.comparing.open(window.page)
+    with qtbot.waitSignal(again.destroyed, timeout=WAIT_MS):
+        QTest.keyClick(again, Qt.Key.Key_Escape)
+    with qtbot.waitSignal(shown.destroyed, timeout=WAIT_MS):
+        window.files.close()
