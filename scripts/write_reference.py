@@ -45,6 +45,17 @@ from amp_studio.report import facts, formula_lines, help_parts
 from amp_studio.report.wording import severity_name
 from amp_studio.schema import Group, Parameter, Schema, family_ids, load_schema, read_address
 
+LEGEND = """## How to read it
+
+- The number before a name is that of the first axis, where each axis has its own.
+- A range is given in each unit in which a file can have the value; a choice with its letter in the manual and the code
+  that is stored.
+- *Hidden*, *Ignored* and *Not available* are the reasons for which a parameter may have no effect on a machine; while
+  none applies it is active.
+- *Danger*, *Warning* and *Note* are what the manual warns of. *Contradiction* is where it has several readings, with the
+  one that is used here and why.
+- Each page number leads to all that is taken from that page of the manual."""
+
 
 def reference() -> dict[str, str]:
     """Return the text of every page by its path below ``reference/``."""
@@ -61,10 +72,10 @@ def overview() -> str:
     rows = (
         (
             f'<a href="{s.family.family}/index.html">{escape(s.family.name)}</a>',
-            str(len(s.parameters)),
-            str(len(s.rules)),
+            f'<a href="{s.family.family}/numbers.html">{len(s.parameters)}</a>',
+            f'<a href="{s.family.family}/rules.html">{len(s.rules)}</a>',
             str(len(s.messages)),
-            escape(s.family.title),
+            f'<a href="{s.family.family}/pages.html">{escape(s.family.title)}</a>',
         )
         for s in schemas
     )
@@ -73,6 +84,7 @@ def overview() -> str:
             heading(1, "Reference"),
             "Every parameter, rule and message of every control family, made from the same facts as the program.",
             table(("Family", "Parameters", "Rules", "Messages", "Manual"), rows),
+            LEGEND,
             "\n".join(
                 ["```{toctree}", ":hidden:", "", *(f"{s.family.family}/index" for s in schemas), "```"]
             ),
