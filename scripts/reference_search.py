@@ -26,7 +26,7 @@ from reference_manual import printed_on
 
 from amp_studio.guide import steps_of
 from amp_studio.schema import Parameter, Schema, family_ids, load_schema
-from amp_studio.schema.model import ControlMessage
+from amp_studio.schema.model import ControlMessage, Messages
 
 Entry = list[str | list[str]]
 _WORD = re.compile(r"[0-9]+(?:\.[0-9]+)+|[^\W_]+")
@@ -52,7 +52,7 @@ def family_entries(schema: Schema) -> Iterator[Entry]:
         yield _parameter(schema, parameter)
     for every in schema.message_lists:
         for message in every.messages:
-            yield _message(message, messages_page(every))
+            yield _message(message, every)
     own = schema.family
     yield ["list", own.name, "index.html", [own.family, own.short, own.name], "", _words(own.what)]
     for name, title in (
@@ -135,7 +135,7 @@ def _parameter(schema: Schema, parameter: Parameter) -> Entry:
             [parameter.id, *every_number(schema, parameter)], "; ".join(labels), _words(text)]  # fmt: skip
 
 
-def _message(message: ControlMessage, page: str) -> Entry:
+def _message(message: ControlMessage, every: Messages) -> Entry:
     codes = [message.code, *message.also, message.id]
     if message.span is not None:
         codes += map(str, range(message.span[0], message.span[1] + 1))
@@ -143,11 +143,11 @@ def _message(message: ControlMessage, page: str) -> Entry:
     codes += [
         f"{kind} {code}" for code in codes if code.isdecimal() for kind in ("error", "message", "alarm")
     ]
-    text = " ".join((message.reaction, message.means, *message.causes, *message.cures))
+    text = " ".join((every.title, message.reaction, message.means, *message.causes, *message.cures))
     return [
         "message",
         message.name,
-        _at(page, message.id),
+        _at(messages_page(every), message.id),
         [c for c in codes if c],
         " ".join(message.also),
         _words(text),

@@ -9,9 +9,11 @@ from pathlib import Path
 from urllib.parse import unquote
 
 import pytest
+from reference_html import every_number
 from reference_search import guide_entries, search_script
 from ruamel.yaml import YAML
 
+from amp_studio.schema import load_schema
 from tests.report.browser import CHROMIUM, Browser
 
 DOCS = Path(__file__).parents[2] / "docs"
@@ -80,6 +82,31 @@ def test_what_people_type_has_the_right_place_first(field: Browser) -> None:
         if not found or unquote(found[0]) != wanted:
             missed[query] = found[:3]
     assert not missed
+
+
+def _is(address: str, family: str, wanted: str) -> bool:
+    """Whether an address is that of a parameter (``p:``), a message (``m:``) or a group (``g:``) of a family."""
+    schema = load_schema(family)
+    kind, key = wanted.split(":", 1)
+    page, _, anchor = address.removeprefix(f"reference/{family}/").partition("#")
+    if kind == "g":
+        return page == f"group-{key}.html"
+    numbers = every_number(schema, schema.parameters[key]) if kind == "p" else ()
+    return anchor == key or anchor in {f"n-{number}" for number in numbers}
+
+
+def test_what_the_program_finds_the_site_finds_too(field: Browser) -> None:
+    questions = YAML(typ="safe").load(Path(__file__).parents[1] / "find/queries.yaml")
+    field.type("1")
+    field.until("document.querySelector('.suggestions a') !== null")
+    places = []
+    for family, query, wanted in questions:
+        found = field.value(f"searchSite({json.dumps(f'{query} {family}')})")
+        right = [n for n, address in enumerate(found) if _is(unquote(address), family, wanted)]
+        places.append(min(right, default=99))
+    assert len(places) > 100
+    assert sum(place == 0 for place in places) > 0.92 * len(places)
+    assert sum(place < 5 for place in places) > 0.96 * len(places)
 
 
 def test_a_suggestion_is_chosen_by_the_keyboard_and_opened_at_its_anchor(field: Browser) -> None:
