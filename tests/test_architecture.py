@@ -18,11 +18,12 @@ import pytest
 from pydantic import TypeAdapter
 from ruamel.yaml import YAML
 
+import amp_studio
 from amp_studio.schema import Parameter, Rule, load_schema, program
 from amp_studio.schema.load import compile_family
 from amp_studio.schema.machine_schema import number_of
 
-ROOMS = ("schema", "files", "validate", "formats", "report", "transfer", "sim", "families", "ui")
+ROOMS = sorted(path.parent.name for path in Path(amp_studio.__file__).parent.glob("*/__init__.py"))
 CATCH_ALL_NAMES = {"utils", "util", "helpers", "helper", "common", "manager", "misc"}
 
 
@@ -90,6 +91,16 @@ def test_an_import_against_the_plan_is_found(
 def test_a_room_says_what_it_is_for(checkout: Path, room: str) -> None:
     source = (checkout / "amp_studio" / room / "__init__.py").read_text(encoding="utf-8")
     assert ast.get_docstring(ast.parse(source)), f"amp_studio/{room}/__init__.py has no docstring"
+
+
+@pytest.mark.parametrize("page", ["docs/architecture.md", "CONTRIBUTING.md"])
+def test_every_room_is_in_the_plan(checkout: Path, page: str) -> None:
+    text = (checkout / page).read_text(encoding="utf-8")
+    assert [
+        room
+        for room in (*ROOMS, "dossier.py")
+        if not re.search(rf"(^      |amp_studio/){room}\b", text, re.MULTILINE)
+    ] == []
 
 
 def test_no_file_is_named_for_everything_and_nothing(checkout: Path) -> None:
