@@ -142,6 +142,16 @@ def json_option(sub: argparse.ArgumentParser) -> None:
     sub.add_argument("--json", action="store_true", help="print one JSON document")
 
 
+def language_option(sub: argparse.ArgumentParser) -> None:
+    """Add --language, of a document."""
+    sub.add_argument(
+        "--language",
+        choices=("en", "de"),
+        default="en",
+        help="language of the report's own words (default: en)",
+    )
+
+
 def secrets_option(sub: argparse.ArgumentParser) -> None:
     """Add --secrets."""
     sub.add_argument("--secrets", action="store_true", help="passwords in clear; they are masked otherwise")

@@ -41,7 +41,7 @@ def diff_verb(options: argparse.Namespace) -> int:
         return _print_three(options, Merge(a, other, _side(options.base)[0]))
     found = compare(a.schema, a.values, other.values)
     if options.output:
-        _write_paper(options, a, found, name, (a_digest, b_digest))
+        _write_paper(options, a, found, name, (a_digest, b_digest), (b, of_b))
         return 1 if found.differences or of_b else 0
     if options.json:
         rows = [difference_json(a, d, options.secrets) for d in found.differences]
@@ -61,6 +61,7 @@ def _write_paper(
     found: Comparison,
     name: str,
     digests: tuple[str | None, str | None],
+    more: tuple[ParameterFile, list[Difference]],
 ) -> None:
     from amp_studio.report.differences import differences_paper
     from amp_studio.report.paper import write_paper
@@ -70,7 +71,11 @@ def _write_paper(
         for side, digest in zip("AB", digests, strict=True)
         if digest is not None
     ]
-    write_paper(differences_paper(a, found, (options.a, name), facts), options.output, notify=note)
+    write_paper(
+        differences_paper(a, found, (options.a, name), facts, more=more, language=options.language),
+        options.output,
+        notify=note,
+    )
     print(options.output)
 
 

@@ -53,6 +53,6 @@ def form_verb(options: argparse.Namespace) -> int:
         path = Path(options.what)
         check_replaced(options.output, path)
         file, everything = open_file(path).file, False
-    write_paper(form_paper(file, everything=everything), options.output, note)
+    write_paper(form_paper(file, everything=everything, language=options.language), options.output, note)
     print(options.output)
     return 0

@@ -147,7 +147,7 @@ def _change(options: argparse.Namespace, file: ParameterFile) -> None:
 def _write(options: argparse.Namespace, file: ParameterFile, come: GuideProgress, path: Path) -> int:
     from amp_studio.report.check_list import build_check_list, write_check_list
 
-    write_check_list(build_check_list(file, come, path), options.output, note)
+    write_check_list(build_check_list(file, come, path, language=options.language), options.output, note)
     print(options.output)
     return 0
 

@@ -26,7 +26,11 @@ def compare_verb(options: argparse.Namespace) -> int:
         raise UsageError(str(error)) from None
     first, differs = files[0], any(len({str(v) for v in values}) > 1 for _, values in rows)
     if options.output:
-        write_paper(machines_paper(files, names, everything=options.everything), options.output, notify=note)
+        write_paper(
+            machines_paper(files, names, everything=options.everything, language=options.language),
+            options.output,
+            notify=note,
+        )
         print(options.output)
     elif options.json:
         parameters = first.schema.parameters

@@ -130,7 +130,12 @@ def _print(options: argparse.Namespace, sheet: Sheet, ticks: Ticks, found: dict[
     from amp_studio.report.sheet import PrintedSheet, text_lines, write_sheet
 
     shown = dict(ticks.shown) | {number: each.shown for number, each in found.items() if each.shown}
-    printed = PrintedSheet(sheet, {e.number for e in sheet.entries if e in ticks}, tuple(shown.items()))
+    printed = PrintedSheet(
+        sheet,
+        {e.number for e in sheet.entries if e in ticks},
+        tuple(shown.items()),
+        language=options.language,
+    )
     if options.output:
         write_sheet(printed, options.output, note)
     if options.json:

@@ -16,6 +16,7 @@ from amp_studio.schema import Address, limits
 from amp_studio.validate import SEVERITIES
 
 from .endings import write_by_ending
+from .language import language_of
 from .model import printable
 from .page import filled_page
 from .pdf import filled_template, typeset
@@ -49,6 +50,10 @@ class ListedStep:
     summary: str
     findings: tuple[str, ...]
 
+    def summary_in(self, text: Callable[[str], str]) -> str:
+        """Return the summary in the language of ``text``, which returns a phrase in it."""
+        return ", ".join(map(text, self.summary.split(", ")))
+
     @property
     def is_done(self) -> bool:
         """Whether its box is ticked already."""
@@ -68,12 +73,18 @@ class CheckList:
     steps: tuple[ListedStep, ...]
     when: str
     program: str = f"AMP Studio {__version__}"
+    language: str = "en"
+    """Code of the language of the list's own words."""
 
 
 def build_check_list(
-    file: ParameterFile, now: GuideProgress, path: Path | None = None, date: datetime | None = None
+    file: ParameterFile,
+    now: GuideProgress,
+    path: Path | None = None,
+    date: datetime | None = None,
+    language: str = "en",
 ) -> CheckList:
-    """Return the check list of a file: the steps that its machine needs."""
+    """Return the check list of a file: the steps that its machine needs; ``language`` is a code of ``language_codes``."""
     order = file.schema.commissioning
     source = (
         "" if order is None else f"{order.why} (page {order.page})" if order.order == "manual" else order.why
@@ -87,6 +98,7 @@ def build_check_list(
         summary=done,
         steps=tuple(_listed(file, each) for each in now.needed),
         when=(date or datetime.now().astimezone()).strftime("%Y-%m-%d %H:%M"),
+        language=language,
     )
 
 
@@ -163,12 +175,12 @@ def _wrapped(text: str, head: str) -> list[str]:
 
 def render_check_list_html(checks: CheckList) -> bytes:
     """Return one web page that can be printed."""
-    return filled_page("check_list.html.j2", checks=checks)
+    return filled_page("check_list.html.j2", language=language_of(checks.language), checks=checks)
 
 
 def render_check_list_pdf(checks: CheckList) -> bytes:
     """Return the PDF."""
-    return typeset(filled_template("check_list.typ.j2", checks=checks))
+    return typeset(filled_template("check_list.typ.j2", language=language_of(checks.language), checks=checks))
 
 
 CHECK_LIST_FORMATS: dict[str, Callable[[CheckList], bytes]] = {

@@ -12,6 +12,7 @@ from amp_studio.files.merging import in_order
 from amp_studio.schema import Address, Value, same_value, show_value
 
 from .axes import place_of
+from .language import language_of
 from .paper import Paper, PaperTable
 from .wording import counted
 
@@ -19,20 +20,28 @@ _SHARES = (2.2, 5.0, 2.0, 3.4, 3.4)
 
 
 def differences_paper(
-    file: ParameterFile, found: Comparison, names: tuple[str, str], facts: Sequence[tuple[str, str]] = (), date: datetime | None = None
+    file: ParameterFile, found: Comparison, names: tuple[str, str], facts: Sequence[tuple[str, str]] = (), date: datetime | None = None,
+    *, more: tuple[ParameterFile, Sequence[Difference]] | None = None, language: str = "en",
 ) -> Paper:  # fmt: skip
-    """Return what differs between a file and another side, group by group; secrets are masked."""
+    """Return what differs between a file and another side, group by group; secrets are masked.
+
+    ``more`` are the other side and what only its schema has; ``language`` is a code of ``language_codes``.
+    """
+    tables = list(_by_group(file, found.differences, language))
+    if more:
+        tables += _by_group(*more, language)
+    count = len(found.differences) + (len(more[1]) if more else 0)
     counts = [
         ("A", names[0]), ("B", names[1]), *facts,
-        ("Differ", str(len(found.differences))), ("The same", str(found.same)),
+        ("Differ", str(count)), ("The same", str(found.same)),
         ("Not set in A", str(found.not_set_in_a)), ("Not set in B", str(found.not_set_in_b)),
     ]  # fmt: skip
     title = file.header.name or names[0]
-    return Paper("Differences", title, tuple(counts), tuple(_by_group(file, found.differences)),
-                 date or datetime.now().astimezone(), "Nothing differs.")  # fmt: skip
+    return Paper("Differences", title, tuple(counts), tuple(tables),
+                 date or datetime.now().astimezone(), "Nothing differs.", language=language)  # fmt: skip
 
 
-def _by_group(file: ParameterFile, differences: Sequence[Difference]) -> Iterator[PaperTable]:
+def _by_group(file: ParameterFile, differences: Sequence[Difference], language: str) -> Iterator[PaperTable]:
     def group_name(difference: Difference) -> str:
         return file.schema.group_of[difference.address[0]].name
 
@@ -40,7 +49,7 @@ def _by_group(file: ParameterFile, differences: Sequence[Difference]) -> Iterato
         rows = []
         for each in members:
             sides = (_shown(file, each.address, value) for value in each.in_one_unit())
-            rows.append((*_named(file, each.address), *sides))
+            rows.append((*_named(file, each.address, language), *sides))
         yield PaperTable(title, ("Number", "Parameter", "Belongs to", "A", "B"), tuple(rows), _SHARES)
 
 
@@ -50,6 +59,7 @@ def machines_paper(
     *,
     everything: bool = False,
     date: datetime | None = None,
+    language: str = "en",
 ) -> Paper:
     """Return a table with a line for each value and a column for each machine; only what differs unless ``everything``.
 
@@ -61,7 +71,9 @@ def machines_paper(
     heads = ("Number", "Parameter", "Belongs to", *names)
     cells, strong = [], set()
     for at, (address, values) in enumerate(rows):
-        cells.append((*_named(first, address), *(_shown(first, address, value) for value in values)))
+        cells.append(
+            (*_named(first, address, language), *(_shown(first, address, value) for value in values))
+        )
         strong |= {(at, 3 + n) for n in _departing(values)}
     differing = sum(any(not same_value(values[0], v) for v in values[1:]) for _, values in rows)
     facts = (
@@ -71,7 +83,7 @@ def machines_paper(
     shares = (2.0, 4.0, 1.6, *(2.4 for _ in files))
     table = PaperTable("", heads, tuple(cells), shares, frozenset(strong))
     return Paper("Machines compared", ", ".join(names), facts, (table,) if cells else (),
-                 date or datetime.now().astimezone(), "Nothing differs.")  # fmt: skip
+                 date or datetime.now().astimezone(), "Nothing differs.", language=language)  # fmt: skip
 
 
 def machine_rows(
@@ -110,10 +122,11 @@ def _departing(values: Sequence[Value | None]) -> Iterator[int]:
         yield from (n for n, count in enumerate(counts) if count < most)
 
 
-def _named(file: ParameterFile, address: Address) -> tuple[str, str, str]:
+def _named(file: ParameterFile, address: Address, language: str) -> tuple[str, str, str]:
     here = file.machine_schema
     number = "" if here.is_disputed(address[0]) else here.number(address) or ""
-    return number, file.schema.parameters[address[0]].name, place_of(file, address)
+    place = language_of(language).text(place_of(file, address))
+    return number, file.schema.parameters[address[0]].name, place
 
 
 def _shown(file: ParameterFile, address: Address, value: Value | None) -> str:

@@ -7,18 +7,26 @@ from datetime import datetime
 
 from amp_studio.files import ParameterFile
 from amp_studio.schema import Parameter, shown
+from amp_studio.schema.model import Bit
 
 from .axes import place_of, printed_axes, scope_of
+from .language import Language, language_of
 from .manual_page import range_text
 from .paper import Paper, PaperTable
 
 _SHARES = (1.6, 4.0, 1.6, 6.0, 3.0)
 _HEADS = ("Number", "Parameter", "Belongs to", "Allowed", "Value")
 _MOST_CHOICES = 6
+_SHORT = 24
 
 
-def form_paper(file: ParameterFile, *, everything: bool = False, date: datetime | None = None) -> Paper:
-    """Return the form of a file's machine; what is hidden on it and unfitted axes are left out, unless ``everything``. Values stay blank."""
+def form_paper(
+    file: ParameterFile, *, everything: bool = False, date: datetime | None = None, language: str = "en"
+) -> Paper:
+    """Return the form of a file's machine; what is hidden on it and unfitted axes are left out, unless ``everything``. Values stay blank.
+
+    ``language`` is a code of ``language_codes``.
+    """
     family = file.schema.family
     machine = next((m.name for m in family.machines if m.key == file.machine), file.machine)
     facts = [
@@ -28,10 +36,11 @@ def form_paper(file: ParameterFile, *, everything: bool = False, date: datetime 
         ("Serial number", ""),
     ]
     return Paper("Form", file.header.name or family.name, tuple((k, v or "_" * 40) for k, v in facts),
-                 tuple(_tables(file, everything)), date or datetime.now().astimezone(), signed=True)  # fmt: skip
+                 tuple(_tables(file, everything, language_of(language))), date or datetime.now().astimezone(),
+                 signed=True, language=language)  # fmt: skip
 
 
-def _tables(file: ParameterFile, everything: bool) -> Iterator[PaperTable]:
+def _tables(file: ParameterFile, everything: bool, language: Language) -> Iterator[PaperTable]:
     axes = printed_axes(file)
     for group in file.schema.groups:
         rows = []
@@ -46,11 +55,26 @@ def _tables(file: ParameterFile, everything: bool) -> Iterator[PaperTable]:
                 number = "" if here.is_disputed(parameter.id) else here.number(address) or ""
                 blank = f"____________ {shown(file.evaluation.unit(address, file.header.units))}".rstrip()
                 rows.append(
-                    (number, parameter.name, place_of(file, address), _allowed(file, parameter), blank)
+                    (
+                        number,
+                        parameter.name,
+                        language.text(place_of(file, address)),
+                        _allowed(file, parameter),
+                        blank,
+                    )
                 )
         if rows:
             title = f"{group.name}: {group.section}" if group.section else group.name
             yield PaperTable(title, _HEADS, tuple(rows), _SHARES)
+
+
+def _bit(bit: Bit) -> str:
+    """Return a box for a bit, a blank for a field of several; a line does not end within a short one."""
+    last = bit.bit + bit.width - 1
+    if last > bit.bit:
+        return f"bits {bit.bit} to {last}: {bit.label} ____"
+    text = f"[ ] {bit.bit} {bit.label}"
+    return text.replace(" ", "\u00a0", -1 if len(text) < _SHORT else 3)
 
 
 def _allowed(file: ParameterFile, parameter: Parameter) -> str:
@@ -59,5 +83,5 @@ def _allowed(file: ParameterFile, parameter: Parameter) -> str:
         more = f" … ({len(labels)})" if len(labels) > _MOST_CHOICES else ""
         return " / ".join(labels[:_MOST_CHOICES]) + more
     if parameter.bits:
-        return "   ".join(f"[ ] {bit.bit} {bit.label}" for bit in parameter.bits)
+        return "   ".join(map(_bit, parameter.bits))
     return "; ".join(range_text(parameter.ranges, file.schema))

@@ -8,10 +8,12 @@ from __future__ import annotations
 import re
 from dataclasses import dataclass, field
 from functools import cache
+from html import escape, unescape
 from pathlib import Path
 
 from .wording import counted
 
+_WORDS = re.compile(r"(>\s*)([^<>]*?[^<>\s])(\s*<)")
 _FOLDER = Path(__file__).parent / "languages"
 
 
@@ -36,7 +38,7 @@ class Language:
             return known
         for pattern, own in self.patterns:
             if found := pattern.fullmatch(english):
-                return own.format(*(self.text(group) for group in found.groups()))
+                return own.format(*(self.text(group) for group in found.groups("0")))
         return english
 
     def of_help(self, title: str) -> str:
@@ -52,6 +54,17 @@ class Language:
             if found := pattern.fullmatch(english):
                 return own.format(*(self.title(group) for group in found.groups()))
         return self.text(english)
+
+    def drawing(self, svg: str) -> str:
+        """Return a drawing (SVG) with its texts in this language."""
+        if self.code == "en":
+            return svg
+        return _WORDS.sub(
+            lambda found: (
+                found[1] + escape(" · ".join(map(self.title, unescape(found[2]).split(" · ")))) + found[3]
+            ),
+            svg,
+        )
 
     def counted(self, number: int, noun: str) -> str:
         """Return ``1 error``, ``2 errors`` in this language."""

@@ -5,11 +5,12 @@ Texts are not escaped; each format escapes them itself.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass
 from datetime import datetime
 from typing import Literal
 
+from amp_studio.schema import MASKED
 from amp_studio.schema.model import ParameterState
 
 from .note import Note, NoteKind
@@ -53,6 +54,19 @@ MARKS: dict[str, str] = {
 }
 
 
+_OWN_FACTS = frozenset(
+    {
+        "Axes",
+        "File",
+        "SHA-256 of the file",
+        "SHA-256 without the secret values",
+        "Unit system",
+        "Order",
+        "Contents",
+        "Findings",
+    }
+)
+"""Facts in words of the report."""
 _MANY_AXES = 4
 _LONGEST_NOTE = 160
 """Characters of a note that are printed beside its value; all notes are printed whole in a chapter of their own."""
@@ -174,15 +188,22 @@ class ReportRow:
         return self.figure or ("(empty)" if self.is_set else "—")
 
     @property
+    def is_own_word(self) -> bool:
+        """Whether ``bare_text`` is a word of the report and not of the file: not set, empty, secret."""
+        return not self.figure or self.figure == MASKED
+
+    @property
     def small_print(self) -> str:
         """The text below the value: the other unit system, the unit of entry, the bits of a word."""
-        entered = f"in the file {self.entered}" if self.entered else ""
-        short = (
-            self.note
-            if len(self.note) <= _LONGEST_NOTE
-            else f"{self.note[:_LONGEST_NOTE]}… (all of it under Notes)"
-        )
-        note = f"Note: {short}" if short else ""
+        return self.small_print_in(str)
+
+    def small_print_in(self, text: Callable[[str], str]) -> str:
+        """Return ``small_print`` in the language of ``text``, which returns a phrase in it."""
+        entered = f"{text('in the file')} {self.entered}" if self.entered else ""
+        short = self.note
+        if len(short) > _LONGEST_NOTE:
+            short = f"{short[:_LONGEST_NOTE]}… ({text('all of it under Notes')})"
+        note = f"{text('Note:')} {short}" if short else ""
         return "; ".join(part for part in (self.also, entered, self.detail, note) if part)
 
 
@@ -362,6 +383,10 @@ class Report:
         """Whether its widest grid needs landscape paper."""
         grids = (p for section in self.sections for p in section.parts if isinstance(p, Grid))
         return max((len(g.columns) for g in grids), default=0) >= _MANY_AXES
+
+    def fact(self, name: str, body: str, text: Callable[[str], str]) -> str:
+        """Return a fact in the language of ``text``; what a person wrote stays as it is."""
+        return text(body) if name in _OWN_FACTS else body
 
     def rows(self) -> Iterator[ReportRow]:
         """Yield all printed values in the order of the report."""

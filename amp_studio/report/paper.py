@@ -13,9 +13,12 @@ from amp_studio import __version__
 from amp_studio.files import Notify, write_atomic
 from amp_studio.files.spreadsheet import text_cell
 
+from .language import Language, language_of
 from .page import filled_page
 from .pdf import filled_template, typeset
 
+_OWN_FACTS = frozenset({"Differ", "The same"})
+"""Facts in words of the paper."""
 _MANY_COLUMNS = 6
 _MOST_COLUMNS = 14
 """Columns that a page takes; a wider table is for a screen or a spreadsheet."""
@@ -48,11 +51,22 @@ class Paper:
     """What is printed where there is no table."""
     signed: bool = False
     """Whether there are lines for signatures."""
+    language: str = "en"
+    """Code of the language of the paper's own words."""
 
     @property
     def when(self) -> str:
         """Date and time in printed form."""
         return self.date.strftime("%Y-%m-%d %H:%M")
+
+    @property
+    def words(self) -> Language:
+        """Its language."""
+        return language_of(self.language)
+
+    def fact(self, name: str, body: str) -> str:
+        """Return a fact in its language; what a person wrote stays as it is."""
+        return self.words.text(body) if name in _OWN_FACTS else body
 
     @property
     def program(self) -> str:
@@ -70,18 +84,25 @@ def _pdf(paper: Paper) -> bytes:
         raise ValueError(
             f"more than {_MOST_COLUMNS} columns are too many for paper: write it as .html, .xlsx or .csv"
         )
-    return typeset(filled_template("paper.typ.j2", paper=paper))
+    return typeset(filled_template("paper.typ.j2", language=paper.words, paper=paper))
 
 
 def _page(paper: Paper) -> bytes:
-    return filled_page("paper.html.j2", paper=paper)
+    return filled_page("paper.html.j2", language=paper.words, paper=paper)
 
 
 def _workbook(paper: Paper) -> bytes:
     from .workbook import WorkbookSheet, workbook
 
-    sheets = [WorkbookSheet(paper.kind, ("", ""), (("", paper.title), *paper.facts, ("Printed", paper.when)))]
-    sheets += [WorkbookSheet(table.title or paper.kind, table.heads, table.rows) for table in paper.tables]
+    text = paper.words.text
+    facts = [(text(name), paper.fact(name, body)) for name, body in paper.facts]
+    sheets = [
+        WorkbookSheet(text(paper.kind), ("", ""), (("", paper.title), *facts, (text("Printed"), paper.when)))
+    ]
+    sheets += [
+        WorkbookSheet(table.title or text(paper.kind), tuple(map(text, table.heads)), table.rows)
+        for table in paper.tables
+    ]
     return workbook(sheets)
 
 
@@ -90,8 +111,9 @@ def _csv(paper: Paper) -> bytes:
     lines = csv.writer(text)
     several = len(paper.tables) > 1
     for n, table in enumerate(paper.tables):
+        heads = tuple(map(paper.words.text, table.heads))
         if not n:
-            lines.writerow(map(text_cell, ("table", *table.heads) if several else table.heads))
+            lines.writerow(map(text_cell, (paper.words.text("table"), *heads) if several else heads))
         lines.writerows(map(text_cell, (table.title, *row) if several else row) for row in table.rows)
     return text.getvalue().encode("utf-8-sig")
 

@@ -16,6 +16,7 @@ from amp_studio.files.spreadsheet import text_cell
 from amp_studio.sheet import Instruction, Sheet, SheetEntry, Stage
 
 from .endings import write_by_ending
+from .language import language_of
 from .model import printable
 from .page import filled_page
 from .pdf import filled_template, typeset
@@ -49,6 +50,8 @@ class PrintedSheet:
     """The numbers of the entries that are keyed in already."""
     shown: tuple[tuple[str, str], ...] = ()
     date: datetime | None = None
+    language: str = "en"
+    """Code of the language of the page's own words."""
 
     @property
     def when(self) -> str:
@@ -179,12 +182,18 @@ def render_sheet_csv(printed: PrintedSheet) -> bytes:
 
 def render_sheet_html(printed: PrintedSheet) -> bytes:
     """Return one web page that can be printed."""
-    return filled_page("sheet.html.j2", printed=printed, sheet=printed.sheet)
+    return filled_page(
+        "sheet.html.j2", language=language_of(printed.language), printed=printed, sheet=printed.sheet
+    )
 
 
 def render_sheet_pdf(printed: PrintedSheet) -> bytes:
     """Return the PDF."""
-    return typeset(filled_template("sheet.typ.j2", printed=printed, sheet=printed.sheet))
+    return typeset(
+        filled_template(
+            "sheet.typ.j2", language=language_of(printed.language), printed=printed, sheet=printed.sheet
+        )
+    )
 
 
 SHEET_FORMATS: dict[str, Callable[[PrintedSheet], bytes]] = {

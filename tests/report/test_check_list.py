@@ -1,12 +1,13 @@
 """The printed check list: a box for each step, a blank for each value that is not set."""
 
+from dataclasses import replace
 from datetime import UTC, datetime
 from pathlib import Path
 
 import pytest
 
 from amp_studio.files import new_file
-from amp_studio.guide import find_step, progress, tick
+from amp_studio.guide import find_step, progress, steps_of, tick
 from amp_studio.report.check_list import (
     WIDTH,
     CheckList,
@@ -16,6 +17,9 @@ from amp_studio.report.check_list import (
     write_check_list,
 )
 from amp_studio.validate import Validator
+
+from .test_pages import small_words
+from .test_pdf import poppler, texts_of
 
 NOON = datetime(2026, 11, 22, 12, 0, tzinfo=UTC)
 
@@ -73,3 +77,16 @@ def test_every_family_has_a_list(family: str) -> None:
     found = build_check_list(validator.file, come)
     assert len(found.steps) == len(come.needed)
     assert render_check_list_text(found)
+
+
+@poppler
+def test_steps_without_values_fill_a_page_and_no_type_is_small(tmp_path: Path) -> None:
+    file = new_file("9pc", "mill", ["X"])
+    for step in steps_of(file.schema):
+        tick(file, step, "2026-11-22T10:00:00+00:00 by ann")
+    validator = Validator(file)
+    checks = build_check_list(file, progress(validator, validator.run()), Path("mill.amp"), NOON)
+    done = replace(checks, steps=tuple(replace(each, values=()) for each in checks.steps))
+    write_check_list(done, tmp_path / "l.pdf")
+    assert "Homing" in texts_of(tmp_path / "l.pdf")[0]
+    assert small_words(tmp_path / "l.pdf") == set()

@@ -5,26 +5,37 @@ from __future__ import annotations
 import re
 import shutil
 import subprocess
+from html import unescape
 from pathlib import Path
 
 import pytest
 
-from amp_studio.files import ParameterFile, new_file
+from amp_studio.files import ParameterFile, ProjectInfo, compare, new_file, open_file
+from amp_studio.files.examples import examples_folder
+from amp_studio.files.notes import set_value_note
+from amp_studio.guide import steps_of
 from amp_studio.report import SORTS, UNIT_CHOICES, Contents, Sort, build_report, write_report
+from amp_studio.report.differences import differences_paper, machines_paper
+from amp_studio.report.drawings import drawings
+from amp_studio.report.form import form_paper
 from amp_studio.report.language import language_codes, language_of
 from amp_studio.report.model import MARKS
+from amp_studio.report.paper import write_paper
 from amp_studio.report.templating import TEMPLATES
-from amp_studio.schema import family_ids, load_schema
+from amp_studio.schema import Value, family_ids, load_schema
 
+EXAMPLES = {
+    "9pc": "mill-1394/MILL_1394", "num": "num-1060-mill/MILL_1060", "syntec": "syntec-mill/SYNTEC_MILL", "grblhal": "grblhal-router/GRBL_ROUTER",
+    "57c422b": "57c422b-label-press/LABEL_PRESS", "acromill": "acromill-router/ROUTER",
+}  # fmt: skip
 GERMAN = language_of("de")
 LITERAL = re.compile(r'\b_\("([^"]+)"\)')
 
 
 @pytest.mark.parametrize("code", [code for code in language_codes() if code != "en"])
-@pytest.mark.parametrize("template", ["report.typ.j2", "report.html.j2"])
+@pytest.mark.parametrize("template", sorted(path.name for path in TEMPLATES.iterdir()))
 def test_a_language_has_every_phrase_of_a_template(code: str, template: str) -> None:
     phrases = set(LITERAL.findall((TEMPLATES / template).read_text("utf-8")))
-    assert len(phrases) > 30
     assert phrases - set(language_of(code).phrases) == set()
 
 
@@ -38,6 +49,33 @@ def test_every_fact_of_the_cover_is_in_german(family: str) -> None:
         for text in (*MARKS.values(), *SORTS.values(), *UNIT_CHOICES.values())
         if text not in GERMAN.phrases
     ] == []
+
+
+@pytest.mark.parametrize("family", family_ids())
+def test_steps_of_commissioning_and_drawings_are_in_german(family: str) -> None:
+    steps = [f"{step.number} {step.title}" for step in steps_of(load_schema(family)) if step.title.isascii()]
+    assert [step for step in steps if GERMAN.title(step) == step] in ([], ["15 Paramacros"], ["3 DDA"])
+    words = [
+        unescape(word).strip()
+        for figure in drawings(open_file(examples_folder() / f"{EXAMPLES[family]}.amp").file)
+        for word in (*re.findall(r"<text[^>]*>([^<>]+)<", figure.svg), figure.title)
+    ]
+    assert len(words) > 20
+    english = r"(over|from|drawn|speed|gain|allowed|Ramps|limits|Home|to|following)"
+    names = "|".join(re.escape(p.name) for p in load_schema(family).parameters.values())
+    left = [re.sub(names, "", GERMAN.title(word)) for word in words]
+    assert [word for word in left if re.search(rf"\b{english}\b", word)] in ([], ["Soft limits"] * 3)
+
+
+def test_what_a_person_wrote_is_in_no_language(mill: ParameterFile) -> None:
+    mill.header.name, mill.header.revision = "Values", "Date"
+    set_value_note(mill, ("home.calibration", "1"), "Values")
+    report = build_report(mill, Contents(language="de"), project=ProjectInfo("Values", "9pc", builder="none"))
+    assert report.fact("Machine", "Values", GERMAN.text) == "Values"
+    assert report.fact("Builder", "none", GERMAN.text) == "none"
+    assert report.fact("Axes", "5 of 8 fitted", GERMAN.text) == "5 von 8 vorhanden"
+    row = next(r for r in report.rows() if r.anchor == "home.calibration@1")
+    assert row.small_print_in(GERMAN.text) == "Notiz: Values"
 
 
 def test_phrases_with_a_part_that_changes() -> None:
@@ -55,6 +93,27 @@ def test_phrases_with_a_part_that_changes() -> None:
 def test_a_group_keeps_the_name_that_the_manual_prints(family: str) -> None:
     names = [g.section or g.name for g in load_schema(family).groups]
     assert [name for name in names if GERMAN.text(name) != name and name not in GERMAN.phrases] == []
+
+
+def test_a_comparison_and_a_form_in_german(tmp_path: Path, mill: ParameterFile) -> None:
+    other = mill.copy()
+    other.set(("home.calibration", "1"), Value(13.0, "mm"))
+    found = compare(mill.schema, mill.values, other.values)
+    papers = [
+        differences_paper(mill, found, ("Values.amp", "b"), language="de"),
+        machines_paper([mill, other], ["Values", "b"], language="de"),
+        form_paper(mill, language="de"),
+    ]
+    for paper in papers:
+        for ending in (".html", ".csv"):
+            write_paper(paper, tmp_path / f"p{ending}")
+        page = (tmp_path / "p.html").read_text("utf-8")
+        assert '<html lang="de">' in page
+        assert "Gehört zu" in page
+        assert not re.search(r">(Number|Belongs to|Differ|The same|Allowed)<", page)
+        assert "Gehört zu" in (tmp_path / "p.csv").read_text("utf-8")
+    assert "Values.amp" in papers[0].fact("A", "Values.amp")
+    assert papers[1].fact("Differ", "1 value") == "1 Wert"
 
 
 @pytest.mark.parametrize("sort", SORTS)

@@ -9,7 +9,7 @@ from pathlib import Path
 
 import pytest
 
-from amp_studio.files import ParameterFile
+from amp_studio.files import ParameterFile, save_file
 from amp_studio.files.notes import set_value_note
 from amp_studio.report import Chapter, Contents, PrintedFigure, Report, build_report, write_report
 from amp_studio.report.model import Listing
@@ -49,13 +49,18 @@ def rows_on(text: str) -> int:
     return len(re.findall(r"^ *\d{1,5} {2,}\S", text, re.MULTILINE))
 
 
+def small_words(path: Path) -> set[str]:
+    """Return the words of a PDF that are smaller than 8.5 points."""
+    boxes = said_by("pdftotext", "-bbox", path, "-")
+    words = re.findall(r'yMin="([\d.]+)" xMax="[\d.]+" yMax="([\d.]+)">(.+?)</word>', boxes)
+    assert len(words) > 50
+    return {text for low, high, text in words if float(high) - float(low) < 8.49 * HEIGHT_OF_TYPE}
+
+
 @poppler
 @pytest.mark.parametrize("which", ["eight axes", "mill"])
 def test_no_type_is_smaller_than_eight_and_a_half_points(printed: Callable[..., Path], which: str) -> None:
-    boxes = said_by("pdftotext", "-bbox", printed(which, "group"), "-")
-    words = re.findall(r'yMin="([\d.]+)" xMax="[\d.]+" yMax="([\d.]+)">(.+?)</word>', boxes)
-    assert len(words) > 1000
-    assert {text for low, high, text in words if float(high) - float(low) < 8.49 * HEIGHT_OF_TYPE} == set()
+    assert small_words(printed(which, "group")) == set()
 
 
 @poppler
@@ -114,6 +119,21 @@ def test_each_changed_value_is_printed_once_in_its_row(
         assert row.name.split()[0] in line
         assert row.figure.split()[0] in line
         assert "*" in line
+
+
+@poppler
+def test_what_one_copies_has_no_invisible_characters(tmp_path: Path, mill: ParameterFile) -> None:
+    mill.header.name = "A_machine_with_a_name_of_one_long_word_that_breaks"
+    source = tmp_path / "a_file_with_a_name_of_one_long_word_that_breaks.amp"
+    save_file(mill, source)
+    report = build_report(mill, Contents(without=BARE), source=source)
+    text = said_by("pdftotext", "-raw", set_as(report, tmp_path), "-")
+    assert "\u200b" not in text
+    (checksum,) = [body for name, body in report.facts if name.startswith("SHA-256")]
+    assert len(checksum) == 64
+    assert checksum in text
+    assert mill.header.name in text.replace("\n", "")
+    assert str(source) in text.replace("\n", "")
 
 
 @poppler

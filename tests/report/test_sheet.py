@@ -5,6 +5,7 @@ from __future__ import annotations
 import csv
 import io
 from datetime import UTC, datetime
+from pathlib import Path
 
 import pytest
 from rule_machines import sound
@@ -17,6 +18,9 @@ from amp_studio.report.sheet import (
     render_sheet_text,
 )
 from amp_studio.sheet import make_sheet
+
+from .test_pages import small_words
+from .test_pdf import poppler
 
 NASTY = "</td><script>alert(1)</script> #panic() \x1b[31m =1+1 \u202e"
 WHEN = datetime(2026, 11, 22, 14, 0, tzinfo=UTC)
@@ -60,6 +64,12 @@ def test_the_table_has_a_row_an_entry_and_no_formula(printed: PrintedSheet) -> N
     head, *rows = csv.reader(io.StringIO(render_sheet_csv(printed).decode("utf-8-sig")))
     assert [row[head.index("number")] for row in rows] == [e.number for e in printed.sheet.entries]
     assert not any(cell.startswith(("=", "+", "@")) for row in rows for cell in row)
+
+
+@poppler
+def test_no_type_of_a_sheet_is_small(printed: PrintedSheet, tmp_path: Path) -> None:
+    (tmp_path / "s.pdf").write_bytes(SHEET_FORMATS[".pdf"](printed))
+    assert {word for word in small_words(tmp_path / "s.pdf") if word.isascii()} == set()
 
 
 def test_equal_sheets_have_equal_bytes(printed: PrintedSheet) -> None:

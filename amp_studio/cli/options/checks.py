@@ -2,7 +2,15 @@
 
 from __future__ import annotations
 
-from amp_studio.cli.arguments import Verbs, count, file_or_address, json_option, path_of, secrets_option
+from amp_studio.cli.arguments import (
+    Verbs,
+    count,
+    file_or_address,
+    json_option,
+    language_option,
+    path_of,
+    secrets_option,
+)
 
 
 def add(verbs: Verbs) -> None:
@@ -62,6 +70,7 @@ def _comparing(verbs: Verbs) -> None:
         "--by-letter", action="store_true", help="match axes by their letters instead of their numbers"
     )
     sub.add_argument("-o", "--output", type=path_of, help="the report of them, as .pdf, .html, .xlsx or .csv")
+    language_option(sub)
     json_option(sub)
     secrets_option(sub)
     sub = verbs.add(
@@ -78,6 +87,7 @@ def _comparing(verbs: Verbs) -> None:
         "--by-letter", action="store_true", help="match axes by their letters instead of their numbers"
     )
     sub.add_argument("-o", "--output", type=path_of, help="the table, as .pdf, .html, .xlsx or .csv")
+    language_option(sub)
     json_option(sub)
     sub = verbs.add("merge", "merging", "three-way merge by parameter", writes="output")
     for name in ("base", "ours", "theirs"):

@@ -6,6 +6,7 @@ from amp_studio.cli.arguments import (
     Verbs,
     file_or_address,
     json_option,
+    language_option,
     on_fault_option,
     path_of,
     secrets_option,
@@ -27,12 +28,7 @@ def add(verbs: Verbs) -> None:
         choices=("pictures", "motion", "exchanges", "signatures"),
         help="leave out a chapter; again for more",
     )
-    sub.add_argument(
-        "--language",
-        choices=("en", "de"),
-        default="en",
-        help="language of the report's own words (default: en)",
-    )
+    language_option(sub)
     sub.add_argument("--inactive", action="store_true", help="also what the control ignores on this machine")
     sub.add_argument(
         "--units",
@@ -49,6 +45,7 @@ def add(verbs: Verbs) -> None:
     )
     sub.add_argument("--machine", metavar="TYPE", help="machine type of the family")
     sub.add_argument("-o", "--output", type=path_of, required=True)
+    language_option(sub)
     sub = verbs.add(
         "sheet",
         "sheet",
@@ -61,6 +58,7 @@ def add(verbs: Verbs) -> None:
     sub.add_argument(
         "-o", "--output", type=path_of, help="the sheet as .pdf, .html, .csv or .txt (default: as text here)"
     )
+    language_option(sub)
     sub.add_argument(
         "--tick",
         action="append",

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from amp_studio.cli.arguments import Verbs, json_option, path_of, secrets_option
+from amp_studio.cli.arguments import Verbs, json_option, language_option, path_of, secrets_option
 
 AXIS_OPERATIONS = ("list", "compare", "copy", "swap", "name", "type", "add", "remove")
 """What the verb about axes does; here, because help loads no room."""
@@ -88,6 +88,7 @@ def _guide(verbs: Verbs) -> None:
         "--keep-defaults", metavar="STEP", help="set what is not set in a step to the printed defaults"
     )
     sub.add_argument("-o", "--output", type=path_of, help="write the check list as .pdf, .html or .txt")
+    language_option(sub)
     json_option(sub)
 
 
