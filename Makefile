@@ -73,7 +73,7 @@ bench: setup ## measure, and print one table
 translations: setup ## find the texts of the window that have no translation, and list them
 	@$(BIN)/python scripts/translations.py
 
-screenshots: setup ## draw every page of the window into build/screenshots, light and dark, English and German
+screenshots: setup ## draw the pictures of the pages, and every page of the window into build/screenshots
 	@$(BIN)/python scripts/screenshots.py
 
 man: setup ## write build/amp-studio.1, the man page

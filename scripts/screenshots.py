@@ -34,12 +34,14 @@ from PySide6.QtCore import QPoint, QSettings, Qt  # noqa: E402  # after the fold
 from PySide6.QtGui import QPainter, QPixmap  # noqa: E402
 from PySide6.QtTest import QTest  # noqa: E402
 from PySide6.QtWidgets import QApplication, QWidget  # noqa: E402
+from tutorial_pictures import IMAGES, draw_documents  # noqa: E402
 
 from amp_studio.files import Document, ParameterFile, compare, new_file  # noqa: E402
 from amp_studio.schema import Value  # noqa: E402
 from amp_studio.ui.main_window import MainWindow  # noqa: E402
 from amp_studio.ui.task import Task  # noqa: E402
 from amp_studio.ui.theme import scheme  # noqa: E402
+from amp_studio.ui.translated import speak  # noqa: E402
 from amp_studio.ui.workspace import Workspace  # noqa: E402
 
 EXCESS, RAPID, CALIBRATION = ("servo.excess_error", "1"), ("feedrate.rapid", "1"), ("home.calibration", "1")
@@ -325,8 +327,6 @@ PAGES: tuple[Callable[[Stage], None], ...] = (
 
 def draw(language: str, only: str) -> int:
     """Draw all pages in a language; returns how many pictures were written."""
-    from amp_studio.ui.translated import speak
-
     speak(language)
     stage = Stage(Photographer(language, only))
     for page in PAGES:
@@ -340,13 +340,21 @@ def main() -> int:
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--language", choices=("en", "de"), action="append", help="default: both")
     parser.add_argument("--only", default="", help="pages whose name contains this")
+    parser.add_argument(
+        "--documents", action="store_true", help="only the pictures of README and the tutorial"
+    )
     chosen = parser.parse_args()
     OUT.mkdir(parents=True, exist_ok=True)
     application = QApplication(["amp-studio"])
     start = time.monotonic()
-    count = sum(map(partial(draw, only=chosen.only), chosen.language or ("en", "de")))
+    count = 0
+    if not chosen.documents:
+        count += sum(map(partial(draw, only=chosen.only), chosen.language or ("en", "de")))
+    if chosen.documents or not (chosen.only or chosen.language):
+        speak("en")
+        count += draw_documents(lambda: Stage(Photographer("en", "")))
     application.quit()
-    sys.stdout.write(f"{count} pictures in {OUT} after {time.monotonic() - start:.0f} s\n")
+    sys.stdout.write(f"{count} pictures in {OUT} and {IMAGES} after {time.monotonic() - start:.0f} s\n")
     return 0
 
 

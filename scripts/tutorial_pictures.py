@@ -1,0 +1,218 @@
+"""Draw the pictures of README and the tutorial: each from the state that the commands above it on its page have made.
+
+``screenshots.py`` calls it; the pictures go into ``docs/images``, light and in English, with a palette so that they stay small.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import io
+import os
+import shlex
+from collections.abc import Callable
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from PySide6.QtGui import QImage, QPixmap
+    from screenshots import Stage
+
+TOP = Path(__file__).resolve().parents[1]
+PAGE, IMAGES = TOP / "docs/tutorial.md", TOP / "docs/images"
+SIZE = (1200, 660)
+COLOURS = 256
+RESTED_MS = 1_000
+"""Until a selection has rested and the range that the rules allow is looked for."""
+FILE = "mill.amp"
+
+
+def draw_documents(make_stage: Callable[[], Stage]) -> int:
+    """Run the commands of the tutorial, and draw each of its pictures in its place; then that of README. Returns how many."""
+    stage = make_stage()
+    folder = stage.files / "tutorial"
+    folder.mkdir()
+    count = 0
+    with contextlib.chdir(folder), contextlib.redirect_stdout(io.StringIO()):
+        for line in PAGE.read_text(encoding="utf-8").splitlines():
+            if line.startswith("    amp-studio "):
+                _run(line)
+            elif "](images/" in line:
+                name = line.partition("](images/")[2].partition(".png")[0]
+                _save(PICTURES[name](stage, folder / FILE), name)
+                _close(stage)  # an open file is locked against the next command
+                count += 1
+        _save(window(stage, stage.path("mill-1394")), "window")
+    stage.close()
+    return count + 1
+
+
+def _run(line: str, path: Path = Path(FILE)) -> None:
+    """Run a command of the page; one that leaves errors is no failure."""
+    from screenshots import MOMENT
+
+    from amp_studio import cli
+
+    verb, *words = shlex.split(line, comments=True)[1:]
+    if verb in ("show", "validate", "report", "simulate"):
+        return  # they change nothing that a picture shows
+    code = cli.run([verb, *words])
+    if code > 1:
+        raise RuntimeError(f"{line}: exit code {code}")
+    os.utime(path, (MOMENT, MOMENT))
+
+
+# -- the pictures ----------------------------------------------------------------------------------
+
+
+def _shown(stage: Stage, path: Path, *, later: bool = True) -> Any:
+    """Return the window with a file, ``later`` with the findings of steps that are not reached."""
+    from screenshots import settle
+
+    window = stage.window
+    window.resize(*SIZE)
+    window.open_first(path)
+    window.page.left.show_side("groups")
+    window.workspace.show_later(later)
+    settle()
+    return window
+
+
+def _close(stage: Stage) -> None:
+    for page in list(stage.window.tabs.pages()):
+        stage.window.close_page(page)
+
+
+def _grab(widget: Any) -> QPixmap:
+    from PySide6.QtTest import QTest
+    from screenshots import picture, settle
+
+    QTest.qWait(RESTED_MS)
+    settle()
+    return picture(widget)
+
+
+def new(stage: Stage, _: Path) -> QPixmap:
+    """The dialog of a new file, filled in."""
+    from amp_studio.ui.new_file_dialog import NewFileDialog
+
+    dialog = NewFileDialog(stage.window, "9pc")
+    dialog.machine.setCurrentIndex(dialog.machine.findData("mill"))
+    dialog.axes.setText("X,Y,Z,S")
+    dialog.name.setText("mill")
+    dialog.show()
+    taken = _grab(dialog)
+    dialog.close()
+    return taken
+
+
+def errors(stage: Stage, path: Path) -> QPixmap:
+    """The new file with what is wrong in it."""
+    window = _shown(stage, path, later=False)
+    window.go_to(("servo.hardware_type", "1"))
+    window.show_panel("Findings")
+    return _grab(window)
+
+
+def fixes(stage: Stage, path: Path) -> QPixmap:
+    """Every suggested fix, to be chosen from."""
+    from amp_studio.ui.finding_dialogs import FixSeveralDialog
+
+    window = _shown(stage, path)
+    dialog = FixSeveralDialog(window.workspace, window.workspace.listed, window)
+    dialog.resize(760, 300)
+    dialog.show()
+    taken = _grab(dialog)
+    dialog.close()
+    return taken
+
+
+def loops(stage: Stage, path: Path) -> QPixmap:
+    """The loops of four axes, and what the check finds now."""
+    window = _shown(stage, path)
+    window.go_to(("servo.loop_type", "1"))
+    window.show_panel("Findings")
+    return _grab(window)
+
+
+def axes(stage: Stage, path: Path) -> QPixmap:
+    """Three axes that are alike."""
+    window = _shown(stage, path)
+    window.go_to(("servo.excess_error", "1"))
+    return _grab(window)
+
+
+def done(stage: Stage, path: Path) -> QPixmap:
+    """No error is left."""
+    window = _shown(stage, path)
+    window.go_to(("servo.excess_error", "1"))
+    window.show_panel("Findings")
+    return _grab(window)
+
+
+def motion(stage: Stage, path: Path) -> QPixmap:
+    """A move of the X axis."""
+    from screenshots import settle
+
+    from amp_studio.ui.task import Task
+
+    window = _shown(stage, path)
+    window.go_to(("feedrate.rapid", "1"))
+    window.view.motion_action.trigger()
+    with stage.beside("MotionView") as view:
+        settle(lambda: getattr(view, "trace", None) is not None and not Task.running and view.plot.is_drawn)
+        view.resize(*SIZE)
+        return _grab(view)
+
+
+def window(stage: Stage, path: Path) -> QPixmap:
+    """The example mill with a value that a rule finds wrong."""
+    _run(f"amp-studio set {shlex.quote(str(path))} 1750='4 mm'", path)
+    shown = _shown(stage, path)
+    shown.go_to(("servo.excess_error", "1"))
+    shown.show_panel("Findings")
+    return _grab(shown)
+
+
+PICTURES: dict[str, Callable[[Stage, Path], QPixmap]] = {
+    "window": window,
+    "tutorial-new": new,
+    "tutorial-errors": errors,
+    "tutorial-fixes": fixes,
+    "tutorial-loops": loops,
+    "tutorial-axes": axes,
+    "tutorial-done": done,
+    "tutorial-motion": motion,
+}
+"""Name of a file in ``docs/images`` -> what draws it."""
+
+
+# -- files -----------------------------------------------------------------------------------------
+
+
+def _save(taken: QPixmap, name: str) -> None:
+    """Write a picture with a palette; raises OSError where it cannot."""
+    path = IMAGES / f"{name}.png"
+    if not with_palette(taken.toImage()).save(str(path), quality=0):
+        raise OSError(f"{path} could not be written")
+
+
+def with_palette(image: QImage) -> QImage:
+    """Return an image in its most frequent colours, each other one as the nearest of them."""
+    import numpy as np
+    from PySide6.QtGui import QImage
+
+    image = image.convertToFormat(QImage.Format.Format_RGB32)
+    height, width = image.height(), image.width()
+    pixels = np.frombuffer(image.constBits(), np.uint32).reshape(height, image.bytesPerLine() // 4)[:, :width]
+    found, place, count = np.unique(pixels, return_inverse=True, return_counts=True)
+    kept = found[np.sort(np.argsort(-count, kind="stable")[:COLOURS])]
+    parts = [(colours >> shift & 255).astype(np.int32) for colours in (found, kept) for shift in (16, 8, 0)]
+    all_of, few = np.stack(parts[:3], 1), np.stack(parts[3:], 1)
+    nearest = np.concatenate([
+        np.argmin(((block[:, None] - few[None]) ** 2).sum(2), 1) for block in np.array_split(all_of, max(1, len(all_of) // 1000))
+    ])  # fmt: skip
+    indices = np.zeros((height, (width + 3) // 4 * 4), np.uint8)
+    indices[:, :width] = nearest[place].reshape(height, width)
+    made = QImage(indices.tobytes(), width, height, indices.shape[1], QImage.Format.Format_Indexed8)
+    made.setColorTable([int(colour) | 0xFF000000 for colour in kept])
+    return made.copy()
