@@ -187,9 +187,3 @@ def blocks(
             rows += [flat[k] + start, flat[k + 1], flat[k + 2] + position, *flat[k + 3 : k + WIDTH]]
         start, position, entry = start + end_of(flat), position + distance, leave
     return [*rows, start, math.inf, position, 0.0, 0.0, 0.0, POLYNOMIAL, 0.0]
-
-
-def stop_from(velocity: float, ramp: Ramp) -> list[float]:
-    """Return a stop from a velocity in u/s with its sign, along the ramp."""
-    pieces = change(ramp, abs(velocity), 0.0)
-    return profile_of(pieces, length(pieces), math.copysign(1.0, velocity))

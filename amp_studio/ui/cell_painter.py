@@ -58,10 +58,6 @@ class CellPainter:
         """Return the width of a unit."""
         return self._width(self._small, unit)
 
-    def text_width(self, text: str, *, is_own: bool) -> float:
-        """Return the width of a value."""
-        return self._width(self._own if is_own else self._plain, text)
-
     def _width(self, letters: QFont, text: str) -> float:
         key = (id(letters), text)
         found = self._widths.get(key)

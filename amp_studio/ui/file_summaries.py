@@ -27,11 +27,6 @@ class FileSummaries(QObject):
         self._reading: Task | None = None
         self._is_over = False
 
-    @property
-    def is_reading(self) -> bool:
-        """Whether a file is being read."""
-        return self._reading is not None
-
     def of(self, path: Path) -> FileSummary | str | None:
         """Return the summary of a file, or why it has none; None while it is not known."""
         return self._known.get(_version(path))

@@ -80,13 +80,13 @@ ICON, SMALL_ICON = 16, 14
 FIGURE_SPACE = "\u2007"
 """A space as wide as a digit, to align numbers of different length."""
 
-_SEVERITY: dict[str, tuple[Token, Token, str]] = {
-    "error": ("error", "errorbg", "x-circle-fill"),
-    "warning": ("warn", "warnbg", "warning-fill"),
-    "advice": ("rec", "recbg", "lightbulb-fill"),
-    "information": ("dim", "panel", "info"),
+_SEVERITY: dict[str, tuple[Token, str]] = {
+    "error": ("error", "x-circle-fill"),
+    "warning": ("warn", "warning-fill"),
+    "advice": ("rec", "lightbulb-fill"),
+    "information": ("dim", "info"),
 }
-"""Severity -> its ink, its ground and the shape that means the same without a colour."""
+"""Severity -> its ink and the shape that means the same without a colour."""
 _PIXELS = {
     "figure": (20, 600),
     "title": (15, 600),
@@ -162,20 +162,15 @@ def severity_ink(severity: str) -> QColor:
     return colour(_SEVERITY[severity][0])
 
 
-def severity_colour(severity: str | None) -> QColor:
-    """Return the background that marks the cell that caused a finding; without one no colour."""
-    return colour(_SEVERITY[severity][1]) if severity in _SEVERITY else QColor(Qt.GlobalColor.transparent)
-
-
 def severity_mark(severity: str) -> tuple[str, Token]:
     """Return the name of the icon of a severity and its ink. For delegates."""
-    ink, _, name = _SEVERITY.get(severity, _SEVERITY["information"])
+    ink, name = _SEVERITY.get(severity, _SEVERITY["information"])
     return name, ink
 
 
 def severity_icon(severity: str) -> QIcon:
     """Return the icon of a severity, in its colour."""
-    ink, _, name = _SEVERITY.get(severity, _SEVERITY["information"])
+    ink, name = _SEVERITY.get(severity, _SEVERITY["information"])
     return icon(name, ink)
 
 
@@ -277,7 +272,7 @@ def icon_html(name: str, ink: Token) -> str:
 
 def severity_html(severity: str) -> str:
     """Return the icon of a severity in a page of HTML."""
-    ink, _, name = _SEVERITY.get(severity, _SEVERITY["information"])
+    ink, name = _SEVERITY.get(severity, _SEVERITY["information"])
     return icon_html(name, ink)
 
 

@@ -12,7 +12,7 @@ from ruckig import InputParameter, Result, Ruckig, Trajectory
 
 from amp_studio.sim import Ramp, SimulationError
 from amp_studio.sim.profiles import DURATION, START, WIDTH, command, piece_at
-from amp_studio.sim.ramps import Override, blocks, end_of, move, overridden, stop_from
+from amp_studio.sim.ramps import Override, blocks, end_of, move, overridden
 from amp_studio.sim.signals import COMMAND, COMMAND_ACCELERATION, COMMAND_VELOCITY, MONITOR
 
 LINEAR = Ramp("linear", 500.0, 250.0)
@@ -185,9 +185,3 @@ def test_contouring_goes_through_a_corner_where_an_exact_stop_stands() -> None:
     assert end_of(stopped) > end_of(through)
     assert at(through, end_of(through))[0] == at(stopped, end_of(stopped))[0] == 70.0
     assert min(at(through, t)[1] for t in edges(through)) >= -100.0
-
-
-def test_a_stop_from_a_velocity_ends_at_rest() -> None:
-    profile = stop_from(-100.0, LINEAR)
-    assert end_of(profile) == pytest.approx(0.4)
-    assert at(profile, 1.0) == pytest.approx((-20.0, 0.0, 0.0))

@@ -30,7 +30,6 @@ from .law_reading import above_zero, demand, if_set, not_negative
 from .law_tune import SCENARIO as TUNE
 from .law_units import OWN_INERTIA, OWN_TORQUE
 
-TITLE = "9/PC axis"
 HARDWARE, LOOP, POSITION_LOOP = "servo.hardware_type", "servo.loop_type", "servo.position_loop_type"
 CYCLE, RAPID, CUTTING = "servo.sercos_cycle", "feedrate.rapid", "feedrate.max_cutting"
 GAIN, BREAK_POINT, BREAK_RATIO = "servo.initial_gain", "servo.gain_break_point", "servo.gain_break_ratio"

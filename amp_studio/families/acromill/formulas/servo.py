@@ -8,9 +8,6 @@ from collections.abc import Sequence
 
 from amp_studio.validate.arguments import finite, not_negative, positive, whole
 
-OUTPUT_VOLTS = 10.0
-"""Full output of the analog outputs, to either side (pages 77 and 128)."""
-
 LOPASS_SHARE = 0.1
 """The low-pass frequency must not exceed this part of the servo update frequency (page 128)."""
 
