@@ -7,7 +7,6 @@ from collections.abc import Iterable
 from html import escape
 
 from reference_html import (
-    anchors,
     heading,
     link,
     listed,
@@ -92,7 +91,7 @@ def manual_pages(schema: Schema) -> str:
         shown = [f"<strong>{title}</strong> {', '.join(links)}" for title, links in titles.items()]
         chapter, dash, _ = one.partition("-")
         chapters.setdefault(f"Chapter {chapter}" if dash else "", []).append(
-            f'{anchors(f"page-{one}")}<div class="printed"><div>{escape(one)}</div>{listed(shown)}</div>'
+            f'<div class="printed" id="{escape(f"page-{one}")}"><div>{escape(one)}</div>{listed(shown)}</div>'
         )
     parts = [
         paragraph(

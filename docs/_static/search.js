@@ -169,6 +169,7 @@
     const typed = wordsOf(query.replace(/_/g, " ").replace(/\.(?=\D)/g, " "));
     let words = [...new Set(typed)];
     if (words.some((word) => !COMMON.has(word))) words = words.filter((word) => !COMMON.has(word));
+    words = words.slice(0, 12); // a text that was pasted by mistake
     const titled = (word) => entries.some(({ texts }) => texts[0].includes(` ${word} `));
     const counted = words.map((word) => {
       // Two words may be known as one: in position, inposition.
