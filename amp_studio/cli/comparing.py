@@ -19,7 +19,6 @@ from amp_studio.files import (
     open_file,
 )
 from amp_studio.files.by_schema import by_schema
-from amp_studio.report import dangers_of_change
 from amp_studio.schema import MASKED, Value, show_value, write_value
 
 from .console import note, print_json, progress
@@ -200,20 +199,27 @@ def print_comparison(
 ) -> None:  # fmt: skip
     """Print each difference and how many there are, and note what the manual calls dangerous about them.
 
-    ``file`` is one of the two sides.
-
-    ``other`` is the second side with what only its schema has.
+    ``file`` is one of the two sides, ``other`` is the second side with what only its schema has.
     """
     for difference in found.differences:
         print_difference(file, difference, secrets)
     second, of_second = other or (file, ())
     for difference in of_second:
         print_difference(second, difference, secrets)
-    for danger in (*dangers_of_change(file, found.differences), *dangers_of_change(second, of_second)):
-        note(f"danger: {danger.line}")
+    if found.differences or of_second:
+        _note_dangers((file, found.differences), (second, of_second))
     more = len(of_second)
     print(f"{len(found.differences) + more} differ, {found.same} are the same, {found.not_set_in_a + more} not set in A, "
           f"{found.not_set_in_b} not set in B")  # fmt: skip
+
+
+def _note_dangers(*sides: tuple[ParameterFile, Sequence[Difference]]) -> None:
+    """Note what the manual calls dangerous about values that differ, one line each."""
+    from amp_studio.report import dangers_of_change
+
+    for file, differences in sides:
+        for danger in dangers_of_change(file, differences):
+            note(f"danger: {danger.line}")
 
 
 def print_difference(file: ParameterFile, difference: Difference, secrets: bool) -> None:

@@ -28,13 +28,13 @@ from amp_studio.validate import NO_RULES, BuilderRules, Finding, Validator
 from .axes import printed_axes, scope_of
 from .dangers import dangers_of
 from .drawings import drawings
-from .findings import joined_places, notes_of, suppressed_notes
+from .findings import notes_of, suppressed_notes
 from .language import language_of
 from .manual_page import help_parts
 from .model import SORTS, UNIT_CHOICES, Contents, ExchangeLine, PrintedFigure, Report, ReportRow
 from .rows import Rows, row_of, rows_of
 from .sections import numbers_of, sections_of
-from .wording import counted
+from .wording import counted, joined_places
 
 _SHORT = 16
 """Digits of a schema's signature that are printed."""

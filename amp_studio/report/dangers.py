@@ -7,8 +7,8 @@ from collections.abc import Iterable
 from amp_studio.files import Difference, ParameterFile
 from amp_studio.schema import Schema
 
-from .findings import joined_places
 from .model import Danger, ReportRow
+from .wording import joined_places
 
 
 def dangers_of(schema: Schema, rows: Iterable[ReportRow]) -> tuple[Danger, ...]:

@@ -13,7 +13,7 @@ from amp_studio.validate import Finding, Setting, Suppressed
 from .axes import axis_label, scope_of
 from .finding_lines import finding_text
 from .note import Note
-from .wording import severity_name
+from .wording import joined_places, severity_name
 
 _NAMED = 6
 """Number of values that a note lists; a finding about more names only the first ones in its message."""
@@ -88,16 +88,6 @@ def _places(file: ParameterFile, addresses: Sequence[Address]) -> str:
     if not axes:
         return "Control" if addresses else ""
     return joined_places([axis_label(file, axis) for axis in axes])
-
-
-def joined_places(places: Iterable[str]) -> str:
-    """Return ``Axis 1 X, 2 Y``: a common first word is not repeated."""
-    texts, word = [], ""
-    for place in places:
-        first, _, rest = place.partition(" ")
-        texts.append(rest if rest and first == word else place)
-        word = first
-    return ", ".join(texts)
 
 
 def _links(file: ParameterFile, addresses: Sequence[Address], printed: set[str]) -> Iterable[tuple[str, str]]:

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
+
 _SEVERITIES = {"advice": "recommendation", "suppressed": "suppressed finding"}
 _STATES = {"in-force": "active", "ignored": "ignored", "unusable": "not available", "hidden": "hidden"}
 
@@ -19,3 +21,13 @@ def state_name(state: str) -> str:
 def counted(number: int, noun: str, none: str = "0") -> str:
     """Return ``1 error``, ``2 errors``, ``3 recommendations``; ``none`` replaces the number 0."""
     return f"{number or none} {severity_name(noun)}{'' if number == 1 else 's'}"
+
+
+def joined_places(places: Iterable[str]) -> str:
+    """Return ``Axis 1 X, 2 Y``: a common first word is not repeated."""
+    texts, word = [], ""
+    for place in places:
+        first, _, rest = place.partition(" ")
+        texts.append(rest if rest and first == word else place)
+        word = first
+    return ", ".join(texts)
