@@ -10,7 +10,7 @@ from PySide6.QtGui import QAccessible, QAccessibleEvent, QFontMetrics, QKeyEvent
 from PySide6.QtWidgets import QFrame, QGridLayout, QLabel, QLineEdit, QWidget
 
 from .mask_list import MaskList
-from .theme import GAP2, SMALL_ICON, colour, font, severity_icon
+from .theme import GAP2, SMALL_ICON, colour, font, scheme, severity_icon
 
 _WIDEST = 540
 
@@ -150,17 +150,12 @@ class RefusalFrame(QFrame):
         self.setFocusPolicy(Qt.FocusPolicy.NoFocus)
         self.setAttribute(Qt.WidgetAttribute.WA_TransparentForMouseEvents)
         self.setAutoFillBackground(True)
-        self.setStyleSheet(
-            f"#refusal {{ background: {colour('raised').name()}; border: 1px solid {colour('error').name()};"
-            " border-radius: 4px; } #refusal QLabel { background: transparent; }"
-        )
         layout = QGridLayout(self)
         layout.setContentsMargins(GAP2, GAP2, GAP2 + 4, GAP2)
         layout.setHorizontalSpacing(GAP2)
         layout.setVerticalSpacing(3)
-        sign = QLabel()
-        sign.setPixmap(severity_icon("error").pixmap(SMALL_ICON, SMALL_ICON))
-        layout.addWidget(sign, 0, 0, Qt.AlignmentFlag.AlignTop)
+        self._sign = QLabel()
+        layout.addWidget(self._sign, 0, 0, Qt.AlignmentFlag.AlignTop)
         self._problem, self._wanted, self._keys = QLabel(), QLabel(), QLabel()
         for row, (label, role) in enumerate(
             ((self._problem, "text"), (self._wanted, "small"), (self._keys, "small"))
@@ -171,9 +166,23 @@ class RefusalFrame(QFrame):
             layout.addWidget(label, row, 1)
         layout.setColumnStretch(1, 1)
         self.text = ""
+        self._filled: tuple[Refusal, list[tuple[str, str]]] | None = None
+        self._dress()
+        scheme().changed.connect(self._dress)
+
+    def _dress(self) -> None:
+        """Take the colours of light or dark."""
+        self.setStyleSheet(
+            f"#refusal {{ background: {colour('raised').name()}; border: 1px solid {colour('error').name()};"
+            " border-radius: 4px; } #refusal QLabel { background: transparent; }"
+        )
+        self._sign.setPixmap(severity_icon("error").pixmap(SMALL_ICON, SMALL_ICON))
+        if self._filled is not None:
+            self.fill(*self._filled)
 
     def fill(self, refusal: Refusal, keys: list[tuple[str, str]]) -> None:
         """Show a refusal."""
+        self._filled = refusal, keys
         allowed = self.tr("Allowed: {range}").format(range=refusal.allowed) if refusal.allowed else ""
         self.text = "\n".join(filter(None, (refusal.problem, allowed, refusal.wanted)))
         dim, cap = colour("dim").name(), colour("hover").name()

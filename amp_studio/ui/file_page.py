@@ -4,11 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable
 from functools import partial
-from html import escape
 
 from PySide6.QtCore import Signal
 from PySide6.QtGui import QAction
-from PySide6.QtWidgets import QLabel, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QVBoxLayout, QWidget
 
 from amp_studio.files import axis_letter, describe
 from amp_studio.report.wording import counted
@@ -19,6 +18,7 @@ from .detail_panel import DetailPanel
 from .filter_bar import FilterBar
 from .findings_panel import FindingsPanel
 from .left_panel import LeftPanel
+from .list_title import ListTitle
 from .message_bar import MessageBar
 from .parameter_table import ParameterTable
 from .picture_split import PictureSplit
@@ -61,8 +61,7 @@ class FilePage(QWidget):
         self._title = ""
         self.pictures: QWidget | None = None
         """Beside the table or in its place, once they were asked for."""
-        self.list_title = QLabel()
-        self.list_title.setContentsMargins(6, 4, 6, 4)
+        self.list_title = ListTitle()
         layout = QVBoxLayout(self)
         layout.setContentsMargins(0, 0, 0, 0)
         layout.setSpacing(0)
@@ -154,7 +153,8 @@ class FilePage(QWidget):
         if self.filters.active:
             more += self.tr(", filtered (Ctrl+0 shows all)")
         what = counted(count, "parameter", none="no")
-        self.list_title.setText(f"<b>{escape(self._title)}</b> — {what}{more}")
+        self.list_title.show_title(self._title, f"{what}{more}")
+        self.filters.fit()
 
     def show_columns(self, all_axes: bool, hidden_too: bool) -> None:
         """Show unfitted axes and hidden parameters, or leave them out."""

@@ -9,11 +9,12 @@ from collections.abc import Collection, Mapping
 
 from PySide6.QtCore import QSize, QTimer, Signal
 from PySide6.QtGui import QAction, QResizeEvent, QShowEvent
-from PySide6.QtWidgets import QHBoxLayout, QLabel, QLayout, QMenu, QSizePolicy, QToolButton, QWidget
+from PySide6.QtWidgets import QHBoxLayout, QLayout, QMenu, QToolButton, QWidget
 
 from amp_studio.find import MARKS, Mark, ValueMarks, noted
 from amp_studio.schema import Address, Value
 
+from .list_title import ListTitle
 from .parameter_table import ParameterTable, TableRow
 from .segment import chip
 from .theme import GAP, GAP2, SMALL_ICON, icon
@@ -25,7 +26,7 @@ _CHIPS: tuple[Mark, ...] = ("not-set", "changed", "findings", "axes-differ")
 _RECENT = 50
 """Values that are remembered as edited lately."""
 _TITLE = 200
-"""Least width in pixels that chips leave to the title."""
+"""Least width in pixels of the bar."""
 
 
 def mark_names() -> dict[Mark, tuple[str, str]]:
@@ -53,7 +54,7 @@ class FilterBar(QWidget):
     download_wanted = Signal()
     """The filter for what changed since the last download is asked for; ``take_download`` answers."""
 
-    def __init__(self, title: QLabel, table: ParameterTable) -> None:
+    def __init__(self, title: ListTitle, table: ParameterTable) -> None:
         """Return the bar of a table; ``title`` is shown at its left."""
         super().__init__()
         self.setAccessibleName(self.tr("Filters of the table"))
@@ -77,12 +78,12 @@ class FilterBar(QWidget):
         table.modelReset.connect(self._count_later)
         self._follow_saved()
 
-    def _build(self, title: QLabel) -> None:
+    def _build(self, title: ListTitle) -> None:
         row = QHBoxLayout(self)
         row.setSizeConstraint(QLayout.SizeConstraint.SetNoConstraint)  # it is cut before it widens the window
         row.setContentsMargins(0, 0, GAP2, 0)
         row.setSpacing(GAP)
-        title.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Preferred)
+        self._title = title
         row.addWidget(title, 1)
         self.all = chip(self.tr("All"), self.tr("Every row of this list"))
         self.all.clicked.connect(self.clear)
@@ -199,7 +200,7 @@ class FilterBar(QWidget):
             button.setEnabled(counts[mark] > 0 or mark in self.active)
         for mark, action in self.actions_of.items():
             action.setText(f"{names[mark][0]}  {counts[mark]}" if mark in counts else names[mark][0])
-        self._fit()
+        self.fit()
 
     def _show_choice(self) -> None:
         self.all.setChecked(not self.active)
@@ -224,13 +225,13 @@ class FilterBar(QWidget):
 
     def resizeEvent(self, event: QResizeEvent) -> None:
         super().resizeEvent(event)
-        self._fit()
+        self.fit()
 
-    def _fit(self) -> None:
+    def fit(self) -> None:
         """Show chips where there is room for them; a narrow bar has all filters in the funnel."""
         chips = [self.all, *self.chips.values()]
         wide = sum(button.sizeHint().width() + GAP for button in chips) + 60
-        is_narrow = self.width() < wide + _TITLE
+        is_narrow = self.width() < wide + self._title.needed
         for mark in _CHIPS:
             self.actions_of[mark].setVisible(is_narrow)
         for button in chips:

@@ -9,7 +9,7 @@ from PySide6.QtWidgets import QFrame, QHBoxLayout, QLabel, QListWidget, QListWid
 from amp_studio.schema import Parameter, field_value
 from amp_studio.schema.model import Bit
 
-from .theme import GAP, GAP2, ROW, colour, font
+from .theme import GAP, GAP2, ROW, colour, font, scheme
 
 _MOST_ROWS = 12
 _NARROWEST, _WIDEST = 240, 420
@@ -26,9 +26,6 @@ class MaskList(QFrame):
         super().__init__(parent)
         self._word = 0
         self.setObjectName("mask")
-        self.setStyleSheet(
-            f"#mask {{ background: {colour('raised').name()}; border: 1px solid {colour('line2').name()}; border-radius: 4px; }}"
-        )
         self.list = QListWidget()
         self.list.setFocusPolicy(Qt.FocusPolicy.NoFocus)
         self.list.setFrameShape(QFrame.Shape.NoFrame)
@@ -37,7 +34,6 @@ class MaskList(QFrame):
         self._count, self._number = QLabel(), QLabel()
         for label in (self._count, self._number):
             label.setFont(font("small"))
-            label.setStyleSheet(f"color: {colour('dim').name()}; background: transparent")
         self._fields: tuple[Bit, ...] = tuple(parameter.bits or ())
         for field in self._fields:
             self._add(field)
@@ -59,6 +55,17 @@ class MaskList(QFrame):
         self.setFixedWidth(max(_NARROWEST, min(_WIDEST, wanted)))
         self.list.setFixedHeight(min(_MOST_ROWS, max(1, self.list.count())) * ROW + 2)
         self.list.itemClicked.connect(self._toggle)
+        self._dress()
+        scheme().changed.connect(self._dress)
+
+    def _dress(self) -> None:
+        """Take the colours of light or dark."""
+        self.setStyleSheet(
+            f"#mask {{ background: {colour('raised').name()}; border: 1px solid {colour('line2').name()}; border-radius: 4px; }}"
+        )
+        for label in (self._count, self._number):
+            label.setStyleSheet(f"color: {colour('dim').name()}; background: transparent")
+        self.show_word(self._word)
 
     def _add(self, field: Bit) -> None:
         item = QListWidgetItem()

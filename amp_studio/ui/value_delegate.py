@@ -18,6 +18,7 @@ from PySide6.QtCore import (
 from PySide6.QtGui import QKeyEvent, QPainter
 from PySide6.QtWidgets import (
     QAbstractItemView,
+    QApplication,
     QLineEdit,
     QStyle,
     QStyledItemDelegate,
@@ -106,6 +107,7 @@ class ValueDelegate(QStyledItemDelegate):
             box = ChoiceBox(self._workspace, address, parent)
             box.activated.connect(self._choose)
             box.left.connect(self._leave)
+            box.tabbed.connect(self._tab)
             QTimer.singleShot(0, box, box.showPopup)
             return box
         field = CellEditor(parent, lambda text: self._preview(address, text))
@@ -161,6 +163,16 @@ class ValueDelegate(QStyledItemDelegate):
         assert isinstance(box, ChoiceBox)
         self.commitData.emit(box)
         self._close(box)
+
+    def _tab(self, forward: bool) -> None:
+        """Take the choice of an open list and go to the next cell, which opens no list by itself."""
+        box, view = self.sender(), self.parent()
+        assert isinstance(box, ChoiceBox)
+        self.commitData.emit(box)
+        self._close(box)
+        if isinstance(view, QAbstractItemView):
+            key = Qt.Key.Key_Tab if forward else Qt.Key.Key_Backtab
+            QApplication.sendEvent(view, QKeyEvent(QEvent.Type.KeyPress, key, Qt.KeyboardModifier.NoModifier))
 
     def _leave(self) -> None:
         """Close the editor with its list; a choice is committed before that."""

@@ -10,7 +10,7 @@ from PySide6.QtWidgets import QApplication, QLineEdit
 
 from amp_studio.files import ParameterFile
 from amp_studio.schema import Value
-from amp_studio.ui.choice_box import ChoiceBox
+from amp_studio.ui.choice_box import ChoiceBox, folded
 from amp_studio.ui.main_window import MainWindow
 
 from .conftest import WAIT_MS, action, editor, on_disk
@@ -211,6 +211,33 @@ def test_letters_add_up_and_a_label_goes_before_a_code(window: MainWindow, qtbot
     QTest.keyClick(box.view(), KEY.Key_Backspace)
     assert box.currentData() == next(label for label in labels if label.lower().startswith("di"))
     box.hidePopup()
+
+
+def test_a_text_that_no_choice_fits_leaves_the_value_and_backspace_leads_back(
+    window: MainWindow, qtbot
+) -> None:
+    """``g`` is the letter of another choice; a typing error must not set it."""
+    box = typed(window, qtbot, "digx")
+    value = window.workspace.file.get(("servo.loop_type", "1")).value
+    keys = [c.key for c in window.workspace.file.schema.parameters["servo.loop_type"].choices]
+    assert keys[box.currentIndex()] == value
+    assert not any(box.view().isRowHidden(n) for n in range(box.count()))
+    QTest.keyClick(box.view(), KEY.Key_Backspace)
+    assert [n for n in range(box.count()) if not box.view().isRowHidden(n)] == [box.currentIndex()]
+    QTest.keyClick(box.view(), KEY.Key_Escape)
+    assert window.workspace.undo_stack.count() == 0
+
+
+def test_tab_in_an_open_list_takes_the_choice_and_goes_on(window: MainWindow, qtbot) -> None:
+    file = window.workspace.file
+    box = typed(window, qtbot, "ser")
+    QTest.keyClick(box.view(), KEY.Key_Tab)
+    qtbot.waitUntil(lambda: file.get(("servo.loop_type", "1")) == Value("sercos"), timeout=WAIT_MS)
+    assert window.selected() == ("servo.loop_type", "2")
+
+
+def test_a_list_of_choices_forgives_accents() -> None:
+    assert folded("Größe É") == "grosse e"
 
 
 def test_no_list_is_closed_twice(window: MainWindow, qtbot, qtlog) -> None:

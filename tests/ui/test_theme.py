@@ -14,11 +14,15 @@ from pathlib import Path
 import pytest
 from PySide6.QtCore import QSize
 from PySide6.QtGui import QIcon, QPixmap
+from PySide6.QtWidgets import QWidget
 from pytestqt.qtbot import QtBot
 
+from amp_studio.schema import Parameter
 from amp_studio.ui import theme
+from amp_studio.ui.cell_editor import Refusal, RefusalFrame
+from amp_studio.ui.mask_list import MaskList
 from amp_studio.ui.style_sheet import style_sheet
-from amp_studio.ui.theme import COLOURS, Token
+from amp_studio.ui.theme import COLOURS, Token, scheme
 
 GROUNDS: tuple[Token, ...] = ("window", "panel", "base", "raised", "hover", "selbg", "selidle")
 READ: list[tuple[Token, Token]] = [
@@ -176,3 +180,18 @@ def test_the_marks_have_colours_of_the_table(checkout: Path) -> None:
         used = set(re.findall(r"#[0-9A-F]{6}", file.read_text(encoding="utf-8")))
         dark = int(file.stem.endswith("dark"))
         assert used <= {colour for token, colour in named.items() if token.endswith(f"-{dark}")}, file.name
+
+
+def test_what_is_open_over_the_table_changes_its_colours_with_the_theme(
+    qtbot: QtBot, light_again: None
+) -> None:
+    parent = QWidget()
+    qtbot.addWidget(parent)
+    frame = RefusalFrame(parent)
+    frame.fill(Refusal("99 mm is outside the range", "0 to 10 mm"), [("Esc", "keep 5 mm")])
+    words = MaskList(Parameter.model_construct(bits=()), parent)
+    before = [frame.styleSheet(), frame._keys.text(), words.styleSheet()]
+    scheme().choose("dark")
+    after = [frame.styleSheet(), frame._keys.text(), words.styleSheet()]
+    assert all(old != new for old, new in zip(before, after, strict=True))
+    assert "99 mm" in frame.text

@@ -15,6 +15,7 @@ from amp_studio.schema import Value
 from amp_studio.ui.axis_dialogs import AxisDialog
 from amp_studio.ui.choice_box import ChoiceBox
 from amp_studio.ui.main_window import MainWindow
+from amp_studio.ui.task import ProgressDialog
 
 from .conftest import WAIT_MS, Person, action, editor
 
@@ -30,7 +31,10 @@ def opened_beside(window: MainWindow) -> list[QWidget]:
     return [
         w
         for w in QApplication.topLevelWidgets()
-        if w is not window and w.isVisible() and w.windowType() != Qt.WindowType.ToolTip
+        if w is not window
+        and w.isVisible()
+        and w.windowType() != Qt.WindowType.ToolTip
+        and not isinstance(w, ProgressDialog)
     ]
 
 
@@ -40,7 +44,12 @@ def test_escape_closes_every_side_window(
 ) -> None:
     Project.create(path.parent, ProjectInfo("Workshop", "9pc"))
     window.projects.notice(path.parent)
-    monkeypatch.setattr(QDialog, "exec", lambda dialog: dialog.show() or 0)
+    run = QDialog.exec  # progress is waited for: it takes a while on a slow machine
+    monkeypatch.setattr(
+        QDialog,
+        "exec",
+        lambda dialog: run(dialog) if isinstance(dialog, ProgressDialog) else dialog.show() or 0,
+    )
     window.go_to(("servo.excess_error", "1"))
     action(window, name).trigger()
     qtbot.waitUntil(lambda: bool(opened_beside(window)), timeout=WAIT_MS)
