@@ -6,7 +6,6 @@ control already running; without one the same job runs here in the terminal.
 
 from __future__ import annotations
 
-import os
 import shutil
 import subprocess
 import sys
@@ -17,21 +16,16 @@ from pathlib import Path
 import platformdirs
 
 from amp_studio.files.examples import examples_folder
+from amp_studio.ui.display import has_display
 
 EXAMPLE = "mill-1394"
 
 
 def run_demo(terminal: bool = False) -> int:
     """Run the demonstration; returns the exit code."""
-    if terminal or not _has_display():
+    if terminal or not has_display():
         return _in_terminal()
     return _in_window()
-
-
-def _has_display() -> bool:
-    if sys.platform in ("win32", "darwin"):
-        return True
-    return bool(os.environ.get("DISPLAY") or os.environ.get("WAYLAND_DISPLAY"))
 
 
 def _in_window() -> int:

@@ -20,6 +20,11 @@ __all__ = ["main"]
 
 def main(arguments: Sequence[str] | None = None, emulate: bool = False) -> int:
     """Open the desktop program, on files if some are named, else on those of the last time; ``emulate`` starts an emulated control. Returns the exit code."""
+    from .display import MISSING, has_display
+
+    if not has_display():
+        print(f"amp-studio: {MISSING}", file=sys.stderr, flush=True)
+        return 2
     from PySide6.QtWidgets import QApplication
 
     from .main_window import MainWindow

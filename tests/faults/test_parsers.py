@@ -113,6 +113,7 @@ READERS = {
     "transfer/links/tcp.py": "hostile clients",
     "ui/__init__.py": "",  # paths of files to open: by the gate of every file
     "ui/control_actions.py": "damaged control image",
+    "ui/display.py": "",  # whether names of displays are set
     "ui/file_actions.py": "",  # copies an example of the program, which is opened as every file is
     "ui/file_tabs.py": "",  # writes to the clipboard
     "ui/emulated_control.py": "",  # the own child's first line: an address, which is read as one
