@@ -36,7 +36,7 @@ _ALSO = {
 }  # fmt: skip
 """Units of records that no parameter has -> one that has a size, and how much of it."""
 TORQUE_UNITS = {
-    "%": ("%", 1.0), "percent": ("%", 1.0), "v": ("V", 1.0), "mv": ("V", 1e-3), "a": ("A", 1.0), "ma": ("A", 1e-3), "nm": ("Nm", 1.0),
+    "%": ("%", 1.0), "percent": ("%", 1.0), "pct": ("%", 1.0), "arms": ("A", 1.0), "v": ("V", 1.0), "mv": ("V", 1e-3), "a": ("A", 1.0), "ma": ("A", 1e-3), "nm": ("Nm", 1.0),
     "mnm": ("Nm", 1e-3), "ncm": ("Nm", 1e-2), "n": ("N", 1.0), "kn": ("N", 1e3),
 }  # fmt: skip
 """Unit of a torque, a force or a current without blanks and dots -> its own unit, and how much of that it is."""
@@ -195,14 +195,16 @@ def _unit(head: tuple[str, str], kind: str) -> tuple[str, float]:
         "position": ("length", "angle", "counts"),
     }[kind]
     if dimension(unit_name) not in wanted or (kind == "time" and unit_name not in _TIMES):
+        hint = ": multiply it by the travel for a turn" if unit_name == "rpm" else ""
         raise SimulationError(
-            f"The column {name} is in {text[:20]}, which is no unit of a {kind} of the axis"
+            f"The column {name} is in {text[:20]}, which is no unit of a {kind} of the axis{hint}"
         )
     return unit_name, 1.0
 
 
 def _torque_unit(text: str) -> tuple[str, float] | None:
-    return TORQUE_UNITS.get(re.sub(r"[\s·.*]", "", text).casefold())
+    word = re.sub(r"[\s·.*]", "", text).casefold()
+    return TORQUE_UNITS.get("%" if word.startswith("%") else word)  # % of rated torque, % Mn
 
 
 def torque_figure(text: str) -> tuple[float, str]:

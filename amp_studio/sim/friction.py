@@ -203,8 +203,10 @@ def _filtered(width: int, *signals: Series) -> tuple[Series, ...]:
 
 def _gain(taps: Series, width: int) -> float:
     """Return the variance that a variance of 1 at each row leaves in the filtered acceleration."""
-    box = np.full(width, 1.0 / width)
-    return float(np.sum(np.convolve(np.convolve(np.convolve(box, box), box), taps) ** 2))
+    impulse = np.zeros(6 * width - 5)
+    impulse[3 * width - 3] = 1.0
+    response = _box(_box(_box(impulse, width), width), width)
+    return float(np.sum(np.convolve(response, taps) ** 2))
 
 
 def _one_direction(speed: Series, width: int) -> npt.NDArray[np.bool_]:

@@ -29,6 +29,7 @@ def read(head: str, *rows: str) -> DriveRecord:
         ("time_s,velocity_mm/min,torque_percent", "0.5,-600,12.5"),
         ("t in s\tv in m/min\ttorque in %", "0.5\t-0.6\t12.5"),
         ('"time (s)","velocity (mm/min)","torque (%)"', '"0,5","-6e2","12,5"'),
+        ("t (s);v (mm/s);Moment (% Mn)", "0,5;-10,0;12,5"),
         ("t (us),actual velocity (m/s),torque command (%)", "500000,-0.01,+12.5"),
         (
             "n,time (s),command velocity [mm/min],velocity [mm/min],output [V],torque [%]",
@@ -85,7 +86,7 @@ def test_a_length_is_no_angle() -> None:
         ("time (s),velocity (mm/s)\n0,1\n", "No line names the columns"),
         ("time (s),velocity (mm/s),torque\n0,1,2\n", "column torque has no unit"),
         ("time,velocity (mm/s),torque (%)\n0,1,2\n", "column time has no unit"),
-        ("time (s),speed (rpm),torque (%)\n0,1,2\n", "rpm, which is no unit of a velocity"),
+        ("time (s),speed (rpm),torque (%)\n0,1,2\n", "rpm, which is no unit of a velocity of the axis: multiply it by the travel for a turn"),
         ("time (s),position (mm/s),torque (%)\n0,1,2\n", "no unit of a position"),
         ("time (mm),velocity (mm/s),torque (%)\n0,1,2\n", "no unit of a time"),
         ("time (s),velocity (mm/s),torque (Hz)\n0,1,2\n", "torque is in Hz; known are"),
