@@ -22,7 +22,7 @@ WORK = TOP / "build" / "screenshots-work"
 MOMENT = 1_773_305_100
 """12 March 2026, 08:45 UTC: when every file was last changed."""
 LARGE, SMALL = (1440, 900), (1024, 700)
-PATIENCE = 20.0
+PATIENCE = 60.0
 """Seconds after which a page that is not ready ends the run."""
 
 # Before anything imports Qt or asks where the user's folders are.
@@ -30,13 +30,13 @@ os.environ |= {"QT_QPA_PLATFORM": "offscreen", "TZ": "UTC", "USER": "operator", 
 os.environ |= {f"XDG_{n}_HOME": str(WORK / "home" / n.lower()) for n in ("CACHE", "CONFIG", "DATA", "STATE")}
 sys.path.insert(0, str(TOP))
 
-from PySide6.QtCore import QPoint, QSettings, Qt  # noqa: E402  # after the folders are set
+from PySide6.QtCore import QEventLoop, QPoint, QSettings, Qt, QTimer  # noqa: E402  # after the folders are set
 from PySide6.QtGui import QPainter, QPixmap  # noqa: E402
 from PySide6.QtTest import QTest  # noqa: E402
 from PySide6.QtWidgets import QApplication, QWidget  # noqa: E402
 from tutorial_pictures import IMAGES, draw_documents  # noqa: E402
 
-from amp_studio.files import Document, ParameterFile, compare, new_file  # noqa: E402
+from amp_studio.files import Document, ParameterFile, Project, ProjectInfo, compare, new_file, save_file  # noqa: E402
 from amp_studio.schema import Value  # noqa: E402
 from amp_studio.ui.main_window import MainWindow  # noqa: E402
 from amp_studio.ui.task import Task  # noqa: E402
@@ -53,9 +53,16 @@ def settle(ready: Callable[[], object] = lambda: not Task.running) -> None:
     while not ready():
         if time.monotonic() > end:
             raise TimeoutError("a page did not become ready")
-        QTest.qWait(10)
+        pause(10)
     for _ in range(3):
-        QTest.qWait(5)
+        pause(5)
+
+
+def pause(milliseconds: int) -> None:
+    """Let the window and its threads work for a moment; ``QTest.qWait`` would keep the threads waiting."""
+    loop = QEventLoop()
+    QTimer.singleShot(milliseconds, loop.quit)
+    loop.exec()
 
 
 def picture(widget: QWidget) -> QPixmap:
@@ -288,6 +295,36 @@ class Stage:
             self.take(name, dialog)
             dialog.close()
 
+    def preview(self) -> None:
+        """The report beside the table, at the page of the selected value; and what it contains."""
+        window = self.window
+        window.go_to(EXCESS)
+        window.preview.action.trigger()
+        settle(lambda: window.preview.panel is not None and window.preview.panel.view.places)
+        settle(lambda: window.preview.panel.is_settled)
+        self.take("24-preview", window, LARGE)
+        self.take("24-preview", window, SMALL)
+        head = window.preview.panel.head
+        head.menu.popup(head.mapToGlobal(head.rect().bottomLeft()))
+        self.take("25-preview-contents", head.menu)
+        head.menu.close()
+        window.resize(*LARGE)
+        window.preview.action.trigger()
+
+    def machines(self) -> None:
+        """Machines of a project side by side."""
+        folder = self.window.workspace.path.parent
+        for n, rate in ((2, 165.0), (3, 190.0), (4, 165.0)):
+            file = self.window.workspace.file.copy()
+            file.set(RAPID, Value(rate, "mm/s"))
+            file.set(CALIBRATION, Value(0.25 * n, "mm"))
+            save_file(file, folder / f"MILL_{n}.amp")
+        if self.window.project is None:
+            self.window.project = Project.create(folder, ProjectInfo("HALL_2", "9pc"))
+        self.window.projects.compare()
+        with self.beside("MachinesDialog") as dialog:
+            self.take("26-machines", dialog)
+
     def project_check(self) -> None:
         """The findings of several files."""
         import threading
@@ -321,7 +358,7 @@ class Stage:
 
 PAGES: tuple[Callable[[Stage], None], ...] = (
     Stage.welcome, Stage.steps, Stage.main, Stage.refusal, Stage.find, Stage.pictures, Stage.compare, Stage.exchange,
-    Stage.motion, Stage.tuning, Stage.dialogs, Stage.project_check, Stage.families,
+    Stage.motion, Stage.tuning, Stage.dialogs, Stage.preview, Stage.project_check, Stage.machines, Stage.families,
 )  # fmt: skip
 
 

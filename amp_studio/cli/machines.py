@@ -5,7 +5,7 @@ from __future__ import annotations
 import argparse
 
 from amp_studio.files import open_file
-from amp_studio.report.differences import machine_rows, machines_paper
+from amp_studio.report.differences import machine_names, machine_rows, machines_paper
 from amp_studio.report.paper import write_paper
 from amp_studio.schema import MASKED, show_value, write_value
 
@@ -19,7 +19,7 @@ def compare_verb(options: argparse.Namespace) -> int:
     files = [open_file(path).file for path in options.paths]
     if options.by_letter:
         files = [files[0], *(matched_by_letter_noted(file, files[0]) for file in files[1:])]
-    names = _names([path.stem for path in options.paths])
+    names = machine_names([path.stem for path in options.paths])
     try:
         rows, same = machine_rows(files, everything=options.everything)
     except ValueError as error:
@@ -45,8 +45,3 @@ def compare_verb(options: argparse.Namespace) -> int:
             print(f"{first.machine_schema.named(address):52} {shown}")
         print(f"{len(rows)} listed, {same} are the same on all {len(files)}")
     return 1 if differs else 0
-
-
-def _names(stems: list[str]) -> list[str]:
-    """Return a name for each machine; machines of one name are numbered."""
-    return [stem if stems.count(stem) == 1 else f"{stem} ({n})" for n, stem in enumerate(stems, 1)]

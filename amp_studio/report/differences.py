@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
 from datetime import datetime
 from itertools import groupby
 
@@ -66,24 +67,56 @@ def machines_paper(
     What most machines have is plain, what departs from it is strong. Raises ValueError for files of different families, or
     fewer than two.
     """
-    rows, same = machine_rows(files, everything=everything)
-    first = files[0]
+    lines, same = machine_lines(files, everything=everything, language=language)
     heads = ("Number", "Parameter", "Belongs to", *names)
-    cells, strong = [], set()
-    for at, (address, values) in enumerate(rows):
-        cells.append(
-            (*_named(first, address, language), *(_shown(first, address, value) for value in values))
-        )
-        strong |= {(at, 3 + n) for n in _departing(values)}
-    differing = sum(any(not same_value(values[0], v) for v in values[1:]) for _, values in rows)
+    cells = [(*line.named, *line.shown) for line in lines]
+    strong = {(at, 3 + n) for at, line in enumerate(lines) for n in line.departing}
+    differing = sum(line.differs for line in lines)
     facts = (
-        ("Control family", first.schema.family.name), ("Machines", str(len(files))),
+        ("Control family", files[0].schema.family.name), ("Machines", str(len(files))),
         ("Differ", counted(differing, "value")), ("The same", counted(same, "value")),
     )  # fmt: skip
     shares = (2.0, 4.0, 1.6, *(2.4 for _ in files))
     table = PaperTable("", heads, tuple(cells), shares, frozenset(strong))
     return Paper("Machines compared", ", ".join(names), facts, (table,) if cells else (),
                  date or datetime.now().astimezone(), "Nothing differs.", language=language)  # fmt: skip
+
+
+@dataclass(frozen=True, slots=True)
+class MachineLine:
+    """One value of several machines, in words."""
+
+    address: Address
+    named: tuple[str, str, str]
+    """Its number, its name and where it belongs to."""
+    shown: tuple[str, ...]
+    """Its value on each machine; secrets are masked."""
+    departing: frozenset[int]
+    """The machines that do not have what most have."""
+    differs: bool
+
+
+def machine_lines(
+    files: Sequence[ParameterFile], *, everything: bool = False, language: str = "en"
+) -> tuple[list[MachineLine], int]:
+    """Return the rows of ``machine_rows`` in words, and how many values are the same in all; raises ValueError."""
+    rows, same = machine_rows(files, everything=everything)
+    first = files[0]
+    return [
+        MachineLine(
+            address,
+            _named(first, address, language),
+            tuple(_shown(first, address, value) for value in values),
+            frozenset(_departing(values)),
+            any(not same_value(values[0], value) for value in values[1:]),
+        )
+        for address, values in rows
+    ], same
+
+
+def machine_names(stems: Sequence[str]) -> list[str]:
+    """Return a name for each machine; machines of one name are numbered."""
+    return [stem if stems.count(stem) == 1 else f"{stem} ({n})" for n, stem in enumerate(stems, 1)]
 
 
 def machine_rows(

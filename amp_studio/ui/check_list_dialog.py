@@ -30,7 +30,12 @@ def write_check_list_of(window: StudioWindow, workspace: Workspace) -> None:
     if not path.suffix:
         path = path.with_suffix(chosen[chosen.index("*") + 1 : -1])
     check_output(path, workspace.path)
-    checks = build_check_list(workspace.file, workspace.progress, workspace.path)
+    checks = build_check_list(
+        workspace.file,
+        workspace.progress,
+        workspace.path,
+        language=window.report_choice.contents.language,
+    )
     notes: list[str] = []
     in_background(window, tr("Check List"), partial(write_check_list, checks, path, notes.append))
     window.show_status("; ".join([tr("{path} written").format(path=path), *notes]))

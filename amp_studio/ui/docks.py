@@ -25,6 +25,8 @@ PREVIEW = "Preview"
 """Name of the dock of the report, which is closed until somebody opens it."""
 _PREVIEW_SHARE, _PREVIEW_LEAST, _PREVIEW_MOST = 0.36, 384, 560
 """Its share of the window's width, and the least and most pixels."""
+_PREVIEW_WIDEST = 0.45
+"""The largest share that it keeps when the window becomes narrower."""
 _LEAST_TABLE = 320
 """Width in pixels that a kept arrangement must leave to the table."""
 WIDE, LEFT_WIDE, LOW = 1200, 900, 620
@@ -204,11 +206,13 @@ class Docks(Translated):
 
     def fit(self, size: QSize) -> None:
         """Keep the table usable in a window of this size; what was taken away for room comes back with it."""
-        self._size = size
+        is_narrower, self._size = size.width() < self._size.width(), size
         if self._is_first or self._arranged is not None:
             return
         is_beside = not self.preview.isHidden() and not self.preview.isFloating()
         width = size.width() - (self._preview_width if is_beside else 0)
+        if is_beside and is_narrower and self.preview.width() > size.width() * _PREVIEW_WIDEST:
+            self._window.resizeDocks([self.preview], [self._preview_width], Qt.Orientation.Horizontal)
         self._take("Parameter", width < WIDE)
         self._take("Groups", width < LEFT_WIDE)
         self._fold(size.height() < LOW)

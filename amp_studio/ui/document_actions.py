@@ -62,12 +62,13 @@ class DocumentActions(Translated):
         if not text:
             return
         path, file = path_of_kind(text, kind), workspace.file.copy()
+        language = self.window.report_choice.contents.language
         check_output(path, workspace.path)
         notes: list[str] = []
         in_background(
             self.window,
             self.tr("Form to Fill In"),
-            lambda: write_paper(form_paper(file), path, notes.append),
+            lambda: write_paper(form_paper(file, language=language), path, notes.append),
         )
         self.window.show_status("; ".join([self.tr("{path} written").format(path=path), *notes]))
 

@@ -52,7 +52,7 @@ class PageView(QAbstractScrollArea):
     """Shows pages that are given as PNG. A page is decoded when it is seen, one in a turn of the event loop."""
 
     turned = Signal(int)
-    """The page at the top is another one; counted from 1."""
+    """The page that is read is another one; counted from 1."""
     value_clicked = Signal(object)
     """The address of the value that was clicked."""
     zoomed = Signal()
@@ -104,6 +104,12 @@ class PageView(QAbstractScrollArea):
         if not self._tops:
             return Spot(0, 0.0)
         return Spot(page, (top - self._tops[page]) / max(self._of(page).height(), 1))
+
+    @property
+    def page(self) -> int:
+        """The page that is read, counted from 1: it is not the one that ends at the top. 0 while there is none."""
+        middle = self.verticalScrollBar().value() + self.viewport().height() // 3
+        return max((n for n, at in enumerate(self._tops, 1) if at <= middle), default=min(len(self._tops), 1))
 
     def go_to_page(self, page: int) -> None:
         """Show the top of a page; counted from 1."""
@@ -281,7 +287,7 @@ class PageView(QAbstractScrollArea):
     # -- hands -----------------------------------------------------------------------------
 
     def _tell_page(self, *_: object) -> None:
-        page = self.spot().page + 1 if self.pages else 0
+        page = self.page
         if page != self._page:
             self._page = page
             self.setAccessibleDescription(

@@ -169,6 +169,11 @@ class PreviewPanel(QWidget):
         if self._is_stale:
             self.set_again()
 
+    @property
+    def is_settled(self) -> bool:
+        """Whether the pages are those of now."""
+        return not (self._is_stale or self._wait.isActive() or self._task is not None)
+
     def _begin(self) -> None:
         if self._page is None or not self.isVisible() or self._task is not None:
             return  # one at a time: its end begins the next
@@ -226,13 +231,16 @@ class PreviewPanel(QWidget):
         if self._page is not None and workspace is self._page.workspace:
             self.view.show_pages(known.pages, ppi)
             self.head.show_count(len(known.pages))
-            self.head.show_page(self.view.spot().page + 1)
+            self.head.show_page(self.view.page)
             self._tell(notes)
 
     def _show_places(self, workspace: Workspace, places: dict[Address, Place]) -> None:
-        self._known.setdefault(workspace, _Shown()).places = places
+        known = self._known.setdefault(workspace, _Shown())
+        is_first, known.places = not known.places, places
         if self._page is not None and workspace is self._page.workspace:
             self.view.show_places(places)
+            if is_first:
+                self._follow(self._page.table_view.address())
 
     def _failed(self, error: Exception) -> None:
         self.bar.say(str(error), "error")

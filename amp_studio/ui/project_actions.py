@@ -35,6 +35,7 @@ class ProjectActions(Translated):
         menu.addActions([
             act(self.tr("Open &File of the Project…"), self.open_file, "Ctrl+Shift+O", "project"),
             act(self.tr("Chec&k All Files…"), self.check, "Ctrl+Shift+F8", "project"),
+            act(self.tr("Compare &Machines…"), self.compare, None, ""),
             act(self.tr("&Copy File…"), self.copy, None, "project"),
             act(self.tr("Copy from &Another Project…"), self.copy_from, None, "project"),
             act(self.tr("&Rename File…"), self.rename, None, "project"),
@@ -154,6 +155,20 @@ class ProjectActions(Translated):
             self.window,
         )
         ProjectCheckDialog(checking.run(PATIENCE_MS), self.show_at, self.window).show()
+
+    def compare(self) -> None:
+        """Show what differs between files of the project and those that are open."""
+        from .machines_dialog import MachinesDialog
+
+        project, pages = self.window.project, self.window.tabs.pages()
+        front = [self.window.workspace] if self.window.workspace is not None else []
+        opened = list(dict.fromkeys([*front, *(page.workspace for page in pages)]))
+        paths = project.files() if project is not None else []
+        dialog = MachinesDialog(
+            opened, paths, self.show_at, self.window, self.window.report_choice.contents.language
+        )
+        dialog.show()
+        dialog.begin()
 
     def show_at(self, path: Path, address: Address | None) -> None:
         """Select an address in a file of the project; opens the file if necessary."""

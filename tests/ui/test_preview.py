@@ -53,9 +53,7 @@ def settled(qtbot: QtBot) -> Callable[[PreviewPanel], None]:
     """Return what waits until the pages are those of now."""
 
     def wait(panel: PreviewPanel) -> None:
-        qtbot.waitUntil(
-            lambda: not (panel._is_stale or panel._wait.isActive() or panel._task), timeout=WAIT_MS
-        )
+        qtbot.waitUntil(lambda: panel.is_settled, timeout=WAIT_MS)
 
     return wait
 

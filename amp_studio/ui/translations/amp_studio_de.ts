@@ -2669,6 +2669,100 @@ Importieren und als erzwungen kennzeichnen?</translation>
         </message>
     </context>
     <context>
+        <name>MachinesDialog</name>
+        <message>
+            <source>Compare Machines</source>
+            <translation>Maschinen vergleichen</translation>
+        </message>
+        <message>
+            <source>Machines</source>
+            <translation>Maschinen</translation>
+        </message>
+        <message>
+            <source>&amp;Add Files…</source>
+            <translation>Dateien &amp;hinzufügen…</translation>
+        </message>
+        <message>
+            <source>Filter by number, name, axis or value</source>
+            <translation>Nach Nummer, Name, Achse oder Wert filtern</translation>
+        </message>
+        <message>
+            <source>Filter</source>
+            <translation>Filtern</translation>
+        </message>
+        <message>
+            <source>Also what is the &amp;same</source>
+            <translation>Auch was &amp;gleich ist</translation>
+        </message>
+        <message>
+            <source>Axes by &amp;letter</source>
+            <translation>Achsen nach &amp;Buchstaben</translation>
+        </message>
+        <message>
+            <source>Compare the axes that have the same letter, not the same number</source>
+            <translation>Die Achsen mit demselben Buchstaben vergleichen, nicht die mit derselben Nummer</translation>
+        </message>
+        <message>
+            <source>&amp;Export…</source>
+            <translation>E&amp;xportieren…</translation>
+        </message>
+        <message>
+            <source>&amp;Close</source>
+            <translation>Sch&amp;ließen</translation>
+        </message>
+        <message>
+            <source>Values of the machines</source>
+            <translation>Werte der Maschinen</translation>
+        </message>
+        <message>
+            <source>Reading the files</source>
+            <translation>Die Dateien werden gelesen</translation>
+        </message>
+        <message>
+            <source>{name} (cannot be read)</source>
+            <translation>{name} (nicht lesbar)</translation>
+        </message>
+        <message>
+            <source>Add files</source>
+            <translation>Dateien hinzufügen</translation>
+        </message>
+        <message>
+            <source>Choose two machines or more.</source>
+            <translation>Zwei oder mehr Maschinen wählen.</translation>
+        </message>
+        <message>
+            <source>Comparing</source>
+            <translation>Wird verglichen</translation>
+        </message>
+        <message>
+            <source>Nothing differs.</source>
+            <translation>Nichts ist verschieden.</translation>
+        </message>
+        <message>
+            <source>Different: {differ}; the same: {same}</source>
+            <translation>Verschieden: {differ}; gleich: {same}</translation>
+        </message>
+        <message>
+            <source>; shown: {count}</source>
+            <translation>; gezeigt: {count}</translation>
+        </message>
+        <message>
+            <source>Export</source>
+            <translation>Exportieren</translation>
+        </message>
+        <message>
+            <source>{path} written</source>
+            <translation>{path} geschrieben</translation>
+        </message>
+    </context>
+    <context>
+        <name>MachinesModel</name>
+        <message>
+            <source>, unlike most</source>
+            <translation>, anders als die meisten</translation>
+        </message>
+    </context>
+    <context>
         <name>MainToolBar</name>
         <message>
             <source>Main</source>
@@ -3994,6 +4088,10 @@ Die nummerierten Parameter von Maschinensteuerungen: bearbeiten, prüfen, drucke
         <message>
             <source>Chec&amp;k All Files…</source>
             <translation>Alle Dateien p&amp;rüfen…</translation>
+        </message>
+        <message>
+            <source>Compare &amp;Machines…</source>
+            <translation>Maschinen &amp;vergleichen…</translation>
         </message>
         <message>
             <source>&amp;Copy File…</source>
