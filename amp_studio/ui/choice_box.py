@@ -33,7 +33,7 @@ class ChoiceBox(QComboBox):
     """
 
     tabbed = Signal(bool)
-    """Tab was pressed in the open list (Shift+Tab: False): the choice holds."""
+    """Tab was pressed in the open list (Shift+Tab: False): the choice is kept."""
     left = Signal()
     """The open list was closed, with or without a choice."""
 
