@@ -12,7 +12,7 @@ from typing import Any
 from jinja2 import nodes
 from jinja2.exceptions import SecurityError
 from jinja2.runtime import Context
-from jinja2.sandbox import SandboxedEnvironment
+from jinja2.sandbox import ImmutableSandboxedEnvironment
 
 _MOST_MADE = 2**24
 """Characters, elements or bits that one operation may make."""
@@ -22,8 +22,11 @@ _WIDENING = ("batch", "center", "indent", "slice")
 """Filters whose argument is the size of what they make."""
 
 
-class BoundedEnvironment(SandboxedEnvironment):
-    """A sandbox in which every loop and every call looks at the clock: a template that only works is ended too."""
+class BoundedEnvironment(ImmutableSandboxedEnvironment):
+    """A sandbox in which every loop and every call looks at the clock: a template that only works is ended too.
+
+    It changes nothing of the report, which is printed without it where it fails.
+    """
 
     intercepted_binops = frozenset({"*", "**", "%"})
 

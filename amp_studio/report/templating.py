@@ -40,9 +40,8 @@ class TemplateMistakeError(ValueError):
 
     def __init__(self, own: Path, mistake: str) -> None:
         words = " ".join(mistake.split())
-        super().__init__(
-            f"{own}: {words if len(words) <= _LONGEST_MISTAKE else words[:_LONGEST_MISTAKE] + '…'}"
-        )
+        self.mistake = words if len(words) <= _LONGEST_MISTAKE else words[:_LONGEST_MISTAKE] + "…"
+        super().__init__(f"{own}: {self.mistake}")
 
 
 def own_template(folder: Path | None, name: str) -> Path | None:
@@ -63,7 +62,7 @@ def filled(
 
     ``own`` is used in the place of ``name``, which it can extend as ``standard/NAME``.
     """
-    from jinja2 import StrictUndefined, TemplateError
+    from jinja2 import StrictUndefined, TemplateError, TemplateNotFound
     from jinja2.sandbox import SandboxedEnvironment
 
     from .model import Listing
@@ -85,8 +84,14 @@ def filled(
         raise TemplateMistakeError(own, f"is larger than {_MOST_TEMPLATE // 1024} KB")
     try:
         return _bounded(environment, own, values)
+    except TemplateNotFound as error:
+        where = "; those of the program are standard/report.html.j2 and standard/report.typ.j2"
+        raise TemplateMistakeError(
+            own, f"{_line(own, error)}there is no template '{error}' beside it{where}"
+        ) from None
     except TemplateError as error:
-        raise TemplateMistakeError(own, f"{_line(own, error)}{error.message or error}") from None
+        what = str(error.message or error).removesuffix(".")
+        raise TemplateMistakeError(own, f"{_line(own, error)}{what}") from None
     except _MISTAKES as error:
         raise TemplateMistakeError(
             own, f"{_line(own, error)}{str(error) or 'needs too much memory'}"
@@ -104,6 +109,7 @@ def _loader(own: Path | None) -> BaseLoader:
 
 def _bounded(environment: Environment, own: Path, values: Mapping[str, object]) -> str:
     """Return what a template writes, up to a size; its environment bounds the time."""
+    _check_blocks(environment, own)
     parts, size = [], 0
     for part in environment.get_template(own.name).generate(values):
         parts.append(part)
@@ -111,9 +117,28 @@ def _bounded(environment: Environment, own: Path, values: Mapping[str, object]) 
         if size > _MOST_OUTPUT:
             raise TemplateMistakeError(own, "writes without end")
     text = "".join(parts)
+    if not text.strip():
+        raise TemplateMistakeError(own, "writes nothing")
     if _HALF.search(text):
         raise TemplateMistakeError(own, "writes half a character, as \\ud800")
     return text
+
+
+def _check_blocks(environment: Environment, own: Path) -> None:
+    """Refuse a block that the standard template does not have: nothing would be printed of it."""
+    from jinja2 import nodes
+
+    tree = environment.parse(own.read_text("utf-8"), own.name, str(own))
+    bases = [node.template for node in tree.body if isinstance(node, nodes.Extends)]
+    if not bases or not isinstance(bases[0], nodes.Const) or not str(bases[0].value).startswith("standard/"):
+        return
+    known = environment.get_template(str(bases[0].value)).blocks
+    for node in tree.body:
+        if isinstance(node, nodes.Block) and node.name not in known:
+            names = ", ".join(sorted(known))
+            raise TemplateMistakeError(
+                own, f"line {node.lineno}: there is no block '{node.name}'. Known: {names}"
+            )
 
 
 def line_of_source(own: Path, source: str, diagnostic: str) -> str:
@@ -137,11 +162,13 @@ def _shape(line: str) -> re.Pattern[str] | None:
 
 
 def _line(own: Path, error: BaseException) -> str:
-    """Return ``line 7: ``; empty where the line of the mistake is not known."""
-    line = getattr(error, "lineno", None)
+    """Return ``line 7: ``, of a template that ``own`` includes ``part.html: line 7: ``; empty where it is not known."""
+    line, file = getattr(error, "lineno", None), getattr(error, "filename", None) or str(own)
     trace = error.__traceback__
-    while trace is not None:
-        if trace.tb_frame.f_code.co_filename == str(own):
-            line = trace.tb_lineno
+    while trace is not None and not getattr(error, "lineno", None):
+        name = trace.tb_frame.f_code.co_filename
+        if Path(name).parent == own.parent:
+            line, file = trace.tb_lineno, name
         trace = trace.tb_next
-    return f"line {line}: " if line else ""
+    where = "" if Path(file) == own else f"{Path(file).name}: "
+    return f"{where}line {line}: " if line else ""

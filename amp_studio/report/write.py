@@ -9,6 +9,7 @@ from pathlib import Path
 from amp_studio.files import Notify, ParameterFile, Project, ProjectInfo, real_path, write_atomic
 from amp_studio.validate import NO_RULES, BuilderRules
 
+from .apart import What, made_apart
 from .build import build_report
 from .everything import render_json, render_workbook
 from .model import Contents, ExchangeLine, PrintedFigure, Report
@@ -28,9 +29,9 @@ FORMATS: dict[str, Callable[[Report], bytes]] = {
 }
 
 
-_WITH_TEMPLATES: dict[str, tuple[Callable[[Report, Path | None], bytes], str]] = {
-    ".pdf": (render_pdf, "report.typ.j2"),
-    ".html": (render_html, "report.html.j2"),
+_WITH_TEMPLATES: dict[str, tuple[What, str]] = {
+    ".pdf": ("pdf", "report.typ.j2"),
+    ".html": ("html", "report.html.j2"),
 }
 
 
@@ -87,20 +88,23 @@ def set_report(
         exchanges=exchanges,
     )
     template = own_template(real_path(source).parent, "report.typ.j2")
-    try:
-        return set_pages(report, ppi, template)
-    except TemplateMistakeError as error:
-        notify(f"{error}. The standard report is used")
-        return set_pages(report, ppi)
+    if template is not None:
+        try:
+            made_source, *pages = made_apart("pages", report, template, ppi)
+            return SetReport(tuple(pages), made_source.decode("utf-8"), template.parent)
+        except TemplateMistakeError as error:
+            notify(f"{error}. The standard report is used")
+    return set_pages(report, ppi)
 
 
 def _rendered(report: Report, ending: str, folder: Path | None, notify: Notify) -> bytes:
     """Return the report in a format, by the project's template where it has one; its mistake is noted, and the standard one used."""
-    drawn = _WITH_TEMPLATES.get(ending)
-    own = own_template(folder, drawn[1]) if drawn else None
-    if drawn and own:
+    form = _WITH_TEMPLATES.get(ending)
+    own = own_template(folder, form[1]) if form else None
+    if form and own:
         try:
-            return drawn[0](report, own)
+            (content,) = made_apart(form[0], report, own)
+            return content
         except TemplateMistakeError as error:
             notify(f"{error}. The standard report was written")
     return FORMATS[ending](report)

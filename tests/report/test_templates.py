@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 import shutil
 import subprocess
 from pathlib import Path
@@ -9,8 +10,11 @@ from pathlib import Path
 import pytest
 
 from amp_studio.files import ParameterFile, save_file
-from amp_studio.report import write_report
+from amp_studio.report import Contents, write_report
+from amp_studio.report.apart import made
+from amp_studio.report.templating import TEMPLATES
 
+SHORT = Contents(changed_only=True, without=frozenset({"pictures", "signatures"}))
 EXTENDS_PAGE = '{% extends "standard/report.html.j2" %}\n'
 EXTENDS_PDF = '{% extends "standard/report.typ.j2" %}\n'
 
@@ -22,13 +26,20 @@ def machine(tmp_path: Path, mill: ParameterFile) -> Path:
     return tmp_path / "mill.amp"
 
 
+@pytest.fixture(autouse=True)
+def in_this_process(request: pytest.FixtureRequest, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Make reports in this process, which takes less time; tests of the process apart are named so."""
+    if "apart" not in request.node.name:
+        monkeypatch.setattr("amp_studio.report.write.made_apart", made)
+
+
 def printed(machine: Path, mill: ParameterFile, ending: str, template: str) -> tuple[bytes, list[str]]:
     """Return the report by a template of the project, and what was noted."""
     name = {"html": "report.html.j2", "pdf": "report.typ.j2"}[ending]
     (machine.parent / "templates" / name).write_text(template, "utf-8")
     notes: list[str] = []
     out = machine.parent / f"out.{ending}"
-    write_report(mill, out, source=machine, notify=notes.append)
+    write_report(mill, out, SHORT, source=machine, notify=notes.append)
     return out.read_bytes(), notes
 
 
@@ -134,3 +145,86 @@ def test_a_template_that_works_without_end_and_writes_nothing_is_ended(
     monkeypatch.setattr("amp_studio.report.templating._PATIENCE_S", 0.05)
     _, (note,) = printed(machine, mill, "html", template)
     assert "works without end" in note
+
+
+def test_every_block_of_the_documentation_is_one_of_a_standard_template() -> None:
+    table = (Path(__file__).parents[2] / "docs" / "reports.md").read_text("utf-8").split("| block |")[1]
+    told = set(re.findall(r"`([a-z]+)`", "\n".join(re.findall(r"^\|(.*?)\|", table, re.MULTILINE))))
+    has = {
+        ending: set(re.findall(r"{% block (\w+) %}", (TEMPLATES / f"report.{ending}.j2").read_text("utf-8")))
+        for ending in ("typ", "html")
+    }
+    assert told == has["typ"]
+    assert told - {"contents"} == has["html"]
+
+
+def test_a_block_that_does_not_exist_is_a_mistake(machine: Path, mill: ParameterFile) -> None:
+    content, (note,) = printed(machine, mill, "html", EXTENDS_PAGE + "\n{% block chapter %}x{% endblock %}")
+    assert "line 3: there is no block 'chapter'. Known: chapters, colours" in note
+    assert b"Home Calibration" in content
+    own = "{% block chapters %}{% block mine %}<p>own</p>{% endblock %}{% endblock %}"
+    assert printed(machine, mill, "html", EXTENDS_PAGE + own)[1] == [], "a block within a block is printed"
+
+
+@pytest.mark.parametrize(
+    ("part", "said"),
+    [
+        ("a\nb\n{{ nothing.x }}", "part.html: line 3: 'nothing' is undefined"),
+        ("a\n{% if %}", "part.html: line 2: Expected an expression"),
+        (None, "line 2: there is no template 'part.html' beside it"),
+    ],
+)
+def test_a_mistake_in_an_included_file_has_its_name_and_line(
+    machine: Path, mill: ParameterFile, part: str | None, said: str
+) -> None:
+    if part is not None:
+        (machine.parent / "templates" / "part.html").write_text(part)
+    template = EXTENDS_PAGE + "{% block chapters %}{% include 'part.html' %}{% endblock %}"
+    _, (note,) = printed(machine, mill, "html", template)
+    assert said in note
+
+
+def test_a_template_changes_nothing_of_the_report(machine: Path, mill: ParameterFile) -> None:
+    content, (note,) = printed(
+        machine, mill, "html", EXTENDS_PAGE + "{% block chapters %}{{ report.help.clear() }}{% endblock %}"
+    )
+    assert "line 2: " in note
+    assert b'{"home.calibration"' in content or b'"home.calibration": [' in content
+
+
+def test_a_template_that_writes_nothing_is_a_mistake(machine: Path, mill: ParameterFile) -> None:
+    for ending in ("html", "pdf"):
+        content, (note,) = printed(machine, mill, ending, "{# nothing #}\n")
+        assert "writes nothing" in note
+        assert len(content) > 10_000
+
+
+def test_a_process_apart_writes_the_report(machine: Path, mill: ParameterFile) -> None:
+    template = EXTENDS_PAGE + "{% block chapters %}<h2>Service</h2>{% endblock %}"
+    page, notes = printed(machine, mill, "html", template)
+    assert notes == []
+    assert b"<h2>Service</h2>" in page
+
+
+def test_apart_a_template_that_takes_all_memory_ends_alone(
+    machine: Path, mill: ParameterFile, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    pytest.importorskip("resource")
+    monkeypatch.setattr("amp_studio.report.apart._MOST_MEMORY", 800 * 2**20)
+    content, (note,) = printed(
+        machine, mill, "pdf", EXTENDS_PDF + "{% block chapters %}#range(10000000000).len(){% endblock %}"
+    )
+    assert "needs too much memory" in note
+    assert content.startswith(b"%PDF")
+
+
+def test_apart_a_template_that_works_without_end_is_ended(
+    machine: Path, mill: ParameterFile, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("amp_studio.report.apart._PATIENCE_S", 0.3)
+    endless = "#let x = range(9000)\n#for a in x { for b in x { for c in x {} } }"
+    content, (note,) = printed(
+        machine, mill, "pdf", EXTENDS_PDF + "{% block chapters %}" + endless + "{% endblock %}"
+    )
+    assert "works without end" in note
+    assert content.startswith(b"%PDF")
