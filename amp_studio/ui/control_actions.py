@@ -151,6 +151,7 @@ class ControlActions(Translated):
 
         if self.exchanges.run(self.tr("Download"), work).verified:
             self.exchanges.remember(workspace, file)
+            self.exchanges.note(address, "download", reached=True)
         if notes:
             self.window.show_status("; ".join(notes))
 
@@ -258,7 +259,9 @@ class ControlActions(Translated):
         from amp_studio.transfer.client.verification import verify_content
         from amp_studio.transfer.content import decode_content
 
-        image = self.exchanges.fetch(address, self.tr("Verify"), workspace.file.schema.family.family)
+        image = self.exchanges.fetch(
+            address, self.tr("Verify"), workspace.file.schema.family.family, "verify"
+        )
         found = verify_content(workspace.file, image)
         if not found.unreadable:
             present = by_schema(decode_content(image), workspace.file.schema)
@@ -271,9 +274,9 @@ class ControlActions(Translated):
         assert page is not None
         self._files.comparing.with_control(page, image, address)
 
-    def upload(self) -> None:
-        """Read the parameters of the control, ask about each value out of range, and save them as a new file."""
-        address = self.exchanges.ask_address(self.tr("Upload"))
+    def upload(self, address: str | None = None) -> None:
+        """Read the parameters of a control, ask about each value out of range, and save them as a new file."""
+        address = address or self.exchanges.ask_address(self.tr("Upload"))
         if address is None:
             return
         file = self._uploaded(address)
@@ -287,17 +290,19 @@ class ControlActions(Translated):
         from amp_studio.transfer.content import decode_content
         from amp_studio.transfer.image import ImageError
 
-        image = self.exchanges.fetch(address, self.tr("Upload"))
+        image = self.exchanges.fetch(address, self.tr("Upload"), verb="upload")
         if not image:
             raise ValueError(self.tr("The control contains no parameters: there is nothing to upload."))
         try:
-            return decode_content(image)
+            file = decode_content(image)
         except ImageError as error:
             raise ValueError(
                 self.tr(
                     "{error}.\n\nTo save it byte for byte, use 'amp-studio upload --from {address} -o NAME.img'."
                 ).format(error=error, address=address)
             ) from None
+        self.exchanges.note(address, "upload", reached=True, family=file.schema.family.family)
+        return file
 
     def _save_upload(self, file: ParameterFile) -> None:
         """Save an upload as a new file; asks for another name when it cannot be written."""

@@ -4,14 +4,16 @@ from __future__ import annotations
 
 import threading
 from collections.abc import Callable
+from contextlib import closing
 from datetime import UTC, datetime
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from PySide6.QtWidgets import QInputDialog, QMessageBox
 
 from amp_studio.files import ParameterFile
 
 from .emulated_control import EmulatedControl
+from .known_controls import ControlVerb, with_exchange
 from .questions import show_message
 from .studio_window import StudioWindow
 from .task import ProgressDialog, TaskProgress
@@ -20,6 +22,7 @@ from .workspace import Workspace
 
 if TYPE_CHECKING:
     from amp_studio.transfer.client.parameters import Outcome
+    from amp_studio.transfer.driver import ControlIdentity
 
 
 def stages() -> dict[str, str]:
@@ -59,7 +62,41 @@ class ControlExchange(Translated):
         settings.keep_control(text.strip())
         return text.strip()
 
-    def fetch(self, address: str, title: str, family: str = "") -> bytes:
+    def note(
+        self, address: str, verb: ControlVerb, *, reached: bool, family: str = "", name: str = ""
+    ) -> None:
+        """Remember an exchange with a control, for the welcome page."""
+        settings = self.window.settings
+        settings.keep_controls(
+            with_exchange(settings.controls(), address, verb, reached=reached, family=family, name=name)
+        )
+
+    def identify(self, address: str, family: str = "") -> ControlIdentity:
+        """Return who answers at an address; nothing is read or changed. Raises as ``open_driver_at``."""
+
+        def work(progress: TaskProgress, cancel: threading.Event) -> ControlIdentity:
+            from amp_studio.transfer.client.drivers import open_driver_at
+
+            with closing(open_driver_at(address, family, progress, cancel)) as driver:
+                return driver.identify(progress, cancel)
+
+        hint = self.tr("Waiting for the control …")
+        dialog = ProgressDialog(self.tr("Connect"), work, self.window, hint, stages())
+        found: ControlIdentity = self._noted(address, "connect", dialog.run, family)
+        self.note(address, "connect", reached=True, family=found.family, name=found.name)
+        return found
+
+    def _noted(self, address: str, verb: ControlVerb, act: Callable[[], Any], family: str) -> Any:
+        """Return the result of an exchange; one that fails is remembered as such."""
+        from amp_studio.transfer.errors import TransferError
+
+        try:
+            return act()
+        except TransferError:
+            self.note(address, verb, reached=False, family=family)
+            raise
+
+    def fetch(self, address: str, title: str, family: str = "", verb: ControlVerb = "connect") -> bytes:
         """Return the image of the control, byte for byte; raises an error for a control of another family."""
 
         def work(progress: TaskProgress, cancel: threading.Event) -> bytes:
@@ -67,9 +104,9 @@ class ControlExchange(Translated):
 
             return fetch_image(address, progress, cancel, family=family)
 
-        image: bytes = ProgressDialog(
-            title, work, self.window, self.tr("Waiting for the control …"), stages()
-        ).run()
+        dialog = ProgressDialog(title, work, self.window, self.tr("Waiting for the control …"), stages())
+        image: bytes = self._noted(address, verb, dialog.run, family)
+        self.note(address, verb, reached=True, family=family)
         return image
 
     def run(self, title: str, work: Callable[[TaskProgress, threading.Event], Outcome]) -> Outcome:

@@ -86,7 +86,7 @@ class MainWindow(StudioWindow):
             self.action(self.tr("Pre&vious Finding"), partial(self._step_findings, -1), "Alt+Up"),
             self.action(self.tr("&Reset Layout"), self.docks.reset),
         ])  # fmt: skip
-        self.welcome = WelcomePage(self, self.files, self.projects.open)
+        self.welcome = WelcomePage(self, self.files, self.control, self.projects.open)
         self.centre = QStackedWidget()
         self.centre.addWidget(self.welcome)
         self.centre.addWidget(self.tabs)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from datetime import UTC, datetime
 from functools import partial
 from pathlib import Path
 
@@ -61,3 +62,19 @@ class RecentFiles(Translated):
                 lambda *_, path=path: self._window.guarded(partial(self._open_path, path), self.tr("Open"))
             )
             self.menu.addAction(action)
+
+
+def changed_at(path: Path) -> datetime | None:
+    """Return when a file was changed, in local time; None for a file that cannot be asked."""
+    try:
+        return datetime.fromtimestamp(path.stat().st_mtime, UTC).astimezone()
+    except (OSError, OverflowError, ValueError):
+        return None
+
+
+def folder_of(path: Path) -> str:
+    """Return the folder of a file, short."""
+    try:
+        return f"~/{path.parent.relative_to(Path.home())}"
+    except (ValueError, RuntimeError):
+        return str(path.parent)

@@ -52,6 +52,8 @@ def restore(control: ControlExchange) -> None:
                             notify=notes.append)  # fmt: skip
 
     outcome = control.run(tr("Restore"), work)
+    if outcome.verified:
+        control.note(address, "restore", reached=True)
     if outcome.verified and copy.file is not None and window.workspace is not None:
         control.remember(window.workspace, copy.file)
     if notes:

@@ -13,6 +13,7 @@ from PySide6.QtWidgets import QDockWidget, QMainWindow
 
 from amp_studio.schema.regular_file import read_file
 
+from .known_controls import KnownControl, read_controls, stored_controls
 from .picture_split import PictureLayout
 from .theme import ThemeChoice, as_choice
 
@@ -109,6 +110,14 @@ class UserSettings:
     def keep_left_side(self, side: str) -> None:
         """Store which side the left panel is turned to."""
         self._stored.setValue("left", side)
+
+    def controls(self) -> list[KnownControl]:
+        """Return the controls that were reached, the latest first."""
+        return read_controls(self._value("controls"))
+
+    def keep_controls(self, controls: Iterable[KnownControl]) -> None:
+        """Store the controls that were reached."""
+        self._stored.setValue("controls", stored_controls(controls))
 
     def pictures(self) -> PictureLayout:
         """Return the chosen place of pictures."""

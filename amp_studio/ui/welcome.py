@@ -28,13 +28,16 @@ from PySide6.QtWidgets import (
 from amp_studio.files.examples import Example, examples
 from amp_studio.schema import family_ids, load_schema
 
+from .control_actions import ControlActions
 from .file_actions import FileActions
 from .folder_view import show_in_folder
 from .message_bar import MessageBar
+from .recent_files import changed_at, folder_of
 from .studio_window import StudioWindow
 from .task import Task
 from .theme import CONTROL, GAP, GAP2, GAP3, GAP4, GAP6, font, icon
 from .time_words import in_words
+from .welcome_controls import WelcomeControls
 from .welcome_list import KEY, ROW, WelcomeList, WelcomeRow
 
 _WIDEST, _NARROW = 1130, 860
@@ -55,7 +58,13 @@ class _Family:
 class WelcomePage(QWidget):
     """Everything on it is reached by Tab and the arrow keys; Enter opens."""
 
-    def __init__(self, window: StudioWindow, files: FileActions, open_project: Callable[[], object]) -> None:
+    def __init__(
+        self,
+        window: StudioWindow,
+        files: FileActions,
+        control: ControlActions,
+        open_project: Callable[[], object],
+    ) -> None:
         super().__init__()
         self.setAccessibleName(self.tr("Welcome"))
         self._window, self._files, self._open_project = window, files, open_project
@@ -70,6 +79,7 @@ class WelcomePage(QWidget):
         self.families = WelcomeList(self.tr("New file"))
         self.examples = WelcomeList(self.tr("Examples"))
         self.list = WelcomeList(self.tr("Recent files"))
+        self.controls = WelcomeControls(window, control)
         self.filter = QLineEdit()
         self._lay_out()
         self._connect()
@@ -100,6 +110,8 @@ class WelcomePage(QWidget):
         self.none.setWordWrap(True)
         right.addSpacing(GAP2)
         right.addWidget(self.none)
+        right.addSpacing(GAP6)
+        right.addWidget(self.controls)
         right.addSpacing(GAP4)
         right.addWidget(self._small(
             self.tr("Drop files or a project folder anywhere in this window. Ctrl+Shift+P finds every command by its name.")
@@ -132,7 +144,9 @@ class WelcomePage(QWidget):
         outer.setSpacing(0)
         outer.addWidget(self.message)
         outer.addWidget(scroll, 1)
+        control = self.controls
         order = [self.families, *self._beside_families, self.examples, self.filter, self.list]
+        order += [control.connect_button, control.upload_button, control.list]
         for before, after in pairwise(order):
             QWidget.setTabOrder(before, after)
 
@@ -202,9 +216,9 @@ class WelcomePage(QWidget):
         self.list.clear()
         for path in recent:
             item = self.list.add(
-                path, WelcomeRow(path.name, second="…", middle=_folder(path), star=path in pinned)
+                path, WelcomeRow(path.name, second="…", middle=folder_of(path), star=path in pinned)
             )
-            moment = _changed(path)
+            moment = changed_at(path)
             if moment is not None:
                 self.list.show_row(
                     item, replace(item.data(ROW), right=in_words(moment, now), words=(str(path),))
@@ -212,6 +226,7 @@ class WelcomePage(QWidget):
             self._describe(item)
         self.list.setCurrentRow(max(0, min(current, self.list.count() - 1)))
         self._filter(self.filter.text())
+        self.controls.show_controls()
         self._offer_session()
         self.setFocus()
 
@@ -297,6 +312,8 @@ class WelcomePage(QWidget):
         """Fill the families and the examples."""
         families, machines = found
         names = {family.key: family.short for family in families}
+        self.controls.names = names
+        self.controls.show_controls()
         for family in families:
             row = WelcomeRow(family.name, second=family.what, right=str(family.parameters), opens=True)
             self.families.add(family.key, row)
@@ -380,17 +397,3 @@ def _all_families() -> list[_Family]:
         )
         for s in found
     ]
-
-
-def _changed(path: Path) -> datetime | None:
-    try:
-        return datetime.fromtimestamp(path.stat().st_mtime, UTC).astimezone()
-    except (OSError, OverflowError, ValueError):
-        return None
-
-
-def _folder(path: Path) -> str:
-    try:
-        return f"~/{path.parent.relative_to(Path.home())}"
-    except (ValueError, RuntimeError):
-        return str(path.parent)

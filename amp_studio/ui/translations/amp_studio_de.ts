@@ -1333,6 +1333,10 @@ Einen anderen Namen wählen.</translation>
             <source>Waiting for the control …</source>
             <translation>Wartet auf die Steuerung …</translation>
         </message>
+        <message>
+            <source>Connect</source>
+            <translation>Verbinden</translation>
+        </message>
     </context>
     <context>
         <name>ControlTarget</name>
@@ -5611,6 +5615,89 @@ Die Arbeit ist noch offen.</translation>
         <message>
             <source>Next difference (Alt+Down)</source>
             <translation>Nächster Unterschied (Alt+Ab)</translation>
+        </message>
+    </context>
+    <context>
+        <name>WelcomeControls</name>
+        <message>
+            <source>Controls</source>
+            <translation>Steuerungen</translation>
+        </message>
+        <message>
+            <source>Connect</source>
+            <translation>Verbinden</translation>
+        </message>
+        <message>
+            <source>Upload…</source>
+            <translation>Holen…</translation>
+        </message>
+        <message>
+            <source>No control has been reached yet. Upload reads one into a new file.</source>
+            <translation>Noch keine Steuerung wurde erreicht. Holen liest eine in eine neue Datei.</translation>
+        </message>
+        <message>
+            <source>connected</source>
+            <translation>verbunden</translation>
+        </message>
+        <message>
+            <source>downloaded</source>
+            <translation>geladen</translation>
+        </message>
+        <message>
+            <source>verified</source>
+            <translation>geprüft</translation>
+        </message>
+        <message>
+            <source>uploaded</source>
+            <translation>geholt</translation>
+        </message>
+        <message>
+            <source>restored</source>
+            <translation>zurückgespielt</translation>
+        </message>
+        <message>
+            <source>family not known yet</source>
+            <translation>Familie noch nicht bekannt</translation>
+        </message>
+        <message>
+            <source>not reached</source>
+            <translation>nicht erreicht</translation>
+        </message>
+        <message>
+            <source>Control</source>
+            <translation>Steuerung</translation>
+        </message>
+        <message>
+            <source>in E-stop</source>
+            <translation>im Not-Halt</translation>
+        </message>
+        <message>
+            <source>not in E-stop</source>
+            <translation>nicht im Not-Halt</translation>
+        </message>
+        <message>
+            <source>revision {revision}</source>
+            <translation>Stand {revision}</translation>
+        </message>
+        <message>
+            <source>{address} answers: {family}</source>
+            <translation>{address} antwortet: {family}</translation>
+        </message>
+        <message>
+            <source>Upload</source>
+            <translation>Holen</translation>
+        </message>
+        <message>
+            <source>&amp;Connect</source>
+            <translation>&amp;Verbinden</translation>
+        </message>
+        <message>
+            <source>&amp;Upload…</source>
+            <translation>&amp;Holen…</translation>
+        </message>
+        <message>
+            <source>&amp;Remove from the List</source>
+            <translation>Aus der Liste &amp;entfernen</translation>
         </message>
     </context>
     <context>
