@@ -16,7 +16,7 @@ from pathlib import Path
 import pytest
 
 from amp_studio.schema import family_ids
-from amp_studio.schema.load import load_compiled
+from amp_studio.schema.load import FurtherFacts, load_compiled
 
 ROOT = Path(__file__).parent.parent
 
@@ -181,12 +181,18 @@ def facts_of(node: object, key: str = "", place: str = "") -> Iterator[tuple[str
         yield place, key, node
 
 
+def compiled(family: str) -> dict[str, object]:
+    """Return all facts of a family."""
+    found = load_compiled(family)
+    return found.model_dump(exclude={"further"}) | FurtherFacts.of(found.further).model_dump()
+
+
 @pytest.mark.parametrize("family", family_ids())
 def test_the_facts_use_the_words_of_the_field(family: str) -> None:
     """A message and a title are the program's own text; other texts may describe what a machine does."""
     found = [
         f"{family}: {place}: {key}: '{word}' ({FORBIDDEN[word]}) in: {text[:120]}"
-        for place, key, text in facts_of(load_compiled(family).model_dump())
+        for place, key, text in facts_of(compiled(family))
         for word in words_in(text)
         if key in ("message", "title") or word not in OF_A_MACHINE
         if (place, word) not in ALLOWED
@@ -197,7 +203,7 @@ def test_the_facts_use_the_words_of_the_field(family: str) -> None:
 def test_an_exception_is_still_needed() -> None:
     facts: dict[str, list[str]] = {}
     for family in family_ids():
-        for place, _, text in facts_of(load_compiled(family).model_dump()):
+        for place, _, text in facts_of(compiled(family)):
             facts.setdefault(place, []).append(text)
     for name, word in ALLOWED:
         texts = [text for _, text in texts_of(ROOT / name)] if name.endswith(".py") else facts[name]

@@ -49,12 +49,21 @@ class VerbParser(argparse.ArgumentParser):
 
     def __init__(self, *, verb: str = "", **how: Any) -> None:
         self.verb = verb
+        self._is_adding = False
         super().__init__(**how)
 
     def add_argument(self, *names: Any, **how: Any) -> argparse.Action:
         """Add an argument, with the usual help where none is given."""
         usual = _USUAL.get(how.get("dest") or names[-1].lstrip("-"))
-        return super().add_argument(*names, **({"help": usual} if usual else {}) | how)
+        self._is_adding = True
+        try:
+            return super().add_argument(*names, **({"help": usual} if usual else {}) | how)
+        finally:
+            self._is_adding = False
+
+    def _get_formatter(self) -> argparse.HelpFormatter:
+        """Return what writes help; argparse asks for one with each argument, for which the terminal need not be measured."""
+        return argparse.HelpFormatter(self.prog, width=80) if self._is_adding else super()._get_formatter()
 
     def error(self, message: str) -> NoReturn:
         raise UsageError(f"{in_plain_words(message)} (see '{self.prog} --help')")
@@ -117,7 +126,7 @@ class Verbs:
 
     def __init__(self, top: argparse.ArgumentParser, asked: str) -> None:
         self._asked = asked
-        self._made = top.add_subparsers(metavar="VERB", required=True, parser_class=VerbParser)
+        self._made = top.add_subparsers(metavar="VERB", required=True, parser_class=VerbParser, prog=top.prog)
 
     def add(self, name: str, module: str, summary: str, writes: str = "") -> argparse.ArgumentParser:
         """Add a verb; ``writes`` names the option whose file it may replace."""

@@ -5,13 +5,13 @@ from __future__ import annotations
 import traceback
 from pathlib import Path
 
-import platformdirs
-
 
 def keep_details(error: BaseException) -> str:
     """Keep the traceback of an unforeseen error and return one sentence that names it and the place."""
     message = f"this should not have happened ({type(error).__name__}: {error})"
     try:
+        import platformdirs  # with tempfile and more, for what hardly ever happens
+
         place = Path(platformdirs.user_log_dir("amp-studio")) / "trouble.txt"
         place.parent.mkdir(parents=True, exist_ok=True)
         place.write_text("".join(traceback.format_exception(error)), encoding="utf-8")

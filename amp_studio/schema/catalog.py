@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from functools import cache, cached_property
 
 from .address import Address, UnknownParameterError, whole_of
-from .load import Compiled, load_compiled
+from .load import Compiled, FurtherFacts, load_compiled
 from .machine_schema import MachineSchema
 from .model import (
     Choice,
@@ -34,16 +34,10 @@ class Schema:
     family: Family
     groups: tuple[Group, ...]
     rules: tuple[Rule, ...]
-    errata: dict[str, Erratum]
-    tables: dict[str, Table]
-    guides: tuple[Guide, ...]
-    pictures: PictureRoles
-    """What each picture is drawn from."""
     parameters: dict[str, Parameter]
     group_of: dict[str, Group]
-    message_lists: tuple[Messages, ...] = ()
-    commissioning: Commissioning | None = None
-    """The order in which its machines are commissioned, where there is one."""
+    further_text: str = "{}"
+    """``FurtherFacts`` as they were compiled, until somebody asks for one of them."""
     description: bytes = b""
     """The description that a control gave of itself, from which this schema was made; empty for the facts of the database."""
 
@@ -56,6 +50,42 @@ class Schema:
         if found is None:
             found = self._on[machine] = MachineSchema(self.family, self.parameters, machine)
         return found
+
+    @cached_property
+    def _further(self) -> FurtherFacts:
+        return FurtherFacts.of(self.further_text)
+
+    @cached_property
+    def errata(self) -> dict[str, Erratum]:
+        """The errors of the manuals, by id."""
+        return {erratum.id: erratum for erratum in self._further.errata}
+
+    @cached_property
+    def tables(self) -> dict[str, Table]:
+        """The printed tables, by id."""
+        further = self._further
+        listed = (*further.tables, *(table for m in further.messages for table in m.tables()))
+        return {table.id: table for table in listed}
+
+    @property
+    def guides(self) -> tuple[Guide, ...]:
+        """Procedures of the manuals."""
+        return self._further.guides
+
+    @property
+    def message_lists(self) -> tuple[Messages, ...]:
+        """What the controls show, as the manuals list it."""
+        return self._further.messages
+
+    @property
+    def commissioning(self) -> Commissioning | None:
+        """The order in which its machines are commissioned, where there is one."""
+        return self._further.commissioning
+
+    @property
+    def pictures(self) -> PictureRoles:
+        """What each picture is drawn from."""
+        return self._further.pictures
 
     @cached_property
     def _on(self) -> dict[str, MachineSchema]:
@@ -161,13 +191,8 @@ def schema_of(compiled: Compiled, description: bytes = b"") -> Schema:
         family=compiled.family,
         groups=compiled.groups,
         rules=compiled.rules,
-        errata={e.id: e for e in compiled.errata},
-        tables={t.id: t for t in (*compiled.tables, *(t for m in compiled.messages for t in m.tables()))},
-        message_lists=compiled.messages,
-        guides=compiled.guides,
-        commissioning=compiled.commissioning,
-        pictures=compiled.pictures,
         parameters={p.id: p for group in compiled.groups for p in group.parameters},
         group_of={p.id: group for group in compiled.groups for p in group.parameters},
+        further_text=compiled.further,
         description=description,
     )

@@ -13,10 +13,9 @@ from functools import cache, partial
 from pathlib import Path
 from typing import Any, NamedTuple, TypeVar
 
-import platformdirs
-from pydantic import ValidationError
+from pydantic import Field, ValidationError
 
-from .compiled_cache import read_cached, report_unusable, write_cached
+from .compiled_cache import cache_folder, read_cached, report_unusable, write_cached
 from .consistency import faults_between, faults_of_messages, faults_of_order
 from .file_error import FileError, read_yaml_file
 from .folder import database_folder
@@ -65,18 +64,34 @@ class UnknownFamilyError(KeyError):
         return str(self.args[0])
 
 
+class FurtherFacts(Model):
+    """What a check does not ask for."""
+
+    errata: tuple[Erratum, ...] = ()
+    tables: tuple[Table, ...] = ()
+    guides: tuple[Guide, ...] = ()
+    messages: tuple[Messages, ...] = ()
+    commissioning: Commissioning | None = None
+    pictures: PictureRoles = Field(default_factory=PictureRoles)
+
+    def text(self) -> str:
+        """Return them as JSON."""
+        return self.model_dump_json(exclude_defaults=True)
+
+    @classmethod
+    def of(cls, text: str) -> FurtherFacts:
+        """Return what was compiled."""
+        return cls.model_validate_json(text)
+
+
 class Compiled(Model):
     """A family as it is kept in the cache."""
 
     family: Family
     groups: tuple[Group, ...]
     rules: tuple[Rule, ...]
-    errata: tuple[Erratum, ...]
-    tables: tuple[Table, ...]
-    guides: tuple[Guide, ...] = ()
-    messages: tuple[Messages, ...] = ()
-    commissioning: Commissioning | None = None
-    pictures: PictureRoles = PictureRoles()
+    further: str = "{}"
+    """``FurtherFacts`` as JSON: to read them takes a twentieth of a start, and most starts never ask for them."""
 
 
 def family_ids() -> tuple[str, ...]:
@@ -95,10 +110,7 @@ def load_compiled(family_id: str) -> Compiled:
     if family_id not in family_ids():
         raise UnknownFamilyError(family_id)
     folder = added_facts().get(family_id, database_folder() / family_id)
-    cached = (
-        Path(platformdirs.user_cache_dir("amp-studio"))
-        / f"{family_id}-{_content_key(sorted(folder.rglob('*.yaml')))}.json"
-    )
+    cached = cache_folder() / f"{family_id}-{_content_key(sorted(folder.rglob('*.yaml')))}.json"
     kept = read_cached(cached)
     if kept is not None:
         try:
@@ -141,10 +153,7 @@ def compile_family(folder: Path) -> Compiled:
     # What is written once for several parameters has reached them.
     family = family.model_copy(update={"choice_lists": {}, "bit_lists": {}})
     groups = tuple(group.model_copy(update={"states": (), "last_states": ()}) for group in groups)
-    return Compiled(
-        family=family,
-        groups=groups,
-        rules=rules,
+    further = FurtherFacts(
         errata=errata,
         tables=tables,
         guides=guides,
@@ -152,6 +161,7 @@ def compile_family(folder: Path) -> Compiled:
         commissioning=commissioning,
         pictures=pictures,
     )
+    return Compiled(family=family, groups=groups, rules=rules, further=further.text())
 
 
 def _of(family: Family, folder: Path) -> list[Path]:
@@ -253,7 +263,7 @@ def _entry(data: Any, place: KeyPath) -> tuple[KeyPath, str]:
 def _content_key(files: list[Path]) -> str:
     digest = hashlib.sha256()
     here = Path(__file__).parent
-    own = (*sorted((here / "model").glob("*.py")), here / "compiled_cache.py", UNITS_FILE)
+    own = (*sorted((here / "model").glob("*.py")), Path(__file__), here / "compiled_cache.py", UNITS_FILE)
     for path in [*own, *files]:
         content = path.read_bytes()
         digest.update(f"{path.name}:{len(content)}:".encode())

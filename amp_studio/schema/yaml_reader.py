@@ -76,9 +76,7 @@ class YamlDocument:
 
 
 # U+0085, U+2028 and U+2029 end a line for some readers of YAML and for no editor: they are written as escapes.
-_UNREADABLE = re.compile(
-    "[^\t\n\r\x20-\x7e\xa0-\u2027\u202a-\ud7ff\ue000-\ufffd\U00010000-\U0010ffff]|\ufeff"
-)
+_UNREADABLE = re.compile("[\x00-\x08\x0b\x0c\x0e-\x1f\x7f-\x9f\u2028\u2029\ud800-\udfff\ufeff\ufffe\uffff]")
 _BREAK = "\n\r"
 _BLANK = re.compile(rf"(?:[ \t]*(?:#[^{_BREAK}]*)?(?:[{_BREAK}]|$))*")
 

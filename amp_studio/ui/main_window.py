@@ -243,6 +243,7 @@ class MainWindow(StudioWindow):
         self.docks.keep()
         self.files.keep_session()
         self.control.close()
+        self.is_leaving = True
         for page in self.tabs.pages():
             self.close_page(page)
         self.summaries.stop()

@@ -47,6 +47,8 @@ class StudioWindow(QMainWindow):
     def __init__(self) -> None:
         super().__init__()
         self._project: Project | None = None
+        self.is_leaving = False
+        """Whether the whole window closes: what its files leave is looked at no more."""
         self.tabs = FileTabs()
         self.summaries = FileSummaries(self)
         self.settings = UserSettings()
@@ -79,8 +81,10 @@ class StudioWindow(QMainWindow):
         self.tabs.remove(page)
         self.docks.remove(page)
         page.workspace.close()
+        page.workspace.deleteLater()  # else it keeps, by what follows its signals, all that was made for it
         page.deleteLater()
-        look_again(bool(self.tabs.pages()))
+        if not self.is_leaving:
+            look_again(bool(self.tabs.pages()))
 
     @property
     def page(self) -> FilePage | None:

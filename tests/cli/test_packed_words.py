@@ -52,7 +52,7 @@ def words(amp, tmp_path: Path, monkeypatch):
     (tmp_path / "database" / "words" / "family.yaml").write_text(FAMILY)
     (tmp_path / "database" / "words" / "groups" / "all.yaml").write_text(MASK)
     monkeypatch.setattr(loading, "database_folder", lambda: tmp_path / "database")
-    monkeypatch.setattr(loading.platformdirs, "user_cache_dir", lambda name: str(tmp_path / "cache"))
+    monkeypatch.setattr(loading, "cache_folder", lambda: tmp_path / "cache")
     load_compiled.cache_clear()
     load_schema.cache_clear()
     path = tmp_path / "words.amp"

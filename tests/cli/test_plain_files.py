@@ -34,7 +34,7 @@ def other_end() -> Iterator[Callable[[Serve], tuple[str, list[object]]]]:
         def answer() -> None:
             with listening:
                 link = TcpLink(Endpoint("tcp"), listening.accept()[0])
-                results.append(end(ByteLine(link, Patience(start=5, quiet=0.02))))
+                results.append(end(ByteLine(link, Patience(start=60, quiet=0.02))))
                 link.close()
 
         threads.append(threading.Thread(target=answer))
@@ -43,7 +43,7 @@ def other_end() -> Iterator[Callable[[Serve], tuple[str, list[object]]]]:
 
     yield serve
     for thread in threads:
-        thread.join(10)
+        thread.join(60)
 
 
 def receive_xmodem(line: ByteLine) -> bytes:
@@ -100,7 +100,7 @@ def test_ymodem_carries_several_files_into_a_folder_under_harmless_names(
     texts = [str(folder / "evil.txt"), str(folder / "b.txt")]
     assert run(["send", *texts, "--to", f"{address}?protocol=ymodem"]) == 0
     assert run(["send", *texts, "--to", address]) == 2
-    for _ in range(100):
+    for _ in range(3000):
         if got:
             break
         threading.Event().wait(0.02)

@@ -164,7 +164,7 @@ def family(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Callable
     """Return what writes a small family of our own, which is the whole database during the test."""
     database = tmp_path / "database"
     monkeypatch.setattr(loading, "database_folder", lambda: database)
-    monkeypatch.setattr(loading.platformdirs, "user_cache_dir", lambda name: str(tmp_path / "cache"))
+    monkeypatch.setattr(loading, "cache_folder", lambda: tmp_path / "cache")
 
     def forget() -> None:
         load_compiled.cache_clear()

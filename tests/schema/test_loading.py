@@ -186,7 +186,7 @@ def database(facts, head, monkeypatch, tmp_path: Path) -> Path:
     facts.write("family.yaml", head + SLOW)
     facts.group(GOOD)
     monkeypatch.setattr(loading, "database_folder", lambda: facts.folder.parent)
-    monkeypatch.setattr(loading.platformdirs, "user_cache_dir", lambda name: str(tmp_path / "cache" / name))
+    monkeypatch.setattr(loading, "cache_folder", lambda: tmp_path / "cache")
     return facts.folder.parent
 
 
@@ -197,7 +197,7 @@ def load():
 
 def cached(tmp_path: Path) -> list[Path]:
     """Return what lies in the cache."""
-    return sorted((tmp_path / "cache" / "amp-studio").iterdir())
+    return sorted((tmp_path / "cache").iterdir())
 
 
 def count_parsing(monkeypatch) -> list[Path]:
@@ -217,7 +217,7 @@ def test_what_comes_from_the_cache_is_what_was_compiled_and_costs_no_parsing(dat
 
 
 def test_the_real_families_come_from_the_cache_as_they_were_compiled(monkeypatch, tmp_path) -> None:
-    monkeypatch.setattr(loading.platformdirs, "user_cache_dir", lambda name: str(tmp_path / "cache" / name))
+    monkeypatch.setattr(loading, "cache_folder", lambda: tmp_path / "cache")
     for family in family_ids():
         compiled = load_compiled.__wrapped__(family)
         assert compiled == load_compiled.__wrapped__(family) == compile_family(database_folder() / family)
@@ -296,7 +296,7 @@ def test_every_fact_file_counts_for_the_key_of_the_cache(database, tmp_path) -> 
 
 def test_the_cache_of_another_family_stays(database, tmp_path, facts) -> None:
     load()
-    other = tmp_path / "cache" / "amp-studio" / "another-0123.json"
+    other = tmp_path / "cache" / "another-0123.json"
     other.write_text(json.dumps({}))
     path = facts.folder / "groups" / "all.yaml"
     path.write_text(path.read_text() + "# changed\n")

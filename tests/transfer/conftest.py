@@ -135,7 +135,7 @@ class Emulated:
 
     def kill(self) -> None:
         self.process.kill()
-        self.process.wait(10)
+        self.process.wait(60)
 
 
 @pytest.fixture
@@ -163,7 +163,7 @@ def emulate(checkout: Path) -> Iterator[Callable[..., Emulated]]:
     yield start
     for process in started:
         process.kill()
-        process.wait(10)
+        process.wait(60)
         for stream in (process.stdin, process.stdout):
             if stream is not None:
                 stream.close()

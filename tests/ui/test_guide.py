@@ -19,7 +19,7 @@ from amp_studio.ui.place_tree import COUNTS, KEY, PICTURE, RIGHT
 from amp_studio.ui.steps_panel import StepsPanel
 from amp_studio.ui.workspace import Workspace
 
-from .conftest import action
+from .conftest import WAIT_MS, action
 
 
 @pytest.fixture
@@ -100,10 +100,10 @@ def test_an_edit_is_followed_and_taken_back(fresh: MainWindow, qtbot: QtBot) -> 
     steps = fresh.page.left.steps
     wanted = {("axis.integrand_name", axis): Value(letter) for axis, letter in zip("123", "ijk", strict=True)}
     fresh.workspace.edit("names", wanted)
-    qtbot.waitUntil(lambda: item(steps, "axis").data(0, PICTURE)[0] == "check-circle-fill")
+    qtbot.waitUntil(lambda: item(steps, "axis").data(0, PICTURE)[0] == "check-circle-fill", timeout=WAIT_MS)
     assert item(steps, "axis").data(0, RIGHT) == ""
     fresh.edits.undo.trigger()
-    qtbot.waitUntil(lambda: item(steps, "axis").data(0, RIGHT) == "3")
+    qtbot.waitUntil(lambda: item(steps, "axis").data(0, RIGHT) == "3", timeout=WAIT_MS)
 
 
 def test_findings_of_later_steps_wait_until_they_are_asked_for(fresh: MainWindow, qtbot: QtBot) -> None:
@@ -117,7 +117,7 @@ def test_findings_of_later_steps_wait_until_they_are_asked_for(fresh: MainWindow
     steps.show_later.click()
     assert listed(fresh) == {f.key for f in workspace.findings if f.rule != "schema.unset"}
     assert workspace.count("error") > 10
-    qtbot.waitUntil(lambda: steps.show_later.text() == "Hide")
+    qtbot.waitUntil(lambda: steps.show_later.text() == "Hide", timeout=WAIT_MS)
     assert action(fresh, "Show Later Findings").isChecked()
     action(fresh, "Show Later Findings").trigger()
     assert workspace.count("error") == 0
@@ -161,7 +161,7 @@ def test_space_ticks_the_step_in_the_list_and_its_tip_has_who_did_it(fresh: Main
     steps = fresh.page.left.steps
     steps.tree.setCurrentItem(item(steps, "dual"))
     QTest.keyClick(steps.tree, Qt.Key.Key_Space)
-    qtbot.waitUntil(lambda: item(steps, "dual").data(0, PICTURE)[0] == "check-circle-fill")
+    qtbot.waitUntil(lambda: item(steps, "dual").data(0, PICTURE)[0] == "check-circle-fill", timeout=WAIT_MS)
     assert "7 at the default, ticked 20" in item(steps, "dual").toolTip(0)
     QTest.keyClick(steps.tree, Qt.Key.Key_Space)
     assert fresh.workspace.file.header.done == {}

@@ -16,6 +16,8 @@ from amp_studio.ui.merge_program import tool_window
 from amp_studio.ui.merge_window import MergeWindow
 from amp_studio.ui.workspace import Workspace
 
+from .conftest import WAIT_MS
+
 CALIBRATION = ("home.calibration", "1")
 
 
@@ -37,7 +39,7 @@ def shown(three: list[Path], write, qtbot: QtBot) -> MergeWindow:
     workspace = Workspace(Document.view(three[1]))
     window = tool_window(Merge(ours, theirs, base), workspace, Path("merged.amp"), write)
     window.show()
-    qtbot.waitUntil(window.isVisible)
+    qtbot.waitUntil(window.isVisible, timeout=WAIT_MS)
     return window
 
 

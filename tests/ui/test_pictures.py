@@ -14,7 +14,7 @@ from PySide6.QtWidgets import QLabel
 from amp_studio.schema import Value
 from amp_studio.ui.pictures_page import PicturesPage
 
-from .conftest import action
+from .conftest import WAIT_MS, action
 
 RIGHT = ("zone.limit3_max", "1")
 LOW = ("zone.limit3_min", "2")
@@ -188,7 +188,7 @@ def test_the_tag_has_the_finding_of_the_place_while_it_is_dragged(window, pictur
     high = ("zone.overtravel_positive", "1")
     press(canvas, high)
     QTest.mouseMove(canvas, at(canvas, -60.0, -200.0))
-    qtbot.waitUntil(lambda: bool(canvas.tag(canvas.handle).reason))
+    qtbot.waitUntil(lambda: bool(canvas.tag(canvas.handle).reason), timeout=WAIT_MS)
     assert canvas.tag(canvas.handle).severity in {f.severity for f in window.workspace.findings_of(high)}
     QTest.keyClick(canvas, Qt.Key.Key_Escape)
     assert window.workspace.findings == ()
@@ -267,9 +267,9 @@ def test_all_pictures_are_side_by_side_where_there_is_room_and_one_alone_where_n
         return [name for name, card in page.cards.items() if not card.isHidden()]
 
     page.resize(1000, 500)
-    qtbot.waitUntil(lambda: seen() == ["travel", "ramps", "gears", "jog"])
+    qtbot.waitUntil(lambda: seen() == ["travel", "ramps", "gears", "jog"], timeout=WAIT_MS)
     page.resize(600, 500)
-    qtbot.waitUntil(lambda: seen() == ["travel"])
+    qtbot.waitUntil(lambda: seen() == ["travel"], timeout=WAIT_MS)
 
 
 def test_a_read_only_file_is_looked_at_and_not_dragged(window, pictures, file, monkeypatch):
@@ -313,7 +313,7 @@ def test_pictures_open_at_the_handle_of_the_selected_value_and_the_parameter_pan
     assert (page.shown, card.part, card.canvas.handle.label) == ("error", "3", "3730 Gain Break Point, Z")
     card.canvas.choose(0)
     wanted = card.canvas.handle.drags[0].address
-    qtbot.waitUntil(lambda: window.page.detail._address == wanted)
+    qtbot.waitUntil(lambda: window.page.detail._address == wanted, timeout=WAIT_MS)
 
 
 def test_a_family_without_pictures_says_so(qtbot, workspace, monkeypatch):

@@ -9,7 +9,7 @@ from PySide6.QtWidgets import QApplication
 
 from amp_studio.ui.picture_split import PictureLayout
 
-from .conftest import action
+from .conftest import WAIT_MS, action
 
 RIGHT = ("zone.limit3_max", "1")
 BREAK = ("servo.gain_break_point", "3")
@@ -21,7 +21,7 @@ def beside(window, qtbot):
     window.resize(1440, 900)
     window.go_to(RIGHT)
     action(window, "Pictures").trigger()
-    qtbot.waitUntil(lambda: window.page.middle.arrangement == "below")
+    qtbot.waitUntil(lambda: window.page.middle.arrangement == "below", timeout=WAIT_MS)
     window.page.pictures.head.places.buttons["beside"].click()
     return window
 
@@ -55,16 +55,18 @@ def test_an_edit_in_the_table_moves_the_picture_and_a_dragged_handle_moves_the_c
 def test_the_selected_value_marks_its_handle_and_the_keyboard_stays_in_the_table(beside, qtbot):
     beside.go_to(BREAK)
     beside.table_view.setFocus()
-    qtbot.waitUntil(lambda: handle_of(beside.page.pictures) == BREAK)
+    qtbot.waitUntil(lambda: handle_of(beside.page.pictures) == BREAK, timeout=WAIT_MS)
     assert beside.page.pictures.card("error") in beside.page.pictures._seen
     assert QApplication.focusWidget() is beside.table_view
     assert len([c for c in beside.page.pictures.cards.values() if c.canvas.handle is not None]) == 1
 
 
 def test_a_value_without_a_handle_marks_none(beside, qtbot):
-    qtbot.waitUntil(lambda: handle_of(beside.page.pictures) == RIGHT)
+    qtbot.waitUntil(lambda: handle_of(beside.page.pictures) == RIGHT, timeout=WAIT_MS)
     beside.go_to(("control.type", ""))
-    qtbot.waitUntil(lambda: all(c.canvas.handle is None for c in beside.page.pictures.cards.values()))
+    qtbot.waitUntil(
+        lambda: all(c.canvas.handle is None for c in beside.page.pictures.cards.values()), timeout=WAIT_MS
+    )
 
 
 def test_a_chosen_handle_selects_its_cell_in_its_group_and_keeps_the_keyboard(beside, qtbot):
@@ -73,7 +75,7 @@ def test_a_chosen_handle_selects_its_cell_in_its_group_and_keeps_the_keyboard(be
     number = next(n for n, h in enumerate(canvas.scene.handles) if [d.address for d in h.drags] == [RIGHT])
     canvas.choose(number)
     canvas.focus_handle()
-    qtbot.waitUntil(lambda: beside.table_view.address() == RIGHT)
+    qtbot.waitUntil(lambda: beside.table_view.address() == RIGHT, timeout=WAIT_MS)
     assert QApplication.focusWidget() is canvas._spots[number]
 
 
@@ -82,7 +84,7 @@ def test_a_corner_stays_chosen_while_the_table_shows_one_of_its_values(beside, q
     number = next(n for n, h in enumerate(canvas.scene.handles) if len(h.drags) == 2)
     canvas.choose(number)
     wanted = canvas.handle.drags[0].address
-    qtbot.waitUntil(lambda: beside.table_view.address() == wanted)
+    qtbot.waitUntil(lambda: beside.table_view.address() == wanted, timeout=WAIT_MS)
     beside.page.pictures._mark_selected()
     assert canvas.handle is canvas.scene.handles[number]
 
@@ -118,17 +120,17 @@ def test_a_file_that_is_opened_shows_its_pictures_as_the_files_before_it(beside,
     page.pictures.hide()
     page.pictures = None  # as in a page that has just been opened
     beside.tabs.current_changed.emit(page)
-    qtbot.waitUntil(lambda: page.shows_pictures)
+    qtbot.waitUntil(lambda: page.shows_pictures, timeout=WAIT_MS)
 
 
 def test_in_a_small_room_the_pictures_cover_the_table_and_leave_it_with_the_room(beside, qtbot):
     beside.page.pictures.head.places.buttons["below"].click()
     assert beside.table_view.isVisible()
     beside.resize(1440, 470)
-    qtbot.waitUntil(lambda: beside.page.middle.covers)
+    qtbot.waitUntil(lambda: beside.page.middle.covers, timeout=WAIT_MS)
     assert not beside.table_view.isVisible()
     beside.resize(1440, 900)
-    qtbot.waitUntil(lambda: not beside.page.middle.covers)
+    qtbot.waitUntil(lambda: not beside.page.middle.covers, timeout=WAIT_MS)
     assert beside.table_view.isVisible()
 
 

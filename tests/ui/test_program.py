@@ -7,19 +7,21 @@ import os
 import subprocess
 import sys
 import threading
+import weakref
 from pathlib import Path
 from typing import ClassVar
 
 import pytest
 from PySide6.QtCore import QEvent, QTimer
 from PySide6.QtWidgets import QApplication, QDockWidget, QWidget
+from pytestqt.qtbot import QtBot
 
 from amp_studio.schema import Value
 from amp_studio.ui import garbage
 from amp_studio.ui.main_window import MainWindow
 from amp_studio.ui.task import ProgressDialog, Task
 
-from .conftest import Person, during, on_disk
+from .conftest import WAIT_MS, Person, during, on_disk
 
 EXCESS = ("servo.excess_error", "1")
 
@@ -277,3 +279,14 @@ def test_what_belongs_to_an_open_file_is_left_out_of_collections_until_it_is_clo
     assert page is not None
     window.close_page(page)
     assert gc.get_freeze_count() < 10_000
+
+
+def test_a_closed_file_leaves_nothing_behind(window: MainWindow, qtbot: QtBot) -> None:
+    """What follows the signals of a workspace, and with it all that was made for its file, was kept for good."""
+    page = window.page
+    assert page is not None
+    left = weakref.ref(page.workspace.validator)
+    qtbot.waitUntil(lambda: not Task.running, timeout=WAIT_MS)
+    window.close_page(page)
+    del page
+    qtbot.waitUntil(lambda: gc.collect() >= 0 and left() is None, timeout=WAIT_MS)

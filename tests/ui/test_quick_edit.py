@@ -12,6 +12,8 @@ from amp_studio.ui.choice_box import ChoiceBox
 from amp_studio.ui.main_window import MainWindow
 from amp_studio.ui.quick_edit import QuickEdit
 
+from .conftest import WAIT_MS
+
 ENTER = Qt.Key.Key_Return
 
 
@@ -20,7 +22,7 @@ def quick(window: MainWindow, qtbot) -> QuickEdit:
     """Return the open dialog with the keyboard in its number field."""
     window.edits.quick_edit()
     quick = window.findChild(QuickEdit)
-    with qtbot.waitActive(quick):
+    with qtbot.waitActive(quick, timeout=WAIT_MS):
         quick.activateWindow()
     return quick
 
@@ -126,5 +128,5 @@ def test_what_is_out_of_force_says_so(quick: QuickEdit) -> None:
 
 
 def test_it_closes_with_its_file(quick: QuickEdit, window: MainWindow, qtbot) -> None:
-    with qtbot.waitSignal(quick.destroyed, timeout=5000):
+    with qtbot.waitSignal(quick.destroyed, timeout=WAIT_MS):
         window.files.close()

@@ -12,7 +12,7 @@ from amp_studio.files import content_of, open_file
 from amp_studio.ui.main_window import MainWindow
 from amp_studio.ui.sheet_dialog import SheetDialog
 
-from .conftest import Person, action
+from .conftest import WAIT_MS, Person, action
 
 
 @pytest.fixture
@@ -103,5 +103,5 @@ def test_the_sheet_is_saved_in_the_format_of_its_name(
 
 
 def test_it_closes_with_its_file(dialog: SheetDialog, window: MainWindow, qtbot) -> None:
-    with qtbot.waitSignal(dialog.destroyed, timeout=5000):
+    with qtbot.waitSignal(dialog.destroyed, timeout=WAIT_MS):
         window.files.close()

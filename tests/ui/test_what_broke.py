@@ -59,7 +59,7 @@ def test_escape_closes_every_side_window(
     with qtbot.waitExposed(beside, timeout=WAIT_MS):
         beside.raise_()
     QTest.keyClick(QApplication.focusWidget() or beside, Qt.Key.Key_Escape)
-    qtbot.waitUntil(lambda: opened_beside(window) == [], timeout=2000)
+    qtbot.waitUntil(lambda: opened_beside(window) == [], timeout=WAIT_MS)
     assert window.isVisible()
 
 

@@ -14,7 +14,7 @@ from typing import Any
 from amp_studio.schema import Parameter, Schema, UnitError, load_schema, unit_named
 from amp_studio.schema.catalog import schema_of as made_of
 from amp_studio.schema.described import DescriptionError
-from amp_studio.schema.load import Compiled
+from amp_studio.schema.load import Compiled, FurtherFacts
 from amp_studio.schema.model import (
     Bit,
     Choice,
@@ -108,12 +108,14 @@ class _Maker:
             )
             for key, parameters in groups.items()
         )
+        known = self.known
+        further = FurtherFacts(
+            guides=known.guides, messages=tuple(self._messages()), commissioning=known.commissioning,
+            pictures=known.pictures,
+        )  # fmt: skip
         compiled = Compiled(
-            family=self._family(tuple(groups)), groups=made, errata=(),
-            rules=tuple(r for r in self.known.rules if r.id != AXES_RULE),
-            tables=(), guides=self.known.guides, messages=tuple(self._messages()),
-            commissioning=self.known.commissioning,
-            pictures=self.known.pictures,
+            family=self._family(tuple(groups)), groups=made, further=further.text(),
+            rules=tuple(r for r in known.rules if r.id != AXES_RULE),
         )  # fmt: skip
         return made_of(compiled, description)
 

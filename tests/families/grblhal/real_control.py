@@ -46,7 +46,7 @@ class RealControl:
 
 def _wait_listening(port: int) -> None:
     """Wait until the port is taken; the firmware has one client, so nobody connects to find out."""
-    end = time.monotonic() + 10
+    end = time.monotonic() + 60
     while time.monotonic() < end:
         with socket.socket() as probe:
             try:

@@ -239,7 +239,7 @@ def test_a_cancel_is_heard_at_once(emulate: Callable[..., Any], tmp_path: Path) 
         timer.start()
         with pytest.raises(CancelledError):
             session.hello(cancel)
-    assert time.monotonic() - start < 10
+    assert time.monotonic() - start < 15, "not the 20 s that a silence is waited for"
 
 
 def test_a_second_client_is_turned_away_and_the_first_goes_on(

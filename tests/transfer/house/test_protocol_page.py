@@ -210,7 +210,7 @@ class PageClient:
     """A client written from the page, sharing no code with the program: one piece at a time."""
 
     def __init__(self, host: str, port: int) -> None:
-        self.socket = socket.create_connection((host, port), timeout=5)
+        self.socket = socket.create_connection((host, port), timeout=60)
         self.socket.sendall(b"\x00")
         self.number = 0
 

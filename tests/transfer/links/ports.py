@@ -31,7 +31,7 @@ def socat_pair(folder: Path) -> Iterator[tuple[Path, Path]]:
     near, far = folder / "near", folder / "far"
     process = subprocess.Popen([socat, *(f"pty,rawer,echo=0,link={end}" for end in (near, far))])
     try:
-        end = time.monotonic() + 5
+        end = time.monotonic() + 60
         while not (near.exists() and far.exists()):
             assert time.monotonic() < end
         yield near, far

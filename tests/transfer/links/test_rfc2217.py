@@ -80,7 +80,7 @@ def test_a_real_ser2net_is_reached_and_sets_its_port(tmp_path: Path) -> None:
 
 
 def _connected(address: str) -> Link:
-    end = time.monotonic() + 5
+    end = time.monotonic() + 60
     while True:
         try:
             return connect(parse_endpoint(address))
@@ -95,7 +95,7 @@ def _answers(serve: Callable[[socket.socket], None]) -> tuple[str, threading.Thr
 
     def run() -> None:
         with listening, listening.accept()[0] as client:
-            client.settimeout(5)
+            client.settimeout(60)
             try:
                 serve(client)
             except OSError:
@@ -129,7 +129,7 @@ def test_what_is_no_rfc2217_server_is_refused_in_time(greeting: bytes) -> None:
     address, thread = _answers(serve)
     with pytest.raises(LinkError, match=r"no answer in time|no RFC 2217 server|does not set the port"):
         connect(parse_endpoint(address), timeout=0.3)
-    thread.join(10)
+    thread.join(60)
     assert not thread.is_alive(), "the connection was given up"
 
 
@@ -141,7 +141,7 @@ def test_the_opening_can_be_broken_off_at_once() -> None:
 
     with pytest.raises(KeyboardInterrupt):
         connect(parse_endpoint(address), look=stop)
-    thread.join(10)
+    thread.join(60)
 
 
 def test_a_flood_is_stored_no_further_than_is_read_and_the_end_of_a_line_is_met() -> None:
@@ -162,7 +162,7 @@ def test_a_flood_is_stored_no_further_than_is_read_and_the_end_of_a_line_is_met(
         link.read(2)
     assert got == sent
     link.close()
-    thread.join(10)
+    thread.join(60)
 
 
 def _agree(client: socket.socket) -> None:

@@ -123,7 +123,7 @@ def test_a_pulled_adapter_is_missed_at_once(tmp_path: Path, use: Callable[[Any],
     start = time.monotonic()
     with pytest.raises(LinkError, match=r"near: the port is gone: its adapter was unplugged or switched off"):
         use(link)
-    assert time.monotonic() - start < 0.5
+    assert time.monotonic() - start < 10, "not the 20 s that a silence is waited for"
     link.close()
     with pytest.raises(LinkError, match="there is no such port"):
         connect(parse_endpoint(f"serial:{near}"))
@@ -161,7 +161,7 @@ def test_closing_a_held_line_does_not_wait_for_it_and_a_free_one_keeps_what_was_
     os.write(port[0], XOFF)
     start = time.monotonic()
     held.close()
-    assert time.monotonic() - start < 1
+    assert time.monotonic() - start < 10, "not the 30 s that a port is given to send the rest"
 
 
 def test_what_a_port_has_not_sent_yet_is_waited_for(monkeypatch: pytest.MonkeyPatch) -> None:

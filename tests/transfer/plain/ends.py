@@ -12,7 +12,7 @@ from amp_studio.transfer.links.link import LinkError
 from amp_studio.transfer.plain.blocks import encode_block
 from amp_studio.transfer.plain.line import ByteLine, Patience
 
-QUICK = Patience(start=5, answer=0.3, ask=0.15, gap=0.1, noise=0.1, quiet=0.02, stall=10)
+QUICK = Patience(start=60, answer=0.3, ask=0.15, gap=0.1, noise=0.1, quiet=0.02, stall=60)
 
 
 class Pipe:
@@ -78,7 +78,7 @@ def both(
     try:
         return other(ByteLine(far, QUICK))
     finally:
-        thread.join(30)
+        thread.join(60)
         if errors:
             raise errors[0]
 

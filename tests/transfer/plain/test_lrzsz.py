@@ -61,7 +61,7 @@ def to_lrzsz(protocol: str, sizes: Sequence[int], folder: Path, noise: int = 0) 
         timer.start()
         send_files(near, protocol, files)
         timer.join()
-        started[0].wait(10)
+        started[0].wait(60)
     written = [(folder / file.name).read_bytes() for file in files]
     return written if protocol == "ymodem" else [written[0].rstrip(b"\x1a")]
 

@@ -72,5 +72,5 @@ def test_a_text_that_is_cut_off_is_no_text(came: bytes, tape: Tape, said: str) -
 
 def test_punch_and_reader_understand_each_other() -> None:
     tape = Tape(50, percent=True)
-    got = both(lambda line: punch(line, PROGRAM * 200, tape, None), lambda line: read_tape(line, tape, 0.2))
+    got = both(lambda line: punch(line, PROGRAM * 200, tape, None), lambda line: read_tape(line, tape, 60))
     assert got == b"%\r\n" + PROGRAM * 200 + b"%\n"
