@@ -30,11 +30,11 @@ os.environ |= {"QT_QPA_PLATFORM": "offscreen", "TZ": "UTC", "USER": "operator", 
 os.environ |= {f"XDG_{n}_HOME": str(WORK / "home" / n.lower()) for n in ("CACHE", "CONFIG", "DATA", "STATE")}
 sys.path.insert(0, str(TOP))
 
+from page_pictures import IMAGES, draw_documents  # noqa: E402
 from PySide6.QtCore import QEventLoop, QPoint, QSettings, Qt, QTimer  # noqa: E402  # after the folders are set
 from PySide6.QtGui import QPainter, QPixmap  # noqa: E402
 from PySide6.QtTest import QTest  # noqa: E402
 from PySide6.QtWidgets import QApplication, QWidget  # noqa: E402
-from tutorial_pictures import IMAGES, draw_documents  # noqa: E402
 
 from amp_studio.files import Document, ParameterFile, Project, ProjectInfo, compare, new_file, save_file  # noqa: E402
 from amp_studio.schema import Value  # noqa: E402
@@ -377,9 +377,7 @@ def main() -> int:
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--language", choices=("en", "de"), action="append", help="default: both")
     parser.add_argument("--only", default="", help="pages whose name contains this")
-    parser.add_argument(
-        "--documents", action="store_true", help="only the pictures of README and the tutorial"
-    )
+    parser.add_argument("--documents", action="store_true", help="only the pictures of README and the pages")
     chosen = parser.parse_args()
     OUT.mkdir(parents=True, exist_ok=True)
     application = QApplication(["amp-studio"])

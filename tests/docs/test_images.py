@@ -6,10 +6,10 @@ import re
 import struct
 from pathlib import Path
 
+import page_pictures
 import pytest
-import tutorial_pictures
+from page_pictures import PICTURES, with_palette
 from PySide6.QtGui import QColor, QImage
-from tutorial_pictures import PICTURES, with_palette
 
 ROOT = Path(__file__).parents[2]
 IMAGES = ROOT / "docs/images"
@@ -28,7 +28,7 @@ def shown() -> dict[str, str]:
 
 
 def test_every_picture_that_a_page_shows_is_there_and_every_one_that_is_there_is_shown() -> None:
-    found = {(ROOT / page).parent / name for name, page in shown().items()}
+    found = {((ROOT / page).parent / name).resolve() for name, page in shown().items()}
     assert found == set(IMAGES.iterdir())
     assert len(found) > 5
 
@@ -43,7 +43,7 @@ def test_a_picture_is_a_small_png_with_a_palette(name: str) -> None:
     assert content[:8] == b"\x89PNG\r\n\x1a\n"
     width, height, _depth, colours = struct.unpack(">IIBB", content[16:26])
     assert colours == PALETTE
-    assert (width, height) <= tutorial_pictures.SIZE
+    assert (width, height) <= page_pictures.SIZE
     assert len(content) < MOST_BYTES
 
 
@@ -55,7 +55,7 @@ def test_the_most_frequent_colours_stay_and_the_others_become_the_nearest_of_the
         image.setPixelColor(x, 2, QColor(x, 22, 31))
     few = with_palette(image)
     assert few.format() == QImage.Format.Format_Indexed8
-    assert len(few.colorTable()) == tutorial_pictures.COLOURS
+    assert len(few.colorTable()) == page_pictures.COLOURS
     assert [few.pixelColor(x, 2) for x in (0, 7, 255)] == [
         QColor(0, 20, 30),
         QColor(7, 20, 30),

@@ -1,4 +1,4 @@
-"""Draw the pictures of README and the tutorial: each from the state that the commands above it on its page have made.
+"""Draw the pictures of README and the pages: each from the state that the commands above it on its page have made.
 
 ``screenshots.py`` calls it; the pictures go into ``docs/images``, light and in English, with a palette so that they stay small.
 """
@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     from screenshots import Stage
 
 TOP = Path(__file__).resolve().parents[1]
-PAGE, IMAGES = TOP / "docs/tutorial.md", TOP / "docs/images"
+PAGES, IMAGES = ("docs/tutorial.md", "docs/howto/identify-friction.md"), TOP / "docs/images"
 SIZE = (1200, 660)
 COLOURS = 256
 RESTED_MS = 1_000
@@ -27,23 +27,29 @@ FILE = "mill.amp"
 
 
 def draw_documents(make_stage: Callable[[], Stage]) -> int:
-    """Run the commands of the tutorial, and draw each of its pictures in its place; then that of README. Returns how many."""
+    """Draw the pictures of all pages, then that of README; returns how many."""
     stage = make_stage()
-    folder = stage.files / "tutorial"
+    count = sum(_draw_page(stage, page) for page in PAGES)
+    _save(window(stage, stage.path("mill-1394")), "window")
+    stage.close()
+    return count + 1
+
+
+def _draw_page(stage: Stage, page: str) -> int:
+    """Run the commands of a page in a separate folder, and draw its pictures between them; returns how many."""
+    folder = stage.files / Path(page).stem
     folder.mkdir()
     count = 0
     with contextlib.chdir(folder), contextlib.redirect_stdout(io.StringIO()):
-        for line in PAGE.read_text(encoding="utf-8").splitlines():
+        for line in (TOP / page).read_text(encoding="utf-8").splitlines():
             if line.startswith("    amp-studio "):
                 _run(line)
-            elif "](images/" in line:
-                name = line.partition("](images/")[2].partition(".png")[0]
+            elif line.startswith("!["):
+                name = Path(line.partition("](")[2].rstrip(")")).stem
                 _save(PICTURES[name](stage, folder / FILE), name)
                 _close(stage)  # an open file is locked against the next command
                 count += 1
-        _save(window(stage, stage.path("mill-1394")), "window")
-    stage.close()
-    return count + 1
+    return count
 
 
 def _run(line: str, path: Path = Path(FILE)) -> None:
@@ -53,7 +59,7 @@ def _run(line: str, path: Path = Path(FILE)) -> None:
     from amp_studio import cli
 
     verb, *words = shlex.split(line, comments=True)[1:]
-    if verb in ("show", "validate", "report", "simulate"):
+    if verb in ("show", "validate", "report") or (verb == "simulate" and "record.csv" not in words):
         return  # they change nothing that a picture shows
     code = cli.run([verb, *words])
     if code > 1:
@@ -164,6 +170,19 @@ def motion(stage: Stage, path: Path) -> QPixmap:
         return _grab(view)
 
 
+def record(stage: Stage, path: Path) -> QPixmap:
+    """The fit of a record."""
+    from amp_studio.files import open_file
+    from amp_studio.ui.identify_dialog import IdentifyDialog
+
+    dialog = IdentifyDialog(open_file(path).file, "1", path.with_name("record.csv"), stage.window)
+    dialog.resize(1000, 560)
+    dialog.show()
+    taken = _grab(dialog)
+    dialog.close()
+    return taken
+
+
 def window(stage: Stage, path: Path) -> QPixmap:
     """The example mill with a value that a rule finds wrong."""
     _run(f"amp-studio set {shlex.quote(str(path))} 1750='4 mm'", path)
@@ -182,6 +201,7 @@ PICTURES: dict[str, Callable[[Stage, Path], QPixmap]] = {
     "tutorial-axes": axes,
     "tutorial-done": done,
     "tutorial-motion": motion,
+    "record": record,
 }
 """Name of a file in ``docs/images`` -> what draws it."""
 
