@@ -99,15 +99,15 @@ WAITING = {"restart": "waiting for the control to restart"}
 """What the person reads while a stage waits for somebody else."""
 
 
-def assignments(texts: Sequence[str]) -> list[tuple[str, str]]:
-    """Part ``PARAM=VALUE`` texts; raises UsageError that names all that are none."""
+def assignments(texts: Sequence[str], form: str = "PARAM=VALUE") -> list[tuple[str, str]]:
+    """Part texts of this form; raises UsageError that names all that are none."""
     pairs, slips = [], []
     for text in texts:
         param, sign, value = text.partition("=")
         if sign and param.strip():
             pairs.append((param.strip(), value.strip()))
         else:
-            slips.append(f"{quoted(text)} is not PARAM=VALUE")
+            slips.append(f"{quoted(text)} is not {form}")
     if slips:
         raise UsageError("; ".join(slips))
     return pairs

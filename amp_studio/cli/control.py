@@ -41,7 +41,7 @@ def emulate_verb(options: argparse.Namespace) -> int:
     return emulate(_secured(options), EmulatedOptions(
         options.family, options.state, machine=options.machine, estop=not options.no_estop,
         autostart=not options.manual_restart, faults=options.faults,
-        hardware=dict(assignments(options.option))))  # fmt: skip
+        hardware=dict(assignments(options.option, "NAME=VALUE"))))  # fmt: skip
 
 
 def _secured(options: argparse.Namespace) -> Endpoint:

@@ -101,6 +101,6 @@ def calculate_verb(options: argparse.Namespace) -> int:
             default = f" (else {argument.default})" if argument.default is not None else ""
             print(f"  {argument.name}=…{f' {argument.example}' if argument.example else ''}{default}")
         return 0
-    texts = dict(assignments(options.arguments))
+    texts = dict(assignments(options.arguments, "NAME=VALUE"))
     print(shown_result(calculate(options.family, options.formula, texts)))
     return 0
