@@ -36,6 +36,8 @@ class MachinePage(QWidget):
         super().__init__()
         self._run, self._present, self._fail = run, present, fail
         self.form = SettingsForm(run)
+        self._taken: tuple[str, dict[str, str]] = "", {}
+        """Axis of the machine that was taken from a record or a file, and its figures."""
         note = QLabel(
             self.tr(
                 "What the control does not know. An empty field takes what is assumed or given by parameters."
@@ -86,6 +88,7 @@ class MachinePage(QWidget):
 
     def _take(self, settings: Mapping[str, str]) -> None:
         """Fill the fields of a machine and simulate with it."""
+        self._taken = self._present()[1], dict(settings)
         for name, text in settings.items():
             field = self.form.fields.get(name)
             if not isinstance(field, QLineEdit):
@@ -93,3 +96,14 @@ class MachinePage(QWidget):
                 return
             field.setText(text)
         self._run()
+
+    def leave_axis(self, axis: str) -> None:
+        """Empty the fields that have the machine of another axis than ``axis``, unless somebody has changed them."""
+        of, settings = self._taken
+        if of == axis:
+            return
+        for name, text in settings.items():
+            field = self.form.fields.get(name)
+            if isinstance(field, QLineEdit) and field.text() == text:
+                field.clear()
+        self._taken = axis, {}

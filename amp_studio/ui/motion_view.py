@@ -208,6 +208,7 @@ class MotionView(QWidget):
         """Take another scenario or axis; what was before belongs to the old one."""
         self.before = None
         self._fill(str(self.axis.currentData()))
+        self.machine_page.leave_axis(str(self.axis.currentData()))
         self.run()
 
     def _after_edit(self, _: list[Address]) -> None:

@@ -109,3 +109,10 @@ def test_the_figures_of_a_record_fill_the_fields_when_they_are_accepted(
     page.record.click()
     assert runs == ["run"]
     assert page.form.values()["model.acceleration_per_output"].endswith(" mm/s2")
+    page.leave_axis("1")
+    assert len(page.form.values()) == 4
+    field = page.form.fields["model.gravity"]
+    assert isinstance(field, QLineEdit)
+    field.setText("7")
+    page.leave_axis("2")
+    assert page.form.values() == {"model.gravity": "7"}, "what somebody has typed stays"
