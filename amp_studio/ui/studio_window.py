@@ -48,7 +48,7 @@ class StudioWindow(QMainWindow):
         super().__init__()
         self._project: Project | None = None
         self.is_leaving = False
-        """Whether the whole window closes: what its files leave is looked at no more."""
+        """Whether the whole window closes: what its files leave is no longer checked."""
         self.tabs = FileTabs()
         self.summaries = FileSummaries(self)
         self.settings = UserSettings()
