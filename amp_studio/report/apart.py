@@ -57,7 +57,10 @@ def made_apart(what: What, report: Report, own: Path, ppi: int = 0) -> list[byte
 
 
 def made(what: What, report: Report, own: Path, ppi: int = 0) -> list[bytes]:
-    """Return the PDF, the web page, or the Typst source and a PNG of each page; raises TemplateMistakeError."""
+    """Return the PDF, the web page, or the Typst source, what is known of its marks, and a PNG of each page.
+
+    Raises TemplateMistakeError.
+    """
     from .page import render_html
     from .pdf import render_pdf, set_pages
 
@@ -66,7 +69,7 @@ def made(what: What, report: Report, own: Path, ppi: int = 0) -> list[bytes]:
     if what == "pdf":
         return [render_pdf(report, own)]
     found = set_pages(report, ppi, own)
-    return [found.source.encode("utf-8"), *found.pages]
+    return [found.source.encode("utf-8"), found.found_marks().encode("utf-8"), *found.pages]
 
 
 def answer(asked: BinaryIO, out: BinaryIO) -> None:

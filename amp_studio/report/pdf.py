@@ -81,17 +81,24 @@ class SetReport:
     """Each as PNG."""
     source: str
     root: Path
+    marks: str = ""
+    """What Typst knows of the marks in it, where that was asked for together with the pages."""
 
     def places(self) -> dict[Address, Place]:
         """Return where each value is, which takes half as long as the pages; a project's template can leave them out."""
-        import typst
-
-        found = json.loads(typst.query(
-            self.source.encode("utf-8"), "<amp-places>", field="value", **_options(self.source, self.root)))  # fmt: skip
+        found = json.loads(self.marks or self.found_marks())
         return {
             (anchor.rpartition("@")[0], anchor.rpartition("@")[2]): Place(page, x, y)
             for anchor, page, x, y in (found[0] if found else ())
         }
+
+    def found_marks(self) -> str:
+        """Return what Typst knows of the marks at the values."""
+        import typst
+
+        return typst.query(
+            self.source.encode("utf-8"), "<amp-places>", field="value", **_options(self.source, self.root)
+        )
 
 
 def typst_source(report: Report, own: Path | None = None, *, places: bool = False) -> str:

@@ -143,22 +143,35 @@ def _check_blocks(environment: Environment, own: Path) -> None:
 
 def line_of_source(own: Path, source: str, diagnostic: str) -> str:
     """Return ``line 7: ``, the line of a template that has written what Typst complains of; empty where it is not known."""
+    try:
+        lines = [_EXPRESSION.split(line.strip()) for line in own.read_text("utf-8").splitlines()]
+    except (OSError, UnicodeError):  # it has just been saved
+        return ""
     written = source.splitlines()
-    lines = [_shape(line) for line in own.read_text("utf-8").splitlines()]
     for number in map(int, _COMPLAINT.findall(diagnostic)):
-        text = written[number - 1].strip() if number <= len(written) else ""
-        found = [n for n, shape in enumerate(lines, 1) if shape and shape.fullmatch(text)]
+        text = written[number - 1].strip() if 0 < number <= len(written) else ""
+        found = [n for n, parts in enumerate(lines, 1) if _can_write(parts, text)]
         if len(found) == 1:
             return f"line {found[0]}: "
     return ""
 
 
-def _shape(line: str) -> re.Pattern[str] | None:
-    """Return what a line of a template can become; None where it is little more than an expression."""
-    parts = _EXPRESSION.split(line.strip())
+def _can_write(parts: list[str], text: str) -> bool:
+    """Return whether a line of a template, given as what is between its expressions, can have written a text."""
     if len("".join(parts).replace(" ", "")) < _LEAST_SHAPE:
-        return None
-    return re.compile(".*".join(map(re.escape, parts)))
+        return False
+    first, last = parts[0], parts[-1]
+    if len(parts) == 1:
+        return text == first
+    if not (text.startswith(first) and text.endswith(last) and len(text) >= len(first) + len(last)):
+        return False
+    at, end = len(first), len(text) - len(last)
+    for part in parts[1:-1]:
+        at = text.find(part, at, end)
+        if at < 0:
+            return False
+        at += len(part)
+    return True
 
 
 def _line(own: Path, error: BaseException) -> str:

@@ -90,8 +90,8 @@ def set_report(
     template = own_template(real_path(source).parent, "report.typ.j2")
     if template is not None:
         try:
-            made_source, *pages = made_apart("pages", report, template, ppi)
-            return SetReport(tuple(pages), made_source.decode("utf-8"), template.parent)
+            written, marks, *pages = made_apart("pages", report, template, ppi)
+            return SetReport(tuple(pages), written.decode("utf-8"), template.parent, marks.decode("utf-8"))
         except TemplateMistakeError as error:
             notify(f"{error}. The standard report is used")
     return set_pages(report, ppi)

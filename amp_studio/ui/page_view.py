@@ -35,6 +35,8 @@ _REACH = 24.0
 """Points up to which a click belongs to the line above it."""
 _AHEAD = 1
 """Pages beside those that are seen whose pictures are kept."""
+_MOST_PIXELS = 64_000_000
+"""Of a page that is scaled beforehand: a template makes pages of any size."""
 _PAPER = QColor(255, 255, 255)
 _MARK = QColor(29, 91, 203)
 """Paper is white in the dark too, and so is what is marked on it."""
@@ -156,7 +158,8 @@ class PageView(QAbstractScrollArea):
     def _scale(self, page: int) -> float:
         if self.zoom is not None:
             return self.zoom
-        return max((self.viewport().width() - 2 * GAP3) / self._sizes[page][0], LEAST_ZOOM)
+        wanted = (self.viewport().width() - 2 * GAP3) / max(self._sizes[page][0], 1.0)
+        return min(max(wanted, LEAST_ZOOM), MOST_ZOOM)
 
     def _of(self, page: int) -> QSize:
         """Return the size of a page in pixels."""
@@ -277,10 +280,10 @@ class PageView(QAbstractScrollArea):
             return
         size, ratio = self._of(missing), self.devicePixelRatioF()
         smooth = Qt.TransformationMode.SmoothTransformation
-        image = QImage.fromData(self.pages[missing]).scaled(
-            size * ratio, Qt.AspectRatioMode.IgnoreAspectRatio, smooth
-        )
-        image.setDevicePixelRatio(ratio)
+        image, wanted = QImage.fromData(self.pages[missing]), size * ratio
+        if not image.isNull() and wanted.width() * wanted.height() <= _MOST_PIXELS:
+            image = image.scaled(wanted, Qt.AspectRatioMode.IgnoreAspectRatio, smooth)
+            image.setDevicePixelRatio(ratio)
         self._drawn[missing] = self.pages[missing], size.width(), QPixmap.fromImage(image)
         self.viewport().update()
 
