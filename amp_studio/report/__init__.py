@@ -1,7 +1,7 @@
 """Printed documentation, and parameters and findings as text and JSON.
 
-``write_report`` prints a parameter file as PDF, HTML, CSV or text, in one of
-three orders; ``build_report`` returns the same as plain data.
+``write_report`` prints a parameter file in the format of the file's ending (``FORMATS``), in one of
+four orders (``SORTS``); ``build_report`` returns the same as plain data.
 
 What is named here is loaded when it is first asked for: most verbs print findings, and no report.
 """
@@ -12,25 +12,23 @@ from typing import TYPE_CHECKING, Any
 if TYPE_CHECKING:
     from .build import build_report
     from .by_rule import FindingGroup, finding_axes, finding_groups, fix_lines, fix_text
-    from .dangers import dangers_of_change
-    from .describe import definition
-    from .finding_lines import finding_json, finding_text, suppressed_text
-    from .findings import alike, same_finding_text
-    from .manual_page import GRADES, facts, formula_lines, help_parts, one_line, page_of, range_text
-    from .model import (
+    from .contents import (
         CHAPTERS,
         PAPER_SIZES,
         SORTS,
         UNIT_CHOICES,
         Chapter,
         Contents,
-        ExchangeLine,
         PaperSize,
-        PrintedFigure,
-        Report,
         Sort,
         UnitChoice,
     )
+    from .dangers import dangers_of_change
+    from .describe import definition
+    from .finding_lines import finding_json, finding_text, suppressed_text
+    from .findings import alike, same_finding_text
+    from .manual_page import GRADES, facts, formula_lines, help_parts, one_line, page_of, range_text
+    from .model import ExchangeLine, PrintedFigure, Report
     from .pdf import Place, SetReport
     from .printed_table import cells_of, table_lines, tables_of
     from .why import why_parts, why_text
@@ -38,13 +36,13 @@ if TYPE_CHECKING:
     from .write import FORMATS, set_report, write_report
 
 _PLACES = {
-    "CHAPTERS": "model",
-    "Chapter": "model",
-    "Contents": "model",
+    "CHAPTERS": "contents",
+    "Chapter": "contents",
+    "Contents": "contents",
     "GRADES": "manual_page",
     "ExchangeLine": "model",
-    "PAPER_SIZES": "model",
-    "PaperSize": "model",
+    "PAPER_SIZES": "contents",
+    "PaperSize": "contents",
     "Place": "pdf",
     "PrintedFigure": "model",
     "FORMATS": "write",
@@ -54,10 +52,10 @@ _PLACES = {
     "fix_lines": "by_rule",
     "fix_text": "by_rule",
     "Report": "model",
-    "SORTS": "model",
-    "Sort": "model",
-    "UNIT_CHOICES": "model",
-    "UnitChoice": "model",
+    "SORTS": "contents",
+    "Sort": "contents",
+    "UNIT_CHOICES": "contents",
+    "UnitChoice": "contents",
     "alike": "findings",
     "build_report": "build",
     "cells_of": "printed_table",

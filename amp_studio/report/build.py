@@ -26,12 +26,13 @@ from amp_studio.schema import Address, Schema, label_of
 from amp_studio.validate import NO_RULES, BuilderRules, Finding, Validator
 
 from .axes import printed_axes, scope_of
+from .contents import SORTS, UNIT_CHOICES, Contents
 from .dangers import dangers_of
 from .drawings import drawings
 from .findings import notes_of, suppressed_notes
 from .language import language_of
 from .manual_page import help_parts
-from .model import SORTS, UNIT_CHOICES, Contents, ExchangeLine, PrintedFigure, Report, ReportRow
+from .model import ExchangeLine, PrintedFigure, Report, ReportRow
 from .rows import Rows, row_of, rows_of
 from .sections import numbers_of, sections_of
 from .wording import counted, joined_places

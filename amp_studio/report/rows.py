@@ -22,7 +22,8 @@ from amp_studio.schema import (
 )
 
 from .axes import place_of, printed_axes, scope_of
-from .model import ReportRow, UnitChoice
+from .contents import UnitChoice
+from .model import ReportRow
 
 _EXACT = 9
 """Most digits of a converted figure that is exact; with more of them it would be the same figure by chance."""

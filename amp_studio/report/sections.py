@@ -11,8 +11,9 @@ from amp_studio.files import ParameterFile
 from amp_studio.guide import steps_of
 
 from .axes import axis_label, axis_note, printed_axes, scope_of
+from .contents import Sort
 from .language import ENGLISH, Language
-from .model import Column, Grid, GridLine, Listing, ReportRow, Section, Sort
+from .model import Column, Grid, GridLine, Listing, ReportRow, Section
 from .number_text import split_count
 
 _WIDEST_GRID = 8

@@ -11,8 +11,9 @@ from amp_studio.validate import NO_RULES, BuilderRules
 
 from .apart import What, made_apart
 from .build import build_report
+from .contents import Contents
 from .everything import render_json, render_workbook
-from .model import Contents, ExchangeLine, PrintedFigure, Report
+from .model import ExchangeLine, PrintedFigure, Report
 from .page import render_html
 from .pdf import SetReport, render_pdf, set_pages
 from .table_csv import render_csv

@@ -11,7 +11,7 @@ import pytest
 
 from amp_studio.files import ParameterFile, fill_defaults, fitted_axes, new_file
 from amp_studio.report import Contents, write_report
-from amp_studio.report.model import Sort
+from amp_studio.report.contents import Sort
 from amp_studio.schema import Value
 
 LOOPS = ("digital", "analog", "sercos")

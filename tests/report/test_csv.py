@@ -12,7 +12,7 @@ import pytest
 
 from amp_studio.files import ParameterFile, new_file
 from amp_studio.report import SORTS, Contents, build_report, write_report
-from amp_studio.report.model import Sort
+from amp_studio.report.contents import Sort
 from amp_studio.report.table_csv import HEADS
 from amp_studio.schema import Value, family_ids, read_value
 

@@ -8,7 +8,8 @@ import pytest
 
 from amp_studio.files import Header, ParameterFile, new_file
 from amp_studio.report import FORMATS, SORTS, Contents, build_report, write_report
-from amp_studio.report.model import Grid, Sort
+from amp_studio.report.contents import Sort
+from amp_studio.report.model import Grid
 from amp_studio.schema import Schema, Value
 
 

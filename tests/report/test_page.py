@@ -8,7 +8,7 @@ import pytest
 
 from amp_studio.files import ParameterFile
 from amp_studio.report import SORTS, Contents, build_report
-from amp_studio.report.model import Sort
+from amp_studio.report.contents import Sort
 from amp_studio.report.page import render_html
 
 VOID = {"meta", "link", "br", "input", "col", "img", "hr"}

@@ -12,7 +12,7 @@ import pytest
 
 from amp_studio.files import ParameterFile
 from amp_studio.report import SORTS, Contents, build_report, write_report
-from amp_studio.report.model import Sort
+from amp_studio.report.contents import Sort
 
 poppler = pytest.mark.skipif(shutil.which("pdfinfo") is None, reason="needs poppler's tools")
 

@@ -11,7 +11,8 @@ import pytest
 from amp_studio.files import ParameterFile, content_of, digest_of, fitted_axes, new_file, save_file
 from amp_studio.files.notes import set_group_note, set_machine_note, set_value_note
 from amp_studio.report import SORTS, Contents, build_report
-from amp_studio.report.model import Grid, Listing, ReportRow, Sort
+from amp_studio.report.contents import Sort
+from amp_studio.report.model import Grid, Listing, ReportRow
 from amp_studio.report.page import render_html
 from amp_studio.report.sections import number_key
 from amp_studio.report.text import render_text

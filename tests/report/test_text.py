@@ -12,7 +12,8 @@ from hypothesis import strategies as st
 
 from amp_studio.files import ParameterFile
 from amp_studio.report import SORTS, Contents, build_report, write_report
-from amp_studio.report.model import Listing, Report, ReportRow, Section, Sort
+from amp_studio.report.contents import Sort
+from amp_studio.report.model import Listing, Report, ReportRow, Section
 from amp_studio.report.note import Note
 from amp_studio.report.pdf import typst_literal, typst_source
 from amp_studio.report.text import render_text

@@ -1,0 +1,77 @@
+"""What a report contains, in which order, units, language and on which paper: the choices of the person who prints it."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Literal
+
+Sort = Literal["axis", "number", "group", "steps"]
+"""The three orders of a report (9/PC CNC AMP Reference Manual, Documenting AMP Files), and that of commissioning."""
+
+SORTS: dict[Sort, str] = {
+    "axis": "by axis, then non-axis parameters",
+    "number": "by parameter number",
+    "group": "by group",
+    "steps": "by step of commissioning",
+}
+
+Chapter = Literal["pictures", "motion", "exchanges", "signatures"]
+
+CHAPTERS: tuple[Chapter, ...] = ("pictures", "motion", "exchanges", "signatures")
+"""Chapters that can be left out of a PDF and of a web page; text and tables have only the last two, or none."""
+
+UnitChoice = Literal["file", "metric", "inch", "both"]
+"""The units of a report: those of the file, one system, or the file's with the other system's beside them."""
+
+UNIT_CHOICES: dict[UnitChoice, str] = {
+    "file": "as in the file",
+    "metric": "metric",
+    "inch": "inch",
+    "both": "those of the file, with the other system's below",
+}
+
+PaperSize = Literal["a4", "letter"]
+
+PAPER_SIZES: dict[PaperSize, tuple[str, str]] = {"a4": ("a4", "A4"), "letter": ("us-letter", "letter")}
+"""The paper of a PDF and of a printed web page -> its name in Typst, and in CSS."""
+
+
+@dataclass(frozen=True, slots=True)
+class Contents:
+    """What a report contains, and how."""
+
+    sort: Sort = "group"
+    changed_only: bool = False
+    """Only what is set and differs from the printed default, or has none."""
+    inactive: bool = False
+    """Also what the control ignores or cannot use on this machine."""
+    units: UnitChoice = "file"
+    language: str = "en"
+    """Code of the language of the report's own words (``language_codes``)."""
+    without: frozenset[Chapter] = frozenset()
+    """Chapters that are left out."""
+    paper: PaperSize = "a4"
+
+    def __post_init__(self) -> None:
+        if self.sort not in SORTS:
+            raise ValueError(f"Unknown order '{self.sort}'. Known: {', '.join(SORTS)}")
+        if self.units not in UNIT_CHOICES:
+            raise ValueError(f"Unknown units '{self.units}'. Known: {', '.join(UNIT_CHOICES)}")
+        if self.paper not in PAPER_SIZES:
+            raise ValueError(f"Unknown paper '{self.paper}'. Known: {', '.join(PAPER_SIZES)}")
+
+    @property
+    def typst_paper(self) -> str:
+        """The paper's name in Typst."""
+        return PAPER_SIZES[self.paper][0]
+
+    @property
+    def css_paper(self) -> str:
+        """The paper's name in CSS."""
+        return PAPER_SIZES[self.paper][1]
+
+    @property
+    def text(self) -> str:
+        """The choice in words."""
+        which = "active parameters" if not self.inactive else "all parameters"
+        return f"{which} that differ from the printed default or have none" if self.changed_only else which
