@@ -97,13 +97,12 @@ def _workbook(paper: Paper) -> bytes:
     text = paper.words.text
     facts = [(text(name), paper.fact(name, body)) for name, body in paper.facts]
     sheets = [
-        WorkbookSheet(text(paper.kind), ("", ""), (("", paper.title), *facts, (text("Printed"), paper.when)))
-    ]
-    sheets += [
         WorkbookSheet(table.title or text(paper.kind), tuple(map(text, table.heads)), table.rows)
         for table in paper.tables
     ]
-    return workbook(sheets)
+    about = (("", paper.title), *facts, (text("Printed"), paper.when))
+    # The tables come first: what takes one sheet alone, as a spreadsheet without a window does, takes them.
+    return workbook([*sheets, WorkbookSheet(text("This document"), ("", ""), about)])
 
 
 def _csv(paper: Paper) -> bytes:

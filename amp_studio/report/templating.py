@@ -84,18 +84,22 @@ def filled(
         raise TemplateMistakeError(own, f"is larger than {_MOST_TEMPLATE // 1024} KB")
     try:
         return _bounded(environment, own, values)
+    except TemplateMistakeError:  # has its file and its line already
+        raise
     except TemplateNotFound as error:
         where = "; those of the program are standard/report.html.j2 and standard/report.typ.j2"
         raise TemplateMistakeError(
             own, f"{_line(own, error)}there is no template '{error}' beside it{where}"
         ) from None
     except TemplateError as error:
-        what = str(error.message or error).removesuffix(".")
-        raise TemplateMistakeError(own, f"{_line(own, error)}{what}") from None
+        raise _mistake(own, error, str(error.message or error)) from None
     except _MISTAKES as error:
-        raise TemplateMistakeError(
-            own, f"{_line(own, error)}{str(error) or 'needs too much memory'}"
-        ) from None
+        raise _mistake(own, error, str(error) or "needs too much memory") from None
+
+
+def _mistake(own: Path, error: BaseException, what: str) -> TemplateMistakeError:
+    """Return what an error of a template says, with its line and without its own full stop: a sentence follows."""
+    return TemplateMistakeError(own, f"{_line(own, error)}{what.rstrip('.')}")
 
 
 def _loader(own: Path | None) -> BaseLoader:

@@ -74,6 +74,17 @@ def test_of_several_machines_the_one_that_departs_stands_out(
     assert machines_paper([mill, mill], ["A", "B"]).tables == ()
 
 
+def test_the_first_sheet_of_a_workbook_is_the_table(
+    tmp_path: Path, mill: ParameterFile, other: ParameterFile
+) -> None:
+    from openpyxl import load_workbook
+
+    write_paper(machines_paper([mill, other], ["A", "B"], date=DATE), tmp_path / "m.xlsx")
+    book = load_workbook(tmp_path / "m.xlsx", read_only=True)
+    assert book.sheetnames == ["Machines compared", "This document"]
+    assert next(book.worksheets[0].iter_rows(values_only=True))[0] == "Number"
+
+
 def test_machines_of_different_families_are_not_compared(mill: ParameterFile) -> None:
     with pytest.raises(ValueError, match="different control families"):
         machine_rows([mill, new_file("num")])
@@ -99,7 +110,7 @@ def test_every_format_has_every_cell_and_takes_any_text(tmp_path: Path, ending: 
     elif ending == ".csv":
         assert b"\"'=HYPERLINK" in content, "no formula"
     elif ending == ".xlsx":
-        assert b"<f>" not in zipfile.ZipFile(path).read("xl/worksheets/sheet2.xml"), "no formula"
+        assert b"<f>" not in zipfile.ZipFile(path).read("xl/worksheets/sheet1.xml"), "no formula"
     elif shutil.which("pdftotext"):
         text = subprocess.run(
             ["pdftotext", "-layout", path, "-"], capture_output=True, check=True, text=True

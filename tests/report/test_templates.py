@@ -98,6 +98,8 @@ def test_logo_colours_header_and_a_chapter_of_a_pdf(machine: Path, mill: Paramet
         ("html", "{{ 'x'|center(9999999999) }}", "a filter makes too much"),
         ("html", "{{ '{:>99999999999999}'.format(1) }}", "line 1: needs too much memory"),
         ("html", "{{ '\\ud800' }}", "half a character"),
+        ("html", "{% for each in range(1000000000) %}x{% endfor %}", "(100000). The standard"),
+        ("html", EXTENDS_PAGE + "{% block chapter %}x{% endblock %}", "line 2: there is no block 'chapter'"),
         ("html", "{{ cycler() }}", "at least one item"),
         ("html", "{{ 'x'|truncate(-5) }}", "expected length"),
         ("html", "{{ " + "x" * 9_000 + " }}", "xxx…"),
@@ -115,7 +117,9 @@ def test_a_mistake_is_noted_with_its_line_and_the_standard_report_is_written(
     content, (note,) = printed(machine, mill, ending, template)
     assert said in note
     assert note.startswith(str(machine.parent / "templates"))
+    assert note.count(f"report.{'typ' if ending == 'pdf' else 'html'}.j2: ") == 1, note
     assert note.endswith("The standard report was written")
+    assert ".. The standard" not in note, note
     assert len(content) > 10_000
 
 

@@ -108,7 +108,7 @@ def test_the_table_is_exported_and_no_machine_is_written_over(
         person.chooses(hall / f"machines.{ending}")
         dialog.export()
         assert dialog.bar.text.text() == f"{hall / f'machines.{ending}'} written"
-    cells = [[cell.value for cell in row] for row in load_workbook(hall / "machines.xlsx").worksheets[1].rows]
+    cells = [[cell.value for cell in row] for row in load_workbook(hall / "machines.xlsx").worksheets[0].rows]
     assert cells[0] == ["Number", "Parameter", "Belongs to", "ROUTER_2", "ROUTER_1", "ROUTER_3"]
     assert cells[1][3:] == ["600 mm/min", "500 mm/min", "800 mm/min"]
     before = (hall / "ROUTER_1.amp").read_bytes()
