@@ -172,12 +172,16 @@ def motion(stage: Stage, path: Path) -> QPixmap:
 
 def record(stage: Stage, path: Path) -> QPixmap:
     """The fit of a record."""
+    from screenshots import settle
+
     from amp_studio.files import open_file
     from amp_studio.ui.identify_dialog import IdentifyDialog
+    from amp_studio.ui.task import Task
 
     dialog = IdentifyDialog(open_file(path).file, "1", path.with_name("record.csv"), stage.window)
     dialog.resize(1000, 560)
     dialog.show()
+    settle(lambda: dialog.plot.is_drawn and not Task.running)
     taken = _grab(dialog)
     dialog.close()
     return taken

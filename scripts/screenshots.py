@@ -381,6 +381,7 @@ def main() -> int:
     chosen = parser.parse_args()
     OUT.mkdir(parents=True, exist_ok=True)
     application = QApplication(["amp-studio"])
+    application.setCursorFlashTime(0)  # a cursor that blinks makes two pictures of one
     start = time.monotonic()
     count = 0
     if not chosen.documents:
