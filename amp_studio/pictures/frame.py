@@ -91,6 +91,8 @@ def _values(scale: Scale, about: float) -> list[float]:
 def figure_text(value: float) -> str:
     """Write a number beside an axis: grouped by narrow spaces from five digits on, with a real minus."""
     text = f"{value:.10g}"
+    if "e-" in text:
+        text = f"{value:.12f}".rstrip("0").rstrip(".")
     sign, digits = ("−", text[1:]) if text.startswith("-") else ("", text)
     whole, point, decimals = digits.partition(".")
     if len(whole) > 4 and whole.isdigit():

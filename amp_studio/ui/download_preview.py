@@ -80,9 +80,10 @@ class DownloadPreview(QDialog):
         parent: QWidget | None = None,
         *,
         secrets: bool = False,
-        title: str = "Download",
+        title: str = "",
     ) -> None:
         super().__init__(parent)
+        title = title or self.tr("Download")
         self.setWindowTitle(title)
         self.resize(900, 500)
         text = QLabel(self.tr("{counts} The download replaces all parameters in the control. Values that are not set in this file are not sent. The control's present parameters are saved beside the file first.\n\nThe control must be in E-stop.").format(counts=counts(found)))  # fmt: skip

@@ -7,8 +7,8 @@ from PySide6.QtWidgets import QDialog, QHeaderView, QLabel, QTreeWidget, QTreeWi
 
 from amp_studio.files import real_path, text_of_name
 from amp_studio.files.local_time import day_and_time
-from amp_studio.report.wording import counted
 
+from .translated import counted, worded
 from .workspace import Workspace
 
 
@@ -41,7 +41,14 @@ class ExchangesDialog(QDialog):
         for each in reversed(found):
             digests = (each.before[:12], each.after[:12])
             item = QTreeWidgetItem(
-                [day_and_time(each.when), each.who, each.verb, each.control, *digests, each.text]
+                [
+                    day_and_time(each.when),
+                    each.who,
+                    worded(each.verb),
+                    each.control,
+                    *digests,
+                    worded(each.text),
+                ]
             )
             kept = self.tr("\nKept copy: {kept}").format(kept=each.kept) if each.kept else ""
             item.setToolTip(6, each.text + kept)

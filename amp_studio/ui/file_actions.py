@@ -23,7 +23,6 @@ from amp_studio.files import (
 )
 from amp_studio.files.local_time import day_and_time
 from amp_studio.files.lock import EditLock
-from amp_studio.report.wording import counted
 from amp_studio.validate import Validator, rules_beside
 
 from .compare_actions import FILTER, CompareActions
@@ -34,7 +33,7 @@ from .questions import ask
 from .recent_files import RecentFiles
 from .studio_window import StudioWindow
 from .task import in_background
-from .translated import Translated
+from .translated import Translated, counted
 from .workspace import Workspace
 
 CheckedDocument = tuple[Document, Validator]

@@ -10,7 +10,6 @@ from PySide6.QtGui import QAction
 from PySide6.QtWidgets import QVBoxLayout, QWidget
 
 from amp_studio.files import axis_letter, describe
-from amp_studio.report.wording import counted
 from amp_studio.schema import Address, Parameter, shown, write_figure
 from amp_studio.validate import Finding, not_set
 
@@ -22,7 +21,7 @@ from .list_title import ListTitle
 from .message_bar import MessageBar
 from .parameter_table import ParameterTable
 from .picture_split import PictureSplit
-from .translated import worded
+from .translated import counted, worded
 from .value_table import ValueTable
 from .workspace import Workspace
 

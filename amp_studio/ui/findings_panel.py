@@ -22,13 +22,13 @@ from PySide6.QtWidgets import (
 )
 
 from amp_studio.report import finding_axes
-from amp_studio.report.wording import counted
 from amp_studio.validate import SEVERITIES, Finding, not_set
 
 from .findings_delegate import FindingsDelegate, Part
 from .findings_model import FindingsModel
 from .segment import Segment, chip
 from .theme import FINDING_ROW, GAP2, GAP3, colour, font, icon, paint_icon, severity_icon
+from .translated import counted
 from .workspace import Workspace
 
 Index = QModelIndex | QPersistentModelIndex

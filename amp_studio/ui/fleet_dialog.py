@@ -22,12 +22,12 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
-from amp_studio.report.wording import counted
 from amp_studio.transfer.progress import Progress
 
 from .questions import ask
 from .task import ProgressDialog
 from .theme import severity_icon
+from .translated import counted
 from .workspace import Workspace
 
 if TYPE_CHECKING:

@@ -10,13 +10,12 @@ from PySide6.QtWidgets import QFileDialog, QInputDialog
 
 from amp_studio.files import Document, ParameterFile, check_output, secret_values
 from amp_studio.files.out_of_range import keep, out_of_range
-from amp_studio.report.wording import counted
 from amp_studio.schema import family_ids, load_schema
 
 from .questions import ask
 from .studio_window import StudioWindow
 from .task import in_background
-from .translated import Translated
+from .translated import Translated, counted
 
 if TYPE_CHECKING:
     from amp_studio.formats import FormatError

@@ -7,11 +7,11 @@ from collections import Counter
 from PySide6.QtCore import Qt, Signal
 from PySide6.QtWidgets import QHeaderView, QTreeWidgetItem, QVBoxLayout, QWidget
 
-from amp_studio.report.wording import counted
 from amp_studio.schema import Group, Parameter
 from amp_studio.validate import NOT_SET, SEVERITIES
 
 from .place_tree import COUNTS, INK, RIGHT, PlaceTree
+from .translated import counted
 from .workspace import Workspace
 
 _KEYS = Qt.ItemDataRole.UserRole

@@ -11,6 +11,7 @@ from PySide6.QtWidgets import (
 )
 
 from amp_studio.pictures import Handle
+from amp_studio.pictures.frame import figure_text
 from amp_studio.schema import (
     Address,
     Value,
@@ -73,7 +74,7 @@ class HandleFooter(QFrame):
             return
         self.name.setText(handle.label)
         drag = handle.drags[0]
-        step = f"{drag.step:g} {shown(drag.unit)}".strip()
+        step = f"{figure_text(drag.step)} {shown(drag.unit)}".strip()
         self.keys.setText(self.tr("← → {step}, Shift 10").format(step=step))
         if has_one and not self.field.hasFocus():
             self.field.setText(self._typed(drag.address))

@@ -32,6 +32,10 @@ MOST_NOTES = {True: 1, False: 4}
 
 _MORE = 110
 """Width of what follows an elided note."""
+_TITLE_ROOM, _PART = 190, 50
+"""Width of the head without its parts, and of a part, about."""
+_LOW = 330
+"""Height from which a picture alone has room for several lines of notes."""
 
 
 class PictureCard(QFrame):
@@ -48,7 +52,7 @@ class PictureCard(QFrame):
         self.small = True
         """Whether it is beside others."""
         self.canvas = PictureCanvas(workspace, self._draw)
-        self.title, self.subtitle = QLabel(), ElidedLabel()
+        self.title, self.subtitle = ElidedLabel(), ElidedLabel()
         self.title.setFont(font("text", own=True))
         self.subtitle.setFont(font("small"))
         self.subtitle.setForegroundRole(QPalette.ColorRole.PlaceholderText)
@@ -117,7 +121,7 @@ class PictureCard(QFrame):
 
     def _offer_parts(self) -> None:
         options = [(key, name or key, "") for key, name in self.picture.parts]
-        few = len(options) <= MOST_PARTS
+        few = len(options) <= MOST_PARTS and not self._is_crowded(len(options))
         self.parts.setVisible(len(options) > 1 and few)
         self.more_parts.setVisible(not few)
         if few:
@@ -128,6 +132,10 @@ class PictureCard(QFrame):
             self.more_parts.clear()
             for key, name, _ in options:
                 self.more_parts.addItem(name, key)
+
+    def _is_crowded(self, count: int) -> bool:
+        """Return whether so many buttons would leave the title no room."""
+        return self.isVisible() and self.width() < _TITLE_ROOM + _PART * count
 
     def _describe(self) -> None:
         scene = self.canvas.scene
@@ -140,9 +148,10 @@ class PictureCard(QFrame):
     def show_notes(self) -> None:
         """Show what is not drawn and why, what is wrong first; each leads to its parameter."""
         self.enlarge.setVisible(self.small)
-        self.notes.setWordWrap(not self.small)
+        is_brief = self._is_brief
+        self.notes.setWordWrap(not is_brief)
         notes = sorted(self.canvas.scene.notes, key=lambda note: note.order)
-        most = MOST_NOTES[self.small]
+        most = MOST_NOTES[is_brief]
         lines = []
         for note in notes[:most]:
             ink = colour("error" if note.wrong else "dim").name()
@@ -155,19 +164,26 @@ class PictureCard(QFrame):
             more = self.tr("%n more", "", len(notes) - most)
             lines.append(f'<span style="color: {colour("dim").name()}">{escape(more)}</span>')
         self.notes.setVisible(bool(lines))
-        self.notes.setText("<br>".join(lines) if not self.small else " · ".join(lines))
+        self.notes.setText("<br>".join(lines) if not is_brief else " · ".join(lines))
         self.notes.setToolTip("\n".join(note.text for note in notes))
+
+    @property
+    def _is_brief(self) -> bool:
+        """Whether notes have one line: beside other pictures, and in a low room."""
+        return self.small or self.height() < _LOW
 
     def _room_for(self, text: str) -> str:
         """Return a note in one line where the picture is beside others: a second line would take its room."""
-        if not self.small:
+        if not self._is_brief:
             return text
         return self.notes.fontMetrics().elidedText(text, Qt.TextElideMode.ElideRight, self.width() - _MORE)
 
     def resizeEvent(self, event: QResizeEvent) -> None:
         super().resizeEvent(event)
-        if self.small:
-            self.show_notes()
+        self._offer_parts()
+        self.parts.show_choice(self.part)
+        self.more_parts.setCurrentIndex(self.more_parts.findData(self.part))
+        self.show_notes()
 
     def _follow(self, link: str) -> None:
         parameter, _, instance = link.partition("@")

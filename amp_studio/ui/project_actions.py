@@ -9,14 +9,13 @@ from pathlib import Path
 from PySide6.QtWidgets import QFileDialog, QInputDialog
 
 from amp_studio.files import ParameterFileError, Project
-from amp_studio.report.wording import counted
 from amp_studio.schema import Address
 
 from .compare_actions import FILTER
 from .questions import ask
 from .studio_window import StudioWindow
 from .task import PATIENCE_MS, ProgressDialog, in_background
-from .translated import Translated
+from .translated import Translated, counted
 
 
 class ProjectActions(Translated):

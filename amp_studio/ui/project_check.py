@@ -12,12 +12,12 @@ from PySide6.QtGui import QBrush
 from PySide6.QtWidgets import QDialog, QHeaderView, QLabel, QTreeWidget, QTreeWidgetItem, QVBoxLayout, QWidget
 
 from amp_studio.files import ParameterFileError, open_file
-from amp_studio.report.wording import counted
 from amp_studio.schema import Address
 from amp_studio.validate import SEVERITIES, Finding, Validator, rules_beside
 
 from .task import TaskProgress
 from .theme import severity_icon, severity_ink
+from .translated import counted, worded
 
 _GOES_TO = Qt.ItemDataRole.UserRole
 
@@ -100,7 +100,7 @@ class ProjectCheckDialog(QDialog):
 
 def _branch(checked: CheckedFile) -> QTreeWidgetItem:
     worst = next((s for s in SEVERITIES if checked.count(s)), None)
-    first = checked.fault or (checked.findings[0].message if checked.findings else "no findings")
+    first = checked.fault or (checked.findings[0].message if checked.findings else worded("no findings"))
     item = QTreeWidgetItem([checked.path.name, *("" if checked.fault else str(checked.count(s)) for s in SEVERITIES), first])  # fmt: skip
     if checked.fault or worst:
         item.setIcon(0, severity_icon("error" if checked.fault else str(worst)))

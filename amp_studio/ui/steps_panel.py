@@ -21,14 +21,13 @@ from PySide6.QtWidgets import (
 from amp_studio.files import axis_letter
 from amp_studio.files.local_time import with_local_times
 from amp_studio.guide import GuideProgress, SetupStep, StepProgress, StepState
-from amp_studio.report.wording import counted
 from amp_studio.schema import Address, Parameter
 from amp_studio.schema.model import Guide
 from amp_studio.validate import SEVERITIES
 
 from .place_tree import COUNTS, INK, KEY, PICTURE, RIGHT, PlaceTree
 from .theme import FIGURE_SPACE, GAP, GAP2, GAP3, SMALL_CONTROL, Token, colour, font, icon
-from .translated import worded
+from .translated import counted, worded
 from .workspace import Workspace
 
 _PICTURES: dict[StepState, tuple[str, Token]] = {

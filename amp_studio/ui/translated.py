@@ -15,6 +15,7 @@ from xml.etree import ElementTree as ET
 from PySide6.QtCore import QCoreApplication, QLibraryInfo, QLocale, QTranslator
 
 from amp_studio.report.language import language_of
+from amp_studio.report.wording import counted as english_count
 
 FOLDER = Path(__file__).parent / "translations"
 LANGUAGES: Final = {"en": "English", "de": "Deutsch"}
@@ -37,6 +38,15 @@ def worded(text: str) -> str:
 @lru_cache(maxsize=4096)
 def _worded(code: str, text: str) -> str:
     return language_of(code).title(text)
+
+
+def counted(number: int, noun: str, none: str = "0") -> str:
+    """Return ``1 error``, ``2 files`` in the language of the window; ``none`` replaces the number 0."""
+    if _spoken == "en":
+        return english_count(number, noun, none)
+    language = language_of(_spoken)
+    text = language.counted(number, noun)
+    return text if number or none == "0" else f"{language.title(none)} {text.partition(' ')[2]}"
 
 
 class Translated:

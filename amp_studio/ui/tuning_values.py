@@ -77,7 +77,7 @@ class ValuesPage(QWidget):
         head = self.table.horizontalHeader()
         head.setDefaultAlignment(Qt.AlignmentFlag.AlignLeft | Qt.AlignmentFlag.AlignVCenter)
         head.setSectionResizeMode(_NAME, QHeaderView.ResizeMode.Stretch)
-        for column, width in ((_INSTANCE, 130), (_VALUE, 120), (_ALLOWED, 150), (_EFFECT, 110)):
+        for column, width in ((_INSTANCE, 110), (_VALUE, 120), (_ALLOWED, 210), (_EFFECT, 150)):
             self.table.setColumnWidth(column, width)
         self.table.itemChanged.connect(self._typed)
         self.table.currentCellChanged.connect(lambda *_: self._moved())

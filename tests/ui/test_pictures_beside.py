@@ -2,11 +2,16 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import pytest
 from PySide6.QtCore import QPoint, QPointF, Qt
 from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QApplication
 
+from amp_studio.pictures import pictures_of
+from amp_studio.ui.handle_footer import HandleFooter
+from amp_studio.ui.picture_card import PictureCard
 from amp_studio.ui.picture_split import PictureLayout
 
 from .conftest import WAIT_MS, action
@@ -157,3 +162,20 @@ def test_a_read_value_of_the_settings_is_what_was_kept_and_rubbish_is_ignored():
 )
 def test_the_room_decides_while_nobody_has_chosen(choice, size, place):
     assert PictureLayout(choice).fitting(*size) == place
+
+
+def test_parts_without_room_are_a_list_and_a_step_is_a_plain_number(workspace, qtbot):
+    picture = next(each for each in pictures_of(workspace.file) if each.name == "error")
+    card = PictureCard(workspace, picture)
+    qtbot.addWidget(card)
+    card.resize(700, 300)
+    card.show()
+    assert (card.parts.isVisible(), card.more_parts.isVisible()) == (True, False)
+    card.resize(260, 300)
+    assert (card.parts.isVisible(), card.more_parts.isVisible()) == (False, True)
+    assert card.more_parts.currentData() == card.part
+    footer = HandleFooter(workspace)
+    qtbot.addWidget(footer)
+    tiny = card.canvas.scene.handles[0]
+    footer.show_handle(replace(tiny, drags=(replace(tiny.drags[0], step=1e-05),)))
+    assert "0.00001" in footer.keys.text()

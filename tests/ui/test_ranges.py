@@ -128,7 +128,7 @@ def test_names_go_along_when_asked_for_and_lead_back_to_their_rows(
     shown: list[str] = []
     accept(BlockPreview, lambda dialog: shown.extend([dialog.summary.text()]))
     window.edits.range.paste()
-    assert shown == ["1 cell: 1 change, 0 the same, 0 refused"]
+    assert shown == ["1 cell: 1 changes, 0 the same, 0 refused"]
     assert of(file, EXCESS) == [Value(9.0, "mm"), Value(11.0, "mm"), Value(11.0, "mm")]
 
 

@@ -16,7 +16,16 @@ from amp_studio.files import open_file
 from amp_studio.guide import steps_of
 from amp_studio.pictures import pictures_of, scene_in_words
 from amp_studio.ui.main_window import MainWindow
-from amp_studio.ui.translated import FOLDER, LANGUAGES, FileTranslator, language_in_use, speak, tr, worded
+from amp_studio.ui.translated import (
+    FOLDER,
+    LANGUAGES,
+    FileTranslator,
+    counted,
+    language_in_use,
+    speak,
+    tr,
+    worded,
+)
 
 ROOT = Path(__file__).parents[2]
 FILES = [FOLDER / f"amp_studio_{code}.ts" for code in LANGUAGES if code != "en"]
@@ -101,6 +110,16 @@ def test_what_is_made_below_the_window_is_in_the_words_of_reports_and_facts_stay
     assert worded("Axis 3") == "Achse 3"
     assert worded("Axis Calibration, X: not set") == "Axis Calibration, X: nicht gesetzt"
     assert worded("Excess Error") == "Excess Error"
+
+
+@pytest.mark.usefixtures("german")
+def test_counts_are_german_with_their_form_and_nothing_is_said_in_words() -> None:
+    assert counted(1, "change") == "1 Änderung"
+    assert counted(2, "advice") == "2 Empfehlungen"
+    assert counted(0, "parameter", none="no") == "keine Parameter"
+    assert counted(0, "file") == "0 Dateien"
+    assert worded("no printed range") == "kein gedruckter Bereich"
+    assert worded("at least 5 mm") == "mindestens 5 mm"
 
 
 @pytest.mark.usefixtures("german")

@@ -279,7 +279,7 @@ def test_a_live_value_goes_into_the_control_at_once_and_not_into_the_file(live, 
     assert sent(bench) == ["$120=25.000"]
     assert "read back equal" in tuning.message.text.text()
     assert tuning.message.text.text().endswith("Takes effect: at once.")
-    assert "Changed: 1." in tuning.state.text()
+    assert "1 value changed." in tuning.state.text()
     assert not router.is_dirty
     tuning.undo_action.trigger()
     assert sent(bench) == ["$120=25.000", "$120=10.000"]

@@ -1577,6 +1577,10 @@ Einen anderen Namen wählen.</translation>
     <context>
         <name>DownloadPreview</name>
         <message>
+            <source>Download</source>
+            <translation>Laden</translation>
+        </message>
+        <message>
             <source>{counts} The download replaces all parameters in the control. Values that are not set in this file are not sent. The control's present parameters are saved beside the file first.
 
 The control must be in E-stop.</source>
