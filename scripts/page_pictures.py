@@ -8,6 +8,7 @@ from __future__ import annotations
 import contextlib
 import io
 import os
+import re
 import shlex
 from collections.abc import Callable
 from pathlib import Path
@@ -18,12 +19,25 @@ if TYPE_CHECKING:
     from screenshots import Stage
 
 TOP = Path(__file__).resolve().parents[1]
-PAGES, IMAGES = ("docs/tutorial.md", "docs/howto/identify-friction.md"), TOP / "docs/images"
+PAGES = ("docs/tutorial.md", "docs/howto/identify-friction.md", "docs/howto/add-rule.md")
+BEGINS_WITH = {
+    "docs/howto/add-parameter.md": ("docs/howto/add-family.md",),
+    "docs/howto/add-rule.md": ("docs/howto/add-family.md", "docs/howto/add-parameter.md"),
+}
+"""Page -> those whose files it goes on with."""
+IMAGES = TOP / "docs/images"
 SIZE = (1200, 660)
 COLOURS = 256
 RESTED_MS = 1_000
 """Until a selection has rested and the range that the rules allow is looked for."""
 FILE = "mill.amp"
+_SHOWN = re.compile(r"`([\w./-]+\.[\w.]+)`[^`]*:\n\n```\w+\n(.*?)```", re.DOTALL)
+"""A file that a page shows whole: its name in the sentence before the block, which ends with a colon."""
+
+
+def files_of(page: str) -> dict[str, str]:
+    """Return the files that a page shows: name -> content."""
+    return dict(_SHOWN.findall((TOP / page).read_text(encoding="utf-8")))
 
 
 def draw_documents(make_stage: Callable[[], Stage]) -> int:
@@ -40,6 +54,9 @@ def _draw_page(stage: Stage, page: str) -> int:
     folder = stage.files / Path(page).stem
     folder.mkdir()
     count = 0
+    for shown in (*BEGINS_WITH.get(page, ()), page):
+        for name, text in files_of(shown).items():
+            _write(folder / name, text)
     with contextlib.chdir(folder), contextlib.redirect_stdout(io.StringIO()):
         for line in (TOP / page).read_text(encoding="utf-8").splitlines():
             if line.startswith("    amp-studio "):
@@ -52,7 +69,17 @@ def _draw_page(stage: Stage, page: str) -> int:
     return count
 
 
-def _run(line: str, path: Path = Path(FILE)) -> None:
+def _write(path: Path, text: str) -> None:
+    """Write a file of a page; a family of facts is known from then on."""
+    from amp_studio.schema.registration import Registration, register
+
+    path.parent.mkdir(parents=True, exist_ok=True)
+    path.write_text(text, encoding="utf-8")
+    if path.name == "family.yaml":
+        register(Registration(path.parent.name, facts=path.parent))
+
+
+def _run(line: str, folder: Path = Path()) -> None:
     """Run a command of the page; one that leaves errors is no failure."""
     from screenshots import MOMENT
 
@@ -64,7 +91,8 @@ def _run(line: str, path: Path = Path(FILE)) -> None:
     code = cli.run([verb, *words])
     if code > 1:
         raise RuntimeError(f"{line}: exit code {code}")
-    os.utime(path, (MOMENT, MOMENT))
+    for each in folder.glob("*.amp"):
+        os.utime(each, (MOMENT, MOMENT))
 
 
 # -- the pictures ----------------------------------------------------------------------------------
@@ -187,9 +215,17 @@ def record(stage: Stage, path: Path) -> QPixmap:
     return taken
 
 
+def rule(stage: Stage, path: Path) -> QPixmap:
+    """The drive of the how-tos with what its rule finds."""
+    window = _shown(stage, path.with_name("fast.amp"))
+    window.go_to(("motion.speed", ""))
+    window.show_panel("Findings")
+    return _grab(window)
+
+
 def window(stage: Stage, path: Path) -> QPixmap:
     """The example mill with a value that a rule finds wrong."""
-    _run(f"amp-studio set {shlex.quote(str(path))} 1750='4 mm'", path)
+    _run(f"amp-studio set {shlex.quote(str(path))} 1750='4 mm'", path.parent)
     shown = _shown(stage, path)
     shown.go_to(("servo.excess_error", "1"))
     shown.show_panel("Findings")
@@ -206,6 +242,7 @@ PICTURES: dict[str, Callable[[Stage, Path], QPixmap]] = {
     "tutorial-done": done,
     "tutorial-motion": motion,
     "record": record,
+    "rule": rule,
 }
 """Name of a file in ``docs/images`` -> what draws it."""
 

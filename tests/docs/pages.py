@@ -19,8 +19,6 @@ SHELL = ("cp", "make", "pipx", "uv", "git", "py", "python", "python3", "pip", "e
 """First words of the other commands that documents have."""
 PLACEHOLDER = re.compile(r"\b(VERB|FILE|PATH|OTHER|COPY|ADDRESS|NAME|FOLDER|TARGET|SHA256)\b|…")
 """Marks a form that a person fills in; it is no command that could be run."""
-_SHOWN = re.compile(r"`([\w./-]+\.[\w.]+)`[^`]*:\n\n```\w+\n(.*?)```", re.DOTALL)
-"""A file that a document shows whole: its name in the sentence before the block, which ends with a colon."""
 _INLINE = re.compile(r"(?<!`)`([^`]+)`(?!`)")
 
 
@@ -37,11 +35,6 @@ def documents() -> list[str]:
 
 def text_of(page: str) -> str:
     return (ROOT / page).read_text(encoding="utf-8")
-
-
-def files_of(page: str) -> dict[str, str]:
-    """Return the files that a document shows: name -> content."""
-    return dict(_SHOWN.findall(text_of(page)))
 
 
 def lines_of(page: str) -> Iterator[str]:

@@ -16,6 +16,7 @@ from pathlib import Path
 
 import jsonschema
 import pytest
+from page_pictures import BEGINS_WITH, files_of
 
 from amp_studio import cli
 from amp_studio.cli import console
@@ -28,7 +29,7 @@ from amp_studio.transfer.plain.receiver import BlockReceiver
 from amp_studio.transfer.plain.sender import BlockSender
 from amp_studio.transfer.plain.ymodem import PlainFile, send_batch
 
-from .pages import PROGRAMS, ROOT, documents, files_of, is_form, lines_of, text_of, verbs
+from .pages import PROGRAMS, ROOT, documents, is_form, lines_of, text_of, verbs
 from .stage import Stage
 
 EXAMPLES = ROOT / "examples"
@@ -60,12 +61,6 @@ COPIES = {
     },
 }  # fmt: skip
 """Document -> the files that are there before its first command."""
-
-BEGINS_WITH = {
-    "docs/howto/add-parameter.md": ("docs/howto/add-family.md",),
-    "docs/howto/add-rule.md": ("docs/howto/add-family.md", "docs/howto/add-parameter.md"),
-}
-"""Document -> those whose files it goes on with."""
 
 CONTROLS = {
     "docs/protocols/acr-terminal.md": {
