@@ -79,7 +79,7 @@ def motion_figures(file: ParameterFile) -> Iterator[PrintedFigure]:
     for axis in known.axes:
         for scenario in (name for name in _SCENARIOS if name in scenarios):
             try:
-                trace = simulate(file, scenario, axis)
+                trace = simulate(file, scenario, axis, advise=False)
             except SimulationError as error:
                 failed[str(error)] = None
                 continue

@@ -31,6 +31,9 @@ FONT = "Libertinus Serif"
 """The font of a PDF, also in its drawings."""
 _PACKAGE = re.compile(r'(?:import|include)\s*"@')
 _FAMILY = re.compile(r'font-family="[^"]*"')
+_KEPT = 11
+"""Compilations after which Typst has forgotten one."""
+_has_compiled = False
 _BRIEF = 40
 """Most characters of a text in the page header."""
 
@@ -179,8 +182,22 @@ def _compiled(source: str, root: Path, **form: object) -> list[bytes]:
     """Return what Typst makes of source that may read the files under ``root``: one file, or one for each page."""
     import typst
 
+    if form.get("format") == "pdf":
+        _forget_earlier()
     made = typst.compile(source.encode("utf-8"), **_options(source, root), **form)  # type: ignore[call-overload]
     return [made] if isinstance(made, bytes) else list(made)
+
+
+def _forget_earlier() -> None:
+    """Let Typst drop what it keeps of earlier documents: about 100 MB each, for ten compilations more."""
+    global _has_compiled  # noqa: PLW0603
+    if _has_compiled:
+        from typst import Compiler, Fonts
+
+        bare = Compiler(font_paths=Fonts(include_system_fonts=False, include_embedded_fonts=False))
+        for _ in range(_KEPT):
+            bare.compile(b" ", format="pdf")
+    _has_compiled = True
 
 
 def _options(source: str, root: Path) -> dict[str, Any]:

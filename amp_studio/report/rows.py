@@ -21,7 +21,7 @@ from amp_studio.schema import (
     write_value,
 )
 
-from .axes import place_of, printed_axes, scope_of
+from .axes import axis_label, place_of, printed_axes, scope_of
 from .contents import UnitChoice
 from .model import ReportRow
 
@@ -48,6 +48,7 @@ def rows_of(file: ParameterFile, units: UnitChoice = "file") -> Rows:
     Of optional entries (those of a tool table) there are only rows for the values that are set.
     """
     axes = printed_axes(file)
+    labels = {axis: axis_label(file, axis) for axis in axes}
     rows, hidden, unfitted = [], 0, 0
     marks: dict[tuple[str, str], str] = {}
     for address in file.addresses():
@@ -56,7 +57,8 @@ def rows_of(file: ParameterFile, units: UnitChoice = "file") -> Rows:
         elif (state := file.evaluation.state(address)).state == "hidden":
             hidden += 1
         elif address in file.values or not file.schema.parameters[address[0]].optional:
-            rows.append(row_of(file, address, _state_mark(state, marks), units))
+            place = labels[address[1]] if scope_of(file, address) == "axis" else None
+            rows.append(row_of(file, address, _state_mark(state, marks), units, place))
     return Rows(tuple(rows), hidden, unfitted)
 
 
@@ -71,9 +73,13 @@ def _state_mark(state: StateInfo, marks: dict[tuple[str, str], str]) -> str:
 
 
 def row_of(
-    file: ParameterFile, address: Address, state_mark: str = "", units: UnitChoice = "file"
+    file: ParameterFile,
+    address: Address,
+    state_mark: str = "",
+    units: UnitChoice = "file",
+    place: str | None = None,
 ) -> ReportRow:
-    """Return the row of one value; ``state_mark`` is the mark of the reason why it is inactive.
+    """Return the row of one value; ``state_mark`` is the mark of the reason why it is inactive, ``place`` is ``place_of`` where it is known.
 
     Secrets are masked. The row of a secret has no default: together with the mark of a change it would reveal the value.
     """
@@ -102,7 +108,7 @@ def row_of(
         number=number,
         name=parameter.name,
         group=schema.group_of[address[0]].name,
-        place=place_of(file, address),
+        place=place_of(file, address) if place is None else place,
         is_set=value is not None,
         is_number=parameter.type in ("real", "integer"),
         value=MASKED if parameter.secret and value is not None else _bare(parameter, value),

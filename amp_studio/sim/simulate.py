@@ -31,11 +31,14 @@ def simulate(
     axis: str | None = None,
     settings: Mapping[str, float | str] | None = None,
     system: str | None = None,
+    *,
+    advise: bool = True,
 ) -> Trace:
     """Run a scenario with the present values of a file; ``axis`` None means the first axis that can be simulated.
 
     ``settings`` are settings of the scenario and of the model (``move.feedrate``): numbers in the units that `listing.py` names,
-    or texts with a unit. ``system`` is the unit system of settings and trace, None for that of the file.
+    or texts with a unit. ``system`` is the unit system of settings and trace, None for that of the file. Without ``advise`` the trace has
+    neither recommendations nor doubts, which takes a third of the time.
     Raises SimulationError with the parameter that is missing or impossible.
     """
     law = law_of(file.schema.family.family)
@@ -62,6 +65,8 @@ def simulate(
     chosen = SCENARIOS[scenario]
     second = (_second(file, law, bound, own.get(SECOND), model),) if chosen.second else ()
     trace = chosen.run(bound, own, *second)
+    if not advise:
+        return in_unit(replace(trace, letter=letter), length)
     trial = Trial(file, lambda other: bind_axis(other, law, bound.axis, model))
     found, notes = recommendations(trial, scenario, (*trace.recommendations, *law.advise(bound, trace)))
     notes, doubtful = (*trace.assumptions, *notes), doubts(file, read, model)

@@ -13,6 +13,7 @@ import pytest
 from amp_studio.files import ParameterFile
 from amp_studio.report import SORTS, Contents, build_report, write_report
 from amp_studio.report.contents import Sort
+from amp_studio.report.pdf import typeset
 
 poppler = pytest.mark.skipif(shutil.which("pdfinfo") is None, reason="needs poppler's tools")
 
@@ -104,3 +105,23 @@ def test_only_fonts_that_travel_in_the_file_are_used(printed: Callable[..., Path
     assert lines
     assert all(re.search(r"\byes yes (yes|no)\b", line) for line in lines), lines
     assert {line.split("+")[1].split("-")[0] for line in lines} == {"LibertinusSerif"}
+
+
+def test_typst_forgets_a_pdf_before_it_sets_the_next(monkeypatch: pytest.MonkeyPatch) -> None:
+    """It keeps about 100 MB of each of the last ten documents otherwise."""
+    import typst
+
+    compiled: list[bytes] = []
+
+    class Compiler:
+        def __init__(self, **_: object) -> None: ...
+
+        def compile(self, source: bytes, **_: object) -> None:
+            compiled.append(source)
+
+    monkeypatch.setattr("amp_studio.report.pdf._has_compiled", False)
+    monkeypatch.setattr(typst, "Compiler", Compiler)
+    typeset("one")
+    assert compiled == []
+    typeset("two")
+    assert len(compiled) > 10
