@@ -98,7 +98,7 @@ def filled(
 
 
 def _mistake(own: Path, error: BaseException, what: str) -> TemplateMistakeError:
-    """Return what an error of a template says, with its line and without its own full stop: a sentence follows."""
+    """Return the text of an error of a template, with its line and without its own full stop: a sentence follows."""
     return TemplateMistakeError(own, f"{_line(own, error)}{what.rstrip('.')}")
 
 
