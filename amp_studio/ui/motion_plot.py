@@ -18,6 +18,7 @@ from amp_studio.sim.ticks import ring_levels
 
 from .plot_axis import plot_axes
 from .theme import Token, colour, scheme
+from .translated import worded
 
 _INKS: dict[str, Token] = {
     "base": "base", "text": "text", "dim": "dim", "grid": "grid", "error": "error",
@@ -117,7 +118,8 @@ class MotionPlot(pg.GraphicsLayoutWidget):
                 plot.getAxis("bottom").setStyle(showValues=False)
             if plot is not self.panels[0]:
                 plot.setXLink(self.panels[0])
-        self.panels[-1].setLabel("bottom", picture.x_label, color=self._ink["dim"])
+        name, unit = _name_and_unit(picture)
+        self.panels[-1].setLabel("bottom", f"{name} ({unit})" if unit else name, color=self._ink["dim"])
 
     def _finish(self, picture: Picture, same: bool) -> None:
         """Set the range of the panels and the cursors."""
@@ -166,10 +168,10 @@ class MotionPlot(pg.GraphicsLayoutWidget):
         named = [curve for curve in panel.curves if curve.name and len(curve.x)]
         signs = {True: "○", False: "—"}
         legend = "&nbsp;&nbsp;&nbsp; ".join(
-            f'<span style="color:{self._ink[c.role]}">{"- -" if c.role == "command" else signs[c.dots]} {c.name}</span>'
+            f'<span style="color:{self._ink[c.role]}">{"- -" if c.role == "command" else signs[c.dots]} {worded(c.name)}</span>'
             for c in named
         )
-        return f"<b>{panel.label}{unit}</b>" + (
+        return f"<b>{worded(panel.label)}{unit}</b>" + (
             f"&nbsp;&nbsp;&nbsp;&nbsp; {legend}" if len(named) > 1 else ""
         )
 
@@ -317,10 +319,15 @@ class MotionPlot(pg.GraphicsLayoutWidget):
             self.read.emit("".join(_reading(self.picture, *places)))
 
 
+def _name_and_unit(picture: Picture) -> tuple[str, str]:
+    """Return what is along the x axis, in the language of the window."""
+    name, _, unit = picture.x_label.partition(" (")
+    return worded(name), unit.rstrip(")")
+
+
 def _reading(picture: Picture, one: float, two: float) -> Iterator[str]:
     """Yield a table: a row for each curve with its value at both cursors and the difference."""
-    name, _, unit = picture.x_label.partition(" (")
-    unit = unit.rstrip(")")
+    name, unit = _name_and_unit(picture)
     cell = "<td align=right>&nbsp;&nbsp;{}</td>"
     yield "<table cellspacing=0 cellpadding=1><tr><td></td>"
     yield "".join(cell.format(f"<b>{head}</b>") for head in ("A", "B", "B − A")) + "</tr>"
@@ -329,9 +336,9 @@ def _reading(picture: Picture, one: float, two: float) -> Iterator[str]:
         for curve in panel.curves:
             if len(curve.x) and curve.role != "before":
                 words = (
-                    panel.label
+                    worded(panel.label)
                     if curve.name in (panel.label, "actual", "")
-                    else f"{panel.label}, {curve.name}"
+                    else f"{worded(panel.label)}, {worded(curve.name)}"
                 )
                 at_one, at_two = (float(np.interp(at, curve.x, curve.y)) for at in (one, two))
                 rows.append((words, panel.unit, at_one, at_two))

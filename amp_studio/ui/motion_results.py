@@ -24,6 +24,7 @@ from amp_studio.sim.rounding import shown as shown_number
 
 from .pages import LINK
 from .theme import severity_ink, state_colour
+from .translated import worded
 
 PREDICTED, SWEPT = "predicted_", "swept_"
 
@@ -60,7 +61,9 @@ class FiguresPage(QTextBrowser):
 def _rows(trace: Trace, before: Trace | None) -> list[str]:
     dim = state_colour().name()
     others = [kind for kind in (PREDICTED, SWEPT) if any(name.startswith(kind) for name in trace.result)]
-    heads = [kind.rstrip("_") for kind in others] + (["before"] if before else [])
+    heads = [
+        worded(head) for head in (*(kind.rstrip("_") for kind in others), *(["before"] if before else []))
+    ]
     head = "".join(f'<td align=right style="color:{dim}">{words}</td>' for words in heads)
     rows = [f"<tr><td></td><td></td>{head}</tr>"] if heads else []
     for name, (value, unit) in trace.result.items():
@@ -74,7 +77,7 @@ def _rows(trace: Trace, before: Trace | None) -> list[str]:
             f'<td align=right style="color:{dim}">{_number(cell) if cell is not None else ""}</td>'
             for cell in cells
         )
-        words = name.replace("_", " ")
+        words = worded(name.replace("_", " "))
         rows.append(
             f"<tr><td>{words}</td><td align=right><b>{_number(value)}</b>&nbsp;{shown(unit)}</td>{beside}</tr>"
         )

@@ -10,6 +10,8 @@ from PySide6.QtWidgets import QComboBox, QFormLayout, QLineEdit, QScrollArea, QW
 from amp_studio.schema import dimension, shown, unit_named
 from amp_studio.schema.values import read_number
 
+from .translated import worded
+
 MODE = "move.mode"
 RAMPS = (
     ("", "as configured"),
@@ -85,7 +87,7 @@ class SettingsForm(QWidget):
         field = QComboBox()
         choices = RAMPS if name == MODE else (("", "the next one"), *axes)
         for key, title in choices:
-            field.addItem(title, key)
+            field.addItem(worded(title), key)
         field.currentIndexChanged.connect(lambda _: self._changed())
         return field
 
@@ -128,7 +130,7 @@ def _read(name: str, text: str, unit: str) -> str:
 
 def _title(name: str) -> str:
     words = name.partition(".")[2].replace("_", " ")
-    return "Ramp" if name == MODE else words[:1].upper() + words[1:]
+    return worded("Ramp" if name == MODE else words[:1].upper() + words[1:])
 
 
 def scrolled(form: QWidget) -> QScrollArea:

@@ -46,6 +46,7 @@ from .motion_settings import SettingsForm, refill, scrolled
 from .pages import LINK
 from .task import Task, TaskProgress
 from .theme import severity_ink
+from .translated import worded
 from .workspace import Workspace
 
 MOST_HEIGHT = 148
@@ -182,7 +183,7 @@ class MotionView(QWidget):
         titles = [(axis, axis_title(file, axis)) for axis in found.axes]
         refill(
             self.scenario,
-            [(each.name, each.name.capitalize()) for each in found.scenarios],
+            [(each.name, worded(each.name.capitalize())) for each in found.scenarios],
             str(self.scenario.currentData() or "step"),
         )
         refill(self.axis, titles, wanted)
@@ -286,11 +287,8 @@ class MotionView(QWidget):
             button.setEnabled(True)
         self.settling.setEnabled(settling_span(trace) is not None)
         assumed = sum(text.startswith("ASSUMED") for text in trace.assumptions)
-        plural = (
-            self.tr("figure of the machine is") if assumed == 1 else self.tr("figures of the machine are")
-        )
-        warning = f" <b>{assumed} {plural} assumed</b>, see Assumed." if assumed else ""
-        self.summary.setText(f"{html.escape(trace.model)}.{warning}")
+        text = self.tr("Figures of the machine that are assumed: <b>%n</b>, see Assumed.", "", assumed)
+        self.summary.setText(f"{html.escape(trace.model)}. {text if assumed else ''}")
         self.recommendations.show_all(self._workspace.file.schema, trace.recommendations, self._may_apply)
         count = len(trace.recommendations)
         self.tabs.setTabText(

@@ -3658,13 +3658,12 @@ Die nummerierten Parameter von Maschinensteuerungen: bearbeiten, prüfen, drucke
             <source>Simulating …</source>
             <translation>Wird simuliert …</translation>
         </message>
-        <message>
-            <source>figure of the machine is</source>
-            <translation>Zahl der Maschine ist</translation>
-        </message>
-        <message>
-            <source>figures of the machine are</source>
-            <translation>Zahlen der Maschine sind</translation>
+        <message numerus="yes">
+            <source>Figures of the machine that are assumed: &lt;b&gt;%n&lt;/b&gt;, see Assumed.</source>
+            <translation>
+                <numerusform>&lt;b&gt;%n Zahl der Maschine ist angenommen&lt;/b&gt;, siehe Angenommen.</numerusform>
+                <numerusform>&lt;b&gt;%n Zahlen der Maschine sind angenommen&lt;/b&gt;, siehe Angenommen.</numerusform>
+            </translation>
         </message>
         <message>
             <source>Recommended ({count})</source>

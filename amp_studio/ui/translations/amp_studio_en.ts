@@ -165,6 +165,16 @@
         </message>
     </context>
     <context>
+        <name>MotionView</name>
+        <message numerus="yes">
+            <source>Figures of the machine that are assumed: &lt;b&gt;%n&lt;/b&gt;, see Assumed.</source>
+            <translation>
+                <numerusform>&lt;b&gt;%n figure of the machine is assumed&lt;/b&gt;, see Assumed.</numerusform>
+                <numerusform>&lt;b&gt;%n figures of the machine are assumed&lt;/b&gt;, see Assumed.</numerusform>
+            </translation>
+        </message>
+    </context>
+    <context>
         <name>PictureCard</name>
         <message numerus="yes">
             <source>%n more</source>
