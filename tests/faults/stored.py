@@ -228,6 +228,7 @@ control=tcp://127.0.0.1:7090
 geometry=@ByteArray(\\x1\\xd9\\xd0\\xcb\\0\\x3\\0\\0\\0\\0\\0\\0\\0\\0\\0\\0)
 layout="@ByteArray(\\0\\0\\0\\xff\\0\\0\\0\\0\\xfd\\0\\0\\0\\0)"
 recent=/tmp/a.amp, /tmp/b.amp, @Invalid()
+controls="{\\"address\\": \\"tcp://127.0.0.1:9600\\", \\"when\\": \\"2026-03-12T08:30:00\\", \\"verb\\": \\"download\\"}"
 other=@Variant(\\0\\0\\0\\x7f\\0\\0\\0\\x8QString)
 """
 
@@ -252,6 +253,8 @@ def fuzz_settings(folder: Path, seed: int, count: int) -> list[str]:
         assert isinstance(settings.control(), str)
         for recent in settings.recent():
             is_there(recent)
+        for control in settings.controls():
+            assert control.moment is None or control.moment.year > 0
         settings.place(window)
         if (kept := settings.arrangement()) is not None:
             window.restoreState(kept)

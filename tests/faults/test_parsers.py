@@ -71,6 +71,8 @@ READERS = {
     "report/page.py": "",  # the program's own drawings, in letters of base64
     "report/pdf.py": "",  # what Typst found on pages that it has set
     "report/starting_template.py": "",  # a file of the program itself
+    "report/apart.py": "hostile templates of a project",
+    "report/write.py": "hostile templates of a project",
     "report/templating.py": "hostile templates of a project",
     "schema/compiled_cache.py": "damaged cache",
     "schema/file_error.py": "damaged YAML",
@@ -117,6 +119,7 @@ READERS = {
     "ui/file_actions.py": "",  # copies an example of the program, which is opened as every file is
     "ui/file_tabs.py": "",  # writes to the clipboard
     "ui/emulated_control.py": "",  # the own child's first line: an address, which is read as one
+    "ui/known_controls.py": "damaged settings",
     "ui/merge_sources.py": "damaged control image",
     "ui/merge_tree.py": "",  # writes to the clipboard
     "ui/project_files.py": "damaged parameter file",
