@@ -8,7 +8,8 @@ from pathlib import Path
 
 import pytest
 
-from amp_studio.files import ParameterFile
+from amp_studio.files import ParameterFile, open_file
+from amp_studio.files.examples import examples_folder
 from amp_studio.report import write_report
 
 from .browser import CHROMIUM, Browser
@@ -120,6 +121,15 @@ def test_a_phone_scrolls_the_tables_and_folds_the_contents(page: Path) -> None:
         assert not phone.value("document.getElementById('menu').open"), "a choice closes it"
         wide = "[...document.querySelectorAll('.wide')].some(w => w.scrollWidth > w.clientWidth)"
         assert phone.value(wide)
+
+
+def test_no_text_of_a_table_runs_over_the_next_column(browser: Browser, tmp_path: Path) -> None:
+    """NUM has the longest numbers (``P9N0, P9N1 … P9N3, P9N24, P9N28``) and columns (``Axis 28 handwheel``)."""
+    write_report(open_file(examples_folder() / "num-1060-mill" / "MILL_1060.amp").file, tmp_path / "num.html")
+    cells = "[...document.querySelectorAll('#values td, #values th')]"
+    browser.go((tmp_path / "num.html").as_uri())
+    assert browser.value(f"{cells}.length") > 1000
+    assert browser.value(f"{cells}.filter(e => e.scrollWidth > e.clientWidth).map(e => e.innerText)") == []
 
 
 def test_on_paper_there_are_neither_menu_nor_buttons(browser: Browser, tmp_path: Path) -> None:
