@@ -308,8 +308,25 @@ class Stage:
         head.menu.popup(head.mapToGlobal(head.rect().bottomLeft()))
         self.take("25-preview-contents", head.menu)
         head.menu.close()
+        self.template()
         window.resize(*LARGE)
         window.preview.action.trigger()
+
+    def template(self) -> None:
+        """The cover by the template to begin with, and a mistake in it."""
+        from amp_studio.report.starting_template import write_starting_template
+
+        panel, folder = self.window.preview.panel, self.window.workspace.path.parent
+        path = write_starting_template(folder)
+        settle(lambda: "= Service" in panel.source)
+        settle(lambda: panel.is_settled)
+        panel.view.go_to_page(1)
+        self.take("27-preview-template", self.window, LARGE)
+        path.write_text(path.read_text("utf-8").replace("= Service", "= Service\n#telefone"), "utf-8")
+        settle(panel.bar.isVisible)
+        self.take("28-preview-mistake", self.window, LARGE)
+        shutil.rmtree(path.parent)
+        settle(panel.bar.isHidden)
 
     def machines(self) -> None:
         """Machines of a project side by side."""

@@ -50,6 +50,7 @@ class _Shown:
     """The drawings of the simulator, which come later than the pages: those of the time before are shown until then."""
     spot: Spot = field(default_factory=lambda: Spot(0, 0.0))
     notes: tuple[str, ...] = ()
+    source: str = ""
 
 
 class PreviewPanel(QWidget):
@@ -139,6 +140,11 @@ class PreviewPanel(QWidget):
         assert self._page is not None
         return self._known.setdefault(self._page.workspace, _Shown())
 
+    @property
+    def source(self) -> str:
+        """What Typst made the pages of; empty while there are none."""
+        return self._shown().source if self._page is not None else ""
+
     # -- what it contains ----------------------------------------------------------------------
 
     def _choose(self, contents: Contents) -> None:
@@ -227,7 +233,7 @@ class PreviewPanel(QWidget):
         before = dict.fromkeys(known.pages)
         kept = {page: page for page in before}
         known.pages = tuple(kept.get(page, page) for page in report.pages)
-        known.ppi, known.motion, known.notes = ppi, motion, notes
+        known.ppi, known.motion, known.notes, known.source = ppi, motion, notes, report.source
         if self._page is not None and workspace is self._page.workspace:
             self.view.show_pages(known.pages, ppi)
             self.head.show_count(len(known.pages))

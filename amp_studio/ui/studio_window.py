@@ -7,8 +7,9 @@ is part of the window imports it.
 from __future__ import annotations
 
 from collections.abc import Callable
+from functools import cached_property
 from pathlib import Path
-from typing import Literal
+from typing import TYPE_CHECKING, Literal
 
 from PySide6.QtCore import Signal
 from PySide6.QtGui import QAction, QKeySequence
@@ -27,12 +28,14 @@ from .garbage import look_again
 from .group_list import GroupList
 from .parameter_table import ParameterTable
 from .questions import ask, show_message
-from .report_options import ReportChoice
 from .settings import UserSettings
 from .task import in_background
 from .theme import icon
 from .value_table import ValueTable
 from .workspace import Workspace
+
+if TYPE_CHECKING:
+    from .report_options import ReportChoice
 
 Needs = Literal["", "file", "edit", "axes", "project", "units"]
 """What an action needs: nothing, an open file, the right to change it, axes as well, a project, several systems of units."""
@@ -52,7 +55,6 @@ class StudioWindow(QMainWindow):
         self.tabs = FileTabs()
         self.summaries = FileSummaries(self)
         self.settings = UserSettings()
-        self.report_choice = ReportChoice(self.settings, self)
         self.docks = Docks(self, self.settings)
         self.actions_needing: dict[Needs, list[QAction]] = {
             "": [],
@@ -62,6 +64,13 @@ class StudioWindow(QMainWindow):
             "units": [],
             "project": [],
         }
+
+    @cached_property
+    def report_choice(self) -> ReportChoice:
+        """What reports contain; loaded when the first is asked for."""
+        from .report_options import ReportChoice
+
+        return ReportChoice(self.settings, self)
 
     # -- the project and the files -----------------------------------------------
 
