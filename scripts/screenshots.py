@@ -12,9 +12,11 @@ import shutil
 import sys
 import time
 from collections.abc import Callable, Iterator
+from datetime import UTC, datetime
 from functools import partial
 from pathlib import Path
 from typing import Any
+from unittest import mock
 
 TOP = Path(__file__).resolve().parents[1]
 OUT = TOP / "build" / "screenshots"
@@ -297,6 +299,11 @@ class Stage:
 
     def preview(self) -> None:
         """The report beside the table, at the page of the selected value; and what it contains."""
+        with mock.patch("amp_studio.report.build.datetime") as clock:
+            clock.now.return_value = datetime.fromtimestamp(MOMENT, UTC)
+            self._preview()
+
+    def _preview(self) -> None:
         window = self.window
         window.go_to(EXCESS)
         window.preview.action.trigger()

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import threading
 from collections.abc import Callable
 from dataclasses import dataclass, field
@@ -262,7 +263,9 @@ class PreviewPanel(QWidget):
         if not notes:
             self.bar.hide()
             return
-        self.bar.say("\n".join(notes), "warning", (self.tr("Open the &Folder"), self.open_templates))
+        folder = real_path(self._page.workspace.path).parent if self._page is not None else Path()
+        text = "\n".join(notes).replace(f"{folder}{os.sep}", "")  # there is little room
+        self.bar.say(text, "warning", (self.tr("Open the &Folder"), self.open_templates))
 
     def open_templates(self) -> None:
         """Show the folder of the project's templates."""
