@@ -26,6 +26,7 @@ from amp_studio.sim.rounding import shown
 from .motion_plot import MotionPlot
 from .task import in_background
 from .theme import GAP2, GAP3
+from .translated import worded
 
 
 class IdentifyDialog(QDialog):
@@ -96,7 +97,7 @@ class IdentifyDialog(QDialog):
             self.message.setText(str(error))
         else:
             self.plot.draw(picture_of(self.trace))
-            self.message.setText("\n".join((*self.trace.doubts, *self.trace.assumptions)))
+            self.message.setText("\n".join((*self.trace.doubts, *map(worded, self.trace.assumptions))))
         self._show_figures()
         for button in (self.use, self.save):
             button.setEnabled(self.trace is not None)
