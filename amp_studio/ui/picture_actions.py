@@ -5,6 +5,7 @@ from __future__ import annotations
 import sys
 import threading
 from dataclasses import replace
+from functools import partial
 from importlib import import_module
 from pathlib import Path
 
@@ -102,8 +103,11 @@ class PictureActions(QObject):
             return
         self._keep(replace(self.window.settings.pictures(), is_shown=True))
         self.show(page, True)
-        if (address := page.table_view.address()) is not None:
-            self.pages(page).show_handle_of(address, focus=page.middle.covers)
+        if (
+            address := page.table_view.address()
+        ) is not None:  # once the pictures are painted: to look through all takes a while
+            choose = partial(self.pages(page).show_handle_of, address, focus=page.middle.covers)
+            QTimer.singleShot(0, page, choose)
 
     def _close(self, page: FilePage) -> None:
         self._keep(replace(self.window.settings.pictures(), is_shown=False))

@@ -309,6 +309,7 @@ def test_pictures_open_at_the_handle_of_the_selected_value_and_the_parameter_pan
     window.go_to(("servo.gain_break_point", "3"))
     action(window, "Pictures").trigger()
     page = window.page.pictures
+    qtbot.waitUntil(lambda: page.chosen_card.canvas.handle is not None, timeout=WAIT_MS)
     card = page.chosen_card
     assert (page.shown, card.part, card.canvas.handle.label) == ("error", "3", "3730 Gain Break Point, Z")
     card.canvas.choose(0)
