@@ -7,6 +7,9 @@ from pathlib import Path
 
 import pytest
 
+from amp_studio.files import open_file
+from amp_studio.sim import simulate, trace_csv
+
 MILL = Path(__file__).parents[2] / "examples" / "mill-1394" / "MILL_1394.amp"
 GIVEN = (
     "--set",
@@ -25,10 +28,17 @@ def mill(tmp_path: Path) -> Path:
     return path
 
 
+@pytest.fixture(scope="module")
+def homing() -> str:
+    """Return the trace of a homing, fast onto the switch and slowly off it."""
+    given = {text.partition("=")[0]: text.partition("=")[2] for text in GIVEN[1::2]}
+    return trace_csv(simulate(open_file(MILL).file, "home", "1", given))
+
+
 @pytest.fixture
-def record(amp, mill: Path) -> Path:
+def record(mill: Path, homing: str) -> Path:
     path = mill.with_name("record.csv")
-    assert amp("simulate", mill, "home", "--axis", "X", *GIVEN, "-o", path).code == 0
+    path.write_text(homing)
     return path
 
 
