@@ -9,11 +9,11 @@ from amp_studio.files import axis_letter
 from amp_studio.files.local_time import day_and_time, with_days_and_times
 from amp_studio.files.notes import group_note, value_note
 from amp_studio.files.storage_text import storage_text
-from amp_studio.report import GRADES, facts, formula_lines, help_parts, tables_of
+from amp_studio.report import GRADES, facts, help_parts, tables_of
 from amp_studio.report.wording import severity_name, state_name
 from amp_studio.schema import Address, Value, limits, real_value, same_value, show_value, shown
 from amp_studio.schema.bit_fields import labels_of_word
-from amp_studio.validate import NOT_SET, Finding, rule_title
+from amp_studio.validate import NOT_SET, Finding, calculators, rule_title
 
 from .hazard import hazard_html
 from .pages import drawn, link
@@ -200,7 +200,11 @@ class DetailPage(Translated):
         if messages := schema.messages_of(parameter.id):
             names = (f'<a href="{MESSAGE}{m.id}">{html.escape(m.name)}</a>' for m in messages)
             lines.append(f"<p><b>{self.tr('Messages of the control')}</b><br>{'<br>'.join(names)}</p>")
-        if formulas := formula_lines(schema, parameter):
+        if parameter.formulas:
+            known = calculators(schema.family.family)
+            formulas = (
+                f"{known[f].title}: {known[f].description.partition(chr(10))[0]}" for f in parameter.formulas
+            )
             lines.append(
                 f"<p><b>{self.tr('Formulas')}</b></p>" + "".join(f"<p>{html.escape(t)}</p>" for t in formulas)
             )

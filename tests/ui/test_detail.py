@@ -157,3 +157,10 @@ def test_a_page_that_does_not_change_stays_where_it_was_scrolled(window: MainWin
     assert bar.value() > 0
     window.workspace.edit("elsewhere", {("home.calibration", "2"): Value(1.0, "mm")})
     assert bar.value() == bar.maximum()
+
+
+def test_formulas_have_their_titles_and_no_names_of_functions(window: MainWindow) -> None:
+    window.go_to(("servo.gain_break_point", "1"))
+    text = window.detail.page.toPlainText()
+    assert "Gain break point: " in text
+    assert "gain_break_point" not in text
