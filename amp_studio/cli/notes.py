@@ -76,10 +76,11 @@ def _list(options: argparse.Namespace) -> int:
 def _about(file: ParameterFile, options: argparse.Namespace) -> Address | str:
     """Return the address, or the key of the group; an empty one for the machine."""
     if options.about.startswith(GROUP):
-        key = str(options.about.removeprefix(GROUP))
-        if key not in {group.key for group in file.schema.groups}:
-            raise UsageError(unknown_name("group", key, [group.key for group in file.schema.groups]))
-        return key
+        name = str(options.about.removeprefix(GROUP))
+        keys = {group.name: group.key for group in file.schema.groups}
+        if name not in (*keys, *keys.values()):
+            raise UsageError(unknown_name("group", name, [*keys.values(), *keys]))
+        return keys.get(name, name)
     if options.about == MACHINE:
         return ""
     try:

@@ -17,7 +17,8 @@ def mill(tmp_path: Path, checkout: Path) -> Path:
 
 def test_a_note_is_written_read_listed_and_removed(amp, mill: Path) -> None:
     assert amp("note", mill, "1750", "long spindle").code == 0
-    assert amp("note", mill, "group:home", "switches renewed").code == 0
+    assert amp("note", mill, "group:Home Parameters", "switches renewed").code == 0
+    assert amp("note", mill, "group:home").out == "switches renewed\n"
     assert amp("note", mill, "machine", "in hall 3").code == 0
     assert amp("note", mill, "servo.excess_error@X").out == "long spindle\n"
     listed = amp("note", mill, "--json").json

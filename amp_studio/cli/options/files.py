@@ -60,7 +60,7 @@ def _files(verbs: Verbs) -> None:
         "about",
         nargs="?",
         metavar="PARAM|group:KEY|machine",
-        help="what it is about; without it all notes are listed",
+        help="what it is about; KEY of a group, or its name; without it all notes are listed",
     )
     sub.add_argument("text", nargs="?", help="the note; without it the present one is printed")
     sub.add_argument("--remove", action="store_true", help="remove the note")
