@@ -74,8 +74,8 @@ class _RemotePort(rfc2217.Serial):  # type: ignore[misc]
             with self._changed:
                 self._changed.notify_all()
         reader, self._thread = self._thread, None
-        if reader is not None and reader is not threading.current_thread():
-            reader.join(CLOSING)
+        if reader is not None and reader.is_alive() and reader is not threading.current_thread():
+            reader.join(CLOSING)  # one that has not been started yet finds the line closed
 
     def fileno(self) -> int:
         """Return the handle that shows whether something can be written."""

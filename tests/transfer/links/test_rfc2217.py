@@ -17,7 +17,7 @@ import pytest
 from amp_studio.transfer.links.endpoint import parse_endpoint
 from amp_studio.transfer.links.link import Link, LinkError
 from amp_studio.transfer.links.opening import connect
-from amp_studio.transfer.links.rfc2217 import STORED
+from amp_studio.transfer.links.rfc2217 import STORED, _RemotePort
 
 from .ports import read_all, socat_pair
 
@@ -142,6 +142,14 @@ def test_the_opening_can_be_broken_off_at_once() -> None:
     with pytest.raises(KeyboardInterrupt):
         connect(parse_endpoint(address), look=stop)
     thread.join(60)
+
+
+def test_the_opening_can_be_broken_off_just_before_its_reader_starts() -> None:
+    """A caller who gave up in that moment was told of a thread instead of why he gave up."""
+    port = _RemotePort(None)
+    port._thread = threading.Thread(target=port._telnet_read_loop)
+    port.close()
+    assert port._thread is None
 
 
 def test_a_flood_is_stored_no_further_than_is_read_and_the_end_of_a_line_is_met() -> None:
