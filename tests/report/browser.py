@@ -104,6 +104,10 @@ class Browser:
         self._ask("Page.navigate", url=address)
         self.until(f"document.readyState === 'complete' && location.href === {json.dumps(address)}")
 
+    def before_each_page(self, script: str) -> None:
+        """Run a script in every page that is opened from now on, before its own ones."""
+        self._ask("Page.addScriptToEvaluateOnNewDocument", source=script)
+
     def value(self, expression: str) -> Any:
         """Return what an expression is on the page."""
         result = self._ask("Runtime.evaluate", expression=expression, returnByValue=True)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from itertools import count
+from itertools import count, pairwise
 from pathlib import Path
 
 import pytest
@@ -78,6 +78,22 @@ def test_the_text_of_a_help_is_found_and_shown_below_its_row(browser: Browser) -
     assert "page 7-17" in shown
 
 
+def test_no_script_of_the_page_fails_and_its_outline_has_no_gap(browser: Browser, page: Path) -> None:
+    browser.before_each_page("window.failures = []; addEventListener('error', e => failures.push(e.message))")
+    browser.go(f"{page.as_uri()}?errors")
+    browser.click("#search")
+    browser.type("(")
+    browser.press("Enter")
+    browser.press("Escape")
+    browser.click("#changed")
+    assert browser.value("failures") == []
+    levels = browser.value("[...document.querySelectorAll('h1,h2,h3,h4')].map(h => +h.tagName[1])")
+    assert levels.count(1) == 1
+    assert all(b - a <= 1 for a, b in pairwise(levels))
+    assert browser.value("document.querySelectorAll('th:not([scope]), img:not([alt])').length") == 0
+    assert browser.value("document.querySelectorAll('[src^=http], link, [href^=http]').length") == 0
+
+
 def test_what_is_nowhere_is_told(browser: Browser) -> None:
     browser.click("#search")
     browser.type("flux capacitor")
@@ -110,10 +126,12 @@ def test_a_name_opens_its_help_by_mouse_and_by_keyboard(browser: Browser) -> Non
 
 
 def test_a_phone_scrolls_the_tables_and_folds_the_contents(page: Path) -> None:
-    with Browser(page, 390, 800) as phone:
-        assert phone.value("document.documentElement.scrollWidth") == 390, (
+    with Browser(page, 360, 740) as phone:
+        assert phone.value("document.documentElement.scrollWidth") == 360, (
             "only the tables are wider than the screen"
         )
+        button = phone.value("document.getElementById('next').getBoundingClientRect().height")
+        assert button >= 44, "a thumb finds it"
         assert not phone.value("document.getElementById('menu').open")
         phone.click("#menu > summary")
         assert phone.value("document.getElementById('menu').open")
