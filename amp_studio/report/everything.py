@@ -16,6 +16,7 @@ def render_json(report: Report) -> bytes:
     document = {
         "title": report.title, "family": report.family, "printed": report.date.isoformat(timespec="seconds"), "program": report.program,
         "machine": dict(report.machine), "document": dict(report.facts), "counts": dict(report.counts), "notes": report.remarks, "noted": [{"about": about, "note": text} for about, text in report.remarked],
+        "axes": [dict(zip(report.axis_heads, line, strict=True)) for line in report.axes],
         "values": [dict(zip(HEADS, line_of(row), strict=True)) | {"place": row.place, "why": row.why} for row in report.rows()],
         "findings": [
             {"severity": note.severity, "count": note.count, "place": note.place, "about": [label for _, label in note.about],
@@ -29,7 +30,7 @@ def render_json(report: Report) -> bytes:
 
 
 def render_workbook(report: Report) -> bytes:
-    """Return the report as XLSX: values, findings, what is not set, exchanges, machine. Numbers are numbers."""
+    """Return the report as XLSX: values, findings, what is not set, exchanges, notes, axes, machine. Numbers are numbers."""
     heads = tuple(head.replace("_", " ") for head in HEADS)
     number_columns = {HEADS.index("value"), HEADS.index("default")}
     values = [
@@ -56,6 +57,11 @@ def render_workbook(report: Report) -> bytes:
                 "Exchanges", tuple(own), [tuple(getattr(e, name) for name in own) for e in report.exchanges]
             )
         )
+    noted = [("Machine", report.remarks), *report.remarked] if report.remarks else report.remarked
+    if noted:
+        sheets.append(WorkbookSheet("Notes", ("about", "note"), noted))
+    if report.axes:
+        sheets.append(WorkbookSheet("Axes", report.axis_heads, report.axes))
     about = (("", report.title), ("Printed", report.when), *report.machine, *report.facts, *report.counts)
     return workbook([*sheets, WorkbookSheet("Machine", ("", ""), about)])
 

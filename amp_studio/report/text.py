@@ -5,9 +5,9 @@ from __future__ import annotations
 import textwrap
 from collections.abc import Iterable, Iterator, Sequence
 
+from .language import Language, language_of
 from .model import MARKS, Listing, Report, ReportRow, printable
 from .note import Note
-from .wording import counted
 
 WIDTH = 100
 
@@ -18,50 +18,50 @@ _HEAD = ("Number", "Parameter", "", "Value", "Default", "")
 
 def render_text(report: Report) -> bytes:
     """Return the text in UTF-8; no line is longer than ``WIDTH``."""
-    return ("\n".join(line.rstrip() for line in _lines(report)) + "\n").encode("utf-8")
+    words = language_of(report.contents.language)
+    return ("\n".join(line.rstrip() for line in _lines(report, words)) + "\n").encode("utf-8")
 
 
-def _lines(report: Report) -> Iterator[str]:
-    yield from _title(report)
-    yield from _findings(report)
-    yield from _values("FORCED OUT OF RANGE", report.forced)
-    yield from _not_set(report)
-    yield from _dangers(report)
+def _lines(report: Report, words: Language) -> Iterator[str]:
+    yield from _title(report, words)
+    yield from _findings(report, words)
+    yield from _values(report.forced, words)
+    yield from _not_set(report, words)
+    yield from _dangers(report, words)
     for section in report.sections:
-        yield from _heading(section.title.upper())
+        title = words.title if report.contents.sort == "steps" else words.text
+        yield from _heading(title(section.title).upper())
         for part in section.parts:
             if part.title:
                 yield from _wrapped(part.title, "")
                 yield "-" * min(len(part.title), WIDTH)
-            yield from _table(part.rows, by_place=not isinstance(part, Listing) or part.by_place)
+            yield from _table(part.rows, not isinstance(part, Listing) or part.by_place, words)
             for mark, why in part.reasons:
                 yield from _wrapped(why, f"  {mark} ")
             yield ""
     if report.exchanges:
-        yield from _heading("EXCHANGES WITH CONTROLS")
+        yield from _heading(words.text("Exchanges with controls").upper())
         for each in report.exchanges:
             yield from _wrapped(f"{each.when}  {each.who}  {each.verb}  {each.control}", "")
             yield from _wrapped(f"{each.before or '?'} → {each.after or '?'}  {each.text}", "    ")
         yield ""
     if "signatures" not in report.contents.without:
-        yield from _heading("SIGNATURES")
+        yield from _heading(words.text("Signatures").upper())
         for label in ("Set up by", "Checked by", "Released by", "Taken over by"):
             yield ""
-            yield f"{label + ' ':_<60}  {'Date ':_<38}"
+            yield f"{words.text(label) + ' ':_<60}  {words.text('Date') + ' ':_<38}"
 
 
 # -- before the values ---------------------------------------------
 
 
-def _title(report: Report) -> Iterator[str]:
+def _title(report: Report, words: Language) -> Iterator[str]:
     yield "=" * WIDTH
-    yield (
-        f"{report.program}   MACHINE PARAMETERS {report.order.upper()}".ljust(WIDTH - len(report.when))
-        + report.when
-    )
+    head = f"{words.text('Machine parameters')} {words.text(report.order)}".upper()
+    yield f"{report.program}   {head}".ljust(WIDTH - len(report.when)) + report.when
     yield "=" * WIDTH
     for title, text in (*report.machine, *report.facts, *report.counts):
-        yield from _wrapped(text, f"{title + ' ':.<30} ")
+        yield from _wrapped(report.fact(title, text, words.text), f"{words.text(title) + ' ':.<30} ")
     yield ""
     if report.remarks:
         for paragraph in report.remarks.splitlines():
@@ -72,54 +72,62 @@ def _title(report: Report) -> Iterator[str]:
     if report.remarked:
         yield ""
     if report.axes:
-        yield from _columns(report.axis_heads, report.axes)
+        lines = [tuple(map(words.text, line)) for line in report.axes]
+        yield from _columns(tuple(map(words.text, report.axis_heads)), lines)
         yield ""
     for mark, what in MARKS.items():
-        yield from _wrapped(what, f"  {mark} ")
+        yield from _wrapped(words.text(what), f"  {mark} ")
     yield ""
 
 
-def _findings(report: Report) -> Iterator[str]:
-    yield from _heading("FINDINGS")
+def _findings(report: Report, words: Language) -> Iterator[str]:
+    yield from _heading(words.text("Findings").upper())
     if not report.notes:
-        yield "No errors, no warnings, no recommendations."
+        yield words.text("No errors, no warnings, no recommendations.")
     for severity, notes in report.severities().items():
-        yield counted(sum(n.count for n in notes), severity).capitalize()
+        yield words.counted(sum(n.count for n in notes), severity)
         for note in notes:
-            yield from _finding(note)
+            yield from _finding(note, words)
     yield ""
 
 
-def _finding(note: Note) -> Iterator[str]:
-    page = f" ({note.cited})" if note.page else ""
-    yield from _wrapped((f"{note.place}: " if note.place else "") + note.message + page, "  - ")
+def _finding(note: Note, words: Language) -> Iterator[str]:
+    cited = note.page if note.is_own else f"{words.text('page')} {note.page}"
+    page = f" ({cited})" if note.page else ""
+    place = f"{words.text(note.place)}: " if note.place else ""
+    yield from _wrapped(place + note.message + page, "  - ")
     if note.about:
-        yield from _wrapped(", ".join(label for _, label in note.about), "    about  ")
+        about = words.text("About").lower()
+        yield from _wrapped(", ".join(label for _, label in note.about), f"    {about:<6} ")
     if note.fix:
-        yield from _wrapped(note.fix, "    fix    ")
+        yield from _wrapped(note.fix, f"    {words.text('fix'):<6} ")
 
 
-def _dangers(report: Report) -> Iterator[str]:
+def _dangers(report: Report, words: Language) -> Iterator[str]:
     if report.dangers:
-        yield from _heading("DANGERS")
+        yield from _heading(words.text("Dangers").upper())
         for danger in report.dangers:
-            yield from _wrapped(f"{danger.says} (page {danger.page})", "  DANGER  ")
+            yield from _wrapped(
+                f"{danger.says} ({words.text('page')} {danger.page})", f"  {words.title('Danger').upper()}  "
+            )
             yield from _wrapped("; ".join(label for _, label in danger.about), "          ")
         yield ""
 
 
-def _values(title: str, rows: Sequence[ReportRow]) -> Iterator[str]:
+def _values(rows: Sequence[ReportRow], words: Language) -> Iterator[str]:
     if rows:
-        yield from _heading(title)
-        yield from _table(rows, by_place=True)
+        yield from _heading(words.text("Forced out of range").upper())
+        yield from _table(rows, True, words)
         yield ""
 
 
-def _not_set(report: Report) -> Iterator[str]:
+def _not_set(report: Report, words: Language) -> Iterator[str]:
     if report.not_set:
-        yield from _heading("NOT SET: THE CONTROL KEEPS ITS OWN VALUE")
+        yield from _heading(words.text("Not set").upper())
+        said = "These parameters are active but have no value in the file: the control keeps its own value."
+        yield from _wrapped(words.text(said), "")
         for number, name, places in report.not_set:
-            yield from _beside((number or "–", name, places), (13, 36, WIDTH - 13 - 36 - 2))
+            yield from _beside((number or "–", name, words.text(places)), (13, 36, WIDTH - 13 - 36 - 2))
         yield ""
 
 
@@ -132,19 +140,20 @@ def _heading(title: str) -> Iterator[str]:
     yield "=" * WIDTH
 
 
-def _table(rows: Iterable[ReportRow], by_place: bool) -> Iterator[str]:
+def _table(rows: Iterable[ReportRow], by_place: bool, words: Language) -> Iterator[str]:
     place = _ROW[2] if by_place else 0
     widths = (_ROW[0], _ROW[1] + (0 if by_place else _ROW[2] + 1), place, *_ROW[3:])
-    yield from _beside(_HEAD, widths)
+    yield from _beside(tuple(map(words.text, _HEAD)), widths)
     before = ""
     for row in rows:
         name = row.name if row.id != before else ""
-        value = (
-            row.text
-            + (f" ({row.small_print})" if row.small_print else "")
-            + (f" [{row.forced}]" if row.forced else "")
-        )
-        yield from _beside((row.number or "–", name, row.place, value, row.default, row.marks), widths)
+        value = words.text(row.bare_text) if row.is_own_word else row.text
+        if small_print := row.small_print_in(words.text):
+            value += f" ({small_print})"
+        if row.forced:
+            value += f" [{row.forced}]"
+        place_text = words.text(row.place)
+        yield from _beside((row.number or "–", name, place_text, value, row.default, row.marks), widths)
         before = row.id
 
 

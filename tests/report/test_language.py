@@ -124,6 +124,11 @@ def test_a_german_report(tmp_path: Path, mill: ParameterFile, sort: Sort) -> Non
     assert '<html lang="de">' in page
     assert "Unterschriften" in page
     assert "Set up by" not in page
+    write_report(mill, tmp_path / "r.txt", Contents(sort, language="de"))
+    plain = (tmp_path / "r.txt").read_text("utf-8")
+    assert "UNTERSCHRIFTEN" in plain
+    assert not re.search(r"\b(SIGNATURES|FINDINGS|NOT SET|FORCED|recommendations?|Suggested|fitted)\b", plain)
+    assert max(map(len, plain.splitlines())) <= 100
     if shutil.which("pdftotext"):
         text = subprocess.run(
             ["pdftotext", tmp_path / "r.pdf", "-"], capture_output=True, text=True, check=True

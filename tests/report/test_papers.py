@@ -16,6 +16,7 @@ from pathlib import Path
 import pytest
 
 from amp_studio.files import ParameterFile, compare, new_file
+from amp_studio.files.notes import set_group_note, set_machine_note
 from amp_studio.report import Contents, write_report
 from amp_studio.report.differences import differences_paper, machine_rows, machines_paper
 from amp_studio.report.form import form_paper
@@ -166,6 +167,8 @@ def test_a_spreadsheet_opens_the_workbook_with_every_number_to_its_last_digit(tm
 
 
 def test_the_report_as_json_and_as_workbook_has_every_value(tmp_path: Path, mill: ParameterFile) -> None:
+    set_machine_note(mill, "Rebuilt in 2019.\nNew drives.")
+    set_group_note(mill, "home", NASTY)
     for ending in (".json", ".xlsx"):
         write_report(mill, tmp_path / f"r{ending}", Contents(inactive=True), date=DATE)
     document = json.loads((tmp_path / "r.json").read_text("utf-8"))
@@ -183,3 +186,15 @@ def test_the_report_as_json_and_as_workbook_has_every_value(tmp_path: Path, mill
     rows = list(book["Values"].iter_rows(values_only=True))
     assert len(rows) == len(document["values"]) + 1
     assert (12.5, "mm") in {(row[5], row[6]) for row in rows}
+    notes = list(book["Notes"].iter_rows(values_only=True))
+    assert notes == [
+        ("about", "note"),
+        ("Machine", "Rebuilt in 2019.\nNew drives."),
+        ("Home Parameters", NASTY),
+    ]
+    assert [row[1] for row in book["Axes"].iter_rows(values_only=True)] == ["Name", "X", "Y", "Z", "B", "S"]
+    assert [axis["Name"] for axis in document["axes"]] == ["X", "Y", "Z", "B", "S"]
+    assert (document["notes"], document["noted"]) == (
+        "Rebuilt in 2019.\nNew drives.",
+        [{"about": "Home Parameters", "note": NASTY}],
+    )
