@@ -7,7 +7,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 from amp_studio.files import ParameterFile
-from amp_studio.schema import UnitError, convert
+from amp_studio.schema import UnitError, convert, shown
 from amp_studio.schema.model import RampKind, RampRoles, TimeOf
 from amp_studio.sim.errors import SimulationError
 from amp_studio.sim.events import Ramp
@@ -239,7 +239,7 @@ def _within_scans(
     used = min(max(given, up / (role.jerk_scans.most * scan)), up / (role.jerk_scans.least * scan))
     if used != given:
         figures.note(
-            f"{jerk.label}: {jerk.shown} is outside {role.jerk_scans.least:g} to {role.jerk_scans.most:g} scans, drawn with {used:.6g} {jerk.unit}",
+            f"{jerk.label}: {jerk.shown} is outside {role.jerk_scans.least:g} to {role.jerk_scans.most:g} scans, drawn with {used:.6g} {shown(jerk.unit)}",
             jerk.address,
             wrong=True,
         )

@@ -45,6 +45,12 @@ def test_a_linear_ramp_reaches_rapid_in_v_by_a_seconds(example):
     )
 
 
+def test_a_jerk_out_of_its_bounds_and_the_one_that_is_drawn_have_one_unit(example):
+    scene = draw(example("9pc"), "ramps", "S")
+    (note,) = [text for text in notes(scene) if "scans" in text]
+    assert note == "5214 Axis Jerk, S: 5.08 deg/s³ is outside 2 to 60 scans, drawn with 35.2778 deg/s³"
+
+
 def test_the_end_of_a_ramp_dragged_in_time_gives_the_acceleration(example):
     """0.2 s to 10000 mm/min are 833 mm/s²; the resolution follows the picture."""
     scene = draw(example("9pc"), "ramps", "X")
