@@ -247,6 +247,8 @@ class MainWindow(StudioWindow):
         for page in self.tabs.pages():
             self.close_page(page)
         self.summaries.stop()
+        if Task.running:
+            self.hide()  # pages that are being set cannot be interrupted: nobody has to watch that
         Task.end_all()
         event.accept()
 

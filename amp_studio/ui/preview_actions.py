@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from functools import partial
+from importlib import import_module
 from typing import TYPE_CHECKING
 
 from PySide6.QtCore import QObject, QTimer
@@ -22,6 +23,7 @@ class PreviewActions(QObject):
         super().__init__(window)
         self.window = window
         self.panel: PreviewPanel | None = None
+        self._wants_focus = False
         self.action = window.action(
             self.tr("Rep&ort Preview"), self.toggle, KEY, "file", "article", self.tr("Preview")
         )
@@ -38,8 +40,8 @@ class PreviewActions(QObject):
             if had_focus and self.window.page is not None:
                 self.window.page.setFocus()
             return
+        self._wants_focus = True
         self.window.docks.show_preview(True)
-        self._made().setFocus()
 
     def check(self) -> None:
         """Check the action where the preview is to be seen."""
@@ -49,13 +51,24 @@ class PreviewActions(QObject):
         """Follow the file in front while the preview is seen; it is made after the window has been painted."""
         self.check()
         if not self.window.docks.preview.isHidden():
-            QTimer.singleShot(0, self, self._show)
+            QTimer.singleShot(0, self, self._load)
         elif self.panel is not None:
             self.panel.show_page(None)
 
+    def _load(self) -> None:
+        """Load what is needed in one turn of the event loop, and make it in the next, so that none takes long."""
+        if self.panel is None:
+            import_module(".preview_panel", __package__)
+        QTimer.singleShot(0, self, self._show)
+
     def _show(self) -> None:
-        if not self.window.docks.preview.isHidden():
-            self._made().show_page(self.window.page)
+        if self.window.docks.preview.isHidden():
+            return
+        panel = self._made()
+        panel.show_page(self.window.page)
+        if self._wants_focus:
+            self._wants_focus = False
+            panel.setFocus()
 
     def _made(self) -> PreviewPanel:
         """Return the panel; it and what sets pages are loaded when they are first wanted."""

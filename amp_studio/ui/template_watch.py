@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import contextlib
+from collections.abc import Sequence
 from itertools import islice
 from pathlib import Path
 
@@ -52,18 +54,18 @@ class TemplateWatch(QObject):
         """Return what the folder has, and watch what is new: a rename over a file ends the watch of that file."""
         if self._folder is None:
             return None
+        own = self._folder / OWN
         found: list[tuple[str, int, int]] = []
-        paths = [str(self._folder)]
-        try:
-            for path in sorted(islice((self._folder / OWN).iterdir(), _MOST)):
-                if path.is_file():
-                    known = path.stat()
-                    found.append((path.name, known.st_mtime_ns, known.st_size))
-                    paths.append(str(path))
-            paths.append(str(self._folder / OWN))
-        except OSError:  # there is no folder, or it goes away just now
-            found = []
-        watched = {*self._watcher.files(), *self._watcher.directories()}
-        if new := [path for path in paths if path not in watched]:
-            self._watcher.addPaths(new)
+        with contextlib.suppress(OSError):  # there is no folder, or a file goes away just now
+            self._add([self._folder, own])
+            files = [path for path in sorted(islice(own.iterdir(), _MOST)) if path.is_file()]
+            self._add(files)  # before their state is read: what is saved after that is noticed
+            for path in files:
+                known = path.stat()
+                found.append((path.name, known.st_mtime_ns, known.st_size))
         return found
+
+    def _add(self, paths: Sequence[Path]) -> None:
+        watched = {*self._watcher.files(), *self._watcher.directories()}
+        if new := [str(path) for path in paths if str(path) not in watched and path.exists()]:
+            self._watcher.addPaths(new)

@@ -10,6 +10,7 @@ from PySide6.QtTest import QTest
 from pytestqt.qtbot import QtBot
 
 from amp_studio.files.examples import examples
+from amp_studio.report import CHAPTERS, Contents
 from amp_studio.transfer.client.parameters import download_file
 from amp_studio.ui.main_window import MainWindow
 from amp_studio.ui.motion_view import MotionView
@@ -60,6 +61,13 @@ def test_the_window_does_not_stall_over_its_work(
         do("all parameters", lambda: groups.setCurrentItem(groups.topLevelItem(0)), 200)
         do("pictures", action(window, "Pictures").trigger, 200)
         do("table", action(window, "Pictures").trigger)
+        window.report_choice.contents = Contents(changed_only=True, without=frozenset(CHAPTERS))
+        do("report preview", action(window, "Report Preview").trigger, 100)
+        qtbot.waitUntil(
+            lambda: bool(window.preview.panel and window.preview.panel.view.places), timeout=WAIT_MS
+        )
+        do("value beside its report", lambda: window.edits.commit(("servo.excess_error", "1"), "13 mm"), 200)
+        do("report closed", action(window, "Report Preview").trigger)
         do("step response", action(window, "Motion").trigger, 1)
         dog.doing = "step response drawn"
         motion = window.findChildren(MotionView)[-1]
