@@ -68,8 +68,8 @@ def fit_friction(
     assert moved is not None
     if len(time) < LEAST_ROWS:
         raise SimulationError(f"The record has {len(time)} rows; at least {LEAST_ROWS} are needed")
-    _refuse_limit(torque)
     time, (moved, torque) = _even(time, moved, torque)
+    _refuse_limit(torque, moved if velocity is not None else np.gradient(moved))
     period = float(time[1] - time[0])
     inner, slope, bend = time[1:-1], (moved[2:] - moved[:-2]) / (2.0 * period), np.diff(moved, 2) / period**2
     # A difference is a mean over two periods; what it is compared with has the same mean.
@@ -109,13 +109,17 @@ def fit_friction(
 # -- what is refused ---------------------------------------------------------------------------------
 
 
-def _refuse_limit(torque: Series) -> None:
-    """Raise SimulationError for a torque that stays at its largest or smallest value: what was missing is not in the record."""
+def _refuse_limit(torque: Series, speed: Series) -> None:
+    """Raise SimulationError for a torque that stays at its largest or smallest value in motion: what was missing is not in the record.
+
+    A drive that is off while a brake holds the axis has its smallest torque too, at rest.
+    """
     if float(np.ptp(torque)) == 0.0:
         raise SimulationError("The torque is the same in every row")
+    moves = np.abs(speed) > STANDSTILL * float(np.abs(speed).max())
     flat = 0
     for limit in (torque.max(), torque.min()):
-        at_limit = np.concatenate([[0], (torque == limit).astype(np.int8), [0]])
+        at_limit = np.concatenate([[0], ((torque == limit) & moves).astype(np.int8), [0]])
         edges = np.flatnonzero(np.diff(at_limit))
         lengths = edges[1::2] - edges[::2]
         flat += int(lengths[lengths >= FLAT_RUN].sum())

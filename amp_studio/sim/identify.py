@@ -53,7 +53,10 @@ def identify(
         fit = fit_friction(record.time, torque, velocity=record.velocity * factor)
     else:
         assert record.position is not None
-        fit = fit_friction(record.time, torque, position=record.position * factor)
+        moved = record.position * factor
+        if bound.unit == "deg":  # a rotary axis may begin again after a turn
+            moved = np.unwrap(moved, period=360.0)
+        fit = fit_friction(record.time, torque, position=moved)
     result = _figures(fit, bound)
     return in_unit(
         Trace(

@@ -163,6 +163,14 @@ def test_a_record_cut_off_by_its_own_range_is_refused(clean: dict[str, Series]) 
     )
 
 
+def test_a_drive_that_is_off_at_rest_is_at_no_limit(clean: dict[str, Series]) -> None:
+    """A brake holds a heavy axis before it moves and afterwards: torque 0, which is the smallest there is."""
+    torque = np.concatenate([np.zeros(800), clean["torque"] + 40.0, np.zeros(800)])
+    velocity = np.concatenate([np.zeros(800), clean["velocity"], np.zeros(800)])
+    fit = fit_friction(PERIOD * np.arange(len(torque)), torque, velocity=velocity)
+    assert fit.coefficients == pytest.approx(TRUE + np.array([0.0, 0.0, 40.0, 40.0]), rel=2e-3)
+
+
 def test_one_direction_is_refused(clean: dict[str, Series]) -> None:
     there = clean["velocity"] > -0.01
     given = {name: clean[name][there] for name in ("torque", "velocity")}

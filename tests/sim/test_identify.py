@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
+import numpy as np
 import pytest
 
 from amp_studio.files import new_file, open_file
@@ -94,6 +95,20 @@ def test_an_axis_that_turns_has_its_acceleration_in_degrees(tmp_path: Path) -> N
         for text in simulate(MILL, "step", axis, settings).assumptions
         if "acceleration_per_output" in text
     ]
+
+
+def test_a_table_that_begins_again_after_a_turn_is_followed(tmp_path: Path) -> None:
+    time = np.arange(0.0, 12.0, 0.005)
+    angle, speed = 900.0 * np.sin(0.9 * time), 810.0 * np.cos(0.9 * time)
+    torque = -0.02 * 729.0 * np.sin(0.9 * time) + 0.003 * speed + 2.0 * np.sign(speed)
+    rows = zip(time, angle % 360.0, torque, strict=True)
+    path = tmp_path / "table.csv"
+    path.write_text(
+        "time (s),position (deg),torque (%)\n" + "".join(f"{t:.3f},{a:.3f},{u:.2f}\n" for t, a, u in rows)
+    )
+    found = identify(MILL, path, "4").result
+    assert found["acceleration_per_output"] == (pytest.approx(50.0, rel=0.01), "deg/s2")
+    assert found["coulomb_friction"][0] == pytest.approx(2.0, rel=0.02)
 
 
 def test_the_picture_has_measured_and_predicted_torque(record: Path) -> None:
