@@ -68,6 +68,7 @@ class HandleFooter(QFrame):
         self.field.setVisible(has_one)
         self._handle = handle
         self._fit()
+        self.name.setVisible(handle is not None)
         if handle is None:
             self.name.setText("")
             self.more.setText(self.tr("Drag a handle, or go to it with Tab and use the arrow keys"))

@@ -79,7 +79,8 @@ class SettingsForm(QWidget):
         unit = self._unit(name)
         default = meaning.partition("default: ")[2] or "automatic"
         unit = unit or ("" if name in (*LENGTHS, FEEDRATE) else meaning.partition(" (")[2].partition(")")[0])
-        field.setPlaceholderText(f"{shown(unit)}, empty: {default}" if unit else f"empty: {default}")
+        empty = f"{self.tr('empty:')} {worded(default)}"
+        field.setPlaceholderText(f"{shown(unit)}, {empty}" if unit else empty)
         field.returnPressed.connect(self._changed)
         return field
 
@@ -99,8 +100,9 @@ class SettingsForm(QWidget):
         for name, text in defaults.items():
             field = self.fields.get(name)
             if isinstance(field, QLineEdit):
-                unit, _, _ = field.placeholderText().rpartition("empty: ")
-                field.setPlaceholderText(f"{unit}empty: {text}")
+                empty = self.tr("empty:")
+                unit, _, _ = field.placeholderText().rpartition(empty)
+                field.setPlaceholderText(f"{unit}{empty} {text}")
 
     def values(self) -> dict[str, float | str]:
         """Return what is given; raises ValueError with one sentence for a wrong unit or no number."""

@@ -42,7 +42,10 @@ class Segment(QWidget):
             if icon_name:
                 button.setIcon(icon(icon_name))
                 button.setIconSize(QSize(ICON, ICON))
-                button.setToolButtonStyle(Qt.ToolButtonStyle.ToolButtonTextBesideIcon)
+                style = Qt.ToolButtonStyle
+                button.setToolButtonStyle(
+                    style.ToolButtonTextBesideIcon if text else style.ToolButtonIconOnly
+                )
             ends = (n == 0, n == len(options) - 1)
             places = {(True, True): "only", (True, False): "first", (False, True): "last"}
             button.setProperty("segment", places.get(ends, "middle"))

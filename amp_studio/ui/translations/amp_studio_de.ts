@@ -669,6 +669,10 @@ Woher ist bekannt, was sie enthält?</translation>
             <translation>wirksamer Wert in der Steuerung</translation>
         </message>
         <message>
+            <source>empty:</source>
+            <translation>leer:</translation>
+        </message>
+        <message>
             <source>page</source>
             <translation>Seite</translation>
         </message>
@@ -4716,6 +4720,13 @@ Hier erlaubt: {allowed}</translation>
         <message>
             <source>Parameters</source>
             <translation>Parameter</translation>
+        </message>
+    </context>
+    <context>
+        <name>SettingsForm</name>
+        <message>
+            <source>empty:</source>
+            <translation>leer:</translation>
         </message>
     </context>
     <context>
