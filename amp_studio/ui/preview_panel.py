@@ -10,8 +10,8 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 from weakref import WeakKeyDictionary
 
-from PySide6.QtCore import QTimer, QUrl, Signal
-from PySide6.QtGui import QDesktopServices
+from PySide6.QtCore import Qt, QTimer, QUrl, Signal
+from PySide6.QtGui import QDesktopServices, QKeyEvent
 from PySide6.QtWidgets import QProgressBar, QVBoxLayout, QWidget
 
 from amp_studio.files import describe, real_path
@@ -104,6 +104,13 @@ class PreviewPanel(QWidget):
         self.head.page_wanted.connect(self.view.go_to_page)
         self.head.contents_wanted.connect(self._choose)
         choice.changed.connect(self._chosen)
+
+    def keyPressEvent(self, event: QKeyEvent) -> None:
+        """Escape goes back to the table."""
+        if event.key() == Qt.Key.Key_Escape and self._page is not None:
+            self._page.setFocus()
+        else:
+            super().keyPressEvent(event)
 
     # -- which file --------------------------------------------------------------------------
 

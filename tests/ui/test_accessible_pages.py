@@ -16,6 +16,7 @@ from amp_studio.ui.calculator_dialog import CalculatorDialog
 from amp_studio.ui.download_preview import DownloadPreview
 from amp_studio.ui.exchanges_dialog import ExchangesDialog
 from amp_studio.ui.file_dialogs import ReportDialog
+from amp_studio.ui.machines_dialog import MachinesDialog
 from amp_studio.ui.main_window import MainWindow
 from amp_studio.ui.merge_window import MergeWindow
 from amp_studio.ui.motion_view import MotionView
@@ -136,6 +137,14 @@ def test_the_preview_of_a_download_names_the_dangers_of_what_changes(window: Mai
     )
 
 
+def report(window: MainWindow) -> QWidget:
+    action(window, "Report Preview").trigger()
+    for _ in range(3):  # it is made in turns of the event loop
+        QApplication.processEvents()
+    assert window.preview.panel is not None
+    return window
+
+
 def project_check(window: MainWindow) -> QWidget:
     checked = check_files([window.workspace.path], lambda *_: None, threading.Event())
     return ProjectCheckDialog(checked, lambda *_: None, window)
@@ -143,7 +152,8 @@ def project_check(window: MainWindow) -> QWidget:
 
 PAGES: dict[str, Callable[[MainWindow], QWidget]] = {
     "steps": left("steps"), "groups": left("groups"), "project": left("project"),
-    "findings": findings, "pictures": pictures,
+    "findings": findings, "pictures": pictures, "report preview": report,
+    "machines": by("Compare Machines", MachinesDialog),
     "compare": lambda window: window.files.comparing.open(window.page),
     "motion": by("Motion", MotionView), "tuning": by("Tuning", TuningWindow),
     "calculator": by("Calculator", CalculatorDialog), "tables": by("Tables of the Manual", TablesDialog),

@@ -75,6 +75,8 @@ def test_an_edit_sets_the_pages_again_and_the_reader_stays_where_he_was(
     view = panel.view
     assert action(window, "Report Preview").isChecked()
     assert view.hasFocus()
+    QTest.keyClick(view, Qt.Key.Key_Escape)
+    assert window.table_view.hasFocus()
     panel.head.page.setText("3")
     QTest.keyClick(panel.head.page, Qt.Key.Key_Return)
     before, pages = view.verticalScrollBar().value(), view.pages
