@@ -112,7 +112,7 @@ def fit_friction(
 def _refuse_limit(torque: Series, speed: Series) -> None:
     """Raise SimulationError for a torque that stays at its largest or smallest value in motion: what was missing is not in the record.
 
-    A drive that is off while a brake holds the axis has its smallest torque too, at rest.
+    A drive that is off, with the brake closed, has its smallest torque too, at rest.
     """
     if float(np.ptp(torque)) == 0.0:
         raise SimulationError("The torque is the same in every row")

@@ -164,7 +164,7 @@ def test_a_record_cut_off_by_its_own_range_is_refused(clean: dict[str, Series]) 
 
 
 def test_a_drive_that_is_off_at_rest_is_at_no_limit(clean: dict[str, Series]) -> None:
-    """A brake holds a heavy axis before it moves and afterwards: torque 0, which is the smallest there is."""
+    """The brake of a heavy axis is closed before it moves and afterwards: torque 0, which is the smallest there is."""
     torque = np.concatenate([np.zeros(800), clean["torque"] + 40.0, np.zeros(800)])
     velocity = np.concatenate([np.zeros(800), clean["velocity"], np.zeros(800)])
     fit = fit_friction(PERIOD * np.arange(len(torque)), torque, velocity=velocity)
