@@ -106,14 +106,14 @@ class ReportDialog(_Form):
         label = QLabel(self.tr("&File"))
         label.setBuddy(self.path)
         self.form.addRow(self.options)
-        self.form.addRow(label, row)
-        self.form.addRow("", self.show_it)
+        self.options.form.addRow(label, row)  # its labels have one column with those of the options
+        self.options.form.addRow("", self.show_it)
         self.to_printer = False
         """Whether it goes to a printer instead of into a file."""
         to_printer = QPushButton(self.tr("Pre&view and Print…"))
         to_printer.setAutoDefault(False)
         to_printer.clicked.connect(self._print)
-        self.form.addRow("", to_printer)
+        self.options.form.addRow("", to_printer)
         self.add_buttons(self.tr("&Write Report"))
 
     def _browse(self) -> None:

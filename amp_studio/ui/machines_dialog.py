@@ -85,7 +85,7 @@ class MachinesDialog(QDialog):
         super().__init__(parent)
         self.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
         self.setWindowTitle(self.tr("Compare Machines"))
-        self.resize(1120, 640)
+        self.resize(min(1120, parent.width() - 2 * GAP3) if parent is not None else 1120, 640)
         self._show, self._language = show, language
         self._machines = [_Machine(each.path, each) for each in opened]
         self._machines += [

@@ -83,7 +83,7 @@ class ReportOptions(QWidget):
             "signatures": self.tr("&Signatures"),
         }
         self.chapters: dict[Chapter, QCheckBox] = {each: QCheckBox(named[each]) for each in CHAPTERS}
-        form = QFormLayout(self)
+        self.form = form = QFormLayout(self)
         form.setContentsMargins(0, 0, 0, 0)
         for label, field in (
             (self.tr("&Order"), self.sort),
