@@ -35,6 +35,8 @@ def measures(folder: Path, full: Path, example: Path, times: int) -> Iterator[Me
     picture = program("simulate", example, "step", "-o", folder / "step.svg")
     yield Measure("simulate a move and draw it, cold process", picture, 1.0)
     yield Measure("report to PDF, cold process", program("report", full, "-o", folder / "full.pdf"), 3.0)
+    page = program("report", full, "-o", folder / "full.html", "--without", "motion")
+    yield Measure("report to a web page without motion, cold process", page, 0.5)
     paint = [_until_painted(example, settings) for _ in range(runs)][-times:]
     yield Measure("first paint of the desktop program, cold process", tuple(paint), 1.5)
 
