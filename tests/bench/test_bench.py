@@ -21,6 +21,7 @@ TARGETS = {
     "--version, cold process",
     "validate, cold process",
     "report to PDF, cold process",
+    "report to a web page without motion, cold process",
     "simulate a move and draw it, cold process",
     "10 s of an axis with all non-linear parts",
     "9pc law, a sample each 1 ms",
