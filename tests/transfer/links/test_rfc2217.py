@@ -145,7 +145,7 @@ def test_the_opening_can_be_broken_off_at_once() -> None:
 
 
 def test_the_opening_can_be_broken_off_just_before_its_reader_starts() -> None:
-    """A caller who gave up in that moment was told of a thread instead of why he gave up."""
+    """A caller who gave up in that moment got the error of a thread instead of the reason."""
     port = _RemotePort(None)
     port._thread = threading.Thread(target=port._telnet_read_loop)
     port.close()
