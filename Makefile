@@ -56,7 +56,7 @@ schema: setup ## write the JSON Schemas by which an editor completes and checks 
 
 docs: setup-run build/docs/env/ready ## write the site with the reference of every parameter into build/site, and check its links
 	@rm -rf build/docs/source build/site && mkdir -p build/docs/source && cp -R docs/. build/docs/source
-	@sed 's#](docs/#](#; s#](CHANGELOG#](changelog#' CONTRIBUTING.md >build/docs/source/contributing.md && cp CHANGELOG.md build/docs/source/changelog.md
+	@sed 's#](docs/#](#g; s#](CHANGELOG#](changelog#g' CONTRIBUTING.md >build/docs/source/contributing.md && cp CHANGELOG.md build/docs/source/changelog.md
 	@$(BIN)/python scripts/write_reference.py build/docs/source
 	@build/docs/env/bin/sphinx-build --quiet --fail-on-warning --keep-going --fresh-env --jobs auto \
 		--doctree-dir build/docs/doctrees build/docs/source build/site
