@@ -80,7 +80,7 @@ def test_a_control_is_connected_from_the_page_and_taken_from_the_list(
         "connect",
         True,
     )
-    assert "connected today" in rows(page)[0].right
+    assert "connected" in rows(page)[0].right
     assert "E-stop" in rows(page)[0].second
     control.stop()
     page.controls.connect_button.click()
