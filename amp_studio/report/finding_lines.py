@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable, Iterator
 from dataclasses import replace
+from itertools import groupby
 from typing import Any
 
 from amp_studio.files import ParameterFile
@@ -36,7 +38,7 @@ def _setting_json(file: ParameterFile, setting: Setting) -> dict[str, Any]:
 
 def finding_text(file: ParameterFile, finding: Finding) -> str:
     """Return a finding as one or two lines for the terminal."""
-    names = ", ".join(_named(file, a) for a in finding.addresses[:8])
+    names = ", ".join(_names(file, finding.addresses[:8]))
     page = f" ({finding.cited})" if finding.page else ""
     severity = severity_name(finding.severity)
     lines = [f"{severity:8} {names}{': ' if names else ''}{finding.message}{page}"]
@@ -48,6 +50,17 @@ def finding_text(file: ParameterFile, finding: Finding) -> str:
             )
             lines.append(f"         {what}: {values}")
     return "\n".join(lines)
+
+
+def _names(file: ParameterFile, addresses: Iterable[Address]) -> Iterator[str]:
+    """Yield the values, those of a parameter one after the other by their numbers: ``101``, ``102 Characters of the Password``."""
+    here = file.machine_schema
+    for param, members in groupby(addresses, key=lambda address: address[0]):
+        *others, last = members
+        for address in others:
+            number = "" if here.is_disputed(param) else here.number(address)
+            yield number or _named(file, address)
+        yield _named(file, last)
 
 
 def suppressed_text(file: ParameterFile, left: Suppressed) -> str:

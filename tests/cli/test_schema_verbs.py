@@ -296,6 +296,15 @@ def test_a_finding_names_what_has_no_number_by_its_address(amp, tmp_path) -> Non
     assert all(f"({p})" in said for p in ids if "@" in p)
 
 
+def test_values_of_one_parameter_are_named_once_by_their_numbers(amp, tmp_path) -> None:
+    path = tmp_path / "second.amp"
+    amp("new", "9pc", path, "--like", "mill-1394")
+    assert (
+        "recommendation 101, 102, 103, 104, 105, 106 Characters of the Password: "
+        in amp("validate", path).out
+    )
+
+
 # -- what a definition has -------------------------------------------------------------------------------------------
 
 
