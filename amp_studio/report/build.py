@@ -127,6 +127,8 @@ def _machine(file: ParameterFile, project: ProjectInfo | None) -> list[tuple[str
         ("Options", project.options if project else ""),
         ("People", project.people if project else ""),
     ]
+    if project and header.name and project.name.strip() not in ("", header.name):
+        facts.insert(1, ("Project", project.name))
     if family.fits_axes:
         facts.append(("Axes", f"{len(fitted_axes(file))} of {len(axis_instances(file))} fitted"))
     return [(title, text.strip() or "–") for title, text in facts]

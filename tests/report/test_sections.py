@@ -8,7 +8,15 @@ from pathlib import Path
 
 import pytest
 
-from amp_studio.files import ParameterFile, content_of, digest_of, fitted_axes, new_file, save_file
+from amp_studio.files import (
+    ParameterFile,
+    ProjectInfo,
+    content_of,
+    digest_of,
+    fitted_axes,
+    new_file,
+    save_file,
+)
 from amp_studio.files.notes import set_group_note, set_machine_note, set_value_note
 from amp_studio.report import SORTS, Contents, build_report
 from amp_studio.report.contents import Sort
@@ -278,3 +286,13 @@ def test_notes_of_machine_group_and_value_are_printed(mill: ParameterFile) -> No
     assert row.small_print == "Note: Measured by J. Fitter."
     assert b"Switches are new." in render_text(report)
     assert b"Switches are new." in render_html(report)
+
+
+def test_the_cover_has_the_project_beside_a_machine_of_another_name(mill: ParameterFile) -> None:
+    def names(name: str, project: str) -> list[tuple[str, str]]:
+        mill.header.name = name
+        return list(build_report(mill, project=ProjectInfo(project, "9pc", builder="Works")).machine[:3])
+
+    machine = ("Machine", "Mill 7")
+    assert names("Mill 7", "Hall 2") == [machine, ("Project", "Hall 2"), ("Builder", "Works")]
+    assert names("Mill 7", "Mill 7")[:2] == names("", "Mill 7")[:2] == [machine, ("Builder", "Works")]
