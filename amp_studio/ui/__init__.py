@@ -25,10 +25,12 @@ def main(arguments: Sequence[str] | None = None, emulate: bool = False) -> int:
     if not has_display():
         print(f"amp-studio: {MISSING}", file=sys.stderr, flush=True)
         return 2
+    from PySide6.QtCore import QTimer
     from PySide6.QtWidgets import QApplication
 
     from .main_window import MainWindow
     from .settings import UserSettings
+    from .task import Task
     from .translated import speak
 
     arguments = sys.argv[1:] if arguments is None else arguments
@@ -39,13 +41,19 @@ def main(arguments: Sequence[str] | None = None, emulate: bool = False) -> int:
     window = MainWindow()
     sys.excepthook = _hook(window)
     window.show()
-    for argument in arguments:
-        window.open_first(Path(argument))
-    if not arguments:
-        window.files.restore_session()
-    if emulate:
-        window.control.start_emulated()
-    return int(application.exec())
+
+    def begin() -> None:
+        for argument in arguments:
+            window.open_first(Path(argument))
+        if not arguments:
+            window.files.restore_session()
+        if emulate:
+            window.control.start_emulated()
+
+    QTimer.singleShot(0, window, begin)  # in the program's loop: who ends it while a file is opened ends it
+    code = int(application.exec())
+    Task.end_all()  # a system that ends the program without closing its window leaves them running
+    return code
 
 
 def _hook(window: MainWindow):  # type: ignore[no-untyped-def]  # the type of sys.excepthook has no name

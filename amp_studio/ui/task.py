@@ -7,7 +7,7 @@ import threading
 from collections.abc import Callable
 from typing import Any, ClassVar, TypeVar
 
-from PySide6.QtCore import QEventLoop, QObject, QThread, QTimer, Signal
+from PySide6.QtCore import QEventLoop, QObject, Qt, QThread, QTimer, Signal
 from PySide6.QtWidgets import QDialog, QDialogButtonBox, QLabel, QProgressBar, QVBoxLayout, QWidget
 
 from .garbage import collect_by_timer
@@ -20,7 +20,7 @@ Result = TypeVar("Result")
 PATIENCE_MS = 300
 """Milliseconds that work may last before a progress dialog is shown."""
 
-TURN_S = 0.0005
+TURN_S = 0.00005
 """Seconds after which a thread lets the window have its turn. Python's own 5 ms, paid several times while a frame is painted, would be
 seen."""
 STOPPING = "Stopping at the next safe point …"
@@ -111,8 +111,11 @@ class ProgressDialog(QDialog):
             layout.addWidget(widget)
         self.task = Task(work)
         self.task.progressed.connect(self._progress)
-        self.task.done.connect(self._done)
-        self.task.failed.connect(self._failed)
+        at_once = (
+            Qt.ConnectionType.DirectConnection
+        )  # a program that is ended from outside runs no events any more
+        self.task.done.connect(self._done, at_once)
+        self.task.failed.connect(self._failed, at_once)
         self.task.finished.connect(self._ended)
 
     def run(self, patience: int = 0) -> Any:

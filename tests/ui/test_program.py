@@ -77,6 +77,7 @@ main([])
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, timeout=60, check=False,
                           env=os.environ)  # fmt: skip
     assert done.stdout.startswith("AMP Studio has an internal error: ZeroDivisionError"), done.stderr
+    assert done.returncode == 0, "an end that does not come from the window waits for its threads too"
     assert "Traceback" in done.stderr
 
 
