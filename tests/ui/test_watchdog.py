@@ -49,7 +49,7 @@ def test_the_window_does_not_stall_over_its_work(
             task.begin()
 
         def do(name: str, act: Callable[[], object], wait: int = 60) -> None:
-            dog.doing = name
+            dog.watch(name)
             act()
             QTest.qWait(wait)
 
@@ -69,11 +69,11 @@ def test_the_window_does_not_stall_over_its_work(
         do("value beside its report", lambda: window.edits.commit(("servo.excess_error", "1"), "13 mm"), 200)
         do("report closed", action(window, "Report Preview").trigger)
         do("step response", action(window, "Motion").trigger, 1)
-        dog.doing = "step response drawn"
+        dog.watch("step response drawn")
         motion = window.findChildren(MotionView)[-1]
         qtbot.waitUntil(lambda: motion.trace is not None and motion.plot.is_drawn, timeout=WAIT_MS)
         QTest.qWait(50)
         do("motion closed", motion.close)
-        dog.doing = "download and check"
+        dog.watch("download and check")
         qtbot.waitUntil(lambda: not Task.running, timeout=WAIT_MS)
     assert dog.over(LIMIT_MS) == {}

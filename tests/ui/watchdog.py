@@ -22,37 +22,46 @@ def slowness() -> float:
 class Watchdog:
     """Beats by a timer of the window while ``with`` lasts; each stall is how long the main thread worked between two beats.
 
-    That is the time of the processor, not of the clock: a machine that is busy with other things is no stall.
+    That is the time of the processor, not of the clock: a machine that is busy with other things is no stall. Neither is
+    one whose processor is slow while others share it, which a trial before each action measures.
     """
 
     def __init__(self) -> None:
-        self.stalls: list[tuple[str, float]] = []
-        """What was going on, and milliseconds."""
-        self.doing = ""
+        self.stalls: list[tuple[int, float]] = []
+        """Number of the action, and milliseconds."""
+        self._actions = [""]
+        self._slowness = [1.0]
+        """Before each action, and at the end."""
         self._last = 0.0
-        self._slowness = 1.0
         self._timer = QTimer()
         self._timer.timeout.connect(self._beat)
 
     def _beat(self) -> None:
         now = time.thread_time()
-        self.stalls.append((self.doing, (now - self._last) * 1000))
+        self.stalls.append((len(self._actions) - 1, (now - self._last) * 1000))
         self._last = now
 
-    def over(self, limit: float) -> dict[str, float]:
-        """Return the longest stall over a limit in milliseconds, for each thing that was going on.
+    def watch(self, action: str) -> None:
+        """Say what is going on from now on."""
+        self._beat()
+        self._actions.append(action)
+        self._slowness.append(slowness())
+        self._last = time.thread_time()
 
-        A machine that was slow before or after it all has as much more time.
+    def over(self, limit: float) -> dict[str, float]:
+        """Return the longest stall over a limit in milliseconds, for each action.
+
+        The trials before and behind an action, and one more on both sides, give it as much more time as they were slow.
         """
         found: dict[str, float] = {}
-        limit *= self._slowness
-        for doing, stall in self.stalls:
-            if stall > limit:
-                found[doing] = max(stall, found.get(doing, 0.0))
+        for number, stall in self.stalls:
+            if stall > limit * max(self._slowness[max(0, number - 1) : number + 3]):
+                action = self._actions[number]
+                found[action] = max(stall, found.get(action, 0.0))
         return found
 
     def __enter__(self) -> Watchdog:
-        self._slowness = slowness()
+        self._slowness[0] = slowness()
         self._last = time.thread_time()
         self._timer.start(BEAT_MS)
         return self
@@ -62,4 +71,4 @@ class Watchdog:
     ) -> None:
         self._beat()
         self._timer.stop()
-        self._slowness = max(self._slowness, slowness())
+        self._slowness.append(slowness())
