@@ -39,7 +39,10 @@ def effect_words(schema: Schema, address: Address) -> str:
 
 
 class TuningTarget(QObject):
-    """Values that are tuned, each change one step that is undone."""
+    """Values that are tuned, each change one step that is undone.
+
+    Abstract, with every method in both subclasses; ABCMeta cannot be the metaclass of a QObject.
+    """
 
     changed = Signal(list)
     """Addresses whose values changed; empty for any of them."""
