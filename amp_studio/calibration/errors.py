@@ -1,7 +1,9 @@
 """What cannot be calibrated: each error is one sentence for the person who measured."""
 
+from amp_studio.errors import AmpStudioError
 
-class CalibrationError(ValueError):
+
+class CalibrationError(AmpStudioError, ValueError):
     """Measured points, or a table, that cannot be used."""
 
 

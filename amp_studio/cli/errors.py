@@ -1,5 +1,7 @@
 """What the command line refuses."""
 
+from amp_studio.errors import AmpStudioError
 
-class UsageError(Exception):
+
+class UsageError(AmpStudioError):
     """Input that cannot be used; the text is the one line the user sees."""

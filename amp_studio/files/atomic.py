@@ -14,6 +14,7 @@ import os
 from collections.abc import Callable, Iterator
 from pathlib import Path
 
+from amp_studio.errors import AmpStudioError
 from amp_studio.schema.regular_file import HARMLESS, NO_LINK, demand_file, read_file
 
 from .attributes import keep_attributes
@@ -23,11 +24,11 @@ Notify = Callable[[str], None]
 """Takes one sentence about what a save could not keep."""
 
 
-class ChangedOnDiskError(OSError):
+class ChangedOnDiskError(AmpStudioError, OSError):
     """The file on disk is not the one that was opened."""
 
 
-class SaveError(OSError):
+class SaveError(AmpStudioError, OSError):
     """A file that could not be written; the old one is untouched. The text is one clear sentence."""
 
 

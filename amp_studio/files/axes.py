@@ -8,13 +8,14 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Iterable
 
+from amp_studio.errors import AmpStudioError
 from amp_studio.schema import Address, AxisProfile, axis_group, axis_name, is_fitted
 from amp_studio.schema.machine_schema import labelled
 
 from .parameter_file import ParameterFile
 
 
-class AxisError(ValueError):
+class AxisError(AmpStudioError, ValueError):
     """An axis operation that cannot be done; the text is one clear sentence."""
 
 

@@ -15,6 +15,7 @@ import sys
 from datetime import UTC, datetime
 from pathlib import Path
 
+from amp_studio.errors import AmpStudioError
 from amp_studio.schema.regular_file import HARMLESS, NO_LINK, demand_file, read_file
 from amp_studio.schema.visible import visible
 
@@ -38,7 +39,7 @@ _LONGEST_NOTE = 300
 """Characters of what the holder has left that a message shows."""
 
 
-class InUseError(OSError):
+class InUseError(AmpStudioError, OSError):
     """Another program has the file open; the text contains which one, where and since when."""
 
 

@@ -10,6 +10,7 @@ import re
 from collections.abc import Iterator, Mapping
 from typing import Literal, NamedTuple
 
+from amp_studio.errors import AmpStudioError
 from amp_studio.schema import Address, read_address, written
 
 from .parameter_file import ParameterFile
@@ -32,7 +33,7 @@ class MachineNote(NamedTuple):
     text: str
 
 
-class NoteError(ValueError):
+class NoteError(AmpStudioError, ValueError):
     """A note that no file can contain, or about something that the family does not have; the text is one sentence."""
 
 

@@ -8,6 +8,7 @@ from dataclasses import dataclass, field
 from functools import lru_cache
 from typing import NamedTuple
 
+from amp_studio.errors import AmpStudioError
 from amp_studio.schema import (
     Address,
     Evaluation,
@@ -37,7 +38,7 @@ class Change(NamedTuple):
         return Change(self.address, self.new, self.old)
 
 
-class RangeError(ValueError):
+class RangeError(AmpStudioError, ValueError):
     """A value that its parameter does not allow; ``faults`` contains one message for each address."""
 
     def __init__(self, faults: dict[Address, str]) -> None:

@@ -9,6 +9,7 @@ from dataclasses import dataclass, field, fields, replace
 from pathlib import Path
 from typing import Any
 
+from amp_studio.errors import AmpStudioError
 from amp_studio.schema import UnknownFamilyError, family_ids, load_schema
 from amp_studio.schema.file_error import text_of
 from amp_studio.schema.nearest import did_you_mean
@@ -28,7 +29,7 @@ _VERSION = "amp_studio_project"
 _MOST_BYTES = 2**20
 
 
-class InvalidNameError(ValueError):
+class InvalidNameError(AmpStudioError, ValueError):
     """A project or file name that cannot be used; the text is one clear sentence."""
 
 

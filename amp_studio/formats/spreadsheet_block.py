@@ -13,6 +13,7 @@ from collections.abc import Iterator, Sequence
 from html.parser import HTMLParser
 from typing import NamedTuple
 
+from amp_studio.errors import AmpStudioError
 from amp_studio.files.spreadsheet import cell_text, text_cell
 from amp_studio.schema import write_number
 
@@ -31,7 +32,7 @@ _DECIMAL_COMMA = re.compile(
 )
 
 
-class BlockError(ValueError):
+class BlockError(AmpStudioError, ValueError):
     """A content of the clipboard that is no block of cells: one sentence."""
 
 

@@ -10,11 +10,12 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass, field
 
+from amp_studio.errors import AmpStudioError
 from amp_studio.files import ParameterFile
 from amp_studio.schema import Address, Schema, Value
 
 
-class FormatError(ValueError):
+class FormatError(AmpStudioError, ValueError):
     """A text that a format cannot take: line, column (both from 1) and one clear sentence."""
 
     def __init__(self, what: str, line: int | None = None, column: int | None = None) -> None:

@@ -11,6 +11,8 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from amp_studio.errors import AmpStudioError
+
 from .language import ENGLISH, Language
 
 if TYPE_CHECKING:
@@ -35,7 +37,7 @@ _MISTAKES = (
 """What a template can raise by what it does, beside the errors of jinja2."""
 
 
-class TemplateMistakeError(ValueError):
+class TemplateMistakeError(AmpStudioError, ValueError):
     """A template of a project cannot be used; the text has its file and its line, and is one line that can be read."""
 
     def __init__(self, own: Path, mistake: str) -> None:

@@ -5,11 +5,13 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from functools import cache
 
+from amp_studio.errors import AmpStudioError
+
 Address = tuple[str, str]
 """Parameter id and instance; the instance of a global parameter is ``""``."""
 
 
-class UnknownParameterError(KeyError):
+class UnknownParameterError(AmpStudioError, KeyError):
     """A number or an id that the family does not have; the text is one clear sentence.
 
     ``nearest`` is asked for the names that come near only when the text is read: many are never shown.

@@ -8,13 +8,15 @@ from __future__ import annotations
 
 from functools import lru_cache
 
+from amp_studio.errors import AmpStudioError
+
 from .catalog import Schema
 from .load import family_ids
 from .quoting import quoted
 from .registration import load_part, registration_of
 
 
-class DescriptionError(ValueError):
+class DescriptionError(AmpStudioError, ValueError):
     """A description that no schema can be made of; one clear sentence."""
 
 

@@ -4,11 +4,13 @@ from __future__ import annotations
 
 from pathlib import Path
 
+from amp_studio.errors import AmpStudioError
+
 from .regular_file import MOST_BYTES, read_file
 from .yaml_reader import YamlDocument, YamlError, read_yaml
 
 
-class FileError(ValueError):
+class FileError(AmpStudioError, ValueError):
     """A file that cannot be used: path, line and one clear sentence; nothing was changed."""
 
     def __init__(self, path: Path, line: int | None, what: str) -> None:

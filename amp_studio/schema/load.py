@@ -15,6 +15,8 @@ from typing import Any, NamedTuple, TypeVar
 
 from pydantic import Field, ValidationError
 
+from amp_studio.errors import AmpStudioError
+
 from .compiled_cache import cache_folder, read_cached, report_unusable, write_cached
 from .consistency import faults_between, faults_of_messages, faults_of_order
 from .file_error import FileError, read_yaml_file
@@ -54,7 +56,7 @@ class DatabaseError(FileError):
     """A fact file that cannot be used: file, line and what is wrong with it."""
 
 
-class UnknownFamilyError(KeyError):
+class UnknownFamilyError(AmpStudioError, KeyError):
     """A family that there is not; the text is one clear sentence."""
 
     def __init__(self, text: str) -> None:

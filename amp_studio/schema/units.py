@@ -12,6 +12,8 @@ from decimal import Decimal
 from fractions import Fraction
 from functools import cache, lru_cache
 
+from amp_studio.errors import AmpStudioError
+
 from .folder import database_folder
 from .quoting import quoted
 from .yaml_reader import read_yaml, text_scalar
@@ -29,7 +31,7 @@ SHOWN: dict[str, str] = {}
 """Unit -> how it is shown, if that is otherwise than it is written."""
 
 
-class UnitError(ValueError):
+class UnitError(AmpStudioError, ValueError):
     """A unit that is not known, or does not measure what is asked for."""
 
 

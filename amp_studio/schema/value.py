@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+from amp_studio.errors import AmpStudioError
+
 LONGEST_NUMBER = 400
 """Signs of a number with its unit: the longest double written out has some 330."""
 
@@ -27,7 +29,7 @@ class Value(_Keyed):
     unit: str = ""
 
 
-class InvalidValueError(ValueError):
+class InvalidValueError(AmpStudioError, ValueError):
     """A value that cannot be read; the text is one clear sentence."""
 
 

@@ -16,6 +16,8 @@ from dataclasses import dataclass
 from itertools import accumulate
 from typing import Any, NamedTuple
 
+from amp_studio.errors import AmpStudioError
+
 from .quoting import quoted
 
 DEEPEST = 50
@@ -27,7 +29,7 @@ KeyPath = tuple[str | int, ...]
 """The way to a value: keys of mappings, positions in lists."""
 
 
-class YamlError(ValueError):
+class YamlError(AmpStudioError, ValueError):
     """A text that cannot be used: what is wrong, and in which line (from 1)."""
 
     def __init__(self, what: str, line: int | None = None, *, is_syntax: bool = False) -> None:

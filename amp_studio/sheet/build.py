@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Hashable, Iterable, Sequence
 from dataclasses import dataclass, field
 
+from amp_studio.errors import AmpStudioError
 from amp_studio.files import Difference, ParameterFile, compare
 from amp_studio.files.by_schema import by_schema
 from amp_studio.schema import Address, show_value
@@ -17,7 +18,7 @@ from .model import LeftOut, Sheet, SheetEntry
 from .order import bad, safe_order
 
 
-class SheetError(ValueError):
+class SheetError(AmpStudioError, ValueError):
     """Two files of which no sheet can be made; one clear sentence."""
 
 

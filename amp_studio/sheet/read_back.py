@@ -9,6 +9,7 @@ from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from typing import Literal
 
+from amp_studio.errors import AmpStudioError
 from amp_studio.files import ParameterFile
 from amp_studio.schema import Address, UnknownParameterError
 from amp_studio.schema.quoting import quoted
@@ -30,7 +31,7 @@ _MOST = 1 << 20  # characters
 _LINE = re.compile(r"([^\s=;:,]+)(?:,\s*|\s*[=;:]\s*|\s+)(.*)")
 
 
-class ReadBackError(ValueError):
+class ReadBackError(AmpStudioError, ValueError):
     """A text that is no list of numbers and values; ``line`` counts from 1."""
 
     def __init__(self, what: str, line: int) -> None:

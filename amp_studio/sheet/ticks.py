@@ -10,6 +10,7 @@ import json
 from collections.abc import Iterable
 from pathlib import Path
 
+from amp_studio.errors import AmpStudioError
 from amp_studio.files import write_atomic
 from amp_studio.schema.regular_file import read_file
 
@@ -20,7 +21,7 @@ _LARGEST = 1 << 22  # bytes
 _KEYS = ("number", "old", "new", "shown")
 
 
-class TicksError(ValueError):
+class TicksError(AmpStudioError, ValueError):
     """A file of ticks that cannot be read; one clear sentence."""
 
 

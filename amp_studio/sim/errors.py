@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+from amp_studio.errors import AmpStudioError
 
-class SimulationError(ValueError):
+
+class SimulationError(AmpStudioError, ValueError):
     """A simulation is not possible; contains a message and the parameter, if there is one."""
 
     def __init__(self, what: str, parameter: str = "") -> None:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import Literal
 
+from amp_studio.errors import AmpStudioError
 from amp_studio.schema.visible import visible
 
 # "old": what it contained before this exchange; "new": the content that was sent; "mixed": some of both; "defaults": it has
@@ -21,7 +22,7 @@ AT_CONTROL_TEXT: dict[AtControl, str] = {
 }
 
 
-class TransferError(OSError):
+class TransferError(AmpStudioError, OSError):
     """An exchange that did not reach its end.
 
     ``what`` happened; ``at_control`` is what the control contains now; ``kept`` the place where the image it contained

@@ -13,6 +13,7 @@ from __future__ import annotations
 
 import re
 
+from amp_studio.errors import AmpStudioError
 from amp_studio.files import Header, ParameterFile
 from amp_studio.files.reading import read_stored
 from amp_studio.schema import (
@@ -50,7 +51,7 @@ _LETTERS = {"\\": "\\", "\n": "n", "\t": "t"}
 _SIGNS = {letter: sign for sign, letter in _LETTERS.items()}
 
 
-class ImageError(ValueError):
+class ImageError(AmpStudioError, ValueError):
     """Bytes that are not a whole control image, or a file that has none; one clear sentence."""
 
 

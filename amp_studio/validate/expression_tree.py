@@ -13,6 +13,8 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import NamedTuple
 
+from amp_studio.errors import AmpStudioError
+
 LONGEST = 4000
 """Characters of an expression; the longest of our own has 1030."""
 DEEPEST_BRACKETS = 24
@@ -51,7 +53,7 @@ RESERVED = frozenset(
 """Words that the language keeps for itself."""
 
 
-class ExpressionError(ValueError):
+class ExpressionError(AmpStudioError, ValueError):
     """A text that is no expression: one clause in plain words."""
 
 

@@ -12,6 +12,7 @@ from functools import cached_property
 from string import Formatter
 from typing import Any, NamedTuple
 
+from amp_studio.errors import AmpStudioError
 from amp_studio.schema import Rule, program
 from amp_studio.schema.cel_engine import Program, functions_called
 from amp_studio.schema.expression import (
@@ -46,7 +47,7 @@ TYPES = {
 _OVER_A_LIST = re.compile(r"\.(?:all|exists|exists_one|filter|map)\(\s*([a-zA-Z_]\w*)\s*,")
 
 
-class RuleError(ValueError):
+class RuleError(AmpStudioError, ValueError):
     """A rule that cannot be used: its id and what is wrong with it."""
 
     def __init__(self, rule: str, what: str) -> None:

@@ -6,6 +6,8 @@ from __future__ import annotations
 
 import re
 
+from amp_studio.errors import AmpStudioError
+
 from .description import AXES, BOOLEAN, CHOICE, DECIMAL, IPV4, MASK, PASSWORD, SWITCHED_MASK, TEXT, Setting
 from .numbers import LARGEST, read_number
 
@@ -15,7 +17,7 @@ CLASSIC = {0: 255, 1: 255, 2: 255, 3: 255, 10: 255, 23: 255, 26: 65_535}
 _NUMBER = re.compile(r"[+-]?(\d+\.?\d*|\.\d+)")
 
 
-class BoundsError(ValueError):
+class BoundsError(AmpStudioError, ValueError):
     """A text that a setting would not store as what it means; one clear sentence."""
 
 

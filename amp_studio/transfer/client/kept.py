@@ -14,6 +14,7 @@ from dataclasses import dataclass
 from datetime import datetime
 from pathlib import Path
 
+from amp_studio.errors import AmpStudioError
 from amp_studio.files import ENDING, ParameterFile, content_of, open_file, write_atomic
 from amp_studio.files.reading import ParameterFileError, read_content
 from amp_studio.schema.regular_file import read_file
@@ -29,7 +30,7 @@ _STEM = 120
 _SIGNED = re.compile(rb"%s\nfamily [^\n]*\nsignature ([0-9a-f]{64})\n" % MAGIC.encode())
 
 
-class CopyError(ValueError):
+class CopyError(AmpStudioError, ValueError):
     """A copy that is not what was kept, or none at all; one clear sentence."""
 
 

@@ -6,6 +6,7 @@ import hashlib
 from dataclasses import dataclass
 from pathlib import Path
 
+from amp_studio.errors import AmpStudioError
 from amp_studio.files import ParameterFile, real_path, secret_values, text_of_name
 from amp_studio.files.by_schema import by_schema
 from amp_studio.files.reading import read_stored
@@ -16,7 +17,7 @@ from .record import Exchange, read_exchanges
 from .verification import completed
 
 
-class NoDownloadError(ValueError):
+class NoDownloadError(AmpStudioError, ValueError):
     """Nothing was downloaded from a file, or it cannot be known any more what; the text is one sentence."""
 
 

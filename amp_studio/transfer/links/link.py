@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from typing import Protocol
 
+from amp_studio.errors import AmpStudioError
 from amp_studio.schema.visible import visible
 
 from .endpoint import Endpoint
@@ -16,7 +17,7 @@ LONGEST_SHOWN = 200
 """Characters of an endpoint in a message; the name of a port by its maker and number has about 70."""
 
 
-class LinkError(OSError):
+class LinkError(AmpStudioError, OSError):
     """A link that cannot be made or is gone: ``endpoint`` names it, ``what`` what happened."""
 
     def __init__(self, endpoint: Endpoint | str, what: str) -> None:

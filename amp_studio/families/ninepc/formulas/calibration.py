@@ -14,6 +14,8 @@ from fractions import Fraction
 from functools import lru_cache
 from itertools import pairwise
 
+from amp_studio.errors import AmpStudioError
+
 MOST_POINTS = 1001
 """Of all axes together (page 36-10)."""
 LONGEST_INTERVAL = {"mm": Fraction("2133.6"), "deg": Fraction("2133.6"), "in": Fraction(84)}
@@ -26,7 +28,7 @@ STARTS = ("+", "-")
 _POINT = re.compile(r"(-?[0-9]{1,6}(?:\.[0-9]{1,5})?):(-?[0-9]{1,6}(?:\.[0-9]{1,5})?)")
 
 
-class CalibrationTextError(ValueError):
+class CalibrationTextError(AmpStudioError, ValueError):
     """A text that is no calibration table of this control; the reason is one clause."""
 
 
