@@ -131,7 +131,7 @@ class AcrContent(TakesAllOrRefuses):
             )
         wanted = _figures_in(file, card)
         if absent := [name for name in wanted if name not in card.figures]:
-            raise ImageError(f"the card does not have {_names(absent)}, which the file sets")
+            raise ImageError(f"the card does not have {names_of(absent)}, which the file sets")
         for name, figures in wanted.items():
             if not same_figures(figures, card.figures[name]):
                 card.figures[name] = figures
@@ -145,11 +145,16 @@ class AcrContent(TakesAllOrRefuses):
             return content
         card = CardContent.read(held)
         if absent := [name for name in copy.figures if name not in card.figures]:
-            raise ImageError(f"the card does not have {_names(absent)}, which the copy sets")
+            raise ImageError(f"the card does not have {names_of(absent)}, which the copy sets")
+        if short := [name for name in card.figures if name not in copy.figures]:
+            raise ImageError(
+                f"the copy does not have {names_of(short)}, which the card has: it is short and cannot be put back as a "
+                "whole (the parameter file beside it can be downloaded: it sets what it has)"
+            )
         stuck = [name for name, figures in copy.figures.items() if not figures and card.figures[name]]
         if stuck:
             raise ImageError(
-                f"{_names(stuck)} is off in the copy and on at the card, and how a filter is switched off is not printed"
+                f"{names_of(stuck)} is off in the copy and on at the card, and how a filter is switched off is not printed"
             )
         for name, figures in copy.figures.items():
             if not same_figures(figures, card.figures[name]):
@@ -163,7 +168,7 @@ class AcrContent(TakesAllOrRefuses):
             different = changed(content, found)
         except ImageError:
             return "so much that it cannot be read"
-        return f"in {_names(different)}" if different else ""
+        return f"in {names_of(different)}" if different else ""
 
 
 def changed(a: bytes, b: bytes) -> list[str]:
@@ -258,7 +263,7 @@ def _take_ballscrew(card: CardContent, wanted: dict[str, str], *, as_a_whole: bo
     """Put a table into the card's; positions that the card has too many of cannot be taken out."""
     axes = {name[4] for name in (card.ballscrew if as_a_whole else wanted)}
     if left := [name for name in card.ballscrew if name[4] in axes and name not in wanted]:
-        raise ImageError(f"the card has {_names(left)} too, and how positions are taken out is not printed")
+        raise ImageError(f"the card has {names_of(left)} too, and how positions are taken out is not printed")
     card.ballscrew.update(wanted)
 
 
@@ -266,7 +271,8 @@ def _position(item: tuple[str, str]) -> tuple[str, int]:
     return item[0][4], int(item[0][5:])
 
 
-def _names(names: list[str]) -> str:
+def names_of(names: list[str]) -> str:
+    """Return some names for a sentence, and how many more there are."""
     more = len(names) - _NAMED
     return ", ".join(names[:_NAMED]) + (f" and {more} more" if more > 0 else "")
 

@@ -41,6 +41,7 @@ from .content import (
     AcrContent,
     CardContent,
     changed,
+    names_of,
     plain_figure,
     positions_of,
     same_figures,
@@ -62,6 +63,9 @@ SHOWN = 60  # signs of the card's words in a message
 _FIGURE = r"[+-]?(?:[0-9]+(?:\.[0-9]*)?|\.[0-9]+)(?:E[+-]?[0-9]{1,2})?"
 _FIGURES = re.compile(rf"\(?\s*({_FIGURE})(?:\s*,\s*({_FIGURE}))?\s*\)?", re.IGNORECASE)
 
+_WORDS = re.compile(r"[A-Z]{3}[A-Z ,.;:'()/-]*", re.IGNORECASE)
+"""An error in words: no damage to a figure makes three letters and leaves no digit."""
+
 Figures = tuple[str, ...]
 
 
@@ -81,6 +85,8 @@ class TerminalDriver(AcrContent, NeverRestarts):
         self._waiting = Waiting(clock, sleep)
         self._terminal = Terminal(open_link, self._waiting)
         self._system = system
+        self._answered: set[str] = set()
+        """The settings that the card has answered for in the readings of this driver so far."""
 
     @classmethod
     def at(cls, endpoint: Endpoint, family: str = "", system: str = "inch") -> TerminalDriver:
@@ -147,7 +153,11 @@ class TerminalDriver(AcrContent, NeverRestarts):
     # -- reading ----------------------------------------------------------------------------------
 
     def _fetched(self, stage: str) -> bytes:
-        """Return every setting; what was read before the line showed damage for the first time is read again."""
+        """Return every setting; what was read before the line showed damage for the first time is read again.
+
+        A setting counts as one that the card does not have where a second reading lacks it too. Raises ImageDamagedError
+        where an earlier reading has it: what is short is no copy.
+        """
         found = CardContent(self._system)
         asked = [*settings(), *AXES]
         early, end = [], self._waiting.now() + FETCH_WAIT
@@ -164,6 +174,13 @@ class TerminalDriver(AcrContent, NeverRestarts):
             self._waiting.notify(stage, n, len(asked))
         for what in early if self._terminal.faults else ():
             self._read_into(found, what)
+        absent = [setting for setting in settings() if setting.name not in found.figures]
+        for setting in absent:
+            self._read_into(found, setting)
+        self._answered |= found.figures.keys()
+        if any(setting.name in self._answered for setting in absent):
+            names = names_of([setting.name for setting in absent if setting.name in self._answered])
+            raise ImageDamagedError(f"the card answers for {names} in one reading and not in another")
         return found.written()
 
     def _read_into(self, found: CardContent, what: CommandSetting | str) -> None:
@@ -179,21 +196,30 @@ class TerminalDriver(AcrContent, NeverRestarts):
 
     def _figures(self, name: str, count: int) -> Figures | None:
         """Return the figures of a setting, none for one that is off; None where the card does not have it."""
-        rows = self._twice(name)
+        rows = self._readable(name, lambda rows: _is_answer(rows, name, count))
         if not rows:
             return () if name.startswith(CAN_BE_OFF) else None
-        found = _FIGURES.fullmatch(rows[0][:LONGEST].removeprefix(name).strip())
-        if found is None or len(rows) > 1:
-            return None
-        figures = tuple(plain_figure(figure) for figure in found.groups() if figure is not None)
-        return figures if len(figures) == count else None
+        return _figures_in(rows[0], name)
 
     def _ballscrew(self, axis: str) -> dict[str, str]:
-        rows = self._twice(f"BSC {axis}")
-        try:
-            return dict(positions_of(rows))
-        except ValueError:
-            return {}  # words: this card does not show its tables
+        rows = self._readable(f"BSC {axis}", _is_table)
+        return (
+            {} if _is_error(rows) else dict(positions_of(rows))
+        )  # words: this card does not show its tables
+
+    def _readable(self, query: str, is_answer: Callable[[list[str]], bool]) -> list[str]:
+        """Return the answer of a query: figures, the error of the card in words, or nothing. Raises ImageDamagedError.
+
+        Whatever else comes, even twice, was damaged on the line and proves nothing of the card.
+        """
+        for _ in range(SET_TRIES):
+            rows = self._twice(query)
+            if not rows or _is_error(rows) or is_answer(rows):
+                return rows
+            self._terminal.faults += 1
+        raise ImageDamagedError(
+            f"the card answers '{query}' with '{rows[0][:SHOWN]}', which is neither a setting nor an error"
+        )
 
     def _twice(self, query: str, on_damage: int = 3) -> list[str]:
         """Return an answer that has come twice in a row: nothing else on this line shows a damaged digit.
@@ -297,6 +323,32 @@ class TerminalDriver(AcrContent, NeverRestarts):
         except (TransferError, ImageError):
             error.at_control = "unknown"
         return error
+
+
+def _is_error(rows: list[str]) -> bool:
+    return len(rows) == 1 and _WORDS.fullmatch(rows[0][:LONGEST]) is not None
+
+
+def _is_answer(rows: list[str], name: str, count: int) -> bool:
+    figures = _figures_in(rows[0], name)
+    return len(rows) == 1 and figures is not None and len(figures) == count
+
+
+def _figures_in(row: str, name: str) -> Figures | None:
+    """Return the figures of an answer, behind the name of the setting or alone; None where there are none."""
+    found = _FIGURES.fullmatch(row[:LONGEST].removeprefix(name).strip())
+    return (
+        None
+        if found is None
+        else tuple(plain_figure(figure) for figure in found.groups() if figure is not None)
+    )
+
+
+def _is_table(rows: list[str]) -> bool:
+    try:
+        return bool(dict(positions_of(rows)))
+    except ValueError:
+        return False
 
 
 class _Sending:

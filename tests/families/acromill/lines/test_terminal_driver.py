@@ -203,6 +203,68 @@ def test_a_card_without_some_settings_is_read_and_what_it_does_not_have_is_named
         bench.driver.encode(small_file(pgain="0.08"), held)
 
 
+class Repeating(FaultyLink):
+    """A line on which each answer of one setting comes with a byte of its figure twice."""
+
+    def __init__(self, link: Link, answer: bytes, times: list[int]) -> None:
+        super().__init__(link, Faults(), cut=False)
+        self._answer, self._times = answer, times
+
+    def _pass(self, way: str, data: bytes) -> bytes:
+        if way == "in" and self._times[0] and self._answer in data:
+            self._times[0] -= 1
+            return data.replace(self._answer, self._answer.replace(b".", b".."))
+        return data
+
+
+def test_an_answer_that_the_line_has_damaged_twice_does_not_make_a_short_copy(bench: CardBench) -> None:
+    bench.obey("PGAIN X0.07125")
+    bench.obey("BSC X0E.00325")
+    whole = upload(bench.driver)
+    bench.driver.close()
+    for answer in (b"0.07125", b"X0E.00325"):
+        times = [2]
+        bench.wrap = lambda link, a=answer, t=times: Repeating(link, a, t)  # type: ignore[misc]
+        assert upload(bench.driver) == whole
+        assert times == [0], "the damage has come"
+        bench.driver.close()
+
+
+def test_a_setting_that_stays_unreadable_ends_the_reading(bench: CardBench) -> None:
+    bench.obey("PGAIN X0.07125")
+    bench.wrap = lambda link: Repeating(link, b"0.07125", [1_000])
+    with pytest.raises(ImageDamagedError, match=r"answers 'PGAIN X' with '0\.\.07125', which is neither"):
+        upload(bench.driver)
+
+
+def test_a_setting_is_missing_only_where_a_second_reading_lacks_it_too(bench: CardBench) -> None:
+    obey, refused = bench.card.settings.obey, [2]
+
+    def silent(text: str) -> list[str]:
+        if text == "PGAIN Y" and refused[0]:
+            refused[0] -= 1
+            return []
+        return obey(text)
+
+    bench.card.settings.obey = silent  # type: ignore[method-assign]
+    with pytest.raises(ImageDamagedError, match="PGAIN Y in one reading and not in another"):
+        upload(bench.driver)
+    assert refused == [0]
+    refused[0] = 0
+    assert b"PGAIN Y0.00244" in upload(bench.driver)
+    refused[0] = 1_000
+    with pytest.raises(ImageDamagedError, match="PGAIN Y in one reading and not in another"):
+        upload(bench.driver)
+
+
+def test_a_short_copy_is_not_put_back_as_if_it_were_whole(bench: CardBench) -> None:
+    held = upload(bench.driver)
+    short = held.replace(b"PGAIN Y0.00244\n", b"").replace(b"end 128", b"end 127")
+    assert short != held
+    with pytest.raises(ImageError, match="the copy does not have PGAIN Y, which the card has"):
+        bench.driver.refit(short, held)
+
+
 @pytest.mark.parametrize("program", [0, 3])
 def test_half_a_line_that_somebody_left_is_taken_away(bench: CardBench, program: int) -> None:
     bench.card.receive(b"PROG%d\rPPU X40" % program)
