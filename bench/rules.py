@@ -12,6 +12,7 @@ from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from itertools import cycle
 from pathlib import Path
+from random import Random
 from statistics import median
 
 from jsonschema import ValidationError
@@ -22,7 +23,7 @@ from amp_studio.files import Change, ParameterFile, open_file
 from amp_studio.files.examples import examples_folder
 from amp_studio.formats import export_file, import_file
 from amp_studio.schema import Address, Rule, Schema, Value, read_address, written
-from amp_studio.validate import Validator
+from amp_studio.validate import Validator, apply_fixes
 from amp_studio.validate.plan import checks_of
 from amp_studio.validate.rules import RuleChecks
 
@@ -30,6 +31,8 @@ NUM = "num-1060-mill/MILL_1060.amp"
 HALL = 1000
 """Files; a quick run takes a few that are still shared among processes."""
 FEW = 60
+DAMAGED = 800
+"""Values of a file that are replaced by those of other parameters."""
 EDITED: Address = ("servo.excess_error", "1")
 """Many rules read it."""
 
@@ -43,6 +46,7 @@ def measures(folder: Path, full: Path, times: int) -> Iterator[Measure]:
         yield Measure(f"  a {name} file again", timed(validator.run, times), target)
     for name, path in (("9/PC", full), ("NUM", num)):
         yield from _edits(name, path, times)
+    yield _fixes(full, times)
     yield from _num_table(folder, num, times)
     yield from _peers(full, times)
     yield from _hall(folder, HALL if times > 1 else FEW, max(1, times // 5))
@@ -98,6 +102,23 @@ def _another(file: ParameterFile, address: Address, value: Value) -> Value:
         at = choices.index(value.value) + 1 if value.value in choices else 0
         return Value(choices[at % len(choices)] if choices else value.value + "x")
     return Value(value.value - 1 if isinstance(value.value, int) else value.value * 0.99, value.unit)
+
+
+def _fixes(full: Path, times: int) -> Measure:
+    """Return what it takes to make every fix in a file with hundreds of wrong values."""
+    base, random = open_file(full).file, Random(10)
+    for address in random.sample(list(base.values), DAMAGED):
+        kind = type(base.values[address].value)
+        alike = [a for a, v in base.values.items() if a[1] == address[1] and type(v.value) is kind]
+        base.set(address, base.values[random.choice(alike)])
+    validators = []
+    for _ in range(times + 2):
+        validators.append(Validator(base.copy()))
+        validators[-1].run()
+    left = iter(validators)
+    done = len(apply_fixes(next(left), lambda _: True))
+    seconds = timed(lambda: apply_fixes(next(left), lambda _: True), times)
+    return Measure(f"every fix, {done} values, of a badly damaged 9/PC file", seconds, 1.0)
 
 
 def _num_table(folder: Path, num: Path, times: int) -> Iterator[Measure]:

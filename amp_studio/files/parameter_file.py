@@ -18,7 +18,6 @@ from amp_studio.schema import (
     Value,
     angular,
     fault,
-    read_address,
     read_real,
     read_value,
     same_value,
@@ -236,16 +235,11 @@ class ParameterFile:
 
     def _turned(self, changes: Iterable[Change]) -> Iterable[str]:
         """Return the axes that changes may have made turn, or move straight."""
-        family = self.schema.family
-        conditions = {self.schema.angular_when(p) for p in self.schema.parameters.values()} - {None}
-        if not conditions:
+        turning = self.schema.turning_parameters
+        changed = [c.address for c in changes if c.address[0] in turning]
+        if not changed:
             return ()
-        reads = {
-            read_address(text)[0]
-            for name in conditions
-            for text in family.conditions[str(name)].reads.values()
-        }
-        changed = [c.address for c in changes if c.address[0] in reads]
+        family = self.schema.family
         axes = family.scopes["axis"].instances if "axis" in family.scopes else ()
         whole = any(self.machine_schema.scopes[a[0]] != "axis" for a in changed)
         return axes if whole else dict.fromkeys(instance for _, instance in changed)

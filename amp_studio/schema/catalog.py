@@ -7,7 +7,7 @@ import json
 from dataclasses import dataclass
 from functools import cache, cached_property
 
-from .address import Address, UnknownParameterError, whole_of
+from .address import Address, UnknownParameterError, read_address, whole_of
 from .load import Compiled, FurtherFacts, load_compiled
 from .machine_schema import MachineSchema
 from .model import (
@@ -131,6 +131,16 @@ class Schema:
     def angular_when(self, parameter: Parameter) -> str | None:
         """Return the condition under which the lengths of a parameter are angles."""
         return parameter.angular_when or self.family.angular_when
+
+    @cached_property
+    def turning_parameters(self) -> frozenset[str]:
+        """Ids of the parameters that decide whether an axis turns."""
+        conditions = {self.angular_when(parameter) for parameter in self.parameters.values()} - {None}
+        return frozenset(
+            read_address(text)[0]
+            for name in conditions
+            for text in self.family.conditions[str(name)].reads.values()
+        )
 
     def units_of(self, parameter: Parameter) -> tuple[str, ...]:
         """Return every unit a parameter can be entered in, in any unit system, straight or turning."""

@@ -7,8 +7,8 @@ from collections.abc import Iterable, Mapping
 from amp_studio.files import ParameterFile
 from amp_studio.schema import Address, Value
 
-from .checks import Checks, Place
-from .plan import Plan
+from .checks import Checks
+from .plan import Place, Plan
 
 _SAMPLES = 12
 _HALVINGS, _NEAR = 32, 1e-4

@@ -11,12 +11,9 @@ from amp_studio.schema.conditions import ACTIVE
 from amp_studio.schema.expression import Key
 
 from .finding import Finding
-from .plan import Plan, RuleCheck
+from .plan import Place, Plan, RuleCheck
 from .ranges import ValueChecks
 from .rules import RuleChecks
-
-Place = Address | int
-"""Where a finding is filed: under the value that is wrong, or under the place of the rule's check in the plan."""
 
 _NOT_LOOKED_AT = ("hidden", "ignored")
 """States in which a value has no effect."""

@@ -31,12 +31,13 @@ def apply_fixes(validator: Validator, wanted: Callable[[Finding], bool]) -> list
     """
     done: list[Fixed] = []
     for _ in range(_MOST):
-        finding = next((f for f in validator.findings() if f.fix and wanted(f)), None)
+        finding = validator.first_fix(wanted)
         if finding is None:
             break
         changes = validator.file.set_many({setting.address: setting.value for setting in finding.fix})
         done += [Fixed(change, finding.rule) for change in changes]
-        validator.update([change.address for change in changes])
+        validator.recheck([change.address for change in changes])
+    validator.findings()  # what is suppressed, too
     return done
 
 

@@ -12,9 +12,9 @@ from amp_studio.files import ParameterFile
 from amp_studio.schema import Address, Value
 
 from .builder_rules import NO_RULES, BuilderRules, sort_out
-from .checks import Checks, Place
+from .checks import Checks
 from .finding import Finding
-from .plan import make_plan
+from .plan import Place, make_plan
 
 _SHOWN = ("error", "warning")
 
@@ -55,8 +55,7 @@ class Interim:
 
     def checks_of(self, address: Address) -> frozenset[Place]:
         """Return the checks that can come to something else when a value changes."""
-        rules = (check.place for check in self._plan.rule_readers.get(address, ()))
-        return frozenset((*self._plan.range_readers.get(address, ()), *rules))
+        return self._plan.asked_by((address,))
 
     def _look_at_all(self) -> None:
         self._plan = make_plan(self.file.schema, self.file.machine, self._own.rules)

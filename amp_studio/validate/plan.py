@@ -27,6 +27,9 @@ from amp_studio.schema.quoting import quoted
 from .expressions import Expressions, RuleError, check_rule, is_list
 from .formulas import rule_functions
 
+Place = Address | int
+"""Where a finding is filed: under the value that is wrong, or under the place of the rule's check in the plan."""
+
 
 class Single(NamedTuple):
     """A single value that a check reads."""
@@ -167,6 +170,27 @@ class Plan:
             for address in {seen for read in check.addresses for seen in {read} | self._states[read]}:
                 readers.setdefault(address, []).append(check)
         return {a: tuple(c) for a, c in readers.items()}
+
+    def asked_by(self, addresses: Iterable[Address]) -> frozenset[Place]:
+        """Return the checks that can come to something else when these values change."""
+        return frozenset().union(*map(self._asked.__getitem__, addresses))
+
+    @cached_property
+    def _asked(self) -> _AskedBy:
+        return _AskedBy(self)
+
+
+class _AskedBy(dict[Address, frozenset[Place]]):
+    """Address -> the places of the checks that must run again when it changes."""
+
+    def __init__(self, plan: Plan) -> None:
+        self._plan = plan
+
+    def __missing__(self, address: Address) -> frozenset[Place]:
+        plan = self._plan
+        rules = (check.place for check in plan.rule_readers.get(address, ()))
+        found = self[address] = frozenset((*plan.range_readers.get(address, ()), *rules))
+        return found
 
 
 def make_plan(schema: Schema, machine: str, extra: tuple[Rule, ...] = ()) -> Plan:

@@ -16,9 +16,9 @@ from amp_studio.files.parameter_file import Marks
 from amp_studio.schema import Address
 
 from .builder_rules import BuilderRules, sort_out
-from .checks import Checks, Place
+from .checks import Checks
 from .finding import SEVERITIES, Finding
-from .plan import Plan, RuleCheck, make_plan
+from .plan import Place, Plan, RuleCheck, make_plan
 
 MOST_STEPS = 20_000_000
 """That a builder's rules may take in all trials of a file: about a second."""
@@ -27,11 +27,14 @@ _ASKED = 1000
 
 
 class _Tried(NamedTuple):
-    """What came of a trial, and the checks that would have to be another for it to come to something else."""
+    """What came of a trial, and the checks that would have to be another for it to come to something else.
+
+    A good fix is good by every check that it can change, a bad one is bad by a single one, whatever the others say.
+    """
 
     is_good: bool
     asked: frozenset[Place] | None
-    """None if that is every check."""
+    """Besides the check of the finding itself; None if that is every check."""
 
 
 class Trials:
@@ -83,7 +86,7 @@ class Trials:
         wanting = [place for place, (_, finding) in filed.items() if finding.fix]
         for place in sorted(wanting, key=lambda place: (isinstance(place, int), place)):
             if steps <= MOST_STEPS:
-                steps += sum(map(self._steps, self._asked(r.address for r in filed[place][1].fix)))
+                steps += sum(map(self._steps, self._plan.asked_by(r.address for r in filed[place][1].fix)))
             if steps > MOST_STEPS:
                 beyond.add(place)
         return frozenset(beyond)
@@ -101,8 +104,9 @@ class Trials:
         before = Marks.of(file)
         try:
             changes = file.set_many({setting.address: setting.value for setting in finding.fix})
-        except RangeError:
-            return _Tried(False, self._asked([setting.address for setting in finding.fix]))
+        except RangeError as error:
+            asked = self._plan.asked_by(setting.address for setting in finding.fix)
+            return _Tried(False, self._bad_by(finding, error.faults, asked))
         try:
             return self._judge(place, finding, filed, changes)
         finally:
@@ -117,25 +121,32 @@ class Trials:
     ) -> _Tried:
         if not self._checks.fit:
             return _Tried(self._is_good_on_another_machine(finding, filed), None)
-        asked = self._asked([*(c.address for c in changes), *(setting.address for setting in finding.fix)])
+        asked = self._plan.asked_by((*(c.address for c in changes), *(s.address for s in finding.fix)))
         self._checks.look_again()
         if self._found(place):
-            return _Tried(False, asked)
-        found = ((other, self._finding(other)) for other in asked if self._found(other))
-        # A check that found something before, but now about more values, has found something new.
-        new = (
-            f for other, f in found
-            if other not in filed or not set(filed[other][1].causes).issuperset(f.causes)
-        )  # fmt: skip
-        return _Tried(self._are_lesser(new, finding), asked)
+            return _Tried(False, self._bad_by(finding, (), asked))
+        for other in asked:
+            if not self._found(other):
+                continue
+            found = self._finding(other)
+            # A check that found something before, but now about more values, has found something new.
+            is_new = other not in filed or not set(filed[other][1].causes).issuperset(found.causes)
+            if is_new and not self._are_lesser((found,), finding):
+                return _Tried(False, self._bad_by(finding, (other,), asked))
+        return _Tried(True, asked)
 
-    def _asked(self, addresses: Iterable[Address]) -> frozenset[Place]:
-        """Return the checks that can come to something else when these values change."""
-        asked: set[Place] = set()
-        for address in addresses:
-            asked |= self._plan.range_readers.get(address, frozenset())
-            asked.update(check.place for check in self._plan.rule_readers.get(address, ()))
-        return frozenset(asked)
+    def _bad_by(self, mended: Finding, places: Iterable[Place], asked: frozenset[Place]) -> frozenset[Place]:
+        """Return the checks that leave a fix bad while they, and that of the finding itself, are not asked again.
+
+        These are all that were ``asked`` where a builder suppresses findings, since the number he gives may come to mean
+        another parameter, and where the fix may make an axis turn, since further values get other units with it; unless
+        nothing but the value that it sets decides that.
+        """
+        turning = self._original.schema.turning_parameters
+        turned = len(turning) > 1 and any(setting.address[0] in turning for setting in mended.fix)
+        if self._own.suppressions or turned:
+            return asked
+        return frozenset(places)
 
     def _found(self, place: Place) -> bool:
         if isinstance(place, int):

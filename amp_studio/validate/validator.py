@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Hashable, Iterable, Iterator
+from collections.abc import Callable, Collection, Hashable, Iterable, Iterator
 from dataclasses import replace
 
 from amp_studio.files import ParameterFile
@@ -11,9 +11,9 @@ from amp_studio.schema.cel_engine import Context
 
 from .allowed import AllowedByRules
 from .builder_rules import NO_RULES, BuilderRules, Suppressed, sort_out
-from .checks import Checks, Place
+from .checks import Checks
 from .finding import SEVERITIES, Finding
-from .plan import Plan, RuleCheck, make_plan
+from .plan import Place, Plan, RuleCheck, make_plan
 from .trial import Trials
 
 _Order = tuple[int, int, str, int]
@@ -50,6 +50,10 @@ class Validator:
 
     def run(self) -> tuple[Finding, ...]:
         """Check everything; returns the findings, errors first, in the manual's order."""
+        self._file_all()
+        return self.findings()
+
+    def _file_all(self) -> None:
         if not self._checks.fit:
             self.file.evaluation.forget()  # conditions may name the model of the control
             self._prepare()
@@ -63,12 +67,17 @@ class Validator:
             place: (self._order(finding, place if isinstance(place, int) else -1), finding)
             for place, finding in self._checks.of_all(self._plan)
         }
-        return self.findings()
 
     def update(self, changed: Iterable[Address]) -> tuple[Finding, ...]:
         """Check again what reads the changed addresses; returns all findings."""
+        self.recheck(changed)
+        return self.findings()
+
+    def recheck(self, changed: Iterable[Address]) -> None:
+        """Check again what reads the changed addresses; whether a fix is still good is tried when it is asked for."""
         if self._circumstances != self._present_circumstances():
-            return self.run()
+            self._file_all()
+            return
         edited = list(changed)
         addresses: set[Address] = set()
         checks: dict[int, RuleCheck] = {}
@@ -78,7 +87,23 @@ class Validator:
                 checks[check.place] = check
         self._check(addresses, checks.values())
         self._trials.changed(edited, (*addresses, *checks))
-        return self.findings()
+
+    def first_fix(self, wanted: Callable[[Finding], bool]) -> Finding | None:
+        """Return the first of the present ``findings`` that is ``wanted`` and has a fix; later fixes are not tried."""
+        too_many = self._trials.too_many(self._filed)
+        fixable = [
+            (order, place, finding)
+            for place, (order, finding) in self._filed.items()
+            if finding.fix and place not in too_many and wanted(finding)
+        ]
+        fixable.sort(key=lambda filed: filed[0])
+        suppressions, evaluation = self.own.suppressions, self.file.evaluation
+        suppressed = sort_out(tuple(finding for _, _, finding in fixable), suppressions, evaluation)[1]
+        left_alone = {id(one.finding) for one in suppressed}
+        for _, place, finding in fixable:
+            if id(finding) not in left_alone and self._trials.offered(place, finding, self._filed).fix:
+                return finding
+        return None
 
     def prepare_edits(self) -> None:
         """Work out now what the first update would wait for; another thread may do so."""

@@ -44,10 +44,10 @@ def campaign(seed: int, count: int) -> tuple[int, list[str]]:
     return tried, broken
 
 
-def spoil(file: ParameterFile, random: Random) -> None:
+def spoil(file: ParameterFile, random: Random, times: int | None = None) -> None:
     """Change a few values, or many: beside the present ones, at bounds, or to anything whatever."""
     addresses, much = file.addresses(), often(file.schema, file.machine)
-    for _ in range(random.choice([1, 1, 2, 3, 5, 10, 40, 150])):
+    for _ in range(times or random.choice([1, 1, 2, 3, 5, 10, 40, 150])):
         address = random.choice(
             [random.choice(addresses), random.choice(much), random.choice(list(file.values))]
         )

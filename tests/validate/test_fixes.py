@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+from random import Random
+
 import pytest
+from fix_campaign import spoil
 
 from amp_studio.files import ParameterFile
 from amp_studio.schema import Address, Rule, Suppression, Value
-from amp_studio.validate import BuilderRules, Finding, Validator, apply_all_safe, apply_fixes
+from amp_studio.validate import BuilderRules, Finding, Fixed, Validator, apply_all_safe, apply_fixes
 
 RAPID, CUTTING = ("feedrate.rapid", "1"), ("feedrate.max_cutting", "1")
 EXCESS, SUPPRESSION = ("servo.excess_error", "1"), ("servo.feedrate_suppression", "1")
@@ -268,3 +271,36 @@ def test_only_the_fixes_that_are_wanted_are_made(mill) -> None:
     (fixed,) = apply_fixes(validator, second)
     assert (fixed.change.address, fixed.change.old, fixed.change.new) == (CUTTING, mm(6000.0), mm(4000.0))
     assert findings_of(validator) == ["own.one"]
+
+
+# ------------------------------------------------------------------------------------ a badly damaged file
+
+
+def damaged(file: ParameterFile, seed: int, times: int) -> ParameterFile:
+    """Return a copy in which so many values were changed at random."""
+    copy = file.copy()
+    spoil(copy, Random(seed), times)
+    return copy
+
+
+@pytest.mark.parametrize("seed", [1, 2, 3])
+def test_fixes_made_together_are_those_of_a_full_check_before_each(machine, seed) -> None:
+    one, other, each = damaged(machine("lathe"), seed, 60), damaged(machine("lathe"), seed, 60), []
+    while finding := next((f for f in Validator(one).run() if f.fix), None):
+        changes = one.set_many({setting.address: setting.value for setting in finding.fix})
+        each += [Fixed(change, finding.rule) for change in changes]
+    validator = Validator(other)
+    validator.run()
+    assert each == apply_fixes(validator, lambda _: True) != []
+    assert list(map(repr, validator.findings())) == list(map(repr, Validator(one).run()))
+
+
+def test_a_fix_that_is_made_has_few_others_tried_again(mill, monkeypatch) -> None:
+    file, tried = damaged(mill, 2, 400), []
+    validator = Validator(file)
+    validator.run()
+    set_many = ParameterFile.set_many
+    monkeypatch.setattr(ParameterFile, "set_many", lambda *given: tried.append(given) or set_many(*given))
+    done = apply_fixes(validator, lambda _: True)
+    assert len(done) > 40
+    assert len(tried) < 3 * len(done), "a trial for each, and some of those that are not good"
