@@ -16,6 +16,7 @@ from typing import BinaryIO, Literal
 import amp_studio
 
 from .model import Report
+from .template_copy import copied_template
 from .templating import TemplateMistakeError
 
 _PATIENCE_S = 40.0
@@ -64,12 +65,13 @@ def made(what: What, report: Report, own: Path, ppi: int = 0) -> list[bytes]:
     from .page import render_html
     from .pdf import render_pdf, set_pages
 
-    if what == "html":
-        return [render_html(report, own)]
-    if what == "pdf":
-        return [render_pdf(report, own)]
-    found = set_pages(report, ppi, own)
-    return [found.source.encode("utf-8"), found.found_marks().encode("utf-8"), *found.pages]
+    with copied_template(own) as copy:
+        if what == "html":
+            return [render_html(report, copy)]
+        if what == "pdf":
+            return [render_pdf(report, copy)]
+        found = set_pages(report, ppi, copy)
+        return [found.source.encode("utf-8"), found.found_marks().encode("utf-8"), *found.pages]
 
 
 def answer(asked: BinaryIO, out: BinaryIO) -> None:

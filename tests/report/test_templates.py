@@ -82,6 +82,54 @@ def test_logo_colours_header_and_a_chapter_of_a_pdf(machine: Path, mill: Paramet
     assert "Home Calibration" in text
 
 
+@pytest.mark.parametrize("apart", [False, True], ids=["here", "apart"])
+@pytest.mark.parametrize(
+    ("ending", "template"),
+    [
+        ("html", EXTENDS_PAGE + '{% block chapters %}{% include "note.txt" %}{% endblock %}'),
+        ("pdf", EXTENDS_PDF + '{% block chapters %}\n#read("note.txt")\n{% endblock %}'),
+        ("pdf", EXTENDS_PDF + '{% block chapters %}\n#read("inside/note.txt")\n{% endblock %}'),
+    ],
+)
+def test_a_link_beside_a_template_is_not_followed(
+    machine: Path,
+    mill: ParameterFile,
+    ending: str,
+    template: str,
+    apart: bool,
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    if apart:
+        monkeypatch.undo()
+    secret = machine.parent / "private"
+    secret.mkdir()
+    (secret / "note.txt").write_text("a secret of the user")
+    (machine.parent / "templates" / "note.txt").symlink_to(secret / "note.txt")
+    (machine.parent / "templates" / "inside").symlink_to(secret, target_is_directory=True)
+    report, (note,) = printed(machine, mill, ending, template)
+    assert b"a secret of the user" not in report
+    assert "links are not followed: inside, note.txt" in note
+    assert "/private" not in note
+    assert "amp-studio-templates" not in note
+
+
+@pytest.mark.parametrize("what", ["file", "folder"])
+def test_a_template_that_is_a_link_is_refused(machine: Path, mill: ParameterFile, what: str) -> None:
+    elsewhere = machine.parent / "elsewhere"
+    elsewhere.mkdir()
+    (elsewhere / "report.html.j2").write_text("a secret of the user")
+    templates = machine.parent / "templates"
+    if what == "file":
+        (templates / "report.html.j2").symlink_to(elsewhere / "report.html.j2")
+    else:
+        templates.rmdir()
+        templates.symlink_to(elsewhere, target_is_directory=True)
+    notes: list[str] = []
+    write_report(mill, machine.parent / "out.html", SHORT, source=machine, notify=notes.append)
+    assert b"a secret of the user" not in (machine.parent / "out.html").read_bytes()
+    assert "links are not followed" in notes[0]
+
+
 @pytest.mark.parametrize(
     ("ending", "template", "said"),
     [
