@@ -10,7 +10,7 @@ import sys
 import time
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
-from itertools import cycle
+from itertools import count, cycle
 from pathlib import Path
 from random import Random
 from statistics import median
@@ -33,6 +33,7 @@ HALL = 1000
 FEW = 60
 DAMAGED = 800
 """Values of a file that are replaced by those of other parameters."""
+CAM_POINTS = 1900
 EDITED: Address = ("servo.excess_error", "1")
 """Many rules read it."""
 
@@ -47,6 +48,7 @@ def measures(folder: Path, full: Path, times: int) -> Iterator[Measure]:
     for name, path in (("9/PC", full), ("NUM", num)):
         yield from _edits(name, path, times)
     yield _fixes(full, times)
+    yield _cam(times)
     yield from _num_table(folder, num, times)
     yield from _peers(full, times)
     yield from _hall(folder, HALL if times > 1 else FEW, max(1, times // 5))
@@ -119,6 +121,23 @@ def _fixes(full: Path, times: int) -> Measure:
     done = len(apply_fixes(next(left), lambda _: True))
     seconds = timed(lambda: apply_fixes(next(left), lambda _: True), times)
     return Measure(f"every fix, {done} values, of a badly damaged 9/PC file", seconds, 1.0)
+
+
+def _cam(times: int) -> Measure:
+    """Return what one edit costs of a point of a long cam."""
+    file = open_file(examples_folder() / "57c422b-label-press/LABEL_PRESS.amp").file
+    file.set(("cam.mode", "X"), Value(1))
+    file.set(("cam.points", "X"), Value(CAM_POINTS))
+    for n in range(CAM_POINTS):
+        file.set(("cam.time_points", f"X.{n}"), Value(n % 50 * 3 - 60, "counts"))
+    validator, point, numbers = Validator(file), ("cam.time_points", "X.1000"), count(100)
+    validator.run()
+
+    def edit() -> None:
+        file.set(point, Value(next(numbers), "counts"))
+        validator.update([point])
+
+    return Measure(f"one edit of a cam of {CAM_POINTS} points", timed(edit, 4 * times), 0.005)
 
 
 def _num_table(folder: Path, num: Path, times: int) -> Iterator[Measure]:

@@ -55,6 +55,8 @@ def key_of(value: Value | None) -> Key:
 def value_of(key: Key) -> Canonical | list[Canonical]:
     """Return the value that has a key."""
     if key.__class__ is tuple:
+        if _TRUE not in key and _FALSE not in key:
+            return list(key)  # thousands of a table
         return [value_of(one) for one in key]  # type: ignore[misc]
     return key is _TRUE if key is _TRUE or key is _FALSE else key  # type: ignore[return-value]
 

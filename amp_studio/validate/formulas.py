@@ -43,6 +43,21 @@ def _round(a: float, digits: float) -> float:
     return round(a, int(digits))
 
 
+# CEL copies what filter() found so far with each value it finds: to count those of a table takes the square of its length.
+
+
+def _count_set(values: list[Any]) -> float:
+    return float(len(values) - values.count(None))
+
+
+def _count_below(values: list[Any], limit: float) -> float:
+    return float(sum(value is not None and value < limit for value in values))
+
+
+def _count_above(values: list[Any], limit: float) -> float:
+    return float(sum(value is not None and value > limit for value in values))
+
+
 GENERAL: dict[str, Callable[..., Any]] = {
     "mod": _mod,
     "floor": _floor,
@@ -51,6 +66,9 @@ GENERAL: dict[str, Callable[..., Any]] = {
     "round": _round,
     "min": _min,
     "max": _max,
+    "count_set": _count_set,
+    "count_below": _count_below,
+    "count_above": _count_above,
     **WORD_FUNCTIONS,
 }
 

@@ -7,10 +7,13 @@ import sys
 from pathlib import Path
 
 import pytest
+from rule_machines import FAMILIES
 
 from amp_studio.files import ParameterFile
-from amp_studio.schema import Value
+from amp_studio.schema import Value, load_schema
 from amp_studio.validate import Finding, Validator, explain, read_builder_rules, rule_file, trial
+from amp_studio.validate.formulas import GENERAL
+from amp_studio.validate.plan import make_plan
 from amp_studio.validate.rule_file import MOST_FAULTS
 
 
@@ -164,3 +167,28 @@ def test_the_work_grows_with_the_number_of_rules_and_not_with_its_square(mill, p
 
     calls(10)
     assert calls(400) < 5 * calls(100), "four times as many take four times as much, not sixteen"
+
+
+@pytest.mark.parametrize("family", FAMILIES)
+def test_no_rule_filters_a_table_of_thousands(family: str) -> None:
+    """The engine copies what ``filter`` and ``map`` have so far for each value: count_set() and the like do not."""
+    schema = load_schema(family)
+    slow = {
+        check.rule.id
+        for machine in schema.machines
+        for check in make_plan(schema, machine).checks
+        if any(len(listed.addresses) > 200 for _, listed in check.lists)
+        and any(
+            word in text
+            for text in (check.rule.when, check.rule.check, *check.rule.values.values())
+            for word in (".filter(", ".map(")
+        )
+    }
+    assert slow == set()
+
+
+def test_values_of_a_list_are_counted_without_those_that_are_not_set() -> None:
+    values = [3.0, None, -1.0, 3.0, 0.0]
+    assert GENERAL["count_set"](values) == 4.0
+    assert (GENERAL["count_below"](values, 3.0), GENERAL["count_above"](values, 0.0)) == (2.0, 2.0)
+    assert GENERAL["count_set"]([]) == 0.0
