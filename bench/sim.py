@@ -25,7 +25,7 @@ from amp_studio.sim import AxisLaw, Machine, Ramp
 from amp_studio.sim import kernel as shared
 from amp_studio.sim.arrays import Vector
 from amp_studio.sim.compiled import compiled
-from amp_studio.sim.machine import machine_array
+from amp_studio.sim.machine import DELAY_SHARE, machine_array
 from amp_studio.sim.motion import Until, prepared, run_axis, steps
 from amp_studio.sim.ramps import end_of, move
 from amp_studio.sim.signals import COMMAND, COMMAND_VELOCITY, MOTOR, OUTPUT, POSITION
@@ -151,14 +151,16 @@ def _in_c(folder: Path, shape: tuple[int, int]) -> tuple[Rows, _Call] | None:
     program = ctypes.CDLL(str(library)).run
     samples, substeps = steps(AXIS)
     step = AXIS.servo_period / samples / substeps
-    arrays = [np.array(each) for each in (AXIS.parameters, machine_array(AXIS.machine, step), PROFILE)]
+    part = machine_array(AXIS.machine, step)[DELAY_SHARE] * step
+    machines = [machine_array(AXIS.machine, span) for span in (step, part, step - part)]
+    arrays = [np.array(each) for each in (AXIS.parameters, *machines, PROFILE)]
     rows = np.empty((shape[0], len(shared.COLUMNS)))
     pointers = [each.ctypes.data_as(ctypes.c_void_p) for each in (*arrays, rows)]
     whole = [ctypes.c_long(each) for each in (samples, substeps, STRIDE, shape[0])]
     program.restype = ctypes.c_long
 
     def call() -> int:
-        return int(program(*pointers[:3], ctypes.c_double(AXIS.servo_period), *whole, pointers[3]))
+        return int(program(*pointers[:5], ctypes.c_double(AXIS.servo_period), *whole, pointers[5]))
 
     return rows, call
 

@@ -60,7 +60,7 @@ def compiled(position_sample: Sample, velocity_sample: Sample | None) -> Run:
     run = _copy(kernel.run, called)
     run.__qualname__ = run.__name__ = kernel_name(position_sample, velocity_sample)
     vector = numba.float64[::1]
-    signature = numba.int64(*[vector] * 9, numba.float64[:, ::1])
+    signature = numba.int64(*[vector] * 11, numba.float64[:, ::1])
     try:
         found = cast(Run, numba.njit(signature, cache=True, **OPTIONS)(run))
     except RuntimeError:  # no folder can be written in which it would be found again

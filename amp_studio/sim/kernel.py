@@ -119,6 +119,8 @@ def run(
     s: Vector,
     io: Vector,
     m: Vector,
+    before: Vector,
+    after: Vector,
     x: Vector,
     line: Vector,
     timing: Vector,
@@ -128,15 +130,15 @@ def run(
 ) -> int:
     """Run the axis until the command is over and the axis at rest, an alarm, or all rows are filled; return the rows.
 
-    ``p``, ``s`` parameters and state of the law, ``io`` the signals, ``m`` the machine, ``x`` the state of run and plant, ``line``
-    the delay line, ``timing`` and ``profile`` as their indices say, ``push`` the torque on the load at each servo sample (as many as there are);
+    ``p``, ``s`` parameters and state of the law, ``io`` the signals, ``m`` the machine over a physics step, ``before`` and ``after``
+    over its two parts where a delayed output arrives in it, ``x`` the state of run and plant, ``line`` the delay line, ``timing`` and ``profile`` as their indices say, ``push`` the torque on the load at each servo sample (as many as there are);
     all but p, timing, profile and push are changed.
     """
     period, h = timing[SERVO_PERIOD], timing[STEP]
     samples, substeps, stride = int(timing[VELOCITY_SAMPLES]), int(timing[SUBSTEPS]), int(timing[STRIDE])
     monitors = int(timing[MONITORS])
     delay, part, slot = int(m[DELAY_STEPS]), m[DELAY_SHARE], 0
-    late = delay > 0 or part > 0.0
+    late, arrives = delay > 0 or part > 0.0, part * h
     on_load = m[LOAD_SENSOR] == 1.0
     motor_position, motor, load_position = x[PLANT], x[PLANT + 1], x[PLANT + 2]
     load, torque, error_sum, against = x[PLANT + 3], x[PLANT + 4], x[PLANT + 5], x[PLANT + 6]
@@ -151,6 +153,7 @@ def run(
         if pushed > 0:
             now, later = min(sample, pushed - 1), min(sample + 1, pushed - 1)
             m[GRAVITY] = weight - 0.5 * (push[now] + push[later])
+            before[GRAVITY] = after[GRAVITY] = m[GRAVITY]
         piece = piece_at(profile, piece, moment)
         begun = moment
         command(profile, piece, begun, io)
@@ -227,13 +230,38 @@ def run(
                     io[COMMAND_VELOCITY] = velocity = share = 0.0
                     most = rows.shape[0]
                     brake(m)
+                    brake(before)
+                    brake(after)
                 since += 1
-                held = output
+                held, machine, span = output, m, h
                 if late:
-                    held = delayed(line, slot, delay, part, output)
+                    older, held = delayed(line, slot, delay, output)
                     slot = slot + 1 if slot + 1 < len(line) else 0
+                    if part > 0.0 and older != held:  # it arrives inside of the step, which is cut there
+                        motor_position, motor, load_position, load, torque, error_sum, against = advance(
+                            before,
+                            motor_position,
+                            motor,
+                            load_position,
+                            load,
+                            torque,
+                            error_sum,
+                            against,
+                            older,
+                            arrives,
+                        )
+                        machine, span = after, h - arrives
                 motor_position, motor, load_position, load, torque, error_sum, against = advance(
-                    m, motor_position, motor, load_position, load, torque, error_sum, against, held, h
+                    machine,
+                    motor_position,
+                    motor,
+                    load_position,
+                    load,
+                    torque,
+                    error_sum,
+                    against,
+                    held,
+                    span,
                 )
         if not abs(motor_position) < BOUNDLESS:
             io[STOP] = DIVERGED

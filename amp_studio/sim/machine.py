@@ -173,6 +173,9 @@ GIVEN_BACK, TORQUE_OF_CHANGE, HALF_CHANGE = 37, 38, 39
 step for one unit of torque."""
 SIZE = 40
 
+WHOLE = 1e-9
+"""A delay that is so near to a whole number of physics steps is one."""
+
 
 def machine_array(machine: Machine, step: float) -> list[float]:
     """Return the figures as the plant uses them with physics steps of ``step`` s; indices as above."""
@@ -194,8 +197,9 @@ def machine_array(machine: Machine, step: float) -> list[float]:
     if machine.bandwidth > 0.0:
         lag = 2.0 * math.pi * machine.bandwidth * step
         m[LAG], m[LAG_MEAN] = math.exp(-lag), -math.expm1(-lag) / lag
-    m[DELAY_STEPS] = math.floor(machine.delay / step + 1e-9)
-    m[DELAY_SHARE] = max(0.0, machine.delay / step - m[DELAY_STEPS])
+    m[DELAY_STEPS] = math.floor(machine.delay / step + WHOLE)
+    share = machine.delay / step - m[DELAY_STEPS]
+    m[DELAY_SHARE] = share if share > WHOLE else 0.0
     m[OUTPUT_LIMIT] = machine.output_limit
     m[TORQUE_POSITIVE], m[TORQUE_NEGATIVE] = machine.torque_limit_positive, machine.torque_limit_negative
     if machine.velocity_per_output == 0.0:

@@ -13,11 +13,11 @@ from . import kernel
 from .compiled import PLAIN_STEPS, compiled, is_loaded, jit_is_off, plain
 from .errors import SimulationError
 from .law import AxisLaw
-from .machine import DELAY_STEPS, machine_array
+from .machine import DELAY_SHARE, DELAY_STEPS, machine_array
 from .ramps import end_of
 from .signals import DIVERGED, FEED_SHARE, MODE, MONITOR, POSITION_LOOP, STOP
 
-IO, STATE, TIMING = 2, 4, 6
+IO, STATE, TIMING = 2, 6, 8
 """Places of vectors that `prepared` returns."""
 Engine = Literal["auto", "plain", "compiled"]
 
@@ -147,11 +147,15 @@ def prepared(
     io[FEED_SHARE], io[MODE] = 1.0, POSITION_LOOP
     x[kernel.ENDED] = x[kernel.ALARM_ROW] = -1.0
     machine = machine_array(axis.machine, step)
+    part = machine[DELAY_SHARE] * step
+    before, after = (
+        machine_array(axis.machine, span if part > 0.0 else step) for span in (part, step - part)
+    )
     line = [0.0] * (int(machine[DELAY_STEPS]) + 2)
     parameters, state = [float(each) for each in axis.parameters], [0.0] * axis.state_size
     rows = np.empty((driven + math.ceil(coast / step / stride), len(kernel.COLUMNS) + len(axis.monitors)))
     push = [float(each) for each in axis.push]
-    return [parameters, state, io, machine, x, line, timing, profile, push], rows
+    return [parameters, state, io, machine, before, after, x, line, timing, profile, push], rows
 
 
 def steps(axis: AxisLaw, refine: int = 1) -> tuple[int, int]:

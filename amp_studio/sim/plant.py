@@ -47,11 +47,10 @@ PlantState = tuple[float, float, float, float, float, float, float]
 loop the integral of the velocity error (u) and the torque of friction and load in the last step."""
 
 
-def delayed(line: Vector, slot: int, steps: int, share: float, output: float) -> float:
-    """Return the output that reaches the drive in this step; the mean where a step sees two of them.
+def delayed(line: Vector, slot: int, steps: int, output: float) -> tuple[float, float]:
+    """Return the outputs at the drive at the start of this step and at its end.
 
-    ``line`` are the outputs of the last steps, ``slot`` the place of this one; the delay is ``steps`` physics steps and a
-    ``share`` of one more.
+    ``line`` are the outputs of the last steps, ``slot`` the place of this one; the delay is ``steps`` physics steps, or a share of one more.
     """
     line[slot] = output
     newer = slot - steps
@@ -60,7 +59,7 @@ def delayed(line: Vector, slot: int, steps: int, share: float, output: float) ->
     older = newer - 1
     if older < 0:
         older += len(line)
-    return (1.0 - share) * line[newer] + share * line[older]
+    return line[older], line[newer]
 
 
 def wanted_torque(
