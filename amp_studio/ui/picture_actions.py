@@ -3,10 +3,8 @@
 from __future__ import annotations
 
 import sys
-import threading
 from dataclasses import replace
 from functools import partial
-from importlib import import_module
 from pathlib import Path
 
 from PySide6.QtCore import QObject, QTimer
@@ -17,6 +15,7 @@ from amp_studio.pictures import scene_svg
 from amp_studio.schema import Address
 
 from .file_page import FilePage
+from .loading import load_beside
 from .picture_split import Arrangement, PictureLayout
 from .pictures_page import PicturesPage
 from .studio_window import StudioWindow
@@ -25,12 +24,6 @@ KEY = "F12"
 RAMPS = "amp_studio.pictures.ramps"
 LOAD_MS = 1500
 """Milliseconds after a file came to the front until what ramps need is loaded, beside the window."""
-
-
-def _load_early() -> None:
-    """Load the simulator's pieces, which take a fifth of a second, before somebody asks for pictures."""
-    if RAMPS not in sys.modules:
-        threading.Thread(target=import_module, args=(RAMPS,), daemon=True).start()
 
 
 class PictureActions(QObject):
@@ -54,7 +47,7 @@ class PictureActions(QObject):
         page, layout = self.window.page, self.window.settings.pictures()
         if page is None:
             return
-        _load_early()
+        load_beside(RAMPS)  # the simulator's pieces take a fifth of a second
         wants = layout.is_shown and page.pictures is None
         page.middle.arrange(layout)
         if wants and page.middle.arrangement != "instead":

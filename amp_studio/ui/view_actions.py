@@ -14,6 +14,7 @@ from amp_studio.schema import Value
 from amp_studio.schema.registration import why_not_simulated
 
 from .file_page import FilePage
+from .loading import load
 from .studio_window import StudioWindow
 from .task import in_background
 from .translated import Translated, tr
@@ -201,6 +202,7 @@ class ViewActions(Translated):
 
 def _motion_view(file: ParameterFile) -> type[MotionView]:
     """Load the view with the plots, and the simulator with what it knows of the family of a file. For a thread."""
+    load("amp_studio.sim", f"{__package__}.motion_view")
     from amp_studio.sim.listing import listing
 
     from .motion_view import MotionView

@@ -1,0 +1,49 @@
+"""What is loaded beside the window is loaded by one thread at a time."""
+
+from __future__ import annotations
+
+import sys
+import threading
+from pathlib import Path
+
+import pytest
+
+from amp_studio.ui import loading
+
+
+def test_a_thread_begins_to_load_when_the_other_has_loaded(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """F9 within two seconds of opening: two threads inside of one package got a module that was not ready."""
+    gate = type(sys)("gate_of_the_test")
+    entered, go = threading.Event(), threading.Event()
+    vars(gate).update(entered=entered, go=go)
+    monkeypatch.setitem(sys.modules, "gate_of_the_test", gate)
+    (tmp_path / "slow_part.py").write_text(
+        "from gate_of_the_test import entered, go\nentered.set()\ngo.wait()\n"
+    )
+    (tmp_path / "quick_part.py").write_text("")
+    monkeypatch.syspath_prepend(tmp_path)
+    loading.load_beside("slow_part")
+    entered.wait()
+    second = threading.Thread(target=loading.load, args=("quick_part",))
+    second.start()
+    second.join(0.0)
+    assert "quick_part" not in sys.modules
+    assert loading._LOADING.locked()
+    go.set()
+    second.join()
+    assert "quick_part" in sys.modules
+    assert "slow_part" in sys.modules
+    for name in ("slow_part", "quick_part"):
+        del sys.modules[name]
+
+
+def test_the_window_loads_in_threads_by_that_loader_alone() -> None:
+    folder = Path(loading.__file__).parent
+    others = [
+        path.name
+        for path in folder.glob("*.py")
+        if "target=import_module" in path.read_text(encoding="utf-8")
+    ]
+    assert others == []
