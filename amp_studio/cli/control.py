@@ -123,13 +123,19 @@ def _note_errors(file: ParameterFile, path: Path) -> str:
 
 
 def _print_outcome(outcome: Outcome) -> int:
-    """Print how an exchange ended and return the exit code; where nobody reads it, that is no full success."""
+    """Print how an exchange ended and return the exit code; where it cannot be printed, that is no full success.
+
+    A reader that has gone wanted no more: the exchange is as complete as it was.
+    """
     code = 0 if outcome.verified else AT_CONTROL[outcome.at_control]
     try:  # a terminal takes each line at once, and may be gone
         print(outcome.text)
         if outcome.verified:
             print(f"sha256 {outcome.sha256}")
         flush_results()
+    except BrokenPipeError:
+        end_results()
+        note(f"amp-studio: nobody reads the results any more; {outcome.text}")
     except (OSError, ValueError):
         end_results()
         note(f"amp-studio: the result cannot be printed; {outcome.text}")

@@ -1,4 +1,7 @@
-"""What a verb that failed or was stopped has changed anyway: found by a look at the disk, not by memory."""
+"""What a verb that failed or was stopped has changed anyway: found by a look at the disk.
+
+Memory decides only where the disk cannot be asked.
+"""
 
 from __future__ import annotations
 
@@ -26,14 +29,22 @@ class Target(NamedTuple):
         now = _mark(self.path)
         if now == self.mark:
             return ""
-        if isinstance(now, str):
-            return f"{self.path} cannot be examined ({now}): it may have been changed"
+        if isinstance(now, str) or isinstance(self.mark, str):
+            return self._remembered()
         if now is None:
             return f"{self.path} is no longer there"
         if self.mark is None:
+            if now[2] == 0:
+                return f"{self.path} has been made and is empty: remove it"
             return f"{self.path} has been written and is complete"
         kept = f"; its previous content is in {self.backup}" if _mark(self.backup) != self.backup_mark else ""
         return f"{self.path} has been changed and contains the new content{kept}"
+
+    def _remembered(self) -> str:
+        """Return what is true now where the disk could not be asked before or cannot be now."""
+        from amp_studio.files import was_replaced
+
+        return f"{self.path} has been written, and cannot be examined" if was_replaced(self.path) else ""
 
 
 def targets(paths: Sequence[Path]) -> list[Target]:

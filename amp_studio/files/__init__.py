@@ -10,7 +10,7 @@ What this page loads when it is first asked for is needed to change files, not t
 from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
-from .atomic import ChangedOnDiskError, Notify, SaveError, check_output, digest_of, write_atomic
+from .atomic import ChangedOnDiskError, Notify, SaveError, check_output, digest_of, was_replaced, write_atomic
 from .parameter_file import (
     Change,
     Header,
@@ -185,6 +185,7 @@ __all__ = [
     "swap_axes",
     "text_of_name",
     "unlike_axes",
+    "was_replaced",
     "why_axes_are_fixed",
     "why_letters_are_fixed",
     "why_types_are_fixed",

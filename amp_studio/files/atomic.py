@@ -103,12 +103,31 @@ def write_atomic(
         if kept is not None:
             stack.enter_context(_put_back_unless_saved(kept, temporary))
             os.replace(kept_temporary, kept)
-        os.replace(temporary, real)
+        _replace(temporary, real, path)
     with contextlib.suppress(OSError):  # the file is the new one already: a fault here is not one of the save
         sync_folder(real.parent)
     for message in notes:
         notify(f"{path.name}: {message}")
     return digest(made)
+
+
+_replaced: set[Path] = set()
+
+
+def was_replaced(path: Path) -> bool:
+    """Return whether this process has written a file, for where the disk cannot be asked."""
+    return path.absolute() in _replaced
+
+
+def _replace(temporary: Path, real: Path, path: Path) -> None:
+    """Rename over a file, which counts as written before that: an interrupt may come in between."""
+    names = {real.absolute(), path.absolute()} - _replaced
+    _replaced.update(names)
+    try:
+        os.replace(temporary, real)
+    except OSError:
+        _replaced.difference_update(names)
+        raise
 
 
 _CHANGED = "has been changed by another program since it was opened"

@@ -112,6 +112,39 @@ def test_it_can_be_stopped_at_any_moment_and_says_what_holds(mill: Path) -> None
     assert set_while_stopped(mill, seed=1, rounds=12) == []
 
 
+@pytest.mark.parametrize("first", [1, 2])
+def test_a_file_that_cannot_be_examined_was_not_changed_by_a_verb_that_wrote_nothing(
+    amp, mill: Path, monkeypatch, first: int
+) -> None:
+    stat, asked = Path.stat, []
+
+    def failing(path: Path, **how: bool) -> os.stat_result:
+        asked.append(path) if path == mill else None
+        if path == mill and len(asked) >= first:
+            raise PermissionError(13, "Permission denied", str(path))
+        return stat(path, **how)
+
+    monkeypatch.setattr(Path, "stat", failing)
+    said = amp("set", mill, "1300=1")
+    assert (said.code, "Permission denied" in said.err, "may have been" in said.err) == (2, True, False)
+
+
+def test_a_file_that_was_written_is_said_to_be_where_it_cannot_be_examined(
+    amp, mill: Path, monkeypatch
+) -> None:
+    stat = Path.stat
+
+    def failing(path: Path, **how: bool) -> os.stat_result:
+        if path == mill and b"1.75 mm" in mill.read_bytes():
+            raise PermissionError(13, "Permission denied", str(path))
+        return stat(path, **how)
+
+    monkeypatch.setattr(Path, "stat", failing)
+    monkeypatch.setattr("amp_studio.cli.program.flush_results", lambda: os.write(-1, b""))
+    said = amp("set", mill, "1300=1.75")
+    assert (said.code, f"{mill} has been written, and cannot be examined" in said.err) == (3, True)
+
+
 def test_an_interrupt_that_an_expression_has_swallowed_is_not_forgotten(amp, mill: Path, monkeypatch) -> None:
     def swallow(_: object) -> int:
         monkeypatch.setattr(stopping, "_asked", [signal.SIGINT])

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import signal
 import subprocess
 import sys
@@ -83,6 +84,28 @@ def test_the_result_of_a_download_that_cannot_be_printed_is_told_and_is_no_full_
         done = subprocess.run(command, stdout=full, stderr=subprocess.PIPE, text=True, check=False)
     assert done.returncode == 3
     assert "the result cannot be printed; Download complete and read back equal" in done.stderr
+
+
+def test_a_restore_is_complete_where_nobody_reads_its_result(mill: Path, tmp_path: Path) -> None:
+    reading, writing = os.pipe()
+    os.close(reading)
+    with campaign.emulated(tmp_path / "control") as (_, address):
+        first = campaign._command("download", mill, "--to", address, "--accept-errors")
+        subprocess.run(first, check=True, capture_output=True)
+        image = tmp_path / "held.img"
+        subprocess.run(
+            campaign._command("upload", "--from", address, "-o", image), check=True, capture_output=True
+        )
+        subprocess.run(campaign._command("set", mill, "1300=2.5"), check=True, capture_output=True)
+        subprocess.run(first, check=True, capture_output=True)
+        restore = campaign._command("restore", image, "--to", address)
+        assert subprocess.run(restore, stdout=writing, stderr=writing, check=False).returncode == 0
+        again = tmp_path / "again.img"
+        subprocess.run(
+            campaign._command("upload", "--from", address, "-o", again), check=True, capture_output=True
+        )
+    os.close(writing)
+    assert again.read_bytes() == image.read_bytes()
 
 
 def _start(*arguments: object) -> subprocess.Popen[str]:

@@ -88,6 +88,15 @@ PAIR(symlink)
 ONE(unlink)
 ONE(rmdir)
 
+#define LOOK(name)                                                                         \
+    int name(const char *path, struct stat64 *found) {                                     \
+        return fails(inside(path), #name) ? -1 : REAL(int, name, const char *, struct stat64 *)(path, found); \
+    }
+LOOK(stat64)
+LOOK(lstat64)
+#define CALL_fstat64 REAL(int, fstat64, int, struct stat64 *)(fd, found)
+HANDLE(int, fstat64, 0, struct stat64 *found)
+
 int chmod(const char *path, mode_t mode) {
     return fails(inside(path), "chmod") ? -1 : REAL(int, chmod, const char *, mode_t)(path, mode);
 }

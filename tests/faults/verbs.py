@@ -149,6 +149,8 @@ def _violations(
         yield f"{target} is neither the old nor the new one"
     if code == 2 and changed:
         yield f"exit 2, and {target} was changed: {said}"
+    if code == 3 and before == after:
+        yield f"exit 3, and nothing was changed: {said}"
     if code in (0, 1) and not changed:
         yield f"exit {code}, and {target} was not changed"
     if code not in (0, 1, 2, 3):

@@ -87,9 +87,9 @@ def save_image(image: bytes, path: Path) -> None:
     """Write an image and its digest under a name that nothing has; raises FileExistsError, OSError."""
     beside = digest_path(path)
     _need_free(beside)
-    with path.open("xb"):  # from here on the name is ours
-        pass
+    handle = os.open(path, os.O_WRONLY | os.O_CREAT | os.O_EXCL)  # from here on the name is ours
     try:
+        os.close(handle)
         write_atomic(path, image, keep_backup=False)
         line = f"{hashlib.sha256(image).hexdigest()}  {path.name}\n"
         write_atomic(beside, line.encode(errors="surrogateescape"), expected=None, keep_backup=False)

@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Callable
 from dataclasses import dataclass, field, replace
+from pathlib import Path
 from typing import Any, Literal
 from urllib.parse import parse_qsl, quote
 
@@ -87,7 +88,7 @@ def parse_endpoint(text: str) -> Endpoint:
             return _network(text, kind)
     if text.startswith("serial:"):
         return _serial(text, text.removeprefix("serial:"))
-    if text.startswith("/dev/") or re.match(r"com\d+(\?|$)", text, re.IGNORECASE):
+    if _is_device(text) or re.match(r"com\d+(\?|$)", text, re.IGNORECASE):
         return _serial(text, text)
     if text.partition("?")[0] == "pty:":
         return Endpoint("pty", **_options(text, "a pseudo terminal", ("protocol",)))
@@ -96,7 +97,18 @@ def parse_endpoint(text: str) -> Endpoint:
 
 def is_endpoint(text: str) -> bool:
     """Whether a person means a control and not a file."""
-    return "://" in text or re.match(r"serial:|pty:|/dev/|com\d+(\?|$)", text, re.IGNORECASE) is not None
+    return (
+        "://" in text
+        or _is_device(text)
+        or re.match(r"serial:|pty:|com\d+(\?|$)", text, re.IGNORECASE) is not None
+    )
+
+
+def _is_device(text: str) -> bool:
+    """Whether a text names a device, there or not; a file below /dev is a file (/dev/shm is a disk in memory)."""
+    return (
+        text.startswith("/dev/") and not Path(text).is_file() and not Path(text.partition("?")[0]).is_file()
+    )
 
 
 def _network(text: str, kind: str) -> Endpoint:

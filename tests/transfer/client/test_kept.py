@@ -185,3 +185,18 @@ def test_a_pipe_a_folder_and_an_endless_device_are_no_copy(tmp_path: Path) -> No
     for name in ("pipe.img", "folder.img", "zero.img"):
         with pytest.raises(CopyError, match="cannot be read: Is a "):
             open_copy(tmp_path / name)
+
+
+def test_an_image_that_cannot_be_written_leaves_no_empty_file(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def close(handle: int) -> None:
+        shut(handle)
+        raise OSError(5, "Input/output error")
+
+    shut = os.close
+    monkeypatch.setattr(os, "close", close)
+    with pytest.raises(OSError, match="Input/output error"):
+        save_image(GARBAGE, tmp_path / "new.img")
+    monkeypatch.undo()
+    assert list(tmp_path.iterdir()) == []

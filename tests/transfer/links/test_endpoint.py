@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+import tempfile
+from pathlib import Path
+
 import pytest
 
 from amp_studio.transfer.client.drivers import open_driver
-from amp_studio.transfer.links.endpoint import Endpoint, parse_endpoint
+from amp_studio.transfer.links.endpoint import Endpoint, is_endpoint, parse_endpoint
 from amp_studio.transfer.links.serial_settings import SerialSettings
 
 
@@ -116,3 +119,13 @@ def test_what_a_person_leaves_open_is_set_by_whoever_speaks_on_the_line() -> Non
 def test_a_line_that_does_not_pass_every_byte_is_refused_before_it_is_opened(options: str) -> None:
     with pytest.raises(ValueError, match="the house protocol needs 8 data bits and no XON/XOFF"):
         open_driver(f"serial:/dev/no-such-port?{options}")
+
+
+@pytest.mark.skipif(not Path("/dev/shm").is_dir(), reason="a disk in memory below /dev is one of Linux")
+def test_a_file_below_dev_is_a_file_and_no_control() -> None:
+    with tempfile.NamedTemporaryFile(dir="/dev/shm", suffix=".amp") as file:
+        assert not is_endpoint(file.name)
+        with pytest.raises(ValueError, match="is no address of a control"):
+            parse_endpoint(file.name)
+    assert is_endpoint(file.name), "a device may be plugged in later"
+    assert is_endpoint("/dev/ttyUSB0?baud=9600")
