@@ -13,6 +13,7 @@ from dataclasses import dataclass
 from typing import ClassVar, Protocol, runtime_checkable
 
 from .content import ContentKind
+from .errors import TransferError
 from .links.endpoint import Endpoint
 from .progress import Progress, quiet
 
@@ -25,12 +26,20 @@ class Abilities:
     ``remembers``       it knows by itself what the control has contained before, and takes that back whatever it is
     ``all_or_nothing``  a download that breaks off leaves the old content or the new one, never some of both
     ``maps_numbers``    a file of another schema of the family is sent as well: each parameter by its number
+    ``lasting_states``  the states, in the control's own words, in which a write lasts; in any other its driver refuses before
+                        anything is written. Empty where the protocol names no states that a write depends on
     """
 
     can_send: bool = True
     remembers: bool = False
     all_or_nothing: bool = True
     maps_numbers: bool = False
+    lasting_states: tuple[str, ...] = ()
+
+    def check_lasts(self, state: str, why: str) -> None:
+        """Refuse a state in which a write does not last, before anything is written; ``why`` is the reason and what to do."""
+        if state not in self.lasting_states:
+            raise TransferError(f"the control is in the state {state[:20]}: {why}")
 
 
 @dataclass(frozen=True)

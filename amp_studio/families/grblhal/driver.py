@@ -9,7 +9,6 @@ import time
 from collections.abc import Callable, Iterator
 from typing import ClassVar
 
-from amp_studio.schema.visible import visible
 from amp_studio.transfer.driver import Abilities, ControlIdentity, NeverRestarts, Receipt
 from amp_studio.transfer.errors import (
     CancelledError,
@@ -33,6 +32,7 @@ from .kind import FAMILY, GrblContentKind, described
 from .line import GrblLine, GrblRefusalError, GrblRestartedError
 from .reading import read_control, read_identity
 from .refusals import refusal_text
+from .states import LASTING, state_text
 from .writing import Writing
 
 PROTOCOL = "grbl"
@@ -40,8 +40,6 @@ SETTLE = 0.3  # seconds between the last answer and the reading back: the memory
 # before the next command is executed (protocol.c ``protocol_execute_realtime``)
 RECONNECT = 10.0  # seconds in which a cut line is tried again to read what the control contains
 PAUSE = 0.15  # seconds between two tries
-RESTING = ("Idle", "Alarm", "Check")
-"""States in which settings are taken (system.c ``system_execute_line``)."""
 
 
 class GrblDriver(GrblContentKind, NeverRestarts):
@@ -50,7 +48,8 @@ class GrblDriver(GrblContentKind, NeverRestarts):
     It never makes a control restart: some builds do not take a setting afterwards.
     """
 
-    abilities = Abilities(can_send=True, all_or_nothing=False, maps_numbers=True)
+    # In check mode settings are answered "ok" and kept in RAM only (protocol.c ``protocol_execute_realtime``).
+    abilities = Abilities(can_send=True, all_or_nothing=False, maps_numbers=True, lasting_states=LASTING)
     takes_live_values: ClassVar[bool] = True
 
     def __init__(
@@ -185,10 +184,7 @@ class GrblDriver(GrblContentKind, NeverRestarts):
     def _check_rest(self, line: GrblLine, writing: Writing) -> None:
         """Refuse what the state of the control does not allow, before anything is sent."""
         state = line.state()
-        if state not in RESTING:
-            raise TransferError(
-                f"the control is in the state {visible(state[:20])}, in which it takes no settings: bring it to rest first"
-            )
+        self.abilities.check_lasts(state, state_text(state))
         if state != "Idle" and writing.others:
             raise TransferError(
                 "the control is locked, and takes no offsets and start-up lines: unlock it ($X) or home it ($H) first"

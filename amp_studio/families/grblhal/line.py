@@ -19,10 +19,13 @@ from amp_studio.transfer.errors import (
     ControlSilentError,
     NoConnectionError,
     ProtocolMismatchError,
+    TransferError,
 )
 from amp_studio.transfer.links.link import LinkError
 from amp_studio.transfer.progress import Progress, quiet
 from amp_studio.transfer.waiting import OpenLink, Waiting
+
+from .states import SUSPENDED, state_in, state_text
 
 ERASE = b"\x7f" * 260 + b"$AMP\n"
 """More DEL than a line of the firmware is long, and a command that it refuses: its error is the answer to this and not to what
@@ -59,6 +62,13 @@ class GrblRefusalError(Exception):
 
 class GrblRestartedError(OSError):
     """The control has restarted while an answer was waited for."""
+
+
+class ControlSuspendedError(TransferError):
+    """The control reads no line until a person goes on at the machine."""
+
+    def __init__(self, state: str) -> None:
+        super().__init__(f"the control is in the state {state}: {state_text(state)}")
 
 
 class GrblLine:
@@ -160,7 +170,7 @@ class GrblLine:
             line = self._line(ANSWER)
             if line.startswith("<"):
                 self._waiting.heard()
-                return re.split(r"[|:>]", line[1:])[0]
+                return state_in(line)
             if _GREETING.match(line):
                 raise GrblRestartedError("the control has restarted meanwhile")
             self._is_pushed(line)
@@ -173,9 +183,11 @@ class GrblLine:
         sent, sent_at, refused = 0, -AGAIN, 0
         while not refused:
             if self._clock() - sent_at >= AGAIN:
-                self._link.write(ERASE)
+                self._link.write(b"?" + ERASE)  # the state is reported at once, even where no line is read
                 sent, sent_at = sent + 1, self._clock()
             line = self._next(AGAIN, sent_at)
+            if line is not None and (state := state_in(line)) in SUSPENDED:
+                raise ControlSuspendedError(state)
             refused += line is not None and self._is_refusal(line)
         quiet_since = self._clock()
         while self._clock() - quiet_since < QUIET:
@@ -217,6 +229,8 @@ class GrblLine:
 
     def _take(self, data: bytes) -> None:
         """Part what has come into lines; empty ones mean nothing."""
+        if data:
+            self._waiting.heard()
         *lines, self._rest = (self._rest + data).split(b"\n")
         if len(self._rest) > LONGEST_LINE or any(len(line) > LONGEST_LINE for line in lines):
             raise ProtocolMismatchError("the control sends a line without an end")

@@ -27,6 +27,7 @@ from amp_studio.transfer.errors import (
 )
 from amp_studio.transfer.image import ImageError
 from amp_studio.transfer.links.endpoint import parse_endpoint
+from amp_studio.transfer.progress import SILENT
 from tests.families.grblhal.bench import Bench, Clock, edited, held, put, sent
 from tests.families.grblhal.conversation import Player, answers, recorded
 from tests.families.grblhal.faulty_grbl import download_with_faults
@@ -129,10 +130,63 @@ def test_a_machine_that_moves_is_not_touched(bench: Bench) -> None:
 
     with pytest.raises(
         TransferError,
-        match="the control is in the state Run, in which it takes no settings: bring it to rest first; nothing was",
+        match="the control is in the state Run: it takes no settings then: bring it to rest first; nothing was",
     ):
         download(bench.driver, wanted, starts, signature="")
     assert sent(bench) == []
+
+
+def test_in_check_mode_nothing_is_written_because_it_would_not_last(bench: Bench) -> None:
+    """The firmware answers "ok" there and keeps the setting in RAM only (protocol.c ``protocol_execute_realtime``)."""
+    bench.firmware.command("state Check")
+    with pytest.raises(
+        TransferError, match=r"in the state Check: .* leave check mode \(\$C\) first"
+    ) as caught:
+        put(bench, {130: "301.500"})
+    assert caught.value.at_control == "old"
+    assert sent(bench) == []
+
+
+def test_what_the_emulated_control_takes_in_check_mode_is_gone_after_the_power(bench: Bench) -> None:
+    bench.firmware.command("state Check")
+    line = GrblLine(bench.open, clock=bench.clock, sleep=bench.clock.sleep)
+    assert line.ask("$130=301.500") == []
+    assert line.ask("$130") == ["$130=301.500"]
+    bench.firmware.power_cycle()
+    assert held(bench).settings[130] == "200.000"
+
+
+def test_a_locked_control_keeps_what_is_written(bench: Bench) -> None:
+    bench.firmware.command("state Alarm")
+    assert put(bench, {130: "301.500"}).verified
+    bench.driver.close()
+    bench.firmware.power_cycle()
+    bench.firmware.answer()
+    assert held(bench).settings[130] == "301.500"
+
+
+@pytest.mark.parametrize(
+    ("state", "words"), [("Hold:0", "in a feed hold it answers"), ("Door:0", "safety door")]
+)
+def test_a_control_that_reads_no_line_is_refused_at_once(bench: Bench, state: str, words: str) -> None:
+    bench.firmware.command(f"state {state}")
+    for asks in (bench.driver.identify, bench.driver.fetch):
+        with pytest.raises(TransferError, match=words):
+            asks()
+    assert bench.clock.now < 1.0
+
+
+def test_an_answer_that_comes_slowly_is_no_silence(bench: Bench) -> None:
+    """Silence is shown only where no byte comes, however long an answer takes."""
+    stages: list[str] = []
+
+    def slow(data: bytes) -> bytes:
+        bench.clock.now += 0.5
+        return data
+
+    bench.spoil_out = slow
+    bench.driver.fetch(progress=lambda stage, done, total: stages.append(stage))
+    assert SILENT not in stages
 
 
 def test_what_somebody_has_changed_meanwhile_is_not_overwritten(bench: Bench) -> None:

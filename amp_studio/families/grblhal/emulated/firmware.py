@@ -24,7 +24,8 @@ PIECE = 512
 OFFSETS = ("G54", "G55", "G56", "G57", "G58", "G59", "G59.1", "G59.2", "G59.3")
 POSITIONS = ("G28", "G30", "G92")
 UNKNOWN, NOT_IDLE, LOCKED, TOO_LONG, NO_HOMING, BAD_WORD = 3, 8, 9, 11, 5, 20
-_STATES = ("Idle", "Run", "Hold:0", "Alarm", "Check")
+_STATES = ("Idle", "Run", "Hold:0", "Door:0", "Alarm", "Check")
+_SUSPENDED = ("Hold:0", "Door:0")  # no line is read (protocol.c ``protocol_exec_rt_suspend``)
 
 
 class Firmware:
@@ -47,7 +48,8 @@ class Firmware:
     def _boot(self) -> None:
         self._line, self._overflows, self._is_deaf, self._last_end = "", False, False, ""
         self._unit = 21
-        self.state = "Idle" if self.state not in ("Run", "Hold:0") else "Alarm"
+        self._unread: list[str] = []
+        self.state = "Idle" if self.state not in ("Run", *_SUSPENDED) else "Alarm"
         zeros = ",".join(["0.000"] * len(self._axes))
         self.offsets = dict.fromkeys(
             (*(OFFSETS[:6] if self.settings.is_classic else OFFSETS), *POSITIONS), zeros
@@ -121,6 +123,10 @@ class Firmware:
             self._line, self._is_deaf = "", True  # this build takes no setting after a soft reset
             self._greet()
         elif sign in "?!~" and not self._line.startswith("$"):
+            if sign == "~" and self.state == "Hold:0":
+                self.state, unread, self._unread = "Idle", self._unread, []
+                for line in unread:
+                    self._answer_line(line)
             if sign == "?":
                 self._send(f"<{self.state}|MPos:{','.join(['0.000'] * len(self._axes))}|FS:0,0>")
         elif sign in "\r\n":
@@ -129,6 +135,9 @@ class Firmware:
                 return
             self._last_end = sign
             line, self._line = self._line, ""
+            if self.state in _SUSPENDED:
+                self._unread.append(line)
+                return
             if self.is_writing:
                 self._save()
             self._answer_line(line)
@@ -174,7 +183,8 @@ class Firmware:
         elif equals and name.isdigit():
             self._need_rest()
             self.settings.store(int(name), text)
-            self.is_writing = True
+            # In check mode it stays in RAM (protocol.c ``protocol_execute_realtime``); a Grbl 1.1 writes at once.
+            self.is_writing = self.state != "Check" or self.settings.is_classic
         elif equals and name == "RST":
             self._reset(text)
         elif not equals and name in self._reports():
@@ -194,7 +204,7 @@ class Firmware:
             raise RefusedError(UNKNOWN)
 
     def _need_rest(self) -> None:
-        if self.state in ("Run", "Hold:0"):
+        if self.state == "Run":
             raise RefusedError(NOT_IDLE)
 
     def _startup(self, number: int, line: str) -> None:
