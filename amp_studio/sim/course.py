@@ -25,6 +25,8 @@ When = Callable[[Columns], npt.NDArray[np.bool_]]
 """Columns at the servo samples -> where the control sees the event."""
 
 HALVINGS = 100
+LAGS = 5.0
+"""Time constants of the position loop by which a command goes on beyond the farthest place of an event."""
 SETTLE = 20.0
 """Time constants of the position loop that each wait for in position may take."""
 LONGEST_WAIT = 5.0
@@ -56,7 +58,9 @@ class Course:
     def go(self, velocity: float, ramp: Ramp, when: When, farthest: float) -> Seen | None:
         """Go at a velocity until the control sees an event, at most ``farthest`` u; None where it does not come, or an alarm does."""
         pieces = change(ramp, abs(self.velocity), abs(velocity))
-        even = max(farthest - length(pieces), 0.0) / abs(velocity)
+        # The axis is behind the command, which does not end before the axis is there.
+        behind = LAGS * abs(velocity) / self.axis.position_rate
+        even = max(farthest + behind - length(pieces), 0.0) / abs(velocity)
         pieces.append(Piece(even, abs(velocity)))
         sign, begin = math.copysign(1.0, velocity), self.position
         rows = self._placed(pieces, sign)
@@ -68,6 +72,7 @@ class Course:
         # The last stage ended at ``begin``: from there on every sample is one of this stage.
         inside = sign * (columns["command_position"] - begin) > 0.0
         inside &= np.arange(len(inside)) >= self._since
+        inside &= columns["time_s"] < rows[-WIDTH] + rows[-WIDTH + 1]
         found = np.flatnonzero(inside & when(columns))
         if not found.size:
             return None

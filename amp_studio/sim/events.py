@@ -84,8 +84,9 @@ class Travel:
     """Code where a limit is passed."""
     page: str
     notes: tuple[str, ...] = ()
-    zones: Mapping[str, tuple[float, float]] = field(default_factory=dict)
-    """Zones that a program switches on, by number; each side is a limit."""
+    zones: Mapping[str, tuple[float, float]] | None = None
+    """Zones that a program switches on, by number; each side is a limit. None where zones are not simulated."""
+    zone_page: str = ""
     zone_note: str = ""
     """Page of the zones, and what is assumed of them."""
 

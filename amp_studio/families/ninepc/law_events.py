@@ -32,7 +32,11 @@ HOMED = (
     "The home position is the marker nearest to where the switch goes off, and Home Calibration from there (5-4, 5-10).",
     "ASSUMED: the ramp of homing is that of manual moves, exponential by Manual Delay Constant (10-14 calls homing exponential).",
 )
-STOPPED = "A software overtravel stops all commands at once, without a ramp; the axis moves past it by its following error (10-18)."
+STOPPED = (
+    "A software overtravel stops all commands of a manual motion at once, without a ramp; the axis moves past it by its following error (10-18). ASSUMED: a"
+    " programmed move is stopped in the same way, which is not printed."
+)
+ZONE_PAGE = "6-3 and 6-7"
 ZONES = (
     "ASSUMED: the axis is alone in its zone group, so that no other axis keeps it out of the zone (6-4), and is stopped there as at an overtravel; for zones no"
     " stop is printed (6-3)."
@@ -95,14 +99,14 @@ def travel(read: AxisParameters) -> Travel:
     """Return the software overtravels (6-10, 6-11), if they are used."""
     zones = _zones(read)
     if read.value("zone.overtravel_used") is not True:
-        return Travel({}, "OVERTRAVEL", "6-10", zones=zones, zone_note=ZONES)
+        return Travel({}, "OVERTRAVEL", "6-10", zones=zones, zone_page=ZONE_PAGE, zone_note=ZONES)
     low, high = (read.optional(f"zone.overtravel_{side}") for side in ("negative", "positive"))
     edges = (-math.inf if low is None else low, math.inf if high is None else high)
     notes = (
         STOPPED,
         "The overtravel works only after homing (6-10). ASSUMED: it is checked once in a servo sample, on the measured position.",
     )
-    return Travel({"the software overtravel": edges}, "OVERTRAVEL", "6-10", notes, zones, ZONES)
+    return Travel({"the software overtravel": edges}, "OVERTRAVEL", "6-10", notes, zones, ZONE_PAGE, ZONES)
 
 
 def _zones(read: AxisParameters) -> dict[str, tuple[float, float]]:

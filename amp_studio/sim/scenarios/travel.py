@@ -40,7 +40,7 @@ def run_travel(axis: AxisLaw, settings: Settings) -> Trace:
     given = number(settings, "move.start")
     zone = _zone(travel, settings)
     if zone is not None:
-        travel = replace(travel, limits=zone, notes=(travel.zone_note, *travel.notes))
+        travel = replace(travel, limits=zone, notes=(travel.zone_note, *travel.notes), page=travel.zone_page)
     found = travel.nearest(-sign * math.inf if given is None else given, sign)
     if found is None:
         raise SimulationError(
@@ -107,6 +107,10 @@ def _zone(travel: Travel, settings: Settings) -> dict[str, tuple[float, float]] 
     wanted = settings.get("move.zone")
     if wanted is None:
         return None
+    if travel.zones is None:
+        raise SimulationError(
+            "Programmable zones of this family are not simulated, only the limits of the travel", "move.zone"
+        )
     name = f"{wanted:g}" if isinstance(wanted, float) else str(wanted)
     if name not in travel.zones:
         known = f"; set are: {', '.join(travel.zones)}" if travel.zones else ""

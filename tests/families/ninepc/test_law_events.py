@@ -159,5 +159,18 @@ def test_a_programmable_zone_stops_the_axis_on_either_side() -> None:
         assert trace.result["limit"] == (edge, "mm")
         assert trace.result["stop_position"][0] == pytest.approx(edge + sign * 3.0, rel=0.01)
         assert "programmable zone 2" in trace.alarms[0].message
+        assert "(page 6-3 and 6-7)" in trace.alarms[0].message
     with pytest.raises(SimulationError, match="Zone 7 of this axis is not set"):
         simulate(file, "travel", "1", {"move.zone": 7.0})
+
+
+def test_the_stop_at_an_overtravel_is_printed_for_manual_motion_and_assumed_elsewhere() -> None:
+    file = mill(
+        zone__overtravel_used=Value(True),
+        zone__overtravel_positive=Value(100.0, "mm"),
+        zone__overtravel_negative=Value(-50.0, "mm"),
+    )
+    trace = simulate(file, "travel", "1", {"move.feedrate": 3000.0})
+    (note,) = [text for text in trace.assumptions if text.startswith("A software overtravel stops")]
+    assert "manual motion" in note
+    assert "ASSUMED: a programmed move" in note

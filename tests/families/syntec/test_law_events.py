@@ -70,3 +70,16 @@ def test_a_jog_goes_at_its_speed_and_has_no_increment() -> None:
     assert trace.result["feedrate"] == (1200.0, "mm/min")
     with pytest.raises(SimulationError, match="No jog increment of this axis is set"):
         simulate(mill(), "jog", "1", {"move.increment": "1"})
+
+
+def test_a_first_speed_whose_following_error_is_more_than_two_turns_finds_the_dog() -> None:
+    # 20 m/min at a loop gain of 30/s are 11 mm of following error, two turns of 5 mm: the command ended before the axis was there.
+    file = mill(home__first_speed=Value(20000, "mm/min"))
+    found = simulate(file, "home", "1").result
+    assert found["home_position"] == (0.0, "mm")
+    assert found["switch_overrun"][0] > 0.0
+
+
+def test_a_zone_is_not_called_unset_where_zones_are_not_simulated() -> None:
+    with pytest.raises(SimulationError, match="Programmable zones of this family are not simulated"):
+        simulate(mill(), "travel", "1", {"move.zone": "2"})
