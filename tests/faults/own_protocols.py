@@ -85,13 +85,15 @@ class BadLine:
                 passed.append(byte ^ 1 << self._chance.randrange(8))
             else:
                 passed.append(byte)
+            if self._chance.random() * self._faults.get("repeat", 0) > self._faults.get("repeat", 0) - 1 > 0:
+                passed.append(passed[-1])
         return bytes(passed)
 
 
 def _faults(chance: random.Random, size: int) -> dict[str, int]:
     """Return what goes wrong on one line; ``size`` is about what a whole download moves."""
     ways = {"cut": chance.randrange(1, size), "kill": chance.randrange(1, size), "lose": chance.randrange(60, 4_000),
-            "change": chance.randrange(60, 4_000), "power": chance.randrange(1, 12), "stop": chance.randrange(1, 400)}  # fmt: skip
+            "change": chance.randrange(60, 4_000), "repeat": chance.randrange(60, 4_000), "power": chance.randrange(1, 12), "stop": chance.randrange(1, 400)}  # fmt: skip
     return {name: ways[name] for name in chance.sample(list(ways), chance.choice([1, 1, 1, 2]))}
 
 
@@ -197,7 +199,7 @@ def _terminal_run(chance: random.Random, folder: Path) -> list[str]:
     old = _names(held)
     now = _names(bench.driver.fetch())
     untrue = _untrue(ended, now, old, names)
-    if isinstance(ended, CancelledError) and half and not faults.keys() & {"lose", "change"}:
+    if isinstance(ended, CancelledError) and half and not faults.keys() & {"lose", "change", "repeat"}:
         untrue.append(f"half a line is left: {half!r}")
     if now != old and kept != [held]:
         untrue.append("what the card contained was not kept whole")
@@ -234,7 +236,9 @@ def table_under_faults(seed: int, runs: int, folder: Path) -> list[str]:
 def _table_run(chance: random.Random, folder: Path) -> list[str]:
     (folder / "table").write_bytes(TABLE)
     faults = _faults(chance, 1_500)
-    parity = chance.choice(["even", "even", "odd"] + ["none"] * (not faults.keys() & {"lose", "change"}))
+    parity = chance.choice(
+        ["even", "even", "odd"] + ["none"] * (not faults.keys() & {"lose", "change", "repeat"})
+    )
     bench, cancel, kept = NumBench(folder, parity=parity), threading.Event(), list[bytes]()
     file = ParameterFile(load_schema("num"))
     for number in {chance.choice(("P9N0", "P9N11", "P9N31", "P13N2", "P13N17")) for _ in range(3)}:
