@@ -1,6 +1,6 @@
 """The tables of cases are sharp: a rule changed in one place no longer gives what they say.
 
-Of every rule of every family the check is negated, every comparison flipped, every "and" made an "or" and the other
+Of every rule of every family the check is negated, the guard left out, every comparison flipped, every "and" made an "or" and the other
 way round, and every "not" left out. The full run (``make mutants``) also replaces every choice and number, turns every
 sum, product, quantifier and truth value into its opposite, and leaves out every operand of "and" and "or". What is
 alive at the end is in ``equivalent_mutants.yaml``, with the reason why no case can distinguish it.
@@ -50,6 +50,8 @@ def mutants(rule: Rule) -> Iterator[Mutant]:
 def changes(rule: Rule) -> Iterator[tuple[str, str, str, str]]:
     """Yield a part of a rule, its text with one thing changed, that as it was, and what was changed."""
     yield "check", f"!({rule.check}\n)", rule.check, "negated"
+    if rule.when != "true":
+        yield "when", "true  // the guard left out", rule.when, "left out"
     for part in ("check", "when"):
         text = " ".join(getattr(rule, part).split())
         for changed, change in variations(text):
