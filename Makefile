@@ -39,6 +39,7 @@ faults: setup ## fault campaigns: failing calls, kills, damaged contents, hostil
 peers: ## build other ends that nobody here wrote into build/peers, from their sources: make peers AMP_STUDIO_PEERS=FOLDER
 	@test -d "$(AMP_STUDIO_PEERS)" || { echo "AMP_STUDIO_PEERS=FOLDER says where the sources are"; exit 1; }
 	@"$(AMP_STUDIO_PEERS)/grblhal/build.sh" build/peers/grblhal
+	@GRBLHAL_FLAGS="-DN_AXIS=5 -DENABLE_BACKLASH_COMPENSATION=1" "$(AMP_STUDIO_PEERS)/grblhal/build.sh" build/peers/grblhal5
 
 check: setup ## format, lint, types and the import contracts
 	@$(BIN)/ruff format --check

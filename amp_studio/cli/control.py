@@ -199,6 +199,7 @@ def verify_verb(options: argparse.Namespace) -> int:
         print_json({
             "differences": [difference_json(file, d, options.secrets) for d in found.values.differences], "same": found.values.same,
             "same_bytes": found.is_same, "sha256": sha256(fetched), "unreadable": found.unreadable or None, "absent": found.absent or None,
+            "stays": found.stays or None,
             "header": [asdict(d) for d in found.head],
             "other_units": [difference_json(file, d, options.secrets) for d in found.other_units]})  # fmt: skip
         return int(not found.is_same)

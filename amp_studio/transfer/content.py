@@ -37,6 +37,9 @@ class ContentKind(Protocol):
     def left_out(self, file: ParameterFile, held: bytes) -> str:
         """Return what of a file a control that contains ``held`` does not have, and what is sent without it; "" for nothing."""
 
+    def stays(self, file: ParameterFile, held: bytes) -> str:
+        """Return which parts of the values that a file sets stay as ``held`` has them: bits of axes it does not have; "" for none."""
+
     def refit(self, content: bytes, held: bytes) -> bytes:
         """Return what a control that contains ``held`` contains once ``content`` is put back; raises ImageError."""
 
@@ -49,6 +52,10 @@ class TakesAllOrRefuses:
 
     def left_out(self, file: ParameterFile, held: bytes) -> str:  # noqa: ARG002 -- other kinds need them
         """Return ""."""
+        return ""
+
+    def stays(self, file: ParameterFile, held: bytes) -> str:  # noqa: ARG002 -- other kinds need them
+        """Return "": a file of such a control has all of each value."""
         return ""
 
 

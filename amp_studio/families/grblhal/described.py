@@ -213,6 +213,8 @@ class _Maker:
         facts: dict[str, Any] = _value_facts(first, kind, self.axes)
         if kind == "integer" and known and known.storage:
             facts["storage"] = facts["storage"].model_copy(update={"bits": known.storage.bits})
+        if kind == "bits":
+            facts["first_axis"] = 0 if first.type == AXES else known.first_axis if known else None
         facts["layouts"] = (self._layout(settings, axis, base),)
         return Parameter(
             id=parameter_id, name=name, type=kind, states=known.states if known else (), page=PAGE,

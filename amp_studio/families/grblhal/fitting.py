@@ -1,17 +1,19 @@
 """A file of one build on a control of another: setting by setting, by number, and what does not fit is named.
 
-A number means the same setting in every build. What a build does not have, or takes in other bounds (a mask with an axis too
-many, a choice it does not know), is listed before anything is sent, where a sender would stop half-way.
+A number means the same setting in every build. What a build does not have (a setting, the bits of an axis in a mask), or takes in
+other bounds (a choice it does not know), is listed before anything is sent, where a sender would stop half-way.
 """
 
 from __future__ import annotations
 
 import re
-from dataclasses import dataclass
+from collections.abc import Sequence
+from dataclasses import dataclass, field, replace
 
-from amp_studio.files import Header, ParameterFile
+from amp_studio.files import Header, ParameterFile, fitted_axes
 from amp_studio.schema import Address, InvalidValueError, Schema, Value, fault, show_value
 
+from .masks import Build, Labels, bits_beyond, set_bits, with_bits
 from .settings import addresses_by_number, number_at, text_of_value, value_of_text
 
 LACKING = "this control does not have the setting"
@@ -37,18 +39,29 @@ class Misfit:
 
 @dataclass(frozen=True)
 class Fitted:
-    """A file by the schema of another control, and what of it does not fit there."""
+    """A file by the schema of another control, and what of it does not fit there.
+
+    ``lost`` are the bits of masks that are set for axes that the control does not have.
+    """
 
     file: ParameterFile
     misfits: tuple[Misfit, ...]
+    lost: Labels = field(default_factory=dict)
 
 
-def fit_to(file: ParameterFile, schema: Schema) -> Fitted:
-    """Return a file with the same settings by another schema, by their numbers."""
+def build_of(file: ParameterFile) -> Build:
+    """Return the build that a file is for."""
+    return Build(file.machine_schema, fitted_axes(file))
+
+
+def fit_to(file: ParameterFile, schema: Schema, axes: Sequence[str]) -> Fitted:
+    """Return a file with the same settings by another schema, by their numbers; ``axes`` are those of the control."""
     header = {**vars(file.header), "extra": dict(file.header.extra), "signature": schema.signature}
     machine = file.machine if file.machine in schema.machines else schema.family.default_machine
     found = ParameterFile(schema, Header(**{**header, "machine": machine}))
     known = addresses_by_number(found.machine_schema)
+    no_room = bits_beyond(build_of(file), Build(found.machine_schema, axes), axes_only=True)
+    lost: dict[int, dict[int, str]] = {}
     misfits: list[Misfit] = []
     given = [(address, value) for address, value in file.values.items()]
     # First what decides whether others exist and what they are measured in.
@@ -61,7 +74,15 @@ def fit_to(file: ParameterFile, schema: Schema) -> Fitted:
             if address in found.machine_schema.addresses:
                 found.set(address, value)
         elif file.evaluation.state(address).state != "hidden":
-            misfits += _set(file, found, address, value, known.get(number))
+            if number in no_room and isinstance(value.value, (int, float)):
+                bits = no_room[number]
+                text = str(int(value.value))
+                if gone := set_bits(text, bits):
+                    lost[number] = gone
+                cut = replace(value, value=int(with_bits(text, bits, "0")))
+                misfits += _set(file, found, address, cut, known.get(number))
+            else:
+                misfits += _set(file, found, address, value, known.get(number))
     for key, text in file.unknown.items():
         number = int(key[1:]) if re.fullmatch(r"\$[0-9]{1,5}", key) else None
         if number is None:
@@ -73,7 +94,7 @@ def fit_to(file: ParameterFile, schema: Schema) -> Fitted:
         for a, v in found.values.items()
         if number_at(found.machine_schema, a) is not None and (why := _why(found, a, v))
     ]
-    return Fitted(found, tuple(misfits))
+    return Fitted(found, tuple(misfits), lost)
 
 
 def _set(
@@ -86,6 +107,11 @@ def _set(
     other = found.schema.parameters[target[0]]
     if other.type == parameter.type and not other.choices and other.type != "bits":
         found.set(target, value)
+        return []
+    if (
+        parameter.type == "boolean" and other.first_axis is not None
+    ):  # one input for all axes has become one bit each
+        found.set(target, Value((1 << len(fitted_axes(file))) - 1 if value.value else 0))
         return []
     try:
         text = text_of_value(parameter, value, turns=file.evaluation.turns(address))

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Mapping, Sequence
-from dataclasses import replace
+from dataclasses import dataclass, replace
 
 from amp_studio.files import Header, ParameterFile
 from amp_studio.schema import InvalidValueError, Schema, Value, load_schema
@@ -14,7 +14,8 @@ from amp_studio.transfer.image import ImageError
 from .bounds import BoundsError, check_text
 from .content import GrblContent, read_content, write_content
 from .description import PASSWORD, Setting, description_of, read_description
-from .fitting import Misfit, fit_to
+from .fitting import Misfit, build_of, fit_to
+from .masks import Build, Labels, bits_beyond, named_bits, with_bits
 from .numbers import decimals_of, is_same_number, is_shown_as, read_number, shown_number, written_number
 from .offsets import PUT_BACK, at_axes, offset_differences, reports_inches
 from .settings import compiled_in, settings_of_file, values_of_settings
@@ -54,18 +55,29 @@ class GrblContentKind:
         """Return what a control contains after a download: the file's settings by their numbers, else what is in ``held``.
 
         A setting that the control does not have is left out (``left_out`` names it): the number of any other means the same in
-        each build. Raises ImageError for a value that it would not store as it is.
+        each build. Bits of masks that the file does not have stay as they are (``stays`` names them). Raises ImageError for a
+        value that the control would not store as it is.
         """
         present = read_content(held)
-        wanted, _ = _wanted(file, present, held)
-        settings = _fitted(wanted, present, described(held))
+        wanted = _wanted(file, present, held)
+        settings = _fitted(wanted.settings, present, described(held))
         return write_content(replace(present, settings=settings))
 
     def left_out(self, file: ParameterFile, held: bytes) -> str:
-        """Return the settings of a file that a control of another build does not have, by number; raises ImageError."""
+        """Return the settings and bits of a file that a control of another build does not have; raises ImageError."""
         present = read_content(held)
-        wanted, lacking = _wanted(file, present, held)
-        return _lacking_text(sorted({*lacking, *_lacking(wanted, present)}))
+        wanted = _wanted(file, present, held)
+        lacking = sorted({*wanted.lacking, *_lacking(wanted.settings, present)})
+        lost = (
+            [f"bits of axes that the control does not have ({named_bits(wanted.lost)})"]
+            if wanted.lost
+            else []
+        )
+        return " and ".join([text for text in (_lacking_text(lacking),) if text] + lost)
+
+    def stays(self, file: ParameterFile, held: bytes) -> str:
+        """Return the bits of masks that a control has and the file does not; raises ImageError."""
+        return named_bits(_wanted(file, read_content(held), held).kept)
 
     def refit(self, content: bytes, held: bytes) -> bytes:
         """Return what a control contains once a copy is put back: its settings, offsets and start-up lines; raises ImageError.
@@ -77,7 +89,7 @@ class GrblContentKind:
             raise ImageError(
                 "the copy is of a control with other axes, and shows offsets in another unit: set $13 alike first"
             )
-        settings = _fitted(copy.settings, present, described(held))
+        settings = _fitted(_masked(copy, content, present, held), present, described(held))
         offsets = {name: at_axes(copy, present, name) for name in present.offsets}
         startup = {**present.startup, **{n: line for n, line in copy.startup.items() if n in present.startup}}
         return write_content(replace(present, settings=settings, offsets=offsets, startup=startup))
@@ -112,28 +124,75 @@ def _schema_of(read: GrblContent, content: bytes) -> Schema:
     return described_schema(FAMILY, description_of(content)) if read.describes_itself else load_schema(FAMILY)
 
 
-def _wanted(file: ParameterFile, present: GrblContent, held: bytes) -> tuple[dict[int, str], list[int]]:
-    """Return number -> text of what a file sets, and the numbers that a control of another build does not have.
+@dataclass(frozen=True)
+class _Wanted:
+    """What a file sets at one control.
+
+    ``settings``  number -> text
+    ``lacking``   the numbers that a control of another build does not have
+    ``kept``      the bits of masks that stay as the control has them
+    ``lost``      the bits that are set for axes that the control does not have
+    """
+
+    settings: dict[int, str]
+    lacking: list[int]
+    kept: Labels
+    lost: Labels
+
+
+def _wanted(file: ParameterFile, present: GrblContent, held: bytes) -> _Wanted:
+    """Return what a file sets at a control.
 
     Raises ImageError for a file of another family, and where the control has a setting but cannot take the value.
     """
     if file.schema.family.family != FAMILY:
         raise ImageError(f"a file for {file.schema.family.name} is nothing for a Grbl control")
     lacking: list[int] = []
+    lost: Labels = {}
     try:
         schema = _schema_of(present, held)
+        build = _build(schema, present)
+        kept = bits_beyond(build, build_of(file), axes_only=file.schema.signature == schema.signature)
         if file.schema.signature != schema.signature:
-            fitted = fit_to(file, schema)
+            fitted = fit_to(file, schema, present.axes)
             if others := [misfit for misfit in fitted.misfits if not misfit.is_lacking]:
                 raise ImageError(_misfit_text(others))
             lacking = [int(f[1]) for m in fitted.misfits if (f := re.match(r"\$(\d+)", m.name))]
-            file = fitted.file
+            file, lost = fitted.file, fitted.lost
         unnamed = {
             int(key[1:]): text for key, text in file.unknown.items() if re.fullmatch(r"\$\d{1,5}", key)
         }
-        return {**unnamed, **settings_of_file(file)}, lacking
+        settings = {**unnamed, **settings_of_file(file)}
     except (InvalidValueError, DescriptionError) as error:
         raise ImageError(str(error)) from None
+    kept = {n: bits for n, bits in kept.items() if n in settings and n in present.settings}
+    settings |= {n: with_bits(settings[n], bits, present.settings[n]) for n, bits in kept.items()}
+    return _Wanted(settings, lacking, kept, lost)
+
+
+def _build(schema: Schema, content: GrblContent) -> Build:
+    """Return the build that a control is of."""
+    return Build(
+        schema.on(schema.family.default_machine if content.describes_itself else CLASSIC), content.axes
+    )
+
+
+def _masked(copy: GrblContent, content: bytes, present: GrblContent, held: bytes) -> dict[int, str]:
+    """Return the settings of a copy with the bits of masks that its build does not have as the control has them.
+
+    A copy whose description cannot be read goes back as it is.
+    """
+    settings = dict(copy.settings)
+    try:
+        theirs, own = _build(_schema_of(copy, content), copy), _build(_schema_of(present, held), present)
+    except (InvalidValueError, DescriptionError):
+        return settings
+    for here, other in ((own, theirs), (theirs, own)):
+        for number, bits in bits_beyond(here, other, axes_only=here is theirs).items():
+            if number in settings:
+                shown = present.settings.get(number, "0") if here is own else "0"
+                settings[number] = with_bits(settings[number], bits, shown)
+    return settings
 
 
 def _lacking(wanted: Mapping[int, str], present: GrblContent) -> list[int]:

@@ -261,6 +261,11 @@ class Parameter(Model):
     more_codes: bool = False
     """The control has codes that the manual does not print: any code may be given, as ``raw:<code>``."""
     bits: Bits | None = None
+    first_axis: int | None = None
+    """Of a word by axes: the place of the axis that bit 0 is of (0 for the first), and so on; None for any other word.
+
+    A file speaks only for the bits of the axes that it has: those of others stay as the control has them.
+    """
     default: Default | None = None
     storage: Storage | None = None
     angular_when: str | None = None
@@ -297,6 +302,8 @@ class Parameter(Model):
     def _whole(self) -> Self:
         if self.secret and self.type not in ("integer", "real", "text"):
             raise ValueError("a secret is a number or a text")  # what shows choices and bits masks nothing
+        if self.first_axis is not None and self.type != "bits":
+            raise ValueError("first_axis belongs to a word of bits")
         if self.type == "choice" and not self.choices:
             raise ValueError("a choice parameter needs choices")
         if self.type == "boolean" and (not self.choices or len(self.choices) != 2):

@@ -13,7 +13,7 @@ from typing import Self
 
 from amp_studio.files import Notify, ParameterFile
 from amp_studio.schema.quoting import quoted
-from amp_studio.transfer.content import decode_content
+from amp_studio.transfer.content import ContentKind, decode_content
 from amp_studio.transfer.progress import Progress, quiet
 
 from .drivers import open_driver, open_driver_at
@@ -50,11 +50,11 @@ def download_file(
     approved = read_digest(expected)
     with closing(open_driver(address, file.schema.family.family)) as driver, _Keeping(folder, stem) as copy:
         family = file.schema.family.family
-        left_out: list[str] = []
+        remarks: list[str] = []
 
         def wanted(held: bytes) -> bytes:
             content = driver.encode(file, held)
-            left_out[:] = [text for text in (driver.left_out(file, held),) if text]
+            remarks[:] = remarks_of(driver, file, held)
             return content
 
         recording = Recording("download", record, family, address, wanted, notify)
@@ -63,9 +63,18 @@ def download_file(
             outcome = download(
                 driver, recording.wanted, copy.keep, signature=file.schema.signature, expected=approved, known=known,
                 meanwhile=copy.finish, progress=progress, cancel=cancel)  # fmt: skip
-            return replace(outcome, text=f"{outcome.text} Not sent: {left_out[0]}.") if left_out else outcome
+            return replace(outcome, text=" ".join([outcome.text, *remarks]))
 
         return recording.run(run)
+
+
+def remarks_of(kind: ContentKind, file: ParameterFile, held: bytes) -> list[str]:
+    """Return what of a file is not sent to a control that contains ``held``, and what stays there, each in a sentence."""
+    texts = (
+        ("Not sent", kind.left_out(file, held)),
+        ("Not in the file, and as the control has it", kind.stays(file, held)),
+    )
+    return [f"{what}: {text}." for what, text in texts if text]
 
 
 def restore_copy(

@@ -29,6 +29,7 @@ class ImageComparison:
     ``head``        lines of the head that differ
     ``unreadable``  why the control's image cannot be compared with the file, else ""
     ``absent``      what the file sets and the control does not have, in a sentence, else ""
+    ``stays``       which bits of masks the file does not have, so that they were not compared, else ""
     ``is_whole``    whether every byte was compared; else a control shows some values coarser than they are
     ``outside``     what the file sets and no control of this kind keeps: it is neither sent nor compared
     """
@@ -41,12 +42,16 @@ class ImageComparison:
     absent: str = ""
     outside: tuple[Address, ...] = ()
     is_whole: bool = True
+    stays: str = ""
 
     def summary(self) -> str:
         """Return how it came out in one sentence, and how much of the file was not compared."""
-        if not self.outside:
-            return self._summary()
-        return f"{self._summary()} {len(self.outside)} values of the file are not kept by this control."
+        text = self._summary()
+        if self.outside:
+            text += f" {len(self.outside)} values of the file are not kept by this control."
+        if self.stays:
+            text += f" Not in the file, and not compared: {self.stays}."
+        return text
 
     def _summary(self) -> str:
         if self.is_same:
@@ -79,9 +84,10 @@ def verify_content(file: ParameterFile, fetched: bytes) -> ImageComparison:
         return _not_compared(str(error) if fetched else "nothing")
     if present.schema.family.family != file.schema.family.family:
         return _not_compared(f"a file for {present.schema.family.name}")
-    absent, is_same, is_whole, wanted = "", False, True, file
+    absent, stays, is_same, is_whole, wanted = "", "", False, True, file
     try:
         content, absent = kind.encode(file, fetched), kind.left_out(file, fetched)
+        stays = kind.stays(file, fetched)
         is_same, is_whole = not absent and not kind.difference(content, fetched), content == fetched
         # In the control's own units, with what the file leaves as it is.
         wanted = present if is_whole else kind.decode(content)
@@ -93,7 +99,14 @@ def verify_content(file: ParameterFile, fetched: bytes) -> ImageComparison:
         found = Comparison((), found.same + len(found.differences))
     outside = tuple(a for a in file.values if a not in wanted.values)
     return ImageComparison(
-        is_same, found, _other_units(wanted, present), head, absent=absent, outside=outside, is_whole=is_whole
+        is_same,
+        found,
+        _other_units(wanted, present),
+        head,
+        absent=absent,
+        outside=outside,
+        is_whole=is_whole,
+        stays=stays,
     )
 
 

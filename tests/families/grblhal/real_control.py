@@ -9,15 +9,15 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
 
-FOLDER = Path(__file__).resolve().parents[3] / "build" / "peers" / "grblhal"
-FIRMWARE = FOLDER / "grblHAL_sim"
+PEERS = Path(__file__).resolve().parents[3] / "build" / "peers"
+FIRMWARE, FIVE_AXES = PEERS / "grblhal" / "grblHAL_sim", PEERS / "grblhal5" / "grblHAL_sim"
 
 
 class RealControl:
     """The firmware's simulator with its memory in a file; it keeps a core busy, and obeys nothing but SIGKILL."""
 
-    def __init__(self, memory: Path) -> None:
-        self._memory = memory
+    def __init__(self, memory: Path, firmware: Path = FIRMWARE) -> None:
+        self._memory, self._firmware = memory, firmware
         self.port = 0
         self._process: subprocess.Popen[bytes] | None = None
 
@@ -31,7 +31,7 @@ class RealControl:
             free.bind(("127.0.0.1", 0))
             self.port = free.getsockname()[1]
         self._process = subprocess.Popen(
-            [FIRMWARE, "-n", "-p", str(self.port), "-e", self._memory], stdin=subprocess.DEVNULL,
+            [self._firmware, "-n", "-p", str(self.port), "-e", self._memory], stdin=subprocess.DEVNULL,
             stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, cwd=self._memory.parent,
         )  # fmt: skip
         _wait_listening(self.port)
@@ -58,9 +58,9 @@ def _wait_listening(port: int) -> None:
 
 
 @contextmanager
-def real_control(folder: Path) -> Iterator[RealControl]:
+def real_control(folder: Path, firmware: Path = FIRMWARE) -> Iterator[RealControl]:
     """Give a control that runs, with a memory that has never been written."""
-    control = RealControl(folder / "EEPROM.DAT")
+    control = RealControl(folder / "EEPROM.DAT", firmware)
     control.start()
     try:
         yield control

@@ -21,7 +21,7 @@ from amp_studio.transfer.errors import TransferError
 from amp_studio.transfer.links.endpoint import parse_endpoint
 from amp_studio.transfer.links.opening import connect
 from tests.families.grblhal.conversation import answers, recorded
-from tests.families.grblhal.real_control import FIRMWARE, RealControl, real_control
+from tests.families.grblhal.real_control import FIRMWARE, FIVE_AXES, RealControl, real_control
 
 pytestmark = pytest.mark.skipif(
     not FIRMWARE.exists(), reason="the firmware is not built here: make peers AMP_STUDIO_PEERS=FOLDER"
@@ -52,6 +52,46 @@ def test_upload_set_download_and_restore_over_the_command_line(
     assert run(["restore", str(copy), "--to", control.address]) == 0
     assert run(["verify", str(path), "--with", control.address]) == 1
     assert "3 differ" in capsys.readouterr().out
+
+
+@pytest.mark.skipif(not FIVE_AXES.exists(), reason="the firmware for five axes is not built here: make peers")
+def test_files_and_copies_cross_between_three_and_five_real_axes(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    (tmp_path / "3").mkdir()
+    (tmp_path / "5").mkdir()
+    narrow, wide = tmp_path / "3" / "narrow.amp", tmp_path / "5" / "wide.amp"
+    with real_control(tmp_path / "3") as three:
+        assert run(["upload", "--from", three.address, "-o", str(narrow)]) == 0
+        assert run(["set", str(narrow), "$3=1", "$5=2"]) == 0
+    with real_control(tmp_path / "5", FIVE_AXES) as five:
+        assert run(["upload", "--from", five.address, "-o", str(wide)]) == 0
+        assert run(["set", str(wide), "$3=24", "$4=31", "$5=31", "$376=3"]) == 0
+        assert run(["download", str(wide), "--to", five.address]) == 0
+        capsys.readouterr()
+        assert run(["download", str(narrow), "--to", five.address]) == 0
+        assert "as the control has it: A, B in $2, $3, $4, $5" in capsys.readouterr().out
+        assert _settings(five, 3, 4, 5, 376) == ["25", "31", "26", "3"]
+        assert run(["verify", str(narrow), "--with", five.address]) == 0
+        assert "not compared: A, B in $2, $3, $4, $5" in capsys.readouterr().out
+        (copy,) = (tmp_path / "3").glob("narrow.before-*.img")
+        assert run(["restore", str(copy), "--to", five.address]) == 0
+        assert _settings(five, 3, 4, 5, 376) == ["24", "31", "31", "3"]
+    with real_control(tmp_path / "3") as three:
+        capsys.readouterr()
+        assert run(["download", str(wide), "--to", three.address]) == 0
+        assert "bits of axes that the control does not have (A, B in $3, $4, $5" in capsys.readouterr().out
+        assert _settings(three, 3, 4, 5) == ["0", "7", "7"]
+        assert run(["restore", str(copy), "--to", three.address]) == 0
+        assert run(["verify", str(wide), "--with", three.address]) == 1
+
+
+def _settings(control: RealControl, *numbers: int) -> list[str]:
+    """Return what a control shows of these settings, over a separate line."""
+    place = parse_endpoint(control.address)
+    with closing(GrblLine(lambda look: connect(place, look=look))) as line:
+        shown = dict(text.split("=") for text in line.ask("$$"))
+    return [shown[f"${number}"] for number in numbers]
 
 
 @pytest.mark.parametrize("seed", range(3))

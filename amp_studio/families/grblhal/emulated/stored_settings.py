@@ -192,7 +192,7 @@ def _setting(parameter: Parameter, number: int, axis: str, axes: str, group: int
     if parameter.bits:
         named = {b.bit: b.label for b in parameter.bits}
         labels = tuple(named.get(n, "N/A") for n in range(max(named) + 1))
-        if labels[:3] == ("X", "Y", "Z"):
+        if parameter.first_axis == 0:
             kind, labels = _AXES, tuple(axes)
     low, high = next(iter((parameter.ranges or {}).values()), (None, None))
     return StoredSetting(
