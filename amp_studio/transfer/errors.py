@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from typing import Literal
 
 from amp_studio.errors import AmpStudioError
@@ -22,12 +23,32 @@ AT_CONTROL_TEXT: dict[AtControl, str] = {
 }
 
 
+WHICH_IS_NOT_KNOWN = "which of the new values the control contains is not known: verify before you go on (amp-studio verify FILE --with ADDRESS)"
+"""Instead of "the old or the new image" for a control that takes single values: only one that commits all or nothing has one of two."""
+
+
+@dataclass(frozen=True)
+class Confirmed:
+    """How far a download of single values came: ``count`` of ``of`` are confirmed, ``unanswered`` names the one under way."""
+
+    count: int
+    of: int
+    unanswered: str = ""
+
+    def __str__(self) -> str:
+        text = f"{self.count} of {self.of} values were confirmed"
+        return f"{text}, {visible(self.unanswered)} was not answered" if self.unanswered else text
+
+
 class TransferError(AmpStudioError, OSError):
     """An exchange that did not reach its end.
 
     ``what`` happened; ``at_control`` is what the control contains now; ``kept`` the place where the image it contained
-    before was kept, if it was; ``new`` the numbers of the parameters that are new already, where some are.
+    before was kept, if it was; ``new`` the numbers of the parameters that are new already, where some are; ``confirmed`` how far
+    a download of single values came.
     """
+
+    confirmed: Confirmed | None = None
 
     def __init__(
         self, what: str, at_control: AtControl = "old", kept: str | None = None, new: tuple[str, ...] = ()
@@ -46,7 +67,9 @@ class TransferError(AmpStudioError, OSError):
             if self.kept and self.at_control != "old"
             else ""
         )
-        return f"{self.what}; {self._now()}{where}" if self.at_control else self.what
+        if not self.at_control:
+            return self.what
+        return "; ".join(filter(None, (self.what, str(self.confirmed or ""), f"{self._now()}{where}")))
 
     def _now(self) -> str:
         """Return what the control contains now, in words."""
@@ -54,6 +77,8 @@ class TransferError(AmpStudioError, OSError):
             return f"the control contains the new {', '.join(map(visible, self.new))} and the old values of the rest"
         if self.at_control == "new" and self.new:
             return "the control contains the new content, as it was read since"
+        if self.at_control == "unknown" and self.confirmed:
+            return WHICH_IS_NOT_KNOWN
         but = (
             f", but the new {', '.join(map(visible, self.new))}"
             if self.at_control == "defaults" and self.new

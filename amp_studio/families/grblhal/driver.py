@@ -130,6 +130,7 @@ class GrblDriver(GrblContentKind, NeverRestarts):
             raise self._told(TransferError(why), writing, progress, cancel, is_answered=True) from None
         except CancelledError as error:
             error.at_control, error.new = answered_state(writing)
+            error.confirmed = writing.confirmed if writing.has_begun else None
             raise
         except ImageChangedError:
             raise
@@ -217,4 +218,6 @@ class GrblDriver(GrblContentKind, NeverRestarts):
             if found is None:
                 self._sleep(PAUSE)
         lost = self._has_lost_memory or (self._line is not None and self._line.has_lost_memory)
-        return after_break(error, writing, found, has_lost_memory=lost, is_answered=is_answered)
+        told = after_break(error, writing, found, has_lost_memory=lost, is_answered=is_answered)
+        told.confirmed = writing.confirmed
+        return told

@@ -24,7 +24,9 @@ FAMILY, CLASSIC = "grblhal", "grbl-1.1"
 HOMING, SOFT_LIMITS, JOG_LIMITS, RESET_ACTIONS, LOCATE_RATE, SEEK_RATE = 22, 20, 40, 676, 24, 25
 AXIS_LOCATE_RATE, AXIS_SEEK_RATE = 180, 190
 PER_AXIS_RATES = range(180, 200)
-"""Settings that are there only while bit 9 of $22 is set (settings.c ``is_setting_available``)."""
+"""Settings that are there only while bit 9 of $22 is set, and $24 and $25 only while it is not (settings.c ``is_setting_available``)."""
+COMMON_RATES = {LOCATE_RATE: range(180, 190), SEEK_RATE: range(190, 200)}
+"""The rate of all axes -> the rates of each, which begin with it."""
 _PER_AXIS, _KEEP_HOMED = 1 << 9, 1 << 7
 _SHOWN, _NAMED = 5, 60
 """Differences, and numbers, that a message names."""
@@ -198,7 +200,8 @@ def _masked(copy: GrblContent, content: bytes, present: GrblContent, held: bytes
 def _lacking(wanted: Mapping[int, str], present: GrblContent) -> list[int]:
     """Return the numbers that a control does not have, and does not get by what is written."""
     comes = _coming(wanted, present)
-    return [n for n in wanted if n not in present.settings and n not in comes and n not in PER_AXIS_RATES]
+    by_option = {*PER_AXIS_RATES, *COMMON_RATES}
+    return [n for n in wanted if n not in present.settings and n not in comes and n not in by_option]
 
 
 def _coming(wanted: Mapping[int, str], present: GrblContent) -> set[int]:
@@ -212,6 +215,15 @@ def _fitted(wanted: Mapping[int, str], present: GrblContent, known: Mapping[int,
     """Return the settings of a control after these are written; raises ImageError."""
     settings = dict(present.settings)
     comes = _coming(wanted, present)
+    for (
+        common,
+        rates,
+    ) in COMMON_RATES.items():  # what comes is as the common rate was, and the other way round
+        settings |= {
+            n: settings[common] for n in rates if n in comes and n not in settings and common in settings
+        }
+        if rates[0] in settings:
+            settings.setdefault(common, settings[rates[0]])
     for number, text in wanted.items():
         if number not in settings and number not in comes:
             continue
@@ -272,12 +284,8 @@ def _moved(settings: dict[int, str], wanted: Mapping[int, str], *, has_rates: bo
         if settings.get(RESET_ACTIONS, "").isdecimal():
             keeps = homing & 1 and homing & _KEEP_HOMED
             moved[RESET_ACTIONS] = str(int(settings[RESET_ACTIONS]) & ~1 | (0 if keeps else 1))
-    if has_rates:
-        for number, first in ((LOCATE_RATE, AXIS_LOCATE_RATE), (SEEK_RATE, AXIS_SEEK_RATE)):
-            if first in settings:
-                settings[number] = _as_shown(settings[first], settings.get(number, ""))
-    else:
-        settings = {n: text for n, text in settings.items() if n not in PER_AXIS_RATES}
+    hidden = COMMON_RATES.keys() if has_rates else PER_AXIS_RATES
+    settings = {n: text for n, text in settings.items() if n not in hidden}
     for number, text in moved.items():
         if number in settings and number not in wanted:
             settings[number] = text

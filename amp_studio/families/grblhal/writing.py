@@ -11,11 +11,12 @@ from collections.abc import Iterator, Mapping
 from itertools import chain
 
 from amp_studio.transfer.driver import Receipt
+from amp_studio.transfer.errors import Confirmed
 from amp_studio.transfer.progress import Progress
 
 from .content import GrblContent
 from .description import Setting
-from .kind import HOMING, LOCATE_RATE, PER_AXIS_RATES, SEEK_RATE
+from .kind import HOMING
 from .line import GrblLine, GrblRefusalError
 from .numbers import decimals_of, is_shown_as, read_number, shown_number
 from .offsets import left_notes, offset_commands, startup_commands
@@ -35,13 +36,7 @@ class Writing:
     def __init__(self, wanted: GrblContent, present: GrblContent, known: Mapping[int, Setting]) -> None:
         self.wanted, self.present, self._known = wanted, present, known
         self.names = {number: setting.name for number, setting in known.items()}
-        has_rates = any(n in wanted.settings for n in PER_AXIS_RATES)
-        self._moved = {LOCATE_RATE, SEEK_RATE} if has_rates else set()
-        self.settings = {
-            n: text
-            for n, text in wanted.settings.items()
-            if present.settings.get(n) != text and n not in self._moved
-        }
+        self.settings = {n: text for n, text in wanted.settings.items() if present.settings.get(n) != text}
         self.others = dict(chain(offset_commands(wanted, present), startup_commands(wanted, present)))
         self.taken: list[str] = []
         self.unanswered = ""
@@ -50,6 +45,11 @@ class Writing:
     def has_begun(self) -> bool:
         """Whether anything was sent that the control may have taken."""
         return bool(self.taken or self.unanswered)
+
+    @property
+    def confirmed(self) -> Confirmed:
+        """How far it has come."""
+        return Confirmed(len(self.taken), len(self.settings) + len(self.others), self.unanswered)
 
     def run(self, line: GrblLine, progress: Progress) -> None:
         """Send it all; raises GrblRefusalError for what the control refuses in the end, and as ``GrblLine.ask``."""
@@ -73,7 +73,7 @@ class Writing:
         )
 
     def _is_there(self, number: int, text: str, shown: Mapping[int, str]) -> bool:
-        return number in self._moved or is_shown_as(text, shown.get(number, ""))
+        return is_shown_as(text, shown.get(number, ""))
 
     def _round(self, line: GrblLine, left: Mapping[int, str], progress: Progress, total: int) -> None:
         """Write settings; what is refused is tried again as long as another one was taken meanwhile."""

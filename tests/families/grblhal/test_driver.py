@@ -108,7 +108,7 @@ def test_a_refusal_is_a_sentence_with_the_name_of_the_setting_and_the_rest_is_ol
     with pytest.raises(TransferError) as caught:
         download(bench.driver, wanted, lambda _: "copy", signature="")
     assert str(caught.value) == (
-        "the control refuses $32=1 (Mode of operation): the value is out of range (error 52); the control contains the new "
+        "the control refuses $32=1 (Mode of operation): the value is out of range (error 52); 1 of 2 values were confirmed; the control contains the new "
         "$30 and the old values of the rest (what it contained before is kept in copy)"
     )
     assert (caught.value.at_control, caught.value.new) == ("mixed", ("$30",))
@@ -375,7 +375,8 @@ def test_a_fault_of_this_computer_between_two_settings_is_told_with_what_the_con
     present = held(bench)
     wanted = replace(present, settings={**present.settings, 110: "600.000", 111: "600.000"})
     with pytest.raises(
-        TransferError, match=r"the download broke off \(MemoryError\); the control contains the new \$110"
+        TransferError,
+        match=r"the download broke off \(MemoryError\); 1 of 2 values were confirmed; the control contains the new \$110",
     ) as caught:
         download(bench.driver, write_content(wanted), lambda _: "copy", signature="", progress=fails)
     assert caught.value.at_control == "mixed"
@@ -384,3 +385,19 @@ def test_a_fault_of_this_computer_between_two_settings_is_told_with_what_the_con
 @pytest.mark.parametrize("seed", range(12))
 def test_whatever_fails_the_copy_is_whole_and_what_is_told_is_true(seed: int, tmp_path: Path) -> None:
     assert download_with_faults(seed, tmp_path) == []
+
+
+def test_a_download_that_loses_its_line_reports_how_many_values_were_confirmed_and_which_was_not_answered(
+    bench: Bench,
+) -> None:
+    present = held(bench)
+    wanted = replace(present, settings={**present.settings, 110: "600.000", 111: "600.000", 112: "600.000"})
+
+    def cut(stage: str, done: int, _total: int) -> None:
+        bench.is_cut |= (stage, done) == ("download", 1)
+
+    with pytest.raises(TransferError) as caught:
+        download(bench.driver, write_content(wanted), lambda _: "copy", signature="", progress=cut)
+    assert caught.value.at_control == "unknown"
+    assert "1 of 3 values were confirmed, $111 was not answered; which of the new values" in str(caught.value)
+    assert "old or the new" not in str(caught.value)

@@ -31,11 +31,18 @@ def test_disabling_homing_takes_soft_limits_along_and_the_copy_brings_them_back(
 
 def test_rates_of_each_axis_come_and_go_with_an_option(bench: Bench) -> None:
     before = bench.driver.fetch()
-    assert 180 not in read_content(before).settings
-    assert put(
-        bench, {22: "513", 180: "30.0", 181: "25.0", 182: "25.0", 190: "500.0", 24: "30.0", 676: "15"}
+    common = read_content(before).settings[24]
+    with_rates = edited(bench, n22=513.0)
+    assert download(
+        bench.driver, partial(bench.driver.encode, with_rates), lambda _: "kept", signature=""
     ).verified
-    assert held(bench).settings[180] == "30.0"
+    now = held(bench).settings
+    assert [now[180], now[181], now[182]] == [common] * 3, "each axis has the rate that was there for all"
+    assert not {24, 25} & now.keys(), "they are hidden, and not sent"
+    assert not bench.driver.left_out(with_rates, bench.driver.fetch())
+    own = edited(bench, n181=31.0)
+    assert download(bench.driver, partial(bench.driver.encode, own), lambda _: "kept", signature="").verified
+    assert held(bench).settings[181] == "31.0"
     assert download(
         bench.driver, partial(bench.driver.refit, before), lambda _: "kept", signature=""
     ).verified

@@ -22,7 +22,7 @@ def test_identify_names_family_revision_axes_and_checksum(
     assert (found["family"], found["revision"], found["protocol"]) == ("9pc", "emulated", "house")
     assert found["signature"] == load_schema("9pc").signature
     assert found["abilities"] == {
-        "can_send": True, "remembers": True, "all_or_nothing": True, "maps_numbers": False,
+        "can_send": True, "remembers": True, "all_or_nothing": True, "maps_numbers": False, "lasting_states": [],
     }  # fmt: skip
     assert (found["in_estop"], found["restart_needed"], found["unreadable"]) == (True, False, None)
     assert run(["identify", address]) == 0

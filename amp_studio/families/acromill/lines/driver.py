@@ -9,6 +9,7 @@ import re
 import threading
 import time
 from collections.abc import Callable
+from dataclasses import replace
 from functools import partial
 from typing import ClassVar
 
@@ -19,6 +20,7 @@ from amp_studio.transfer.driver import Abilities, ControlIdentity, NeverRestarts
 from amp_studio.transfer.errors import (
     AtControl,
     CancelledError,
+    Confirmed,
     ConnectionCutError,
     ControlFullError,
     ControlSilentError,
@@ -137,6 +139,7 @@ class TerminalDriver(AcrContent, NeverRestarts):
             self._send(sending)
         except CancelledError as error:
             error.at_control, error.new = sending.state()
+            error.confirmed = sending.confirmed
             if sending.is_saving:
                 error.what += "; whether the card has saved it is not known"
             elif error.at_control != "old":
@@ -312,6 +315,9 @@ class TerminalDriver(AcrContent, NeverRestarts):
         """Return the error with what the card contains now, read from it."""
         if not sending.touched:
             return error
+        error.confirmed = sending.confirmed
+        if isinstance(error, ImageRejectedError) and error.confirmed:  # it has been answered
+            error.confirmed = replace(error.confirmed, unanswered="")
         if isinstance(error, ConnectionCutError):  # it was called long enough
             error.at_control = "unknown"
             return error
@@ -380,6 +386,14 @@ class _Sending:
         """Take notice that a setting was read back."""
         if name not in self._proved:
             self._proved.append(name)
+
+    @property
+    def confirmed(self) -> Confirmed | None:
+        """How far it has come; None before anything was sent."""
+        under_way = next(
+            (name for name in self.names if name in self.touched and name not in self._proved), ""
+        )
+        return Confirmed(len(self._proved), len(self.names), under_way) if self.touched else None
 
     def state(self) -> tuple[AtControl, Figures]:
         """Return what the card contains by what was read back of it so far."""

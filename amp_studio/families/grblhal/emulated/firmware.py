@@ -192,7 +192,7 @@ class Firmware:
                 self._need_rest()
             self._send(*self._reports()[name]())
         elif not equals and name.isdigit() and not self.settings.is_classic:
-            shown = next((s for s in self.settings.available() if s.number == int(name)), None)
+            shown = self.settings.named(int(name))
             if shown is None:
                 raise RefusedError(53)
             self._send(f"${shown.number}={shown.show()}")

@@ -123,8 +123,14 @@ class StoredSettings:
         """Yield the settings there are now, by number."""
         has_rates = bool(self._whole(22) & 1 << 9)
         for number, setting in sorted(self.all.items()):
-            if number not in AXIS_RATES or (has_rates and not self.is_classic):
+            hidden = (24, 25) if has_rates and not self.is_classic else AXIS_RATES
+            if number not in hidden:
                 yield setting
+
+    def named(self, number: int) -> StoredSetting | None:
+        """Return a setting that is asked for alone: $24 and $25 are shown then, though no list has them (recorded)."""
+        listed = (s for s in self.available() if s.number == number)
+        return self.all[number] if number in (24, 25) else next(listed, None)
 
     def store(self, number: int, text: str) -> None:
         """Do ``$number=text``; raises RefusedError."""
@@ -134,8 +140,6 @@ class StoredSettings:
         value = setting.read(text)
         if number in (20, 40) and value and not self._whole(22) & 1:
             raise RefusedError(SOFT_LIMITS_NEED_HOMING)
-        if number in (24, 25) and self._whole(22) & 1 << 9:
-            raise RefusedError(NOT_THERE)
         setting.value = value
         self._move(number)
 

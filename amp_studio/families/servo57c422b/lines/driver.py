@@ -16,6 +16,7 @@ from amp_studio.transfer.break_state import state_after_break
 from amp_studio.transfer.driver import Abilities, ControlIdentity, NeverRestarts, Receipt
 from amp_studio.transfer.errors import (
     CancelledError,
+    Confirmed,
     ControlSilentError,
     ImageRejectedError,
     NotInEmergencyStopError,
@@ -99,10 +100,12 @@ class RegisterDriver(RegisterContent, NeverRestarts):
         changed = [register for register in settings() if before[register] != wanted[register]]
         self._need_loops_off()
         written: list[int] = []
+        proved = 0
         try:
             for number, register in enumerate(changed, 1):
                 written.append(register)
                 self._write(register, wanted[register])
+                proved = number
                 self._waiting.notify("download", number, len(changed))
             notes = tuple(
                 self._taken_over(axis) for axis in AXES if any(r // AXIS_Y * AXIS_Y == axis for r in changed)
@@ -110,6 +113,9 @@ class RegisterDriver(RegisterContent, NeverRestarts):
         except TransferError as error:
             if written:
                 self._tell_state(error, held, content)
+                is_refused = isinstance(error, ImageRejectedError)  # it has been answered
+                under_way = f"R{written[-1]}" if len(written) > proved and not is_refused else ""
+                error.confirmed = Confirmed(proved, len(changed), under_way)
             raise
         lost = (
             "The registers lose it with the power of the rack: load the AutoMax tables there too (page 3-10)."

@@ -165,7 +165,7 @@ def test_a_command_that_the_card_refuses_is_named_with_its_line_and_all_is_read_
     with pytest.raises(ImageRejectedError) as caught:
         send(bench, small_file(pgain="0.08", ppu="4096"), [])
     assert str(caught.value) == (
-        "line 83 of the script, 'PGAIN X0.08': the card answers 'Number out of range'; the control contains the new PPU X "
+        "line 83 of the script, 'PGAIN X0.08': the card answers 'Number out of range'; 1 of 2 values were confirmed; the control contains the new PPU X "
         "and the old values of the rest (what it contained before is kept in kept)"
     )
     assert bench.switch_on().settings.values["PPU X"] == "10000", "nothing was saved"
@@ -174,7 +174,8 @@ def test_a_command_that_the_card_refuses_is_named_with_its_line_and_all_is_read_
 def test_a_setting_that_the_card_takes_otherwise_is_named(bench: CardBench) -> None:
     refuse(bench, "PPU X4096", [])
     with pytest.raises(
-        ImageRejectedError, match="line 3 of the script, 'PPU X4096': the card takes it and shows 10000; noth"
+        ImageRejectedError,
+        match="line 3 of the script, 'PPU X4096': the card takes it and shows 10000; 0 of 1 values were confirmed; noth",
     ):
         send(bench, small_file(ppu="4096"), [])
 
