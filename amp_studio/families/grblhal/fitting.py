@@ -13,7 +13,7 @@ from dataclasses import dataclass, field, replace
 from amp_studio.files import Header, ParameterFile, fitted_axes
 from amp_studio.schema import Address, InvalidValueError, Schema, Value, fault, show_value
 
-from .masks import Build, Labels, bits_beyond, set_bits, with_bits
+from .masks import Build, MaskBits, bits_beyond, set_bits, with_bits
 from .settings import addresses_by_number, number_at, text_of_value, value_of_text
 
 LACKING = "this control does not have the setting"
@@ -46,7 +46,7 @@ class Fitted:
 
     file: ParameterFile
     misfits: tuple[Misfit, ...]
-    lost: Labels = field(default_factory=dict)
+    lost: MaskBits = field(default_factory=dict)
 
 
 def build_of(file: ParameterFile) -> Build:

@@ -15,7 +15,7 @@ from .bounds import BoundsError, check_text
 from .content import GrblContent, read_content, write_content
 from .description import PASSWORD, Setting, description_of, read_description
 from .fitting import Misfit, build_of, fit_to
-from .masks import Build, Labels, bits_beyond, named_bits, with_bits
+from .masks import Build, MaskBits, bits_beyond, named_bits, with_bits
 from .numbers import decimals_of, is_same_number, is_shown_as, read_number, shown_number, written_number
 from .offsets import PUT_BACK, at_axes, offset_differences, reports_inches
 from .settings import compiled_in, settings_of_file, values_of_settings
@@ -138,8 +138,8 @@ class _Wanted:
 
     settings: dict[int, str]
     lacking: list[int]
-    kept: Labels
-    lost: Labels
+    kept: MaskBits
+    lost: MaskBits
 
 
 def _wanted(file: ParameterFile, present: GrblContent, held: bytes) -> _Wanted:
@@ -150,7 +150,7 @@ def _wanted(file: ParameterFile, present: GrblContent, held: bytes) -> _Wanted:
     if file.schema.family.family != FAMILY:
         raise ImageError(f"a file for {file.schema.family.name} is nothing for a Grbl control")
     lacking: list[int] = []
-    lost: Labels = {}
+    lost: MaskBits = {}
     try:
         schema = _schema_of(present, held)
         build = _build(schema, present)
@@ -218,7 +218,7 @@ def _fitted(wanted: Mapping[int, str], present: GrblContent, known: Mapping[int,
     for (
         common,
         rates,
-    ) in COMMON_RATES.items():  # what comes is as the common rate was, and the other way round
+    ) in COMMON_RATES.items():  # what comes is as the common rate was, and in the opposite direction
         settings |= {
             n: settings[common] for n in rates if n in comes and n not in settings and common in settings
         }

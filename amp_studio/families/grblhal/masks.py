@@ -13,7 +13,7 @@ from amp_studio.schema import MachineSchema, Parameter
 
 from .settings import addresses_by_number
 
-Labels = Mapping[int, Mapping[int, str]]
+MaskBits = Mapping[int, Mapping[int, str]]
 """Number of a mask -> bit -> its label."""
 
 
@@ -64,7 +64,7 @@ def set_bits(text: str, bits: Mapping[int, str]) -> dict[int, str]:
     return {bit: label for bit, label in bits.items() if text.isdecimal() and int(text) >> bit & 1}
 
 
-def named_bits(labels: Labels) -> str:
+def named_bits(labels: MaskBits) -> str:
     """Return which bits of which masks: ``A, B in $3, $4; Mist in $15``."""
     masks: dict[tuple[str, ...], list[int]] = {}
     for number, bits in sorted(labels.items()):

@@ -1,4 +1,4 @@
-"""What is said of a control is no more than what is known of it."""
+"""A result names no more than what is known of a control."""
 
 from __future__ import annotations
 
