@@ -13,7 +13,7 @@ from dataclasses import replace
 from functools import cached_property
 
 from .law import AxisLaw, Source
-from .linear import LinearModel, Margins, axis_model, linear_model
+from .linear import Margins, axis_model, linear_model
 from .rounding import rounded_down, rounded_up, shown
 from .trace import Recommendation
 from .trial import Trial
@@ -28,8 +28,6 @@ AMPLE = (75.0, 14.0)
 """deg, dB of a loop with a reserve."""
 KEPT = (60.0, 10.0, 0.7)
 """deg, dB, damping ratio that a loop keeps when its reserve is used."""
-NEAR = 3.0
-"""An oscillation this many times faster than the position loop is that of another loop."""
 WORTH = 1.25
 """A reserve below this factor is not worth a change."""
 POINTS = 160
@@ -87,8 +85,8 @@ class Loops:
 
     @cached_property
     def damping(self) -> float:
-        """Damping ratio."""
-        return _damping(self._models.whole, self.outer.phase_frequency)
+        """Damping ratio of the position loop."""
+        return self._models.damping(self.outer.phase_frequency)
 
     def inner_sound(self, phase: float = INNER[0], gain: float = INNER[1]) -> bool:
         """Return whether the velocity loop is stable with these margins."""
@@ -105,13 +103,6 @@ def _keeps(margins: Margins, phase: float, gain: float) -> bool:
     return (margins.phase is None or margins.phase >= phase) and (
         margins.gain is None or margins.gain >= gain
     )
-
-
-def _damping(model: LinearModel, crossing: float | None) -> float:
-    """Return the damping ratio of the slowest oscillation near the frequency where the position loop has gain 1; 1 for none."""
-    nearest = math.inf if crossing is None else NEAR * 2.0 * math.pi * crossing
-    pairs = [pair for pair in model.oscillations() if pair[0] < nearest]
-    return min(pairs)[1] if pairs else 1.0
 
 
 def recommend(trial: Trial, scenario: str) -> tuple[Recommendation, ...]:

@@ -186,6 +186,10 @@ def linear_model(axis: AxisLaw) -> LinearModel:
     return LinearModel(**vars(loop))
 
 
+NEAR = 3.0
+"""An oscillation this many times faster than the position loop is that of another loop."""
+
+
 @dataclass(frozen=True)
 class AxisModel:
     """The linear models of one axis."""
@@ -196,6 +200,14 @@ class AxisModel:
     """The position loop, cut where the position is measured."""
     inner: LinearModel | None
     """The velocity loop alone; None for a law without one."""
+
+    def damping(self, crossing: float | None) -> float:
+        """Return the damping ratio of the position loop: of the slowest oscillation near ``crossing``, the frequency in Hz where its
+        gain is 1; 1 for none.
+        """
+        nearest = math.inf if crossing is None else NEAR * 2.0 * math.pi * crossing
+        pairs = [pair for pair in self.whole.oscillations() if pair[0] < nearest]
+        return min(pairs)[1] if pairs else 1.0
 
 
 def axis_model(axis: AxisLaw) -> AxisModel:

@@ -20,7 +20,12 @@ _FIGURES: dict[str, tuple[str, float, str, str]] = {
         "{u}/s2 for 1 {torque}",
         "acceleration for one unit of torque (mm/s2 or deg/s2 per torque)",
     ),
-    "model.inertia_ratio": ("inertia_ratio", 1.0, "", "inertia of the load / inertia of the motor"),
+    "model.inertia_ratio": (
+        "inertia_ratio",
+        1.0,
+        "",
+        "inertia of the load / inertia of the motor; with model.resonance or model.backlash",
+    ),
     "model.viscous_friction": (
         "viscous_friction",
         AT_SPEED,
@@ -92,6 +97,13 @@ def with_model(axis: AxisLaw, read: AxisParameters) -> AxisLaw:
             raise SimulationError(f"{name} does not fit axis {axis.axis}: its drive gives a torque", name)
     assumed = {figure: why for figure, why in axis.assumed.items() if figure not in changes}
     machine = replace(axis.machine, **changes)  # type: ignore[arg-type]  # none of them is the flag
+    if "inertia_ratio" in changes and not machine.two_masses:
+        name = "model.inertia_ratio"
+        raise SimulationError(
+            f"{name} divides an axis in motor and load, and axis {axis.axis} is one rigid mass: give model.resonance or model.backlash"
+            " too",
+            name,
+        )
     if machine.two_masses:
         machine = _coupled(machine, assumed)
     return replace(axis, machine=machine, assumed=assumed)

@@ -53,6 +53,14 @@ def test_two_unequal_gains_make_an_ellipse() -> None:
     )
 
 
+@pytest.mark.parametrize("gain", [25.0, 40.0])
+def test_unequal_axes_without_friction_have_the_predicted_radius_and_no_spike(gain: float) -> None:
+    result = SCENARIOS["circle"].run(tiny(), SETTINGS, tiny(gain=gain)).result
+    assert result["radius_error"][0] == pytest.approx(result["predicted_radius_error"][0], rel=1e-3)
+    assert result["circularity"][0] > 0.4, "an ellipse, and not a departure from it"
+    assert result["reversal_spike"][0] < 5e-4
+
+
 def test_a_second_axis_that_is_not_given_is_named_as_assumed() -> None:
     assert any("second axis" in note for note in SCENARIOS["circle"].run(tiny(), SETTINGS).assumptions)
     assert not any(

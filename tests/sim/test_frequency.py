@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 
 from amp_studio.sim import SCENARIOS, SimulationError, Trace
+from amp_studio.sim.advice import Loops
 from amp_studio.sim.linear import linear_model
 from amp_studio.sim.scenarios.sweep import Tone, sweep
 from tests.sim.tiny import tiny
@@ -92,3 +93,20 @@ def test_an_answer_below_half_a_count_is_no_point_of_the_sweep() -> None:
     found = sweep(axis, [Tone(1.0, 0.004, 0.0, 1.0, 2.0), Tone(1.0, 0.4, 2.0, 3.0, 4.0)])
     assert np.isnan(found.measured[0])
     assert abs(found.measured[1]) == pytest.approx(1.0, abs=0.3)
+
+
+def test_an_axis_that_never_answers_with_more_than_its_command_has_no_resonance_peak() -> None:
+    sweep = SCENARIOS["frequency"].run
+    assert sweep(tiny(), {}).result["resonance_peak"] == (None, "dB")
+    peak = sweep(tiny(gain=120.0), {}).result["resonance_peak"][0]
+    assert peak > 0.2
+    assert sweep(tiny(gain=120.0), {"move.lowest": 60.0}).result["resonance_peak"][0] == peak, (
+        "of the loop, not of the part of it that is drawn"
+    )
+
+
+def test_the_damping_ratio_is_that_of_the_position_loop_and_the_least_one_has_its_own_name() -> None:
+    axis = tiny(resonance=60.0, damping=0.05, inertia_ratio=0.2)
+    result = SCENARIOS["frequency"].run(axis, {}).result
+    assert result["damping_ratio"][0] == Loops(axis).damping
+    assert result["least_damping_ratio"][0] < 0.3 < result["damping_ratio"][0]

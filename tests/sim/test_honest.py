@@ -144,3 +144,27 @@ def test_absurd_input_gets_a_sentence_or_finite_figures(
         finite = all(np.isfinite(each).all() for each in (*trace.columns.values(), figures))
     assert finite
     assert sentence == "" or (len(sentence) > 20 and "\n" not in sentence and "nan" not in sentence[:5])
+
+
+@pytest.mark.parametrize("scenario", ["step", "velocity", "frequency", "circle"])
+def test_an_axis_whose_friction_is_above_the_torque_limit_is_said_not_to_move(scenario: str) -> None:
+    stuck = tiny(coulomb_friction=120.0, torque_limit_positive=100.0, torque_limit_negative=100.0)
+    alarm = SCENARIOS[scenario].run(stuck, {}).alarms[0]
+    assert alarm.code == "NO MOTION"
+    assert alarm.message.startswith(
+        "Axis 1 does not move: its friction at rest is 120 %, and the torque was at most"
+    )
+
+
+def test_a_move_that_friction_hardly_hinders_and_an_axis_that_falls_have_no_such_alarm() -> None:
+    assert STEP(tiny(coulomb_friction=5.0), {}).alarms == ()
+    inside = STEP(tiny(coulomb_friction=20.0), {"move.distance": 0.005})
+    assert not np.any(inside.columns["velocity"]), "the test needs an axis that stays where it is"
+    assert inside.alarms == (), "and is in position there"
+
+
+def test_an_inertia_ratio_without_two_masses_is_refused(mill: ParameterFile) -> None:
+    for rigid in ({}, {"model.resonance": 0.0}):
+        with pytest.raises(SimulationError, match=r"give model\.resonance or model\.backlash too"):
+            simulate(mill, "step", "1", {"model.inertia_ratio": 3.0, **rigid})
+    simulate(mill, "step", "1", {"model.inertia_ratio": 3.0, "model.resonance": 80.0})

@@ -191,7 +191,10 @@ def _time_at_limit(m: SimulatedMove) -> float:
 
 def _loops(m: SimulatedMove) -> Iterator[Recommendation]:
     """Overshoot: ratio of the loops (7-54), integral gain (7-56, A-9), discharge rate (7-58)."""
-    over, p = m.figure("overshoot"), m.p
+    over, p = (
+        m.figure("overshoot") - m.axis.machine.backlash,
+        m.p,
+    )  # no gain changes how far the load runs in its gap
     if over <= max(m.axis.inposition_band, 2.0 * p[samples.COUNT]) or p[samples.PROPORTIONAL] == 0.0:
         return
     ran = f"The axis overshot the end position by {m.length(over)}"

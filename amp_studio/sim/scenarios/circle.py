@@ -33,6 +33,8 @@ SETTINGS = {
 RADIUS, FEEDRATE = 20.0, 50.0
 """u, u/s: 20 mm at 3 m/min."""
 MOST_TURNS = 200
+PATH = 720
+"""Points of the predicted path."""
 RISE = math.pi
 """rad: the part of a turn in which the feedrate rises."""
 AWAY = (-6.0, 40.0)
@@ -172,16 +174,15 @@ def _figures(
     u, deviation = axis.unit, columns["radius_deviation"]
     feedrate, limit = circle.rate * circle.radius, _limit(axis, other, circle.radius)
     answers = [complex(model.follows(np.array([circle.rate / (2.0 * math.pi)]))[0]) for model in models]
-    predicted = circle.radius * (1.0 - math.sqrt(sum(abs(a) ** 2 for a in answers) / 2.0))
     lag = [circle.radius * (circle.rate / each.position_rate) ** 2 / 2.0 for each in (axis, other)]
     stable = all(model.is_stable() for model in models)
-    spike, where = _spike(columns["angle_deg"], deviation) if not stopped else (None, None)
+    spike, where = _spike(circle.radius, columns["angle_deg"], deviation) if not stopped else (None, None)
     return {
         "radius": (circle.radius, u),
         "feedrate": (feedrate * 60.0, f"{u}/min"),
         **({} if limit is None else {"feedrate_limit": (limit * 60.0, f"{u}/min")}),
         "radius_error": (None if stopped else -float(deviation.mean()), u),
-        "predicted_radius_error": (predicted if stable else None, u),
+        "predicted_radius_error": (_predicted(circle.radius, *answers) if stable else None, u),
         "first_order_radius_error": (sum(lag) / 2.0, u),
         "circularity": (None if stopped else float(deviation.max() - deviation.min()), u),
         "reversal_spike": (spike, u),
@@ -190,16 +191,29 @@ def _figures(
     }
 
 
-def _spike(angle: Series, deviation: Series) -> tuple[float | None, float | None]:
-    """Return the largest departure near a reversal from the even path (offset and ellipse), and where it is in deg."""
+def _predicted(radius: float, first: complex, second: complex) -> float:
+    """Return the mean radius error of the ellipse that two axes make of a circle by their answers at its rate."""
+    turn = np.linspace(0.0, 2.0 * math.pi, PATH, endpoint=False)
+    path = np.hypot((first * np.exp(1j * turn)).real, (second * np.exp(1j * turn)).imag)
+    return radius * (1.0 - float(path.mean()))
+
+
+def _spike(radius: float, angle: Series, deviation: Series) -> tuple[float | None, float | None]:
+    """Return the largest departure near a reversal from the even path (offset and ellipse), and where it is in deg.
+
+    1 / r² of an ellipse has harmonics 0 and 2 of the angle alone, however unequal its axes are.
+    """
     after = (angle - AWAY[0]) % 90.0
     near = after < AWAY[1] - AWAY[0]
     turn = np.radians(angle)
     base = np.column_stack([np.ones_like(turn), *(f(n * turn) for n in (1, 2) for f in (np.cos, np.sin))])
     if (~near).sum() < 2 * base.shape[1] or not near.any():
         return None, None
-    even = np.linalg.lstsq(base[~near], deviation[~near], rcond=None)[0]
-    apart = np.where(near, np.abs(deviation - base @ even), 0.0)
+    measured = 1.0 + deviation / radius
+    even = base @ np.linalg.lstsq(base[~near], measured[~near] ** -2.0, rcond=None)[0]
+    if (even <= 0.0).any():
+        return None, None
+    apart = np.where(near, radius * np.abs(measured - even**-0.5), 0.0)
     place = int(np.argmax(apart))
     return float(apart[place]), float(angle[place] % 360.0)
 

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+
 import numpy as np
 import numpy.typing as npt
 
@@ -33,7 +35,7 @@ def column_units(axis: AxisLaw) -> dict[str, str]:
 def alarms_of(
     axis: AxisLaw, motion: Motion, stable: bool = True, margins: Margins | None = None
 ) -> tuple[Alarm, ...]:
-    """Return the alarm that ended a run, after the one for a loop that is not stable: ``margins`` are its own."""
+    """Return the alarm that ended a run, after those for a loop that is not stable (``margins`` are its own) and for an axis at rest."""
     alarms = []
     if not stable or motion.stop == int(DIVERGED):
         moment = 0.0 if motion.alarm_row is None else float(motion.columns["time_s"][motion.alarm_row])
@@ -44,6 +46,7 @@ def alarms_of(
                 f"The loop of axis {axis.axis} is not stable{_margins(margins)}{'. ' if axis.undamped else ''}{axis.undamped}",
             )
         )
+    alarms.extend(_standstill(axis, motion))
     if motion.stop != 0 and motion.stop != int(DIVERGED):
         moment = float(motion.columns["time_s"][motion.alarm_row or 0])
         if motion.stop == int(EMERGENCY_STOP):
@@ -52,6 +55,27 @@ def alarms_of(
             text = axis.alarms[motion.stop]
             alarms.append(Alarm(text.code, moment, text.message))
     return tuple(alarms)
+
+
+def _standstill(axis: AxisLaw, motion: Motion) -> Iterator[Alarm]:
+    """Yield an alarm for an axis that friction keeps at rest although a way was commanded, longer than what counts as in position."""
+    machine, columns = axis.machine, {name: column[motion.driven] for name, column in motion.columns.items()}
+    friction = max(machine.static_friction, machine.coulomb_friction)
+    moved = np.flatnonzero(columns["command_velocity"])
+    if friction == 0.0 or not moved.size or motion.stop == int(EMERGENCY_STOP) or np.any(columns["velocity"]):
+        return
+    time = columns["time_s"]
+    way = float(np.abs(columns["command_velocity"]).mean()) * float(time[-1] - time[0])
+    if way <= max(axis.inposition_band, axis.rest_band, machine.position_count):
+        return
+    unit, peak = column_units(axis)["torque"], float(np.abs(columns["torque"]).max())
+    weight = f" and its weight {shown(abs(machine.gravity), unit, 3)}" if machine.gravity else ""
+    yield Alarm(
+        "NO MOTION",
+        float(time[moved[0]]),
+        f"Axis {axis.axis} does not move: its friction at rest is {shown(friction, unit, 3)}{weight}, and the torque was at most"
+        f" {shown(peak, unit, 3)}",
+    )
 
 
 def _margins(margins: Margins | None) -> str:

@@ -34,6 +34,8 @@ SETTINGS = {
 POINTS, MOST_POINTS = 24, 400
 CURVE = 400
 """Points of the drawn linear model."""
+LEAST_PEAK = 0.01
+"""dB: below it an axis has no resonance peak; one that only falls has its largest answer, 0 dB, at rest."""
 
 
 @dataclass(frozen=True)
@@ -49,6 +51,8 @@ class _Loop:
     """The velocity loop."""
     stable: bool
     margins: Margins
+    damping: float
+    """Damping ratio of the position loop."""
     bandwidth: float | None
 
 
@@ -73,7 +77,9 @@ def run_frequency(axis: AxisLaw, settings: Settings) -> Trace:
     model, cut = models.whole, models.cut
     if not np.any(model.measured) and not model.is_stable() and model.is_stable(drift=True):
         raise SimulationError(f"The position loop of axis {axis.axis} is open. Use the scenario velocity")
-    loop = _Loop(axis, model, cut, models.inner, model.is_stable(), cut.margins(), model.bandwidth())
+    margins = cut.margins()
+    damping = models.damping(margins.phase_frequency)
+    loop = _Loop(axis, model, cut, models.inner, model.is_stable(), margins, damping, model.bandwidth())
     low, high, points = _span(loop, settings)
     curve = np.unique(np.concatenate([np.geomspace(low, high, CURVE), _known(loop, low, high)]))
     notes, alarms = [_LINEAR], tuple[Alarm, ...]()
@@ -211,7 +217,7 @@ def _figures(loop: _Loop, curve: Series, swept: _Swept) -> dict[str, Figure]:
     inside = loop.inner.margins() if loop.inner else None
     margins = loop.margins if loop.model.is_stable_inside() or inside is None else inside
     inertias = stable_inertias(loop.axis) if loop.stable else None
-    peak = float(_db(loop.model.follows(curve)).max())
+    peak = float(_db(loop.model.follows(loop.model.grid())).max())
     return {
         "bandwidth": (loop.bandwidth if loop.stable else None, "Hz"),
         "swept_bandwidth": (_falls(curve, np.abs(swept.closed), math.sqrt(0.5)), "Hz"),
@@ -221,8 +227,9 @@ def _figures(loop: _Loop, curve: Series, swept: _Swept) -> dict[str, Figure]:
         "gain_margin": (margins.gain, "dB"),
         "gain_margin_frequency": (margins.gain_frequency, "Hz"),
         "swept_gain_margin": (_swept_gain(swept.opened), "dB"),
-        "resonance_peak": (peak if loop.stable else None, "dB"),
-        "damping_ratio": (loop.model.least_damping(), ""),
+        "resonance_peak": (peak if loop.stable and peak > LEAST_PEAK else None, "dB"),
+        "damping_ratio": (loop.damping, ""),
+        "least_damping_ratio": (loop.model.least_damping(), ""),
         "least_stable_inertia": (inertias[0] if inertias else None, ""),
         "most_stable_inertia": (inertias[1] if inertias else None, ""),
         "velocity_loop_phase_margin": (inside.phase if inside else None, "deg"),

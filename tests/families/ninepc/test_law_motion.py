@@ -308,6 +308,15 @@ def test_an_overshoot_of_a_slow_velocity_loop_asks_for_four_times_the_position_l
     )
 
 
+def test_how_far_the_load_runs_in_its_backlash_is_no_overshoot_of_the_integrator(axis: Axis) -> None:
+    values: Values = {"servo.excess_error": 16.5, "servo.feedrate_suppression": 16.4}
+    integral: Values = {"servo.velocity_integral_gain": 200.0}
+    law = axis({**values, **integral}, backlash=0.2, resonance=40.0)
+    trace = step(law, distance=60.0, feedrate=6000.0)
+    assert 0.0254 < figure(trace, "overshoot") < 0.2
+    assert advise(law, trace) == ()
+
+
 def test_where_the_velocity_loop_cannot_be_fast_enough_the_position_gain_goes_down(axis: Axis) -> None:
     values: Values = {"servo.initial_gain": 20.0, "servo.velocity_proportional_gain": 2000.0}
     trace = step(axis(values), distance=60.0, feedrate=6000.0)
