@@ -10,9 +10,11 @@ from pathlib import Path
 
 import pytest
 
+from amp_studio.families.grblhal.aftermath import state_of
 from amp_studio.families.grblhal.content import read_content, write_content
 from amp_studio.families.grblhal.driver import GrblDriver
 from amp_studio.families.grblhal.line import GrblLine
+from amp_studio.families.grblhal.writing import Writing
 from amp_studio.schema import Value
 from amp_studio.transfer.client.exchange import download
 from amp_studio.transfer.content import decode_content, kind_of
@@ -401,3 +403,30 @@ def test_a_download_that_loses_its_line_reports_how_many_values_were_confirmed_a
     assert caught.value.at_control == "unknown"
     assert "1 of 3 values were confirmed, $111 was not answered; which of the new values" in str(caught.value)
     assert "old or the new" not in str(caught.value)
+
+
+def test_a_number_that_the_line_has_changed_is_written_again(bench: Bench) -> None:
+    """The control takes ``$110=600`` as ``$111=600``, and answers ``ok``."""
+    changed: list[bytes] = []
+
+    def spoil(data: bytes) -> bytes:
+        if b"$110=" not in data or changed:
+            return data
+        changed.append(data)
+        return data.replace(b"$110=", b"$111=")
+
+    bench.spoil_in = spoil
+    assert put(bench, {110: "600.000"}).verified
+    assert changed
+    assert (held(bench).settings[110], held(bench).settings[111]) == ("600.000", "500.000")
+
+
+@pytest.mark.parametrize(("others", "at"), [(2, "unknown"), (3, "defaults")])
+def test_three_settings_that_nobody_has_touched_are_more_than_a_damaged_byte(
+    bench: Bench, others: int, at: str
+) -> None:
+    present = held(bench)
+    writing = Writing(replace(present, settings={**present.settings, 110: "600.000"}), present, {})
+    changed = dict.fromkeys((120, 121, 122)[:others], "7.000")
+    found = replace(present, settings={**present.settings, **changed})
+    assert state_of(writing, found)[0] == at

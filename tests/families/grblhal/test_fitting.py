@@ -99,3 +99,17 @@ def test_what_is_hidden_in_the_file_is_not_missed() -> None:
     file.set(("axis.steps", "V"), Value(1.0, "steps/mm"))
     assert isinstance(fit_to(file, schema_of(THREE_AXES), "XYZ").file, ParameterFile)
     assert fit_to(file, schema_of(THREE_AXES), "XYZ").misfits == ()
+
+
+def test_what_decides_a_unit_is_fitted_before_what_is_measured_in_it() -> None:
+    file = new_file("grblhal", None, "XYZA")
+    file.set(file.find("$376"), None)
+    file.set(file.find("$133"), Value(360.0, "deg"))
+    file.set(file.find("$376"), Value(1))
+    assert list(file.values)[-1] == ("stepper.rotary_axes", ""), "the last one of the file"
+    whole = build("XYZA").replace(
+        b"[SETTING:133|46|A-axis maximum travel|mm|6|#####0.000|||0|0]",
+        b"[SETTING:133|46|A-axis maximum travel|deg|5|####0|||0|0]",
+    )
+    fitted = fit_to(file, schema_of(whole), "XYZA").file
+    assert fitted.get(fitted.find("$133")) == Value(360, "deg")
