@@ -35,6 +35,7 @@ another client has asked. A Grbl 1.1 takes the DEL for too long a line, which it
 SLICE = 0.05  # seconds a read may last between two looks at the cancel event
 START = 12.0  # seconds a control that has just been connected may take to answer: an Arduino restarts
 AGAIN = 2.5  # seconds after which the first line is sent once more: a boot loader has swallowed it
+ASK = 1.0  # seconds after which a control that is still reading the first line is asked for its state again: it is no silence
 QUIET = 0.15  # seconds without a byte after which nothing more comes of what was asked before
 ANSWER = 8.0  # seconds without a byte of an answer
 ANSWER_ENDS = 60.0  # seconds for the whole answer
@@ -180,14 +181,21 @@ class GrblLine:
     def _erase(self) -> None:
         """Erase what a lost client may have left of a line, and read all that is still to come of earlier commands."""
         self._begin(START, lingers=False)
-        sent, sent_at, refused = 0, -AGAIN, 0
+        sent, sent_at, asked_at, refused = 0, -AGAIN, 0.0, 0
+        is_alive = False  # it reports its state: no boot loader has swallowed the first line
         while not refused:
-            if self._clock() - sent_at >= AGAIN:
+            now = self._clock()
+            if now - sent_at >= (START if is_alive else AGAIN):
                 self._link.write(b"?" + ERASE)  # the state is reported at once, even where no line is read
-                sent, sent_at = sent + 1, self._clock()
-            line = self._next(AGAIN, sent_at)
-            if line is not None and (state := state_in(line)) in SUSPENDED:
-                raise ControlSuspendedError(state)
+                sent, sent_at, asked_at = sent + 1, now, now
+            elif is_alive and now - asked_at >= ASK:
+                self._link.write(b"?")
+                asked_at = now
+            line = self._next(ASK if is_alive else AGAIN, asked_at)
+            if line is not None and (state := state_in(line)):
+                if state in SUSPENDED:
+                    raise ControlSuspendedError(state)
+                is_alive = True
             refused += line is not None and self._is_refusal(line)
         quiet_since = self._clock()
         while self._clock() - quiet_since < QUIET:
