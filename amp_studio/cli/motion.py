@@ -67,7 +67,7 @@ def simulate_verb(options: argparse.Namespace) -> int:
         note(said)
     if options.output:
         is_picture = options.output.suffix.lower() in PICTURES
-        earlier = _earlier(before, options.scenario, axis, settings, system) if own and is_picture else None
+        earlier = _earlier(before, trace, settings, system) if own and is_picture else None
         write_trace(trace, options.output, note, before=earlier)
     if options.json:
         print_json(trace_summary(trace, lambda parameter: named_parameter(file, parameter, trace.axis)))
@@ -106,11 +106,11 @@ def _identify(options: argparse.Namespace, file: ParameterFile) -> int:
 
 
 def _earlier(
-    file: ParameterFile, scenario: str, axis: str | None, settings: dict[str, float | str], system: str
+    file: ParameterFile, trace: Trace, settings: dict[str, float | str], system: str
 ) -> Trace | None:
-    """Return the trace of the values in the file, to draw under that of the changed ones; None where it has none."""
+    """Return the same move with the values in the file, to draw under that of the changed ones; None where it has none."""
     try:
-        return simulate(file, scenario, axis, settings, system)
+        return simulate(file, trace.scenario, trace.axis, settings, system, like=trace)
     except SimulationError:
         return None
 

@@ -51,7 +51,8 @@ class Homing:
     skipped: float = 0.0
     """Share of a turn: a next marker that is nearer is not taken."""
     too_fast: str = ""
-    """Alarm where the axis has passed the whole switch before it stops, and leaves it in the same direction."""
+    """Alarm where the axis has passed the whole switch before it stops, and leaves it in the same direction; with a colon at its end
+    where the control shows the name of the axis after it."""
     direction_lost: bool = False
     """Whether ``move.direction`` turns the whole sequence round: the direction is not in the file."""
     ramp: Ramp | None = None

@@ -77,7 +77,7 @@ class AlarmText:
     """An alarm of the control."""
 
     code: str
-    """As the control shows it."""
+    """As the control shows it; after a colon at its end comes the name of the axis."""
     message: str
     """One sentence with the limit and its parameter."""
 

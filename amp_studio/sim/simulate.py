@@ -33,12 +33,13 @@ def simulate(
     system: str | None = None,
     *,
     advise: bool = True,
+    like: Trace | None = None,
 ) -> Trace:
     """Run a scenario with the present values of a file; ``axis`` None means the first axis that can be simulated.
 
     ``settings`` are settings of the scenario and of the model (``move.feedrate``): numbers in the units that `listing.py` names,
     or texts with a unit. ``system`` is the unit system of settings and trace, None for that of the file. Without ``advise`` the trace has
-    neither recommendations nor doubts, which takes a third of the time.
+    neither recommendations nor doubts, which takes a third of the time. ``like`` is a trace whose move is made again, but for what is set.
     Raises SimulationError with the parameter that is missing or impossible.
     """
     law = law_of(file.schema.family.family)
@@ -51,8 +52,11 @@ def simulate(
     length = length_unit(file, system)
     unit = axis_unit(file, axis or next(iter(law.axes(file)), ""), length)
     given, written = read_settings(settings or {}, known_settings(law, scenario), unit)
-    own = {name: value for name, value in given.items() if not name.startswith("model.")}
-    model = {name: value for name, value in given.items() if name not in own}
+    model = {name: value for name, value in given.items() if name.startswith("model.")}
+    own = {
+        **(like.move if like else {}),
+        **{name: value for name, value in given.items() if name not in model},
+    }
     read: list[Address] = []
     bound = bind_axis(file, law, axis, model, read.append)
     refuse_other_unit(written, bound.axis, bound.unit)
@@ -61,17 +65,23 @@ def simulate(
         trace = law.own[scenario].run(bound, own)
         advice = (*trace.recommendations, *law.advise(bound, trace))
         doubtful = doubts(file, read, model)
-        return in_unit(replace(trace, recommendations=advice, doubts=doubtful, letter=letter), length)
+        return in_unit(_named(replace(trace, recommendations=advice, doubts=doubtful), letter), length)
     chosen = SCENARIOS[scenario]
     second = (_second(file, law, bound, own.get(SECOND), model),) if chosen.second else ()
     trace = chosen.run(bound, own, *second)
     if not advise:
-        return in_unit(replace(trace, letter=letter), length)
+        return in_unit(_named(trace, letter), length)
     trial = Trial(file, lambda other: bind_axis(other, law, bound.axis, model))
     found, notes = recommendations(trial, scenario, (*trace.recommendations, *law.advise(bound, trace)))
     notes, doubtful = (*trace.assumptions, *notes), doubts(file, read, model)
-    done = replace(trace, recommendations=found, assumptions=notes, doubts=doubtful, letter=letter)
-    return in_unit(done, length)
+    done = replace(trace, recommendations=found, assumptions=notes, doubts=doubtful)
+    return in_unit(_named(done, letter), length)
+
+
+def _named(trace: Trace, letter: str) -> Trace:
+    """Return a trace with the letter of its axis, in its alarms too."""
+    alarms = tuple(alarm.of_axis(letter or trace.axis) for alarm in trace.alarms)
+    return replace(trace, letter=letter, alarms=alarms)
 
 
 def _second(

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 import numpy.typing as npt
@@ -22,8 +22,13 @@ class Alarm:
     """An alarm of the control and its time."""
 
     code: str
+    """As the control shows it; after a colon at its end comes the name of the axis."""
     time_s: float
     message: str
+
+    def of_axis(self, name: str) -> Alarm:
+        """Return the alarm with the name of its axis, where the control shows that."""
+        return replace(self, code=f"{self.code} {name}") if self.code.endswith(":") else self
 
 
 @dataclass(frozen=True)
@@ -59,6 +64,8 @@ class Trace:
     """Named limits of the following error, to draw beside the curves."""
     letter: str = ""
     """The letter that the file gives the axis, where it is another than ``axis``."""
+    move: Mapping[str, float] = field(default_factory=dict)
+    """Settings that the scenario chose by the axis or was given, in mm or deg: with them another axis makes the same move."""
     doubts: tuple[str, ...] = ()
     """What is wrong or doubtful about the values that the axis was made of, each a sentence."""
 

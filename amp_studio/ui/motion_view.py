@@ -5,7 +5,8 @@ from __future__ import annotations
 import html
 import re
 import threading
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
 from pathlib import Path
 
 from PySide6.QtCore import Qt, QUrl
@@ -55,6 +56,31 @@ _ASSUMED = re.compile(r"ASSUMED: (model\.\w+) = (.+?)\. ")
 _ENDINGS = "SVG (*.svg);;PNG (*.png);;CSV (*.csv)"
 
 
+@dataclass(frozen=True, eq=False)
+class _Ran:
+    """What a run brought: the trace, the values that it was made of, those it is compared with and their trace of the same move."""
+
+    trace: Trace
+    file: ParameterFile
+    file_before: ParameterFile | None
+    before: Trace | None
+
+
+def _same_move(
+    trace: Trace,
+    settings: Mapping[str, float | str],
+    before: Trace | None,
+    file_before: ParameterFile | None,
+) -> Trace | None:
+    """Return the trace of the values before with the move of ``trace``; None where they cannot make it."""
+    if file_before is None or (before is not None and before.move == trace.move):
+        return before
+    try:
+        return simulate(file_before, trace.scenario, trace.axis, settings, like=trace)
+    except SimulationError:
+        return None
+
+
 class MotionView(QWidget):
     """Simulates with the present values, and again after every edit; the trace that was first lies under the new one."""
 
@@ -78,6 +104,9 @@ class MotionView(QWidget):
         self._counts = False  # whether the axis moves in counts, not in a length or an angle
         self.trace: Trace | None = None
         self.before: Trace | None = None
+        # The values of both traces; None until there is one.
+        self._file_ran: ParameterFile | None = None
+        self._file_before: ParameterFile | None = None
         self._make_widgets()
         self._arrange()
         self._fill(address[1] if address else "")
@@ -207,7 +236,7 @@ class MotionView(QWidget):
 
     def _choose(self, *_: object) -> None:
         """Take another scenario or axis; what was before belongs to the old one."""
-        self.before = None
+        self.before = self._file_before = None
         self._fill(str(self.axis.currentData()))
         self.machine_page.leave_axis(str(self.axis.currentData()))
         self.run()
@@ -236,10 +265,14 @@ class MotionView(QWidget):
         scenario = str(self.scenario.currentData() or "step")
         asked = (scenario, axis, tuple(settings.items()))
         if asked != self._asked:
-            self.before, self._asked = None, asked
+            self.before = self._file_before = None
+            self._asked = asked
 
-        def work(_: TaskProgress, __: threading.Event) -> Trace:
-            return simulate(file, scenario, str(axis) if axis else None, settings)
+        before, file_before = self.before, self._file_before
+
+        def work(_: TaskProgress, __: threading.Event) -> _Ran:
+            trace = simulate(file, scenario, str(axis) if axis else None, settings)
+            return _Ran(trace, file, file_before, _same_move(trace, settings, before, file_before))
 
         self.summary.setText(self.tr("Simulating …"))
         self._task = Task(work)
@@ -275,10 +308,16 @@ class MotionView(QWidget):
             text += f' <a href="{LINK}{parameter}">Go to {html.escape(name_of(schema, parameter))}</a>'
         self.summary.setText(f'<span style="color:{severity_ink("error").name()}">{text}</span>')
 
-    def _show_result(self, trace: Trace) -> None:
-        self.trace = trace
-        if self.before is None or self.before.units != trace.units:  # the file is in other units now
-            self.before = trace
+    def _show_result(self, ran: _Ran) -> None:
+        trace = ran.trace
+        self.trace, self._file_ran = trace, ran.file
+        if ran.file_before is self._file_before:
+            self.before = ran.before
+        if self._file_before is None or (self.before and self.before.units != trace.units):
+            self.before, self._file_before = (
+                trace,
+                ran.file,
+            )  # the first one, or the file is in other units now
         counts = trace.units.get("position") == "counts"
         if counts != self._counts:
             self._counts = counts
@@ -314,7 +353,7 @@ class MotionView(QWidget):
         self.plot.zoom(settling_span(self.trace) if self.trace else None)
 
     def _keep_before(self) -> None:
-        self.before = self.trace
+        self.before, self._file_before = self.trace, self._file_ran
         self._redraw()
 
     # -- recommendations -------------------------------------------------------------

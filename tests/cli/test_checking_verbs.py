@@ -8,6 +8,7 @@ from pathlib import Path
 import pytest
 
 from amp_studio import cli
+from amp_studio.cli import motion
 from amp_studio.files import open_file
 from amp_studio.schema import Value
 
@@ -382,3 +383,17 @@ def test_a_changed_value_is_drawn_over_the_one_of_the_file(amp, mill: Path, tmp_
         amp("simulate", mill, "step", "--axis", "1", *changed, "-o", tmp_path / f"{name}.svg")
     assert ">before</text>" not in (tmp_path / "plain.svg").read_text(encoding="utf-8")
     assert ">before</text>" in (tmp_path / "changed.svg").read_text(encoding="utf-8")
+
+
+def test_what_is_drawn_below_a_changed_value_is_the_same_move(
+    amp, mill: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    amp("set", mill, "1030=sercos", "1031=digital")
+    drawn = []
+    monkeypatch.setattr(motion, "write_trace", lambda trace, *_, before: drawn.append((before, trace)))
+    amp(
+        "simulate", mill, "step", "--axis", "1", "--set", "servo.initial_gain@1=0.4", "-o", tmp_path / "a.svg"
+    )
+    ((before, after),) = drawn
+    assert before.result["distance"] == after.result["distance"]
+    assert before.result["peak_following_error"] != after.result["peak_following_error"]

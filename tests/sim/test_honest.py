@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 
 from amp_studio.files import ParameterFile, open_file
+from amp_studio.schema import Value
 from amp_studio.sim import SCENARIOS, SimulationError, simulate, trace_summary, trace_text
 from amp_studio.sim.scenarios.figures import grows, steady
 from tests.sim.tiny import tiny
@@ -168,3 +169,14 @@ def test_an_inertia_ratio_without_two_masses_is_refused(mill: ParameterFile) -> 
         with pytest.raises(SimulationError, match=r"give model\.resonance or model\.backlash too"):
             simulate(mill, "step", "1", {"model.inertia_ratio": 3.0, **rigid})
     simulate(mill, "step", "1", {"model.inertia_ratio": 3.0, "model.resonance": 80.0})
+
+
+@pytest.mark.parametrize("scenario", ["step", "velocity", "frequency", "circle", "home", "travel"])
+def test_other_values_make_the_same_move_where_they_are_compared(mill: ParameterFile, scenario: str) -> None:
+    before = mill.copy()
+    mill.set(("servo.initial_gain", "1"), Value(0.4))
+    mill.set(("feedrate.rapid", "1"), Value(4000.0, "mm/min"))
+    mill.set(("home.g28_speed", "1"), Value(500.0, "mm/min"))
+    after = simulate(mill, scenario, "1", advise=False)
+    assert simulate(before, scenario, "1", advise=False).move != after.move
+    assert simulate(before, scenario, "1", advise=False, like=after).move == after.move

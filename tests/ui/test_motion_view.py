@@ -30,10 +30,17 @@ _TRACES: dict[tuple[object, ...], Trace] = {}
 def each_run_once(monkeypatch: pytest.MonkeyPatch) -> None:
     """Simulate the same values with the same settings once for all tests."""
 
-    def remembered(file: ParameterFile, scenario: str, axis: str, settings: dict[str, float | str]) -> Trace:
-        key = (scenario, axis, *settings.items(), *file.values.items())
+    def remembered(
+        file: ParameterFile,
+        scenario: str,
+        axis: str,
+        settings: dict[str, float | str],
+        like: Trace | None = None,
+    ) -> Trace:
+        moved = like.move if like else {}
+        key = (scenario, axis, *settings.items(), *moved.items(), *file.values.items())
         if key not in _TRACES:
-            _TRACES[key] = simulate(file, scenario, axis, settings)
+            _TRACES[key] = simulate(file, scenario, axis, settings, like=like)
         return _TRACES[key]
 
     monkeypatch.setattr(motion_view, "simulate", remembered)
@@ -172,6 +179,12 @@ def test_the_trace_before_an_edit_lies_under_the_one_after_it(
     window.workspace.edit("gain", {("servo.initial_gain", "2"): Value(0.5)})
     settled(view, qtbot)
     assert view.plot.picture.panels[1].curves[0].role == "before"
+    assert view.before.move == view.trace.move, (
+        "the default distance depends on the gain, and both make one move"
+    )
+    window.workspace.edit("rapid", {("feedrate.rapid", "2"): Value(5000.0, "mm/min")})
+    settled(view, qtbot)
+    assert view.before.result["feedrate"] == view.trace.result["feedrate"] == (5000.0, "mm/min")
     assert "before" in view.figures.toPlainText()
     view.compare.setChecked(False)
     assert view.plot.picture.panels[1].curves[0].role == "actual"

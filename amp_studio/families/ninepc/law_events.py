@@ -75,7 +75,7 @@ def homing(read: AxisParameters, feedback: Feedback) -> Homing:
         coordinate=read.number(POSITION),
         final=speed,
         offset=read.optional(CALIBRATION) or 0.0,
-        too_fast="JOGGED HOME TOO FAST",
+        too_fast="JOGGED HOME TOO FAST:",
         page="5-4",
         notes=HOMED,
     )

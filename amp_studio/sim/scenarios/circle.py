@@ -43,9 +43,10 @@ AWAY = (-6.0, 40.0)
 
 @dataclass(frozen=True)
 class _Circle:
-    """Radius in u, final rate in rad/s, time of the rise in s, whole turns until it is measured."""
+    """Radius in u, programmed feedrate in u/s, final rate in rad/s, time of the rise in s, whole turns until it is measured."""
 
     radius: float
+    programmed: float
     rate: float
     rise: float
     turns: int
@@ -97,6 +98,7 @@ def run_circle(axis: AxisLaw, settings: Settings, second: AxisLaw | None = None)
         recommendations=(),
         assumptions=_assumptions(axis, other, second),
         limits={},
+        move={"move.radius": circle.radius, "move.feedrate": circle.programmed * 60.0},
     )
 
 
@@ -109,7 +111,7 @@ def _circle(
     known = [each.feedrate / 2.0 for each in (axis, other) if each.feedrate]
     feedrate = given / 60.0 if given else min([FEEDRATE * size, *known])
     limit = _limit(axis, other, radius)
-    feedrate = feedrate if limit is None else min(feedrate, limit)
+    programmed, feedrate = feedrate, feedrate if limit is None else min(feedrate, limit)
     rate = feedrate / radius
     slowest = max(float(np.max(np.abs(model.poles()), initial=0.0)) for model in models)
     dies = DIES * axis.servo_period / -math.log(slowest) if 0.0 < slowest < 1.0 else 0.0
@@ -120,7 +122,7 @@ def _circle(
             " the axes follow evenly. Give a larger radius or a lower feedrate",
             "move.radius",
         )
-    return _Circle(radius, rate, 2.0 * RISE / rate, turns)
+    return _Circle(radius, programmed, rate, 2.0 * RISE / rate, turns)
 
 
 def _limit(axis: AxisLaw, other: AxisLaw, radius: float) -> float | None:

@@ -102,6 +102,7 @@ def run_frequency(axis: AxisLaw, settings: Settings) -> Trace:
         recommendations=(),
         assumptions=(*assumptions(axis), *notes),
         limits={},
+        move={"move.lowest": low, "move.highest": high},
     )
 
 

@@ -39,6 +39,8 @@ SEEN = "ASSUMED: switch and marker are seen at the servo sample after they chang
 class _Found:
     """What a homing has met so far, in u from the start."""
 
+    switch: float | None = None
+    """How far the start is from the switch."""
     overrun: float | None = None
     """How far beyond the edge of the switch the axis stops."""
     left: Seen | None = None
@@ -94,6 +96,7 @@ def run_home(axis: AxisLaw, settings: Settings) -> Trace:
         recommendations=(),
         assumptions=tuple(notes),
         limits={"inposition band": (axis.inposition_band, axis.unit)},
+        move={} if found.switch is None else {"move.switch": found.switch},
     )
 
 
@@ -112,7 +115,8 @@ def _search(course: Course, homing: Homing, ramp: Ramp, settings: Settings, foun
         raise SimulationError(f"move.switch_length is {length:g}; it must be above 0", "move.switch_length")
     if homing.approach:
         sign = math.copysign(1.0, homing.approach)
-        edge = sign * (above_zero(settings, "move.switch") or _default(course.axis, homing.approach, ramp))
+        found.switch = above_zero(settings, "move.switch") or _default(course.axis, homing.approach, ramp)
+        edge = sign * found.switch
         far = abs(edge) + 2.0 * homing.turn
         if course.go(homing.approach, ramp, lambda c: sign * (c["position"] - edge) >= 0.0, far) is None:
             return

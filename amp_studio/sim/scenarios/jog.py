@@ -62,7 +62,9 @@ def run_jog(axis: AxisLaw, settings: Settings) -> Trace:
     end = float(trace.columns["position"][-1])
     in_position = trace.result["in_position_time"]
     result = {**trace.result, "stop_position": (end, unit), "time": in_position}
-    return replace(trace, scenario="jog", result=result, assumptions=(*jogging.notes, *trace.assumptions))
+    return replace(
+        trace, scenario="jog", result=result, assumptions=(*jogging.notes, *trace.assumptions), move={}
+    )
 
 
 def _pressed(speed: float, hold: float, up: float, down: float) -> float:

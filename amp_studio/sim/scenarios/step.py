@@ -85,6 +85,7 @@ def run_step(axis: AxisLaw, settings: Settings) -> Trace:
         recommendations=(),
         assumptions=(*assumptions(axis), *([RUN_OUT] if motion.alarm_row is not None else [])),
         limits={name: (level, axis.unit) for name, level in axis.limits.items() if math.isfinite(level)},
+        move={"move.distance": moved.distance, "move.feedrate": moved.feedrate * 60.0},
     )
 
 

@@ -99,6 +99,7 @@ def run_travel(axis: AxisLaw, settings: Settings) -> Trace:
         recommendations=(),
         assumptions=(*travel.notes, *assumptions(axis)),
         limits={},
+        move={"move.start": start, "move.feedrate": feedrate * 60.0},
     )
 
 

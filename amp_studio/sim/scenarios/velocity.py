@@ -62,6 +62,7 @@ def run_velocity(axis: AxisLaw, settings: Settings) -> Trace:
         recommendations=(),
         assumptions=(*assumptions(axis), *([RUN_OUT] if motion.alarm_row is not None else [])),
         limits={},
+        move={"move.feedrate": speed * 60.0, "move.duration": lasts},
     )
 
 

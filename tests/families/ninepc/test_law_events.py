@@ -77,7 +77,7 @@ def test_an_axis_that_passes_a_short_switch_is_jogged_home_too_fast() -> None:
     # 5-3: off in the direction of the approach, and the switch is off again before the axis has stopped.
     through = mill(home__direction_off_switch=Value("positive"))
     trace = simulate(through, "home", "1", {"move.switch": 40.0, "move.switch_length": 5.0})
-    assert [alarm.code for alarm in trace.alarms] == ["JOGGED HOME TOO FAST"]
+    assert [alarm.code for alarm in trace.alarms] == ["JOGGED HOME TOO FAST: X"]
     assert trace.result["home_position"] == (None, "mm")
     slow = simulate(
         through, "home", "1", {"move.switch": 40.0, "move.switch_length": 20.0, "move.marker": 1.0}
