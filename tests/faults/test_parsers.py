@@ -73,6 +73,7 @@ READERS = {
     "report/starting_template.py": "",  # a file of the program itself
     "report/apart.py": "hostile templates of a project",
     "report/write.py": "hostile templates of a project",
+    "report/template_copy.py": "hostile templates of a project",
     "report/templating.py": "hostile templates of a project",
     "schema/compiled_cache.py": "damaged cache",
     "schema/file_error.py": "damaged YAML",

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import re
 from collections.abc import Callable
 from dataclasses import dataclass, field, replace
@@ -106,9 +107,11 @@ def is_endpoint(text: str) -> bool:
 
 def _is_device(text: str) -> bool:
     """Whether a text names a device, there or not; a file below /dev is a file (/dev/shm is a disk in memory)."""
-    return (
-        text.startswith("/dev/") and not Path(text).is_file() and not Path(text.partition("?")[0]).is_file()
-    )
+    if not text.startswith("/dev/"):
+        return False
+    with contextlib.suppress(OSError, ValueError):  # a name too long for a file, or with a NUL, is none
+        return not Path(text).is_file() and not Path(text.partition("?")[0]).is_file()
+    return True
 
 
 def _network(text: str, kind: str) -> Endpoint:
