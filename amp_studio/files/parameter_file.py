@@ -15,14 +15,19 @@ from amp_studio.schema import (
     MachineSchema,
     Parameter,
     Schema,
+    UnitError,
+    UnknownParameterError,
     Value,
     angular,
     fault,
     read_real,
     read_value,
     same_value,
+    unit_named,
+    unknown,
 )
 from amp_studio.schema.model import Default
+from amp_studio.schema.units import UNITS
 
 
 class Change(NamedTuple):
@@ -114,6 +119,8 @@ class ParameterFile:
             schema, self.values.get, lambda: self.machine, lambda: self.header.application
         )
         self._listeners: list[Callable[[Change], None]] = []
+        self.revision = 0
+        """Counts the changes of values: what was worked out at another revision is no longer true."""
 
     @property
     def machine(self) -> str:
@@ -177,13 +184,47 @@ class ParameterFile:
     # -- changing --------------------------------------------------------------
 
     def set(self, address: Address, value: Value | None) -> Change | None:
-        """Set one value without asking whether it is allowed; returns the change, or None if it was so already."""
+        """Set one value without asking whether it is in range; returns the change, or None if it was so already.
+
+        Raises TypeError for what is no address or no value, UnknownParameterError for an address that the family does not
+        have, UnitError for an unknown unit. A text that a user types is read by ``find`` and ``read``.
+        """
+        self._check_usable(address, value)
         old = self.values.get(address)
         if old == value:
             return None
         change = Change(address, old, value)
         self.apply(change)
         return change
+
+    def _check_usable(self, address: Address, value: Value | None) -> None:
+        if not (
+            isinstance(address, tuple) and len(address) == 2 and all(isinstance(p, str) for p in address)
+        ):
+            raise TypeError(
+                f"an address is a parameter id and an instance, as ('home.calibration', '1'), not {address!r}"
+            )
+        if value is not None and not isinstance(value, Value):
+            raise TypeError(f"a value is a Value, as Value(5.0, 'mm'), or None, not {value!r}")
+        if address not in self.machine_schema.places:
+            self._check_known(address)
+        if value is not None and value.unit and value.unit not in UNITS:
+            unit_named(value.unit)  # raises UnitError for what is none
+            raise UnitError(f"{value.unit!r} is written {unit_named(value.unit)!r} in a Value")
+
+    def _check_known(self, address: Address) -> None:
+        """Refuse an address that no machine type of the family has; raises UnknownParameterError."""
+        parameter = self.schema.parameters.get(address[0])
+        if parameter is None:
+            raise UnknownParameterError(*unknown(self.schema, address[0]))
+        machines = [self.schema.on(m.key) for m in self.schema.family.machines]
+        if not any(address in each.places for each in machines):
+            instances = (
+                ", ".join(repr(i) for i in self.machine_schema.instances(parameter)) or "no instance here"
+            )
+            raise UnknownParameterError(
+                f"{parameter.name} has no instance {address[1]!r}; it has {instances}"
+            )
 
     def apply(self, change: Change) -> None:
         """Make a change and notify all listeners."""
@@ -192,6 +233,7 @@ class ParameterFile:
         else:
             self.values[change.address] = change.new
         self.forced.pop(change.address, None)
+        self.revision += 1
         self.evaluation.changed(change.address)
         self._notify(change)
 
@@ -274,6 +316,7 @@ class ParameterFile:
     def take(self, values: Mapping[Address, Value]) -> None:
         """Take values as they were read, in range or not, and forget what followed from the old ones."""
         self.values.update(values)
+        self.revision += 1
         self.evaluation.forget()
 
     def set_machine(self, machine: str) -> None:

@@ -24,7 +24,8 @@ class Validator:
     """Checks ranges, choices, states and rules of one file.
 
     ``run`` checks everything, ``update`` only what read the changed addresses;
-    both leave the same findings. Any value whatever may be in the file.
+    both leave the same findings. Asked for findings of values that it has not seen yet, it runs by itself. Any value whatever
+    may be in the file.
     ``own`` are a machine builder's rules.
     """
 
@@ -35,6 +36,8 @@ class Validator:
         """Findings that the builder leaves as they are."""
         self._circumstances: tuple[str, str, str] | None = None
         """Machine type, model and unit system of the present findings."""
+        self._revision: int | None = None
+        """The revision of the file that they are of; None before the first run."""
         self._not_set: set[Address] = set()
         self._not_set_findings: list[tuple[_Order, Finding]] | None = None
         """What is reported about them, until they change."""
@@ -59,6 +62,7 @@ class Validator:
             self._prepare()
         self._trials = Trials(self.file, self._plan, self.own)  # of a file in which anything may have changed
         self._circumstances = self._present_circumstances()
+        self._revision = self.file.revision
         self._checks.look_again()
         self._checks_of = None
         self._not_set = self._all_not_set()
@@ -78,6 +82,7 @@ class Validator:
         if self._circumstances != self._present_circumstances():
             self._file_all()
             return
+        self._revision = self.file.revision
         edited = list(changed)
         addresses: set[Address] = set()
         checks: dict[int, RuleCheck] = {}
@@ -115,6 +120,8 @@ class Validator:
 
     def findings(self) -> tuple[Finding, ...]:
         """Return the present findings, errors first, in the manual's order."""
+        if self._revision != self.file.revision or self._circumstances != self._present_circumstances():
+            self._file_all()
         found = sorted((*self._offered(), *self._general()), key=lambda filed: filed[0])
         stay, self.suppressed, unused = sort_out(
             tuple(finding for _, finding in found), self.own.suppressions, self.file.evaluation

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import re
+
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
@@ -16,7 +18,7 @@ from amp_studio.files import (
     fitted_axes,
     new_file,
 )
-from amp_studio.schema import InvalidValueError, UnknownParameterError, Value
+from amp_studio.schema import InvalidValueError, UnitError, UnknownParameterError, Value
 
 POSITIVE, NEGATIVE = ("zone.overtravel_positive", "1"), ("zone.overtravel_negative", "1")
 CALIBRATION = ("home.calibration", "1")
@@ -265,3 +267,35 @@ def test_a_step_is_done_whole_or_not_at_all(wanted) -> None:
         faults = refused.faults
     assert file.values == (before if faults else before | values)
     assert set(faults) <= set(values)
+
+
+@pytest.mark.parametrize(
+    ("address", "value", "error", "text"),
+    [
+        ("1300", Value(5.0, "mm"), TypeError, "an address is a parameter id and an instance"),
+        (("home.calibration", "1"), "5 mm", TypeError, "a value is a Value"),
+        (("home.calibration", "1"), 5, TypeError, "a value is a Value"),
+        (
+            ("home.calibration", "X"),
+            Value(5.0, "mm"),
+            UnknownParameterError,
+            "has no instance 'X'; it has '1', '2'",
+        ),
+        (
+            ("home.calibratoin", "1"),
+            Value(5.0, "mm"),
+            UnknownParameterError,
+            "Unknown parameter 'home.calibratoin'",
+        ),
+        (("home.calibration", "1"), Value(5.0, "furlong"), UnitError, "'furlong' is not a unit"),
+    ],
+)
+def test_what_is_no_address_and_what_is_no_value_is_refused_at_once(
+    address: object, value: object, error: type[Exception], text: str
+) -> None:
+    file = new_file("9pc", "mill", ["X"])
+    before = dict(file.values)
+    for change in (file.set, lambda a, v: file.set_many({a: v})):
+        with pytest.raises(error, match=re.escape(text)):
+            change(address, value)  # type: ignore[arg-type]
+    assert file.values == before

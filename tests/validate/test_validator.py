@@ -7,6 +7,7 @@ import math
 import pytest
 from findings import found, the
 
+from amp_studio.files import new_file
 from amp_studio.report import finding_json, finding_text
 from amp_studio.schema import Address, Rule, Value
 from amp_studio.schema.expression import Circumstances, Decision, program
@@ -250,3 +251,17 @@ def test_findings_are_sorted_by_severity_and_by_the_manual(mill) -> None:
     ]
     assert keys == sorted(keys)
     assert {finding.severity for finding in findings} == set(SEVERITIES)
+
+
+def test_a_validator_that_has_not_run_runs_when_it_is_asked() -> None:
+    file = new_file("9pc", "mill", ["X"])
+    file.set(file.find("1300"), Value(1e9, "mm"))
+    assert Validator(file).findings() == Validator(file).run() != ()
+
+
+def test_findings_are_never_those_of_earlier_values() -> None:
+    file = new_file("9pc", "mill", ["X"])
+    validator = Validator(file)
+    validator.run()
+    file.set(file.find("1300"), Value(1e9, "mm"))
+    assert validator.findings() == Validator(file).run()
