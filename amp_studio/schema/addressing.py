@@ -6,6 +6,7 @@
     P3N0.5               a bit, or the field that begins at it, of a packed word
     home.calibration@1   id and instance
     home.calibration@X   the axis by the letter that the file gives it
+    1300@X               the parameter that has this number on any axis, on axis X
 
 Case does not matter. A number that is printed for several parameters means one that exists for the file's machine;
 where that leaves more than one, the first in the manual's order, so that every verb takes the same.
@@ -110,11 +111,8 @@ def _whole(evaluation: FileState, text: str) -> Meant:
     parameter = schema.parameters.get(name.casefold())
     if parameter is not None:
         return Meant((parameter.id, _instance(evaluation, parameter, instance, text)))
-    claims = evaluation.machine_schema.addressed_by(text)
-    if claims:
-        existing = [a for a in claims if evaluation.state(a).state != "hidden"] or evaluation.least_hidden(
-            claims
-        )
+    existing = _claims(evaluation, text)
+    if existing:
         others = [a for a in evaluation.machine_schema.claims(text) if a != existing[0]]
         return Meant(existing[0], None, text, tuple(others))
     words = _words(evaluation, text)
@@ -125,7 +123,16 @@ def _whole(evaluation: FileState, text: str) -> Meant:
         raise UnknownParameterError(
             f"{quoted(text)} has {len(words)} words, {first} to {last}: name one of them"
         )
+    if instance and (same := _words(evaluation, name) or _claims(evaluation, name)):
+        parameter = schema.parameters[same[0][0]]
+        return Meant((parameter.id, _instance(evaluation, parameter, instance, text)), None, name)
     raise UnknownParameterError(*unknown(schema, text))
+
+
+def _claims(evaluation: FileState, text: str) -> list[Address]:
+    """Return the parameters that a number is printed for, those that exist for this machine if any does."""
+    claims = evaluation.machine_schema.addressed_by(text)
+    return [a for a in claims if evaluation.state(a).state != "hidden"] or evaluation.least_hidden(claims)
 
 
 def _words(evaluation: FileState, text: str) -> list[Address]:

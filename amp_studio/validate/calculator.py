@@ -4,10 +4,12 @@ from __future__ import annotations
 
 import inspect
 import json
+import re
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from functools import cache
-from typing import Any, get_type_hints
+from types import UnionType
+from typing import Any, Literal, Union, get_args, get_origin, get_type_hints
 
 from pydantic import TypeAdapter, ValidationError
 
@@ -20,6 +22,8 @@ from .formulas import formulas
 
 _LONGEST = 500
 """Most characters that are shown of the message of a formula about its arguments."""
+_WORD = re.compile(r'"[^"]*"|[^\[\],\s"][^\[\],"]*')
+_NUMBER = re.compile(r"-?(0|[1-9]\d*)(\.\d+)?([eE][-+]?\d+)?")
 _YES_NO = {"yes": True, "true": True, "1": True, "no": False, "false": False, "0": False}
 
 _CAPITALS = ("blu", "css", "dac", "dcm", "dda", "led", "num", "oem", "plc", "sercos", "ssi")
@@ -52,7 +56,7 @@ class Argument:
             return "yes or no"
         if self.kind in (float, int):
             return ""
-        return "text" if self.kind is str else "numbers with commas, pairs in [ ]"
+        return "text" if self.kind is str else "values with commas, pairs in [ ]"
 
 
 @dataclass(frozen=True)
@@ -133,13 +137,31 @@ def _read(argument: Argument, text: str) -> Any:
             if rest.strip():
                 raise InvalidValueError(f"{quoted(text)} is no plain number")
             return TypeAdapter(argument.kind).validate_python(number)
-        several = getattr(argument.kind, "__args__", ())
-        plain = text if several and str in several else f"[{text}]"
-        found = TypeAdapter(argument.kind).validate_python(json.loads(plain) if plain[:1] == "[" else text)
+        found = TypeAdapter(argument.kind).validate_python(_several(argument.kind, text))
         return list(found) if isinstance(found, Iterator) else found  # pydantic checks its items only now
     except (InvalidValueError, ValidationError, KeyError, ValueError, RecursionError):
         example = f" ({argument.example})" if argument.example else ""
         raise ValueError(f"{quoted(text)} is no {argument.name}{example}") from None
+
+
+def _several(kind: Any, text: str) -> Any:
+    """Return the values of a text with commas and brackets: ``[REAL,1],[INT,4]``, ``X,X,Z``, ``1.5,2``; raises ValueError.
+
+    Words need no quotes; where the formula takes words, what looks like a number is one too (the name of axis 1). What is
+    one value, or none, stays as it is written.
+    """
+    if get_origin(kind) in (None, Union, UnionType, Literal):
+        return None if text.casefold() == "none" else text
+
+    def spelled(match: re.Match[str]) -> str:
+        word = match[0].strip()
+        is_plain = word.startswith('"') or (
+            _NUMBER.fullmatch(word) is not None and get_args(kind)[0] is not str
+        )
+        return word if is_plain else "null" if word.casefold() == "none" else json.dumps(word)
+
+    spelt = _WORD.sub(spelled, text)
+    return json.loads(spelt if spelt.startswith("[[") else f"[{spelt}]")
 
 
 def shown_result(result: Any) -> str:

@@ -197,3 +197,18 @@ def test_a_wrong_instance_is_answered_with_those_there_are(mill: ParameterFile, 
     with pytest.raises(UnknownParameterError) as refused:
         mill.find(text)
     assert said in str(refused.value)
+
+
+@pytest.mark.parametrize(
+    ("text", "instance"), [("1300@X", "1"), ("1300@y", "2"), ("2300@Z", "3"), ("1300@4", "4")]
+)
+def test_a_number_of_any_axis_with_a_letter_is_the_parameter_on_that_axis(text: str, instance: str) -> None:
+    file = new_file("9pc", "mill", ["X", "Y", "Z"])
+    assert file.find(text) == ("home.calibration", instance)
+
+
+def test_a_number_on_an_axis_that_is_not_there_is_refused_with_those_that_are() -> None:
+    with pytest.raises(
+        UnknownParameterError, match="'1300@Q': Home Calibration has @1 to @8, or an axis by its letter: X, Y"
+    ):
+        new_file("9pc", "mill", ["X", "Y"]).find("1300@Q")

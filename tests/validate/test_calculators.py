@@ -5,6 +5,7 @@ from __future__ import annotations
 import pytest
 
 from amp_studio.cli import run
+from amp_studio.schema import family_ids
 from amp_studio.validate import calculate, calculators, formulas, shown_result
 
 
@@ -71,3 +72,39 @@ def test_the_verb_lists_tells_and_works_out(capsys: pytest.CaptureFixture[str]) 
     assert run(["calculate", "9pc", "gain_break_point", "max_contouring=5000", "gain=1"]) == 0
     assert capsys.readouterr().out == "5\n"
     assert run(["calculate", "9pc", "gain_break_poin", "gain=1"]) == 2
+
+
+EXAMPLES = {
+    "float": "1", "int": "1", "bool": "yes", "str": "X", "tuple[float, float]": "0,1", "Sequence[float]": "1,2",
+    "Sequence[tuple[float, float]]": "[1,2],[3,4]", "Iterable[float]": "1,2", "Sequence[str]": "X,X,Y",
+    "Sequence[str | None]": "X0 1,none", "Iterable[tuple[str, float]]": "[REAL,1],[INT,4]", "float | None": "none",
+    "Literal['leading', 'trailing']": "leading", "Sequence[Sequence[float]]": "[1,2],[3]", "Sequence[float | None]": "1,none",
+}  # fmt: skip
+"""Type of an argument -> how it is written."""
+
+
+@pytest.mark.parametrize("family", family_ids())
+def test_each_formula_takes_its_arguments_as_a_user_writes_them(family: str) -> None:
+    for calculator in calculators(family).values():
+        kinds = {
+            a.name: getattr(a.kind, "__name__", "") if isinstance(a.kind, type) else str(a.kind)
+            for a in calculator.arguments
+        }
+        texts = {
+            name: EXAMPLES[kind.replace("collections.abc.", "").replace("typing.", "")]
+            for name, kind in kinds.items()
+        }
+        answer = ""
+        try:
+            calculate(family, calculator.name, texts)
+        except ValueError as error:  # these numbers may make no sense to it, but it was asked
+            answer = f"{error} "
+        assert not any(f"is no {name} " in answer for name in texts), f"{calculator.name}: {answer}"
+
+
+def test_items_of_words_and_numbers_are_read() -> None:
+    """28 + 1 x 4 and 28 + 4 x 2 bytes (page 34-4); consecutive jogs of an axis are one move (page 8-13)."""
+    assert calculate("9pc", "watchlist_bytes", {"items": "[REAL,1],[INT,4]"}) == 68
+    assert calculate("9pc", "watchlist_bytes", {"items": '[["REAL",1]]'}) == 32
+    assert calculate("9pc", "remembered_retract_moves", {"jogged": "X,X,Y,X", "limit": "10"}) == 3
+    assert calculate("9pc", "remembered_retract_moves", {"jogged": "1,1,2", "limit": "10"}) == 2
