@@ -171,6 +171,7 @@ def facts(schema: Schema, parameter: Parameter, machine: str | None = None) -> l
         "at-once": "at once",
         "reset": "on reset",
         "restart": "on restart of the control",
+        "online": f"at once with {effect.command} at the control, else on restart of the control",
         "command": f"when {effect.command} reads it",
         "unknown": "not given in the manual",
     }

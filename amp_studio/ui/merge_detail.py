@@ -26,6 +26,7 @@ from amp_studio.validate import SEVERITIES, Finding
 
 from .merge_model import BASE, RESULT, A, B, MergeModel
 from .theme import Token, colour, font, icon, scheme
+from .tuning_target import effect_words
 
 Judge = Callable[[Row, Choice], Iterable[Finding] | None]
 """Returns the findings about a row if that were chosen; None while it is not known."""
@@ -211,9 +212,9 @@ class MergeDetail(QFrame):
             return ""
         file = self._model.merge.a
         parameter = file.schema.parameters[row.address[0]]
-        effect = (parameter.effect or file.schema.family.effect).level
+        effect = effect_words(file.schema, row.address)
         state = file.evaluation.state(row.address) if row.address in file.machine_schema.places else None
-        lines = [(self.tr("Takes effect"), effect.replace("-", " ")), (self.tr("Page"), parameter.page)]
+        lines = [(self.tr("Takes effect"), effect), (self.tr("Page"), parameter.page)]
         if state is None:
             lines.append((self.tr("Here"), self.tr("not on this machine type")))
         elif not state.is_active:

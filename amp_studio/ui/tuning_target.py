@@ -32,6 +32,7 @@ def effect_words(schema: Schema, address: Address) -> str:
         "at-once": tr("at once"),
         "reset": tr("on reset"),
         "restart": tr("on restart"),
+        "online": tr("on restart, at once with {command} at the control").format(command=effect.command),
         "command": tr("on {command}").format(command=effect.command),
         "unknown": tr("not in the manual"),
     }

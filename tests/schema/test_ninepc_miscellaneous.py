@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import pytest
 
+from amp_studio.report.manual_page import facts
 from amp_studio.schema import UnknownParameterError
 
 NUMBERS = {
@@ -51,3 +52,15 @@ def test_chapter_35_adds_no_number(ninepc, machine) -> None:
     assert "35" not in {group.chapter for group in ninepc.groups}
     with pytest.raises(UnknownParameterError):
         machine(ninepc).evaluation.find("340")
+
+
+def test_a_gain_takes_effect_at_once_where_online_amp_changes_it(ninepc) -> None:
+    # Page 7-7: "change gain values real time, without a control restart"; what is downloaded waits for the restart.
+    gains = {"servo.initial_gain", "servo.velocity_proportional_gain", "servo.velocity_integral_gain"}
+    online = {
+        name for name, each in ninepc.parameters.items() if each.effect and each.effect.level == "online"
+    }
+    assert online == gains
+    for name in gains:
+        said = dict(facts(ninepc, ninepc.parameters[name]))["Takes effect"]
+        assert said == "at once with on-line AMP at the control, else on restart of the control"

@@ -186,10 +186,17 @@ class StateRule(Model):
 class Effect(Model):
     """When a change takes effect."""
 
-    level: Literal["at-once", "reset", "restart", "command", "unknown"]
-    """``unknown`` where the manual gives none."""
+    level: Literal["at-once", "reset", "restart", "online", "command", "unknown"]
+    """``online``: at once where it is changed with a function of the control (``command``), on restart where it is sent; ``unknown``
+    where the manual gives none."""
     command: str | None = None
-    """The command that makes the device read the value (level ``command``)."""
+    """The command that makes the device read the value (level ``command``), or the function of the control (level ``online``)."""
+
+    @model_validator(mode="after")
+    def _named(self) -> Self:
+        if (self.command is None) == (self.level in ("command", "online")):
+            raise ValueError("'command' belongs to the levels 'command' and 'online', and they need it")
+        return self
 
 
 class HelpNote(Model):

@@ -425,6 +425,10 @@
             <translation>nach einem Neustart</translation>
         </message>
         <message>
+            <source>on restart, at once with {command} at the control</source>
+            <translation>nach einem Neustart, sofort mit {command} an der Steuerung</translation>
+        </message>
+        <message>
             <source>on {command}</source>
             <translation>nach {command}</translation>
         </message>
