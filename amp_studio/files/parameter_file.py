@@ -204,7 +204,9 @@ class ParameterFile:
             raise TypeError(
                 f"an address is a parameter id and an instance, as ('home.calibration', '1'), not {address!r}"
             )
-        if value is not None and not isinstance(value, Value):
+        if value is not None and not (
+            isinstance(value, Value) and isinstance(value.value, (int, float, str))
+        ):
             raise TypeError(f"a value is a Value, as Value(5.0, 'mm'), or None, not {value!r}")
         if address not in self.machine_schema.places:
             self._check_known(address)

@@ -275,6 +275,7 @@ def test_a_step_is_done_whole_or_not_at_all(wanted) -> None:
         ("1300", Value(5.0, "mm"), TypeError, "an address is a parameter id and an instance"),
         (("home.calibration", "1"), "5 mm", TypeError, "a value is a Value"),
         (("home.calibration", "1"), 5, TypeError, "a value is a Value"),
+        (("home.calibration", "1"), Value(None, "mm"), TypeError, "a value is a Value"),  # type: ignore[arg-type]
         (
             ("home.calibration", "X"),
             Value(5.0, "mm"),
