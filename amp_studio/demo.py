@@ -44,8 +44,9 @@ def _file_in(folder: Path) -> Path:
 
 def _in_terminal() -> int:
     """Do the main job step by step and print what happens; 0 when nothing differs at the end."""
+    from amp_studio.dossier import write_report
     from amp_studio.files import Document, compare, open_file
-    from amp_studio.report import counted, write_report
+    from amp_studio.report import counted
     from amp_studio.transfer.client.parameters import download_file, fetch_file
     from amp_studio.validate import Validator
 

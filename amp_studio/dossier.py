@@ -13,8 +13,8 @@ from amp_studio.report import (
     ExchangeLine,
     PrintedFigure,
     SetReport,
+    print_report,
     set_report,
-    write_report,
 )
 from amp_studio.validate import NO_RULES, BuilderRules
 
@@ -25,23 +25,23 @@ _SCENARIOS = ("step", "frequency")
 _SHORT = 12
 
 
-def write_dossier(
+def write_report(
     file: ParameterFile,
-    path: Path,
+    path: Path | str,
     contents: Contents | None = None,
     *,
-    source: Path | None = None,
+    source: Path | str | None = None,
     date: datetime | None = None,
     own: BuilderRules = NO_RULES,
     notify: Notify = lambda _note: None,
-) -> None:
-    """Write the documentation of a file, as ``write_report`` does, with its motion and its exchanges.
+) -> bool:
+    """Write the documentation of a file, as ``print_report`` does, with its motion and its exchanges.
 
-    Raises as ``write_report`` does, and OSError for a record of exchanges that cannot be read.
+    Returns and raises as ``print_report`` does, and OSError for a record of exchanges that cannot be read.
     """
-    contents = contents or Contents()
+    path, source, contents = Path(path), Path(source) if source else None, contents or Contents()
     has_drawings = path.suffix.lower() in _DRAWN and "motion" not in contents.without
-    write_report(
+    return print_report(
         file, path, contents, source=source, date=date, own=own, notify=notify,
         motion=tuple(motion_figures(file)) if has_drawings else (),
         exchanges=() if "exchanges" in contents.without or source is None else tuple(exchanges_of(source)),
@@ -58,7 +58,7 @@ def set_dossier(
     own: BuilderRules = NO_RULES,
     notify: Notify = lambda _note: None,
 ) -> SetReport:
-    """Return the pages of what ``write_dossier`` writes as PDF; ``motion`` was drawn before (``motion_figures``), as that takes longest."""
+    """Return the pages of what ``write_report`` writes as PDF; ``motion`` was drawn before (``motion_figures``), as that takes longest."""
     return set_report(
         file, contents, ppi, source=source, own=own, notify=notify, motion=motion,
         exchanges=() if "exchanges" in contents.without else tuple(exchanges_of(source)),

@@ -33,9 +33,9 @@ def full_file() -> ParameterFile:
     for address in file.addresses():
         if address[0] in ("axis.type", "axis.name"):
             continue
-        own = file.get(("axis.type", address[1])) if address[1] else None
+        own = file.values.get(("axis.type", address[1]))
         model = MODELS[str(own.value)] if own and file.evaluation.scope(address) == "axis" else address[1]
-        file.set(address, mill.get((address[0], model)) or file.get(address))
+        file.set(address, mill.values.get((address[0], model)) or file.get(address))
     for n, axis in enumerate(fitted_axes(file)):
         file.set(("servo.output_port", axis), Value(OUTPUTS[n]))
         file.set(("servo.position_port", axis), Value(PORTS[n]))

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import operator
 import re
 import shutil
@@ -22,7 +23,7 @@ from measure import Measure, timed
 from amp_studio.files import Change, ParameterFile, open_file
 from amp_studio.files.examples import examples_folder
 from amp_studio.formats import export_file, import_file
-from amp_studio.schema import Address, Rule, Schema, Value, read_address, written
+from amp_studio.schema import Address, InvalidValueError, Rule, Schema, Value, read_address, written
 from amp_studio.validate import Validator, apply_fixes
 from amp_studio.validate.plan import checks_of
 from amp_studio.validate.rules import RuleChecks
@@ -112,7 +113,8 @@ def _fixes(full: Path, times: int) -> Measure:
     for address in random.sample(list(base.values), DAMAGED):
         kind = type(base.values[address].value)
         alike = [a for a, v in base.values.items() if a[1] == address[1] and type(v.value) is kind]
-        base.set(address, base.values[random.choice(alike)])
+        with contextlib.suppress(InvalidValueError):  # another parameter's choice
+            base.set(address, base.values[random.choice(alike)])
     validators = []
     for _ in range(times + 2):
         validators.append(Validator(base.copy()))

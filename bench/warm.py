@@ -13,7 +13,7 @@ from measure import Measure, timed
 from rules import EDITED
 
 from amp_studio.files import Document, new_file, open_file
-from amp_studio.report import write_report
+from amp_studio.report import print_report
 from amp_studio.schema import Value, load_schema
 from amp_studio.schema.load import load_compiled
 from amp_studio.sim import simulate
@@ -33,7 +33,7 @@ def measures(folder: Path, full: Path, example: Path, times: int) -> Iterator[Me
     yield from peers.measures(full, times)
     yield from _saves(folder, full, times)
     file, pdf = open_file(full).file, folder / "warm.pdf"
-    print_it = timed(lambda: write_report(file, pdf, source=full), times)
+    print_it = timed(lambda: print_report(file, pdf, source=full), times)
     yield Measure("report to PDF", print_it)
     mill = open_file(example).file
     yield Measure(

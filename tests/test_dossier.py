@@ -9,7 +9,7 @@ from pathlib import Path
 
 import pytest
 
-from amp_studio.dossier import exchanges_of, motion_figures, write_dossier
+from amp_studio.dossier import exchanges_of, motion_figures, write_report
 from amp_studio.files import open_file
 from amp_studio.report import CHAPTERS, Contents
 from amp_studio.transfer.client.record import add_exchange, exchange_now
@@ -46,9 +46,9 @@ def test_exchanges_are_in_every_kind_of_document(mill: Path, tmp_path: Path) -> 
         ("download", "tcp://10.0.0.1:9600", "abababababab", "9 values sent")]  # fmt: skip
     for ending in (".html", ".txt"):
         out = tmp_path / f"r{ending}"
-        write_dossier(open_file(mill).file, out, Contents(without=frozenset({"motion"})), source=mill)
+        write_report(open_file(mill).file, out, Contents(without=frozenset({"motion"})), source=mill)
         assert "9 values sent" in out.read_text("utf-8")
-        write_dossier(open_file(mill).file, out, Contents(without=frozenset(CHAPTERS)), source=mill)
+        write_report(open_file(mill).file, out, Contents(without=frozenset(CHAPTERS)), source=mill)
         assert "9 values sent" not in out.read_text("utf-8")
         assert "Released by" not in out.read_text("utf-8")
 
@@ -56,7 +56,7 @@ def test_exchanges_are_in_every_kind_of_document(mill: Path, tmp_path: Path) -> 
 @pytest.mark.skipif(shutil.which("pdftotext") is None, reason="needs poppler's tools")
 def test_the_contents_have_the_page_of_each_chapter(mill: Path, tmp_path: Path) -> None:
     out = tmp_path / "r.pdf"
-    write_dossier(open_file(mill).file, out, source=mill, date=datetime(2026, 7, 1, tzinfo=UTC))
+    write_report(open_file(mill).file, out, source=mill, date=datetime(2026, 7, 1, tzinfo=UTC))
     done = subprocess.run(["pdftotext", "-layout", out, "-"], capture_output=True, text=True, check=True)
     pages = done.stdout.split("\f")
     first = next(n for n, page in enumerate(pages) if "Marks" in page)

@@ -5,7 +5,7 @@ from __future__ import annotations
 import argparse
 from pathlib import Path
 
-from amp_studio.dossier import write_dossier
+from amp_studio.dossier import write_report
 from amp_studio.files import new_file, open_file, real_path
 from amp_studio.report import Contents
 from amp_studio.validate import RULES_FILE, rules_beside
@@ -16,11 +16,11 @@ from .output import check_replaced
 
 
 def report_verb(options: argparse.Namespace) -> int:
-    """Write the documentation of a file."""
+    """Write the documentation of a file; 1 where the project's template failed and the standard report was written."""
     check_replaced(options.output, options.path, real_path(options.path).with_name(RULES_FILE))
     file = open_file(options.path).file
     own = rules_beside(options.path, file.schema)
-    write_dossier(
+    as_wanted = write_report(
         file,
         options.output,
         Contents(
@@ -37,7 +37,7 @@ def report_verb(options: argparse.Namespace) -> int:
         notify=note,
     )
     print(options.output)
-    return 0
+    return 0 if as_wanted else 1
 
 
 def form_verb(options: argparse.Namespace) -> int:

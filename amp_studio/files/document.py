@@ -70,8 +70,9 @@ class Document:
     # -- opening ---------------------------------------------------------------
 
     @classmethod
-    def open(cls, path: Path) -> Document:
+    def open(cls, path: Path | str) -> Document:
         """Open a file for editing; raises ParameterFileError, and InUseError while another program edits it."""
+        path = Path(path)
         document = cls._of(path)
         document._lock.take()
         try:  # the file may have changed while its lock was waited for
@@ -81,9 +82,9 @@ class Document:
             raise
 
     @classmethod
-    def view(cls, path: Path) -> Document:
+    def view(cls, path: Path | str) -> Document:
         """Open a file only to look at it; it cannot be saved in place."""
-        document = cls._of(path)
+        document = cls._of(Path(path))
         document._only_viewed = True
         return document
 
@@ -98,8 +99,9 @@ class Document:
         return fresh
 
     @classmethod
-    def create(cls, file: ParameterFile, path: Path) -> Document:
+    def create(cls, file: ParameterFile, path: Path | str) -> Document:
         """Save a new file and open it; refuses to overwrite with FileExistsError."""
+        path = Path(path)
         if is_there(path):
             known = "exists already" if path.exists() else "is a link to a file that does not exist"
             raise FileExistsError(f"{path} {known}")
@@ -172,8 +174,9 @@ class Document:
         self._remember(changes, how)
         self._drop_journal()
 
-    def save_as(self, path: Path) -> Document:
+    def save_as(self, path: Path | str) -> Document:
         """Save under a new name and return that document; the original stays as it is on disk."""
+        path = Path(path)
         twin = self.file.copy()
         twin.header.name = text_of_name(path.stem)
         return Document.create(twin, path)

@@ -19,6 +19,7 @@ from amp_studio.schema import (
     UnknownParameterError,
     Value,
     angular,
+    checked,
     fault,
     read_real,
     read_value,
@@ -141,8 +142,14 @@ class ParameterFile:
     # -- reading ---------------------------------------------------------------
 
     def get(self, address: Address) -> Value | None:
-        """Return a value, or None when it is not set."""
-        return self.values.get(address)
+        """Return a value, or None when it is not set.
+
+        Raises TypeError for what is no address, UnknownParameterError for an address that the family does not have.
+        """
+        value = self.values.get(address)
+        if value is None and address not in self.machine_schema.places:
+            self._check_address(address)
+        return value
 
     def addresses(self) -> tuple[Address, ...]:
         """Return every addressable value of this machine type, in the manual's order."""
@@ -187,9 +194,10 @@ class ParameterFile:
         """Set one value without asking whether it is in range; returns the change, or None if it was so already.
 
         Raises TypeError for what is no address or no value, UnknownParameterError for an address that the family does not
-        have, UnitError for an unknown unit. A text that a user types is read by ``find`` and ``read``.
+        have, UnitError for an unknown unit, InvalidValueError for a value that no file of the parameter can contain. A text that
+        a user types is read by ``find`` and ``read``.
         """
-        self._check_usable(address, value)
+        value = self._usable(address, value)
         old = self.values.get(address)
         if old == value:
             return None
@@ -197,22 +205,27 @@ class ParameterFile:
         self.apply(change)
         return change
 
-    def _check_usable(self, address: Address, value: Value | None) -> None:
+    def _check_address(self, address: Address) -> None:
         if not (
             isinstance(address, tuple) and len(address) == 2 and all(isinstance(p, str) for p in address)
         ):
             raise TypeError(
                 f"an address is a parameter id and an instance, as ('home.calibration', '1'), not {address!r}"
             )
-        if value is not None and not (
-            isinstance(value, Value) and isinstance(value.value, (int, float, str))
-        ):
-            raise TypeError(f"a value is a Value, as Value(5.0, 'mm'), or None, not {value!r}")
         if address not in self.machine_schema.places:
             self._check_known(address)
-        if value is not None and value.unit and value.unit not in UNITS:
+
+    def _usable(self, address: Address, value: Value | None) -> Value | None:
+        """Return a value as a file contains it; raises what ``set`` does."""
+        self._check_address(address)
+        if value is None:
+            return None
+        if not (isinstance(value, Value) and isinstance(value.value, (int, float, str))):
+            raise TypeError(f"a value is a Value, as Value(5.0, 'mm'), or None, not {value!r}")
+        if value.unit and value.unit not in UNITS:
             unit_named(value.unit)  # raises UnitError for what is none
             raise UnitError(f"{value.unit!r} is written {unit_named(value.unit)!r} in a Value")
+        return checked(self.schema.parameters[address[0]], value)
 
     def _check_known(self, address: Address) -> None:
         """Refuse an address that no machine type of the family has; raises UnknownParameterError."""
@@ -316,8 +329,9 @@ class ParameterFile:
         after.put_back(self)
 
     def take(self, values: Mapping[Address, Value]) -> None:
-        """Take values as they were read, in range or not, and forget what followed from the old ones."""
-        self.values.update(values)
+        """Take values as they were read, in range or not, and forget what followed from the old ones; raises as ``set`` does."""
+        usable = {address: self._usable(address, value) for address, value in values.items()}
+        self.values.update({address: value for address, value in usable.items() if value is not None})
         self.revision += 1
         self.evaluation.forget()
 

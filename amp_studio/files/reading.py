@@ -69,8 +69,9 @@ class Opened(NamedTuple):
     digest: str
 
 
-def open_file(path: Path) -> Opened:
+def open_file(path: Path | str) -> Opened:
     """Read a parameter file; raises ParameterFileError and changes nothing when it cannot be used."""
+    path = Path(path)
     content = file_content(path)
     return Opened(read_content(path, content), path, digest(content))
 

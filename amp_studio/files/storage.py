@@ -101,7 +101,10 @@ def _entries(file: ParameterFile) -> dict[str, str]:
 
 
 def save_file(
-    file: ParameterFile, path: Path, expected: str | None = None, notify: Notify = lambda _message: None
+    file: ParameterFile,
+    path: Path | str,
+    expected: str | None = None,
+    notify: Notify = lambda _message: None,
 ) -> str:
     """Save a file, all or nothing; the previous file becomes the backup.
 
@@ -109,6 +112,7 @@ def save_file(
     one; ``notify`` is called with what could not be kept. The content is read back before it replaces anything.
     Returns the new digest; raises ChangedOnDiskError or SaveError.
     """
+    path = Path(path)
     file.header.signature = file.schema.signature
     return write_atomic(
         path, lambda previous: readable_content(file, path, previous), expected, notify=notify

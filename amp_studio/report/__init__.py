@@ -1,6 +1,6 @@
 """Printed documentation, and parameters and findings as text and JSON.
 
-``write_report`` prints a parameter file in the format of the file's ending (``FORMATS``), in one of
+``print_report`` prints a parameter file in the format of the file's ending (``FORMATS``), in one of
 four orders (``SORTS``); ``build_report`` returns the same as plain data.
 
 What is named here is loaded when it is first asked for: most verbs print findings, and no report.
@@ -33,7 +33,7 @@ if TYPE_CHECKING:
     from .printed_table import cells_of, table_lines, tables_of
     from .why import why_parts, why_text
     from .wording import counted
-    from .write import FORMATS, set_report, write_report
+    from .write import FORMATS, print_report, set_report
 
 _PLACES = {
     "CHAPTERS": "contents",
@@ -78,7 +78,7 @@ _PLACES = {
     "why_text": "why",
     "SetReport": "pdf",
     "set_report": "write",
-    "write_report": "write",
+    "print_report": "write",
 }
 """Name -> its module."""
 
@@ -125,6 +125,7 @@ __all__ = [
     "help_parts",
     "one_line",
     "page_of",
+    "print_report",
     "range_text",
     "same_finding_text",
     "set_report",
@@ -133,5 +134,4 @@ __all__ = [
     "tables_of",
     "why_parts",
     "why_text",
-    "write_report",
 ]

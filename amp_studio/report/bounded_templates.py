@@ -7,19 +7,39 @@ from __future__ import annotations
 
 import re
 import time
+from collections.abc import Mapping
 from typing import Any
 
-from jinja2 import nodes
+from jinja2 import StrictUndefined, nodes
 from jinja2.exceptions import SecurityError
 from jinja2.runtime import Context
 from jinja2.sandbox import ImmutableSandboxedEnvironment
+from jinja2.utils import missing
+
+from amp_studio.schema.nearest import did_you_mean
 
 _MOST_MADE = 2**24
 """Characters, elements or bits that one operation may make."""
 _WIDE = re.compile(r"%[^a-zA-Z%]*(?:\d{6}|\*)")
 _TICK = "_within_time"
+_GIVEN = ("counted", "language", "report")
+"""What a template can name."""
 _WIDENING = ("batch", "center", "indent", "slice")
 """Filters whose argument is the size of what they make."""
+
+
+class UnknownName(StrictUndefined):
+    """A name in a template that does not exist; its message has the nearest one that does."""
+
+    @property
+    def _undefined_message(self) -> str:
+        name, owner = self._undefined_name, self._undefined_obj
+        if self._undefined_hint or not isinstance(name, str):
+            return self._undefined_hint or f"there is no element {name}"
+        if owner is missing:
+            return f"there is no '{name}'{did_you_mean(name, _GIVEN)}"
+        known = owner if isinstance(owner, Mapping) else (n for n in dir(owner) if not n.startswith("_"))
+        return f"there is no '{name}' in a {type(owner).__name__}{did_you_mean(name, map(str, known))}"
 
 
 class BoundedEnvironment(ImmutableSandboxedEnvironment):

@@ -45,6 +45,10 @@ class TemplateMistakeError(AmpStudioError, ValueError):
         self.mistake = words if len(words) <= _LONGEST_MISTAKE else words[:_LONGEST_MISTAKE] + "…"
         super().__init__(f"{own}: {self.mistake}")
 
+    def then(self, sentence: str) -> str:
+        """Return the text with a sentence after it."""
+        return f"{self}{'' if self.mistake.endswith('?') else '.'} {sentence}"
+
 
 def own_template(folder: Path | None, name: str) -> Path | None:
     """Return the template of a project that takes the place of one of the program; None where there is none."""
@@ -69,14 +73,14 @@ def filled(
 
     from .model import Listing
 
-    whole = {"loader": _loader(own), "undefined": StrictUndefined, "trim_blocks": True, "lstrip_blocks": True}
+    whole = {"loader": _loader(own), "trim_blocks": True, "lstrip_blocks": True}
     environment: Environment
     if own is None:
-        environment = SandboxedEnvironment(**whole, **settings)
+        environment = SandboxedEnvironment(undefined=StrictUndefined, **whole, **settings)
     else:
-        from .bounded_templates import BoundedEnvironment
+        from .bounded_templates import BoundedEnvironment, UnknownName
 
-        environment = BoundedEnvironment(_PATIENCE_S, **whole, **settings)
+        environment = BoundedEnvironment(_PATIENCE_S, undefined=UnknownName, **whole, **settings)
     environment.globals.update(_=language.text, counted=language.counted, language=language.code)
     environment.filters.update(filters, worded=language.drawing, titled=language.title)
     environment.tests["listing"] = lambda part: isinstance(part, Listing)

@@ -36,25 +36,27 @@ _WITH_TEMPLATES: dict[str, tuple[What, str]] = {
 }
 
 
-def write_report(
+def print_report(
     file: ParameterFile,
-    path: Path,
+    path: Path | str,
     contents: Contents | None = None,
     *,
-    source: Path | None = None,
+    source: Path | str | None = None,
     date: datetime | None = None,
     own: BuilderRules = NO_RULES,
     motion: Sequence[PrintedFigure] = (),
     exchanges: Sequence[ExchangeLine] = (),
     notify: Notify = lambda _note: None,
-) -> None:
+) -> bool:
     """Write the documentation of a file, whole or not at all; the file extension of ``path`` sets the format.
 
     ``source`` is the path of the file on disk, from beside which the project's information is taken; ``date`` is printed
     (now when left out), ``own`` are the builder's rules; ``notify`` is called with each attribute of a replaced file that
-    could not be kept. ``motion`` and ``exchanges`` are those of ``build_report``. Raises ValueError for an unknown file extension, ParameterFileError for a project that cannot be
+    could not be kept, and with the mistake of a project's template. Returns whether the project's own template was used, where it has
+    one: False is the standard report in its place. ``motion`` and ``exchanges`` are those of ``build_report``. Raises ValueError for an unknown file extension, ParameterFileError for a project that cannot be
     read, SaveError when it cannot be written.
     """
+    path, source = Path(path), Path(source) if source else None
     if path.suffix.lower() not in FORMATS:
         raise ValueError(f"{path.name}: unknown report format. Use the file extension {', '.join(FORMATS)}")
     folder = real_path(source).parent if source else None
@@ -62,9 +64,11 @@ def write_report(
     report = build_report(
         file, contents, source=source, project=project, date=date, own=own, motion=motion, exchanges=exchanges
     )
-    write_atomic(
-        path, _rendered(report, path.suffix.lower(), folder, notify), keep_backup=False, notify=notify
-    )
+    content, mistake = _rendered(report, path.suffix.lower(), folder)
+    write_atomic(path, content, keep_backup=False, notify=notify)
+    if mistake:
+        notify(mistake.then("The standard report was written"))
+    return mistake is None
 
 
 def set_report(
@@ -78,7 +82,7 @@ def set_report(
     exchanges: Sequence[ExchangeLine] = (),
     notify: Notify = lambda _note: None,
 ) -> SetReport:
-    """Return the pages of what ``write_report`` writes as PDF, as pictures with ``ppi`` pixels to the inch: for the eye and for a printer."""
+    """Return the pages of what ``print_report`` writes as PDF, as pictures with ``ppi`` pixels to the inch: for the eye and for a printer."""
     report = build_report(
         file,
         contents,
@@ -94,21 +98,22 @@ def set_report(
             written, marks, *pages = made_apart("pages", report, template, ppi)
             return SetReport(tuple(pages), written.decode("utf-8"), template.parent, marks.decode("utf-8"))
         except TemplateMistakeError as error:
-            notify(f"{error}. The standard report is used")
+            notify(error.then("The standard report is used"))
     return set_pages(report, ppi)
 
 
-def _rendered(report: Report, ending: str, folder: Path | None, notify: Notify) -> bytes:
-    """Return the report in a format, by the project's template where it has one; its mistake is noted, and the standard one used."""
+def _rendered(report: Report, ending: str, folder: Path | None) -> tuple[bytes, TemplateMistakeError | None]:
+    """Return the report in a format, by the project's template where it has one, else, or after its mistake, the standard one."""
     form = _WITH_TEMPLATES.get(ending)
     own = own_template(folder, form[1]) if form else None
+    mistake = None
     if form and own:
         try:
             (content,) = made_apart(form[0], report, own)
-            return content
+            return content, None
         except TemplateMistakeError as error:
-            notify(f"{error}. The standard report was written")
-    return FORMATS[ending](report)
+            mistake = error
+    return FORMATS[ending](report), mistake
 
 
 def project_beside(source: Path | None) -> ProjectInfo | None:

@@ -43,6 +43,7 @@ from .units import UnitError, angular, canonical, canonical_unit, convert, dimen
 from .value import InvalidValueError, Value
 from .values import (
     MASKED,
+    checked,
     is_mask,
     label_of,
     not_readable,
@@ -94,6 +95,7 @@ __all__ = [
     "canonical",
     "canonical_unit",
     "canonical_value",
+    "checked",
     "clip",
     "convert",
     "database_folder",

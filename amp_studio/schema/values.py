@@ -168,7 +168,13 @@ def _checked_text(parameter: Parameter, value: Value, found: str) -> Value:
         raise InvalidValueError(
             f"{parameter.name} contains the character U+{ord(odd[0]):04X}, which no file can contain"
         )
-    return _read_raw(parameter, found) if parameter.choices and found.startswith("raw:") else value
+    if parameter.type == "format":
+        return _read_format(parameter, found)
+    if parameter.choices is None:
+        return value
+    if parameter.type != "boolean" and any(choice.key == found for choice in parameter.choices):
+        return value
+    return _read_raw(parameter, found) if found.startswith("raw:") else _read_choice(parameter, found)
 
 
 def _read(parameter: Parameter, text: str, unit: str) -> Value:

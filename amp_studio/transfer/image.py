@@ -103,7 +103,10 @@ def decode_image(image: bytes) -> ParameterFile:
         if address in values:
             raise ImageError(f"the control image contains {_short(entry)} twice")
         values[address] = _value(schema, parameter, entry, field)
-    file.take(values)
+    try:
+        file.take(values)
+    except UnknownParameterError as error:
+        raise ImageError(f"the control image contains what does not exist: {_short(str(error))}") from None
     _check_form(file, image)
     return file
 

@@ -48,9 +48,9 @@ def write_to(window: StudioWindow, workspace: Workspace, path: Path) -> None:
     notes: list[str] = []
 
     def work(_: TaskProgress, __: threading.Event) -> None:
-        from amp_studio.dossier import write_dossier
+        from amp_studio.dossier import write_report
 
-        write_dossier(
+        write_report(
             file,
             path,
             contents,

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-import re
 from collections.abc import Hashable
 from dataclasses import dataclass, field
 from decimal import ROUND_CEILING, ROUND_FLOOR, Decimal
@@ -12,7 +11,6 @@ from functools import lru_cache
 from amp_studio.files import ParameterFile
 from amp_studio.files.local_time import with_local_times
 from amp_studio.schema import (
-    MASKED,
     Address,
     Limits,
     Parameter,
@@ -33,7 +31,6 @@ from .finding import Finding, Setting
 
 _NEAR = 0.1
 """Part of a bound by which a value may miss it for the bound to be a fix: more than rounding and the step from a power of two."""
-_FORMAT = re.compile(r"[0-9]+\.[0-9]+")
 
 
 @dataclass(frozen=True, slots=True)
@@ -102,18 +99,14 @@ class ValueChecks:
             key = key, self._bounds_of(facts, address)
         if key in facts.fine:
             return None
-        message = _wrong_kind(facts, value)
-        if message is not None:
-            if facts.parameter.secret:
-                message = f"{facts.parameter.name} {MASKED} is not the kind of value it takes"
-            return self._finding(address, value, message, self._file.default(address))
         if not _measures_right(facts, value, turns):
             unit = self._file.evaluation.unit(address, self._file.header.units)
             written = show_value(facts.parameter, value)
-            message = f"{facts.parameter.name} {written} should be in {shown(unit) or 'a bare number'} here"
-            return self._finding(
-                address, value, message, Value(value.value, unit)
-            )  # the control knows the figure only
+            other_unit = (
+                f"{facts.parameter.name} {written} should be in {shown(unit) or 'a bare number'} here"
+            )
+            # The control knows the figure only.
+            return self._finding(address, value, other_unit, Value(value.value, unit))
         if self._within(facts, address, value):
             facts.fine[key] = True
             return None
@@ -242,28 +235,3 @@ def _measures_right(facts: _Facts, value: Value, turns: bool) -> bool:
     if isinstance(value.value, (str, bool)):
         return True
     return dimension(value.unit) in (facts.turning if turns and facts.turning else facts.measures)
-
-
-def _wrong_kind(facts: _Facts, value: Value) -> str | None:
-    """Return a finding when a value is of a kind that its parameter never takes: no choice, no number, no whole number."""
-    found, parameter = value.value, facts.parameter
-    if facts.keys:
-        if isinstance(found, bool if parameter.type == "boolean" else str):
-            known = parameter.type == "boolean" or found in facts.keys or str(found).startswith("raw:")
-        else:
-            known = isinstance(found, str) and found.startswith("raw:")
-        return None if known else f"{found} is no choice of {parameter.name}"
-    if parameter.type == "text":
-        return None if isinstance(found, str) else f"{parameter.name} takes a text, not {found}"
-    if parameter.type == "format":
-        fits = isinstance(found, str) and _FORMAT.fullmatch(found)
-        return (
-            None
-            if fits
-            else f"{parameter.name} takes digits before and behind the point, as 3.4, not {found}"
-        )
-    if isinstance(found, (str, bool)) or not math.isfinite(found):
-        return f"{parameter.name} takes a number, not {found}"
-    if parameter.type != "real" and found != int(found):
-        return f"{parameter.name} takes whole numbers, not {found}"
-    return None

@@ -332,6 +332,15 @@ def test_a_report_follows_the_ending_and_leaves_the_file_alone(
     assert before == mill.read_bytes()
 
 
+def test_a_template_that_fails_ends_with_1_and_the_standard_report(amp, mill: Path) -> None:
+    (mill.parent / "templates").mkdir()
+    (mill.parent / "templates" / "report.html.j2").write_text("{{ report.titel }}")
+    refused = amp("report", mill, "-o", mill.with_suffix(".html"))
+    assert refused.code == 1
+    assert "line 1: there is no 'titel' in a Report, did you mean 'title'? The standard report" in refused.err
+    assert b"Home Calibration" in mill.with_suffix(".html").read_bytes()
+
+
 def test_a_report_in_a_format_nobody_knows_is_refused(amp, mill: Path, folder) -> None:
     before = folder()
     assert amp("report", mill, "-o", mill.with_suffix(".doc")).code == 2

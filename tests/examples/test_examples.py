@@ -11,7 +11,7 @@ import pytest
 
 from amp_studio.cli import run
 from amp_studio.files import Document, ParameterFile, Project, axis_type, fitted_axes, open_file
-from amp_studio.report import write_report
+from amp_studio.report import print_report
 from amp_studio.schema import Address, read_address
 from amp_studio.sim import simulate, simulated_axes, simulated_families
 
@@ -159,7 +159,7 @@ def test_a_value_put_back_leaves_the_file_as_it_was(example: Path) -> None:
 
 def test_it_can_be_printed(example: Path, tmp_path: Path) -> None:
     path = tmp_path / "example.pdf"
-    write_report(open_file(example).file, path, source=example)
+    print_report(open_file(example).file, path, source=example)
     assert path.read_bytes().startswith(b"%PDF-")
 
 

@@ -35,7 +35,7 @@ ANSWERS = (
 @cache
 def _mill() -> ParameterFile:
     file = new_file("9pc", "mill", ["X", "Y"])
-    file.set(("servo.hardware_type", "1"), Value("1394"))
+    file.set(("servo.hardware_type", "1"), Value("sercos"))
     return file
 
 

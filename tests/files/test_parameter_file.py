@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import math
 import re
+from pathlib import Path
 
 import pytest
 from hypothesis import given
@@ -11,12 +13,15 @@ from hypothesis import strategies as st
 from amp_studio.files import (
     AxisError,
     Change,
+    Document,
     ParameterFile,
     RangeError,
     describe,
     fill_defaults,
     fitted_axes,
     new_file,
+    open_file,
+    save_file,
 )
 from amp_studio.schema import InvalidValueError, UnitError, UnknownParameterError, Value
 
@@ -289,6 +294,9 @@ def test_a_step_is_done_whole_or_not_at_all(wanted) -> None:
             "Unknown parameter 'home.calibratoin'",
         ),
         (("home.calibration", "1"), Value(5.0, "furlong"), UnitError, "'furlong' is not a unit"),
+        (("home.calibration", "1"), Value("abc", "mm"), InvalidValueError, "Home Calibration is a number"),
+        (("home.calibration", "1"), Value(math.inf, "mm"), InvalidValueError, "inf is not a number"),
+        (("axis.name", "1"), Value(5.0), InvalidValueError, "5.0 is no value of Axis Name"),
     ],
 )
 def test_what_is_no_address_and_what_is_no_value_is_refused_at_once(
@@ -296,7 +304,29 @@ def test_what_is_no_address_and_what_is_no_value_is_refused_at_once(
 ) -> None:
     file = new_file("9pc", "mill", ["X"])
     before = dict(file.values)
-    for change in (file.set, lambda a, v: file.set_many({a: v})):
+    for change in (file.set, lambda a, v: file.set_many({a: v}), lambda a, v: file.take({a: v})):
         with pytest.raises(error, match=re.escape(text)):
             change(address, value)  # type: ignore[arg-type]
     assert file.values == before
+
+
+@pytest.mark.parametrize(
+    ("address", "error"),
+    [
+        ("1300", TypeError),
+        (("1300", "1"), UnknownParameterError),
+        (("axis.name", "9"), UnknownParameterError),
+    ],
+)
+def test_what_is_no_address_has_no_value_either(address: object, error: type[Exception]) -> None:
+    with pytest.raises(error):
+        new_file("9pc", "mill", ["X"]).get(address)  # type: ignore[arg-type]
+
+
+def test_paths_may_be_text(tmp_path: Path) -> None:
+    path = f"{tmp_path}/a.amp"
+    save_file(new_file("9pc", "mill", ["X"]), path)
+    assert open_file(path).path == Path(path)
+    with Document.open(path) as document:
+        document.save_as(f"{tmp_path}/b.amp").close()
+    assert open_file(f"{tmp_path}/b.amp").file.header.name == "b"

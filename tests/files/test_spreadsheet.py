@@ -13,7 +13,7 @@ from hypothesis import strategies as st
 from amp_studio.files import new_file
 from amp_studio.files.spreadsheet import cell_text, text_cell
 from amp_studio.formats import export_file, import_file
-from amp_studio.report import write_report
+from amp_studio.report import print_report
 from amp_studio.schema import Value
 
 FORMULA = '=HYPERLINK("http://x","y")'
@@ -44,7 +44,7 @@ def test_a_text_value_is_no_formula_in_any_table_and_comes_back(tmp_path: Path) 
     texts = [p for p in file.schema.parameters.values() if p.type == "text"]
     address = next(a for a in file.addresses() if a[0] == texts[0].id)
     file.set(address, Value(FORMULA))
-    write_report(file, tmp_path / "report.csv")
+    print_report(file, tmp_path / "report.csv")
     export_file(file, tmp_path / "values.csv")
     for name in ("report.csv", "values.csv"):
         rows = list(csv.reader(io.StringIO((tmp_path / name).read_text(encoding="utf-8-sig"), newline="")))

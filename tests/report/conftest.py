@@ -10,7 +10,7 @@ from pathlib import Path
 import pytest
 
 from amp_studio.files import ParameterFile, fill_defaults, fitted_axes, new_file
-from amp_studio.report import Contents, write_report
+from amp_studio.report import Contents, print_report
 from amp_studio.report.contents import Sort
 from amp_studio.schema import Value
 
@@ -76,7 +76,7 @@ def printed(
     @cache
     def path_of(which: str, sort: Sort) -> Path:
         path = folder / f"{which}-{sort}.pdf"
-        write_report(
+        print_report(
             files[which].copy(),
             path,
             Contents(sort, inactive=True, without=frozenset({"pictures"})),

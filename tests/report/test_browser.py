@@ -10,7 +10,7 @@ import pytest
 
 from amp_studio.files import ParameterFile, open_file
 from amp_studio.files.examples import examples_folder
-from amp_studio.report import write_report
+from amp_studio.report import print_report
 
 from .browser import CHROMIUM, Browser
 
@@ -21,7 +21,7 @@ pytestmark = pytest.mark.skipif(CHROMIUM is None, reason="needs Chromium")
 @pytest.fixture(scope="module")
 def page(tmp_path_factory: pytest.TempPathFactory, first_mill: ParameterFile) -> Path:
     path = tmp_path_factory.mktemp("page") / "mill.html"
-    write_report(first_mill.copy(), path)
+    print_report(first_mill.copy(), path)
     return path
 
 
@@ -143,7 +143,7 @@ def test_a_phone_scrolls_the_tables_and_folds_the_contents(page: Path) -> None:
 
 def test_no_text_of_a_table_runs_over_the_next_column(browser: Browser, tmp_path: Path) -> None:
     """NUM has the longest numbers (``P9N0, P9N1 … P9N3, P9N24, P9N28``) and columns (``Axis 28 handwheel``)."""
-    write_report(open_file(examples_folder() / "num-1060-mill" / "MILL_1060.amp").file, tmp_path / "num.html")
+    print_report(open_file(examples_folder() / "num-1060-mill" / "MILL_1060.amp").file, tmp_path / "num.html")
     cells = "[...document.querySelectorAll('#values td, #values th')]"
     browser.go((tmp_path / "num.html").as_uri())
     assert browser.value(f"{cells}.length") > 1000

@@ -11,7 +11,7 @@ from pathlib import Path
 import pytest
 
 from amp_studio.files import ParameterFile, new_file
-from amp_studio.report import SORTS, Contents, build_report, write_report
+from amp_studio.report import SORTS, Contents, build_report, print_report
 from amp_studio.report.contents import Sort
 from amp_studio.report.table_csv import HEADS
 from amp_studio.schema import Value, family_ids, read_value
@@ -30,7 +30,7 @@ def read_back(file: ParameterFile, line: dict[str, str]) -> Value | None:
 @pytest.mark.parametrize("family", family_ids())
 def test_the_values_of_a_new_file_read_back(tmp_path: Path, family: str, sort: Sort) -> None:
     file = new_file(family)
-    write_report(file, tmp_path / "r.csv", Contents(sort, inactive=True))
+    print_report(file, tmp_path / "r.csv", Contents(sort, inactive=True))
     lines = table_of(tmp_path / "r.csv")
     lines = [n for n in lines if not file.schema.parameters[n["id"]].secret]
     assert [file.get((n["id"], n["instance"])) for n in lines] == [read_back(file, n) for n in lines]
@@ -39,14 +39,14 @@ def test_the_values_of_a_new_file_read_back(tmp_path: Path, family: str, sort: S
 @pytest.mark.parametrize("number", [0.1, 1 / 3, -1e-7, 123456789.125, 1e300, 5e-324, 2.0, math.pi])
 def test_a_number_reads_back_to_the_last_digit(tmp_path: Path, mill: ParameterFile, number: float) -> None:
     mill.set(("home.calibration", "3"), Value(number, "mm"))
-    write_report(mill, tmp_path / "r.csv")
+    print_report(mill, tmp_path / "r.csv")
     found = [n for n in table_of(tmp_path / "r.csv") if (n["id"], n["instance"]) == ("home.calibration", "3")]
     assert [read_back(mill, n) for n in found] == [Value(number, "mm")]
 
 
 def test_a_line_tells_all_about_a_value(tmp_path: Path, mill: ParameterFile) -> None:
     """1300 Home Calibration and its numbers for the other axes: page 5-10; 1730 Gain Break Point: page 7-22."""
-    write_report(mill, tmp_path / "r.csv")
+    print_report(mill, tmp_path / "r.csv")
     lines = {(n["id"], n["instance"]): tuple(n.values()) for n in table_of(tmp_path / "r.csv")}
     group = "Home Parameters"
     name = "Home Calibration"
@@ -64,14 +64,14 @@ def test_a_line_tells_all_about_a_value(tmp_path: Path, mill: ParameterFile) -> 
 
 def test_a_default_stands_in_the_unit_of_its_value(tmp_path: Path, mill: ParameterFile) -> None:
     mill.set(("servo.gain_break_point", "2"), Value(8.0, "in"))  # 203.2 mm
-    write_report(mill, tmp_path / "r.csv")
+    print_report(mill, tmp_path / "r.csv")
     line = next(n for n in table_of(tmp_path / "r.csv") if n["number"] == "2730")
     assert (line["value"], line["unit"], line["default"], line["changed"]) == ("8", "in", "8", "no")
 
 
 def test_the_file_is_what_rfc_4180_and_excel_expect(tmp_path: Path, mill: ParameterFile) -> None:
     mill.forced[("servo.gain_break_point", "1")] = 'by "J, Fitter"\nat night'
-    write_report(mill, tmp_path / "r.csv")
+    print_report(mill, tmp_path / "r.csv")
     content = (tmp_path / "r.csv").read_bytes()
     assert content.startswith(b"\xef\xbb\xbf" + ",".join(HEADS).encode() + b"\r\n")
     assert content.endswith(b"\r\n")

@@ -14,7 +14,7 @@ from amp_studio.files import ParameterFile, ProjectInfo, compare, new_file, open
 from amp_studio.files.examples import examples_folder
 from amp_studio.files.notes import set_value_note
 from amp_studio.guide import steps_of
-from amp_studio.report import SORTS, UNIT_CHOICES, Contents, Sort, build_report, write_report
+from amp_studio.report import SORTS, UNIT_CHOICES, Contents, Sort, build_report, print_report
 from amp_studio.report.differences import differences_paper, machines_paper
 from amp_studio.report.drawings import drawings
 from amp_studio.report.form import form_paper
@@ -119,12 +119,12 @@ def test_a_comparison_and_a_form_in_german(tmp_path: Path, mill: ParameterFile) 
 @pytest.mark.parametrize("sort", SORTS)
 def test_a_german_report(tmp_path: Path, mill: ParameterFile, sort: Sort) -> None:
     for ending in (".html", ".pdf"):
-        write_report(mill, tmp_path / f"r{ending}", Contents(sort, language="de"))
+        print_report(mill, tmp_path / f"r{ending}", Contents(sort, language="de"))
     page = (tmp_path / "r.html").read_text("utf-8")
     assert '<html lang="de">' in page
     assert "Unterschriften" in page
     assert "Set up by" not in page
-    write_report(mill, tmp_path / "r.txt", Contents(sort, language="de"))
+    print_report(mill, tmp_path / "r.txt", Contents(sort, language="de"))
     plain = (tmp_path / "r.txt").read_text("utf-8")
     assert "UNTERSCHRIFTEN" in plain
     assert not re.search(r"\b(SIGNATURES|FINDINGS|NOT SET|FORCED|recommendations?|Suggested|fitted)\b", plain)

@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 
 from amp_studio.files import Header, ParameterFile, new_file
-from amp_studio.report import FORMATS, SORTS, Contents, build_report, write_report
+from amp_studio.report import FORMATS, SORTS, Contents, build_report, print_report
 from amp_studio.report.contents import Sort
 from amp_studio.report.model import Grid
 from amp_studio.schema import Schema, Value
@@ -29,7 +29,7 @@ def wide(wide_family: Schema) -> ParameterFile:
 def test_it_is_printed_in_every_format_and_order(
     tmp_path: Path, wide: ParameterFile, ending: str, sort: Sort
 ) -> None:
-    write_report(wide, tmp_path / f"r{ending}", Contents(sort))
+    print_report(wide, tmp_path / f"r{ending}", Contents(sort))
     assert (tmp_path / f"r{ending}").stat().st_size > 500
 
 

@@ -11,7 +11,7 @@ import pytest
 
 from amp_studio.files import ParameterFile, save_file
 from amp_studio.files.notes import set_value_note
-from amp_studio.report import Chapter, Contents, PrintedFigure, Report, build_report, write_report
+from amp_studio.report import Chapter, Contents, PrintedFigure, Report, build_report, print_report
 from amp_studio.report.model import Listing
 from amp_studio.report.pdf import render_pdf
 from amp_studio.report.rows import rows_of
@@ -80,7 +80,7 @@ def test_a_note_of_any_length_is_printed_whole_once_and_short_beside_its_value(
     note = " ".join(f"w{n}" for n in range(600))
     set_value_note(mill, ("home.calibration", "1"), note)
     path = tmp_path / "r.pdf"
-    write_report(mill, path, Contents(without=BARE))
+    print_report(mill, path, Contents(without=BARE))
     text = " ".join(said_by("pdftotext", "-raw", path, "-").split())
     assert text.count(" w599") == 1
     assert text.count(" w20 ") == 2
@@ -138,7 +138,7 @@ def test_what_one_copies_has_no_invisible_characters(tmp_path: Path, mill: Param
 
 @poppler
 def test_pages_for_america_are_letter(tmp_path: Path, mill: ParameterFile) -> None:
-    write_report(mill, tmp_path / "r.pdf", Contents(paper="letter", without=BARE))
+    print_report(mill, tmp_path / "r.pdf", Contents(paper="letter", without=BARE))
     assert re.search(r"Page size:\s+612 x 792", said_by("pdfinfo", tmp_path / "r.pdf"))
     with pytest.raises(ValueError, match=r"Unknown paper 'a5'\. Known: a4, letter"):
         Contents(paper="a5")  # type: ignore[arg-type]

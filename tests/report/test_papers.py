@@ -17,7 +17,7 @@ import pytest
 
 from amp_studio.files import ParameterFile, compare, new_file
 from amp_studio.files.notes import set_group_note, set_machine_note
-from amp_studio.report import Contents, write_report
+from amp_studio.report import Contents, print_report
 from amp_studio.report.differences import differences_paper, machine_rows, machines_paper
 from amp_studio.report.form import form_paper
 from amp_studio.report.paper import PAPER_FORMATS, Paper, PaperTable, check_paper_ending, write_paper
@@ -170,7 +170,7 @@ def test_the_report_as_json_and_as_workbook_has_every_value(tmp_path: Path, mill
     set_machine_note(mill, "Rebuilt in 2019.\nNew drives.")
     set_group_note(mill, "home", NASTY)
     for ending in (".json", ".xlsx"):
-        write_report(mill, tmp_path / f"r{ending}", Contents(inactive=True), date=DATE)
+        print_report(mill, tmp_path / f"r{ending}", Contents(inactive=True), date=DATE)
     document = json.loads((tmp_path / "r.json").read_text("utf-8"))
     values = {(v["id"], v["instance"]): v for v in document["values"]}
     assert (values["home.calibration", "1"]["value"], values["home.calibration", "1"]["unit"]) == (

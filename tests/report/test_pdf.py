@@ -11,7 +11,7 @@ from pathlib import Path
 import pytest
 
 from amp_studio.files import ParameterFile
-from amp_studio.report import SORTS, Contents, build_report, write_report
+from amp_studio.report import SORTS, Contents, build_report, print_report
 from amp_studio.report.contents import Sort
 from amp_studio.report.pdf import typeset
 
@@ -91,7 +91,7 @@ def test_nothing_runs_over_the_edge_of_its_column(tmp_path: Path, eight_axes: Pa
         if not isinstance(value.value, (str, bool)):
             eight_axes.set(address, type(value)(-123456.78901234567, value.unit))
     path = tmp_path / "r.pdf"
-    write_report(eight_axes, path, Contents("group"))
+    print_report(eight_axes, path, Contents("group"))
     boxes = said_by("pdftotext", "-bbox", path, "-")
     for page in re.finditer(r'<page width="([\d.]+)".*?</page>', boxes, re.DOTALL):
         width, margin = float(page.group(1)), 12 / 25.4 * 72

@@ -10,7 +10,7 @@ from pathlib import Path
 import pytest
 
 from amp_studio.files import ParameterFile, save_file
-from amp_studio.report import Contents, write_report
+from amp_studio.report import Contents, print_report
 from amp_studio.report.apart import made
 from amp_studio.report.templating import TEMPLATES
 
@@ -39,7 +39,7 @@ def printed(machine: Path, mill: ParameterFile, ending: str, template: str) -> t
     (machine.parent / "templates" / name).write_text(template, "utf-8")
     notes: list[str] = []
     out = machine.parent / f"out.{ending}"
-    write_report(mill, out, SHORT, source=machine, notify=notes.append)
+    print_report(mill, out, SHORT, source=machine, notify=notes.append)
     return out.read_bytes(), notes
 
 
@@ -125,7 +125,7 @@ def test_a_template_that_is_a_link_is_refused(machine: Path, mill: ParameterFile
         templates.rmdir()
         templates.symlink_to(elsewhere, target_is_directory=True)
     notes: list[str] = []
-    write_report(mill, machine.parent / "out.html", SHORT, source=machine, notify=notes.append)
+    print_report(mill, machine.parent / "out.html", SHORT, source=machine, notify=notes.append)
     assert b"a secret of the user" not in (machine.parent / "out.html").read_bytes()
     assert "links are not followed" in notes[0]
 
@@ -133,7 +133,8 @@ def test_a_template_that_is_a_link_is_refused(machine: Path, mill: ParameterFile
 @pytest.mark.parametrize(
     ("ending", "template", "said"),
     [
-        ("html", EXTENDS_PAGE + "{% block chapters %}\n{{ report.titel }}{% endblock %}", "line 3: "),
+        ("html", EXTENDS_PAGE + "{% block chapters %}\n{{ report.titel }}{% endblock %}", "line 3: there is no 'titel' in a Report, did you mean 'title'? The"),
+        ("html", EXTENDS_PAGE + "{% block chapters %}{{ reprot.title }}{% endblock %}", "there is no 'reprot', did you mean 'report'?"),
         ("html", EXTENDS_PAGE + "\n\n{% block chapters %}", "line 4: "),
         ("html", "{% extends 'standard/nothing.j2' %}", "nothing.j2"),
         ("html", EXTENDS_PAGE + "{% block chapters %}{{ 1 / 0 }}{% endblock %}", "line 2: division by zero"),
@@ -221,7 +222,7 @@ def test_a_block_that_does_not_exist_is_a_mistake(machine: Path, mill: Parameter
 @pytest.mark.parametrize(
     ("part", "said"),
     [
-        ("a\nb\n{{ nothing.x }}", "part.html: line 3: 'nothing' is undefined"),
+        ("a\nb\n{{ nothing.x }}", "part.html: line 3: there is no 'nothing'"),
         ("a\n{% if %}", "part.html: line 2: Expected an expression"),
         (None, "line 2: there is no template 'part.html' beside it"),
     ],

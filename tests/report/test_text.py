@@ -11,7 +11,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from amp_studio.files import ParameterFile
-from amp_studio.report import SORTS, Contents, build_report, write_report
+from amp_studio.report import SORTS, Contents, build_report, print_report
 from amp_studio.report.contents import Sort
 from amp_studio.report.model import Listing, Report, ReportRow, Section
 from amp_studio.report.note import Note
@@ -74,7 +74,7 @@ def test_a_small_report_to_the_letter() -> None:
 def test_no_line_is_wider_than_the_paper_and_every_value_is_there(
     tmp_path: Path, eight_axes: ParameterFile, sort: Sort
 ) -> None:
-    write_report(eight_axes, tmp_path / "r.txt", Contents(sort), source=tmp_path / ("n" * 150 + ".amp"))
+    print_report(eight_axes, tmp_path / "r.txt", Contents(sort), source=tmp_path / ("n" * 150 + ".amp"))
     lines = (tmp_path / "r.txt").read_text("utf-8").splitlines()
     assert max(len(line) for line in lines) <= 100
     assert all(line == line.rstrip() for line in lines)

@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 
 from amp_studio.files import Header, ParameterFile, SaveError, new_file
-from amp_studio.report import FORMATS, SORTS, Contents, write_report
+from amp_studio.report import FORMATS, SORTS, Contents, print_report
 from amp_studio.report.contents import Sort
 from amp_studio.schema import Value, family_ids, load_schema
 
@@ -34,7 +34,7 @@ def test_a_new_file_is_printed_in_every_format_and_order(
 ) -> None:
     path = tmp_path / f"report{ending}"
     file = new_file("9pc", "mill", ["X", "Y", "Z", "B", "S"])
-    write_report(file, path, Contents(sort, changed_only))
+    print_report(file, path, Contents(sort, changed_only))
     assert path.read_bytes().startswith(STARTS[ending])
     assert list(tmp_path.iterdir()) == [path], "nothing else may be left in the folder, not even a backup"
 
@@ -51,7 +51,7 @@ EVERY_FAMILY = [
 @pytest.mark.parametrize(("family", "ending", "sort"), EVERY_FAMILY)
 def test_every_family_is_printed(tmp_path: Path, family: str, ending: str, sort: Sort) -> None:
     path = tmp_path / f"report{ending}"
-    write_report(new_file(family), path, Contents(sort))
+    print_report(new_file(family), path, Contents(sort))
     assert path.read_bytes().startswith(STARTS[ending])
 
 
@@ -59,7 +59,7 @@ def test_every_family_is_printed(tmp_path: Path, family: str, ending: str, sort:
 def test_a_file_without_a_single_value_is_printed(tmp_path: Path, ending: str) -> None:
     path = tmp_path / f"report{ending}"
     for changed_only in (False, True):
-        write_report(ParameterFile(load_schema("9pc"), Header()), path, Contents(changed_only=changed_only))
+        print_report(ParameterFile(load_schema("9pc"), Header()), path, Contents(changed_only=changed_only))
         assert path.read_bytes().startswith(STARTS[ending])
 
 
@@ -73,7 +73,7 @@ def test_no_text_of_a_file_is_taken_for_an_order(
     mill.forced[("servo.gain_break_point", "1")] = ODD
     mill.unknown[ODD] = "1"
     path = tmp_path / f"report{ending}"
-    write_report(mill, path, Contents(sort), source=tmp_path / ("n" * 120 + "#.amp"))
+    print_report(mill, path, Contents(sort), source=tmp_path / ("n" * 120 + "#.amp"))
     content = path.read_bytes()
     assert content.startswith(STARTS[ending])
     if ending == ".html":
@@ -87,14 +87,14 @@ def test_the_same_file_on_the_same_date_gives_the_same_report(
     tmp_path: Path, mill: ParameterFile, date: datetime, ending: str
 ) -> None:
     for name in ("one", "two"):
-        write_report(mill.copy(), tmp_path / f"{name}{ending}", date=date)
+        print_report(mill.copy(), tmp_path / f"{name}{ending}", date=date)
     assert (tmp_path / f"one{ending}").read_bytes() == (tmp_path / f"two{ending}").read_bytes()
 
 
 def test_a_report_that_exists_is_replaced(tmp_path: Path, mill: ParameterFile) -> None:
     path = tmp_path / "report.TXT"
     path.write_text("old")
-    write_report(mill, path)
+    print_report(mill, path)
     assert path.read_bytes().startswith(STARTS[".txt"])
     assert list(tmp_path.iterdir()) == [path]
 
@@ -105,19 +105,19 @@ def test_another_ending_is_refused_in_one_sentence(tmp_path: Path, mill: Paramet
         ValueError,
         match=r"unknown report format\. Use the file extension \.pdf, \.html, \.xlsx, \.csv, \.json, \.txt",
     ) as refused:
-        write_report(mill, tmp_path / name)
+        print_report(mill, tmp_path / name)
     assert "\n" not in str(refused.value)
     assert list(tmp_path.iterdir()) == []
 
 
 def test_another_order_is_refused(tmp_path: Path, mill: ParameterFile) -> None:
     with pytest.raises(ValueError, match=r"Unknown order 'name'\. Known: axis, number, group"):
-        write_report(mill, tmp_path / "report.txt", Contents("name"))  # type: ignore[arg-type]
+        print_report(mill, tmp_path / "report.txt", Contents("name"))  # type: ignore[arg-type]
 
 
 def test_a_folder_that_is_not_there_is_said_in_one_sentence(tmp_path: Path, mill: ParameterFile) -> None:
     with pytest.raises(SaveError, match=r"report\.txt cannot be written: No such file or directory"):
-        write_report(mill, tmp_path / "nowhere" / "report.txt")
+        print_report(mill, tmp_path / "nowhere" / "report.txt")
 
 
 @pytest.mark.parametrize("sort", SORTS)
@@ -128,6 +128,6 @@ def test_a_full_machine_is_set_in_every_order(printed: Callable[..., Path], sort
 def test_writing_a_report_changes_nothing_in_the_file(tmp_path: Path, mill: ParameterFile) -> None:
     before, forced = dict(mill.values), dict(mill.forced)
     for ending in FORMATS:
-        write_report(mill, tmp_path / f"report{ending}")
+        print_report(mill, tmp_path / f"report{ending}")
     assert (mill.values, mill.forced) == (before, forced)
     assert mill.get(("home.calibration", "1")) == Value(12.5, "mm")

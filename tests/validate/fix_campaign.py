@@ -10,7 +10,7 @@ from functools import cache
 from random import Random
 
 from rule_machines import FAMILIES, machines, sound
-from test_any_values import anything, fitting, often
+from test_any_values import anything, fitting, often, set_if_possible
 
 from amp_studio.files import ParameterFile
 from amp_studio.schema import Address, Value
@@ -51,7 +51,7 @@ def spoil(file: ParameterFile, random: Random, times: int | None = None) -> None
         address = random.choice(
             [random.choice(addresses), random.choice(much), random.choice(list(file.values))]
         )
-        file.set(address, _another(file, address, random))
+        set_if_possible(file, address, _another(file, address, random))
 
 
 def _another(file: ParameterFile, address: Address, random: Random) -> Value | None:

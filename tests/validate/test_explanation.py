@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
+import contextlib
 import re
 
 import pytest
 
 from amp_studio.files import ParameterFile
 from amp_studio.report import why_text
-from amp_studio.schema import Rule, Value, load_schema
+from amp_studio.schema import InvalidValueError, Rule, Value, load_schema
 from amp_studio.validate import BuilderRules, Explanation, Validator, explain
 
 RAPID = ("feedrate.rapid", "1")
@@ -89,7 +90,8 @@ def test_every_finding_of_a_machine_with_nothing_right_can_be_explained(family: 
     for n, address in enumerate(file.addresses()):
         parameter = file.schema.parameters[address[0]]
         if parameter.access != "read":
-            file.set(address, Value("raw:999") if parameter.choices else Value(float(n * 7 - 900)))
+            with contextlib.suppress(InvalidValueError):
+                file.set(address, Value("raw:999") if parameter.choices else Value(n * 7 - 900))
     validator = Validator(file)
     findings = validator.run()
     assert len({finding.rule for finding in findings}) > 2

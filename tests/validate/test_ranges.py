@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import math
-
 import pytest
 from findings import found, the
 
@@ -88,26 +86,6 @@ def test_a_number_that_just_misses_its_range_goes_to_the_bound_and_one_far_beyon
     mill.set(RAPID, Value(speed, "mm/min"))
     finding = next(f for f in Validator(mill).run() if f.rule == "schema.range" and f.causes == (RAPID,))
     assert [setting.value.value for setting in finding.fix] == [mended] * (mended is not None)
-
-
-@pytest.mark.parametrize(
-    ("address", "value", "said"),
-    [
-        (("servo.sercos_baud", ""), Value("9 MHz"), "9 MHz is no choice of Baud Rate for SERCOS."),
-        (("servo.sercos_baud", ""), Value(2.0), "2.0 is no choice of Baud Rate for SERCOS."),
-        (("zone.overtravel_used", "1"), Value("yes"), "yes is no choice of Software Overtravel Used."),
-        (EXCESS, Value("much", "mm"), "Excess Error takes a number, not much."),
-        (EXCESS, Value(True), "Excess Error takes a number, not True."),
-        (EXCESS, Value(math.nan, "mm"), "Excess Error takes a number, not nan."),
-        (EXCESS, Value(math.inf, "mm"), "Excess Error takes a number, not inf."),
-        (("servo.sercos_cycle", ""), Value(2.5, "ms"), "Cycle Time for SERCOS takes whole numbers, not 2.5."),
-    ],
-)
-def test_a_value_of_the_wrong_kind_is_an_error(mill, address: Address, value: Value, said: str) -> None:
-    mill.set(address, value)
-    (finding,) = (f for f in Validator(mill).run() if f.rule.startswith("schema.") and f.severity == "error")
-    assert finding.message == said
-    assert [setting.value for setting in finding.fix] == [mill.default(address)]
 
 
 @pytest.mark.parametrize(

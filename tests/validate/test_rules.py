@@ -165,6 +165,18 @@ def compares_numbers(rule_id: str) -> bool:
     return parameters[rule.reads[found[1]].partition("@")[0]].type in ("integer", "real")
 
 
+def numbers_at(bound: float) -> tuple[float, float, float]:
+    """Return a bound and the numbers next to it."""
+    return bound, math.nextafter(bound, -math.inf), math.nextafter(bound, math.inf)
+
+
+def whole_numbers_at(bound: float) -> tuple[int, ...]:
+    """Return the bound, where it is a whole number, and the whole numbers next to it."""
+    return tuple(
+        dict.fromkeys((math.floor(bound), math.ceil(bound), math.ceil(bound) - 1, math.floor(bound) + 1))
+    )
+
+
 def a_comparison_turns_exactly_at_its_bound(case: Case) -> None:
     rule = RULES[case.rule]
     left, sign, right = COMPARISON.fullmatch(rule.check).groups()
@@ -173,7 +185,8 @@ def a_comparison_turns_exactly_at_its_bound(case: Case) -> None:
         check = here.validator.check_of(here.of(case.rule)[0])
         address = check.address_of(left)
         bound = program(right).execute(RuleChecks(here.file, here.file.machine).context_of(check))
-        for number in (bound, math.nextafter(bound, -math.inf), math.nextafter(bound, math.inf)):
+        whole = here.file.schema.parameters[address[0]].type == "integer"
+        for number in whole_numbers_at(bound) if whole else numbers_at(bound):
             with here.recorded():
                 here.set({address: Value(number, canonical_unit(here.file.get(address).unit))})
                 applies = program(rule.when).execute(

@@ -50,11 +50,6 @@ def test_no_password_that_nobody_chose_is_offered(mill) -> None:
     assert finding.fix == ()
 
 
-def test_a_value_of_another_kind_is_not_written(mill) -> None:
-    mill.set(PASSWORD, Value(7654321.5))
-    assert "7654321" not in told(mill, "schema.range")
-
-
 @pytest.mark.parametrize("words", [
     {"message": "{code}"},
     {"message": "{twice}", "values": {"twice": "code * 2.0"}},

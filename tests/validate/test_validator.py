@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-import math
+import contextlib
 
 import pytest
 from findings import found, the
 
 from amp_studio.files import new_file
 from amp_studio.report import finding_json, finding_text
-from amp_studio.schema import Address, Rule, Value
+from amp_studio.schema import Address, InvalidValueError, Rule, Value
 from amp_studio.schema.expression import Circumstances, Decision, program
 from amp_studio.validate import SEVERITIES, BuilderRules, Setting, Validator
 
@@ -193,29 +193,11 @@ def test_a_rule_over_the_whole_control_is_about_what_is_in_force(mill) -> None:
     )
 
 
-def test_a_formula_that_makes_no_sense_of_a_value_says_nothing(mill, caplog) -> None:
-    """The remainder of an infinite turn; CEL warns of every function that raises."""
-    mill.set(("axis.rollover", "4"), Value(math.inf, "deg"))
-    assert [finding.rule for finding in Validator(mill).run()] == ["schema.range", "9pc.format.rollover"]
-    assert caplog.records == []
-
-
 def test_a_formula_that_is_wrong_itself_is_logged(caplog) -> None:
     decision = Decision(program("wrong(speed) > 0.0"), {"wrong": lambda speed: speed.nothing})
     assert not decision.is_true((5.0,), ("speed",), Circumstances("mill", "", ""))
     (record,) = caplog.records
     assert "'wrong' failed: AttributeError" in record.getMessage()
-
-
-def test_a_number_in_the_place_of_a_yes_is_noticed(mill) -> None:
-    """Python takes 1 and True for equal; a rule does not."""
-    used, loop = ("zone.overtravel_used", "6"), ("servo.position_loop_type", "6")
-    validator = Validator(mill)
-    mill.set(loop, Value("open"))
-    assert "9pc.zone.overtravel-never-homed" in {finding.rule for finding in validator.run()}
-    mill.set(used, None)
-    mill.set(used, Value(1.0))
-    assert "9pc.zone.overtravel-never-homed" not in {finding.rule for finding in validator.update([used])}
 
 
 def test_the_rules_that_read_a_value_are_known(mill) -> None:
@@ -239,7 +221,8 @@ def test_the_rules_that_read_a_value_are_known(mill) -> None:
 def test_findings_are_sorted_by_severity_and_by_the_manual(mill) -> None:
     for n, address in enumerate(mill.addresses()):
         if n % 3 == 0 and address[0] not in ("axis.type", "control.type"):
-            mill.set(address, Value("raw:999"))
+            with contextlib.suppress(InvalidValueError):
+                mill.set(address, Value("raw:999"))
         elif n % 7 == 0:
             mill.set(address, None)
     mill.unknown["nonsense"] = ""

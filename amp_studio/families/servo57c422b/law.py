@@ -85,7 +85,10 @@ _SIGNS = (
     "The bits of Drive Setup are lost with figure 4.2: polarity is taken to fit, and {0} because Velocity Gain is {1}"
     " (page 5-3)."
 )
-_DEADBAND = "Deadband Compensation is added to the output in words, in the direction of the output: figure 4.8 is lost."
+_DEADBAND = (
+    "Deadband Compensation is added to the output in words, in the direction of the output: figure 4.8 is lost."
+    " The linear model of the loop is without it."
+)
 _S_CURVE = (
     "The S-curve takes twice the time of the trapezoid (page 4-25); its shape is lost. Taken: sine squared, with the"
     " programmed acceleration as its peak."

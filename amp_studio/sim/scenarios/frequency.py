@@ -6,6 +6,7 @@ The open loop follows from the closed one without feed-forward: T = L / (1 + L),
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping
 from dataclasses import dataclass
 
 import numpy as np
@@ -70,6 +71,10 @@ _LINEAR = (
 )
 
 
+_LEAST_DIFFERENCE = 0.02
+"""Share of the model's bandwidth from which the sweep's is another figure."""
+
+
 def run_frequency(axis: AxisLaw, settings: Settings) -> Trace:
     """Sweep an axis; raises SimulationError for impossible settings."""
     refuse_unknown(settings, SETTINGS)
@@ -91,13 +96,15 @@ def run_frequency(axis: AxisLaw, settings: Settings) -> Trace:
         notes += [note] if note else []
     else:
         alarms = (Alarm("UNSTABLE", 0.0, _unstable(loop)),)
+    result = _figures(loop, curve, swept)
+    notes += [difference] if (difference := _difference(axis, result)) else []
     return Trace(
         scenario="frequency",
         axis=axis.axis,
         model=axis.title,
         columns=_columns(loop, curve, swept),
         units=_UNITS,
-        result=_figures(loop, curve, swept),
+        result=result,
         alarms=alarms,
         recommendations=(),
         assumptions=(*assumptions(axis), *notes),
@@ -237,6 +244,23 @@ def _figures(loop: _Loop, curve: Series, swept: _Swept) -> dict[str, Figure]:
         "velocity_loop_gain_margin": (inside.gain if inside else None, "dB"),
         "velocity_loop_bandwidth": (inside.phase_frequency if inside else None, "Hz"),
     }
+
+
+def _difference(axis: AxisLaw, result: Mapping[str, Figure]) -> str:
+    """Return why the sweep has another bandwidth than the linear model; empty where both have the same one."""
+    swept, model, machine = result["swept_bandwidth"][0], result["bandwidth"][0], axis.machine
+    if swept is None or model is None or abs(swept / model - 1.0) < _LEAST_DIFFERENCE:
+        return ""
+    parts = {
+        "dry friction": machine.coulomb_friction or machine.static_friction,
+        "backlash": machine.backlash,
+        "counts": machine.motor_count or machine.position_count,
+    }
+    present = [name for name, amount in parts.items() if amount]
+    return (
+        f"The sweep has another bandwidth than the linear model ({shown(swept)} and {shown(model)} Hz): it contains"
+        f" {', '.join([*present, 'limits'])} and what the control itself does not do in proportion."
+    )
 
 
 def _unstable(loop: _Loop) -> str:

@@ -143,7 +143,7 @@ def test_what_a_word_cannot_hold_is_not_written(
     num: Schema, name: str, instance: str, value: Value, said: str
 ) -> None:
     file = ParameterFile(num)
-    file.set((name, instance), value)
+    file.values[name, instance] = value  # also one that no file contains
     with pytest.raises(FormatError, match=said):
         FORMAT.write(file)
 
