@@ -24,6 +24,8 @@ def import_verb(options: argparse.Namespace) -> int:
             options.family,
             format_key=options.format,
             keep_unknown=options.keep_unknown,
+            machine=options.machine or "",
+            listing=options.listing,
             notify=note,
         )
     except FamilyNotGivenError as error:
@@ -33,8 +35,8 @@ def import_verb(options: argparse.Namespace) -> int:
     except ValueError as error:
         raise UsageError(f"{options.text}: {error}") from None
     settle_values(file, options.on_fault, "an import")
-    for key in file.unknown:
-        note(f"kept without knowing it: {key}")
+    if file.unknown:
+        note(f"kept without knowing it: {', '.join(file.unknown)}")
     write_new(file, options.output)
     print(f"{options.output}: {counted(len(file.values), 'value')}")
     return 0

@@ -12,11 +12,12 @@ from .import_export import (
     formats_of,
     import_file,
 )
-from .text_format import FamilyNotGivenError, FormatError, TextFormat, TextRead
+from .text_format import FamilyNotGivenError, FormatError, ReadOptions, TextFormat, TextRead
 
 __all__ = [
     "FamilyNotGivenError",
     "FormatError",
+    "ReadOptions",
     "TextFormat",
     "TextRead",
     "all_formats",

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from codecs import BOM_UTF16_BE, BOM_UTF16_LE
 from collections.abc import Callable
 from pathlib import Path
 
@@ -13,7 +14,7 @@ from amp_studio.schema.registration import load_part, registered_families, regis
 from amp_studio.schema.regular_file import read_file
 
 from . import values_csv
-from .text_format import FamilyNotGivenError, FormatError, TextFormat, TextRead
+from .text_format import FamilyNotGivenError, FormatError, ReadOptions, TextFormat, TextRead
 
 GENERAL: tuple[TextFormat, ...] = (values_csv.FORMAT,)
 """Formats of every family."""
@@ -37,26 +38,44 @@ def _own_formats(family: str) -> tuple[TextFormat, ...]:
 
 def import_file(
     path: Path, family: str | None = None, *, format_key: str | None = None, keep_unknown: bool = False,
-    notify: Callable[[str], None] = lambda _message: None,
+    machine: str = "", listing: int = 0, notify: Callable[[str], None] = lambda _message: None,
 ) -> ParameterFile:  # fmt: skip
     """Return the parameters of a text file, in a file that contains nothing else; values out of range are in it too.
 
+    ``machine`` is the machine type where the text shall not decide, ``listing`` which of several listings in one text,
+    counted from 1 (0 is the last one).
     ``notify`` is called with what a person should know of a text that was taken: words it leaves out.
     Without a family, the format or the text has to name it. Raises FormatError with line and column,
     UnknownFamilyError, OSError.
     """
-    content = read_file(path, _MOST_BYTES)
+    content = _as_utf8(read_file(path, _MOST_BYTES))
     chosen = _format_for_reading(content, family, format_key)
-    try:
-        text = content.decode(chosen.encoding)
-    except UnicodeDecodeError as error:
-        line = content[: error.start].count(b"\n") + 1
-        raise FormatError(f"there is a byte that is no {chosen.encoding} text", line) from None
+    text = _decoded(content, chosen)
     schema = load_schema(family or _only_family(chosen))
-    read = chosen.read(text, schema, keep_unknown)
+    if machine and machine not in schema.machines:
+        raise FormatError(unknown_name("machine type", machine, (m.key for m in schema.family.machines)))
+    read = chosen.read(text, schema, ReadOptions(keep_unknown, machine, listing))
+    read.machine = read.machine or machine
     for message in read.notes:
         notify(message)
     return file_of(schema, read, path.stem)
+
+
+def _decoded(content: bytes, chosen: TextFormat) -> str:
+    try:
+        return content.decode(chosen.encoding)
+    except UnicodeDecodeError as error:
+        if chosen.otherwise:
+            return content.decode(chosen.otherwise, "replace")
+        line = content[: error.start].count(b"\n") + 1
+        raise FormatError(f"there is a byte that is no {chosen.encoding} text", line) from None
+
+
+def _as_utf8(content: bytes) -> bytes:
+    """Return a text of 16-bit characters, as a terminal of Windows saves it, in the usual encoding."""
+    if not content.startswith((BOM_UTF16_LE, BOM_UTF16_BE)):
+        return content
+    return content.decode("utf-16", "replace").encode("utf-8", "replace")
 
 
 def file_of(schema: Schema, read: TextRead, name: str) -> ParameterFile:

@@ -28,6 +28,18 @@ class FamilyNotGivenError(FormatError):
     """A text of a format that several families share: which one it is for has to be named."""
 
 
+@dataclass(frozen=True)
+class ReadOptions:
+    """What a person decides about a text that is read."""
+
+    keep_unknown: bool = False
+    """Keep what is not understood, to be written back."""
+    machine: str = ""
+    """The machine type; empty where the text shall decide."""
+    listing: int = 0
+    """Which of several listings of one text, counted from 1; 0 is the last one."""
+
+
 @dataclass
 class TextRead:
     """What a text contains."""
@@ -57,14 +69,16 @@ class TextFormat:
     """Of the files it writes, with the point."""
     recognises: Callable[[str], bool]
     """Returns whether a text is meant for this format."""
-    read: Callable[[str, Schema, bool], TextRead]
-    """Reads a text for a family; the last argument decides whether to keep what is not understood."""
+    read: Callable[[str, Schema, ReadOptions], TextRead]
+    """Reads a text for a family."""
     write: Callable[[ParameterFile], str]
     """Writes a file; raises FormatError for a value it cannot write."""
     encoding: str = "utf-8"
     newline: str = "\n"
     other_endings: tuple[str, ...] = ()
     """Names that are as good for its files."""
+    otherwise: str = ""
+    """The encoding of a text that is not of ``encoding``; without it such a text is refused."""
 
     @property
     def endings(self) -> tuple[str, ...]:

@@ -16,7 +16,7 @@ from amp_studio.files.spreadsheet import cell_text, text_cell
 from amp_studio.schema import Address, InvalidValueError, Schema, Value, is_mask, write_value, written
 from amp_studio.schema.quoting import short
 
-from .text_format import FormatError, TextFormat, TextRead
+from .text_format import FormatError, ReadOptions, TextFormat, TextRead
 
 _HEADS = ("number", "id", "instance", "name", "value", "unit")
 _NOTE = "note"
@@ -46,7 +46,7 @@ def _write(file: ParameterFile) -> str:
     return _MARK + stream.getvalue()
 
 
-def _read(text: str, schema: Schema, keep_unknown: bool) -> TextRead:
+def _read(text: str, schema: Schema, options: ReadOptions) -> TextRead:
     table = csv.reader(io.StringIO(text.removeprefix(_MARK), newline=""), strict=True)
     found = TextRead()
     try:
@@ -56,7 +56,7 @@ def _read(text: str, schema: Schema, keep_unknown: bool) -> TextRead:
                 raise FormatError(f"there is no column '{needed}'", 1)
         for cells in table:
             if any(cell.strip() for cell in cells):
-                _take(found, schema, heads, cells, table.line_num, keep_unknown)
+                _take(found, schema, heads, cells, table.line_num, options.keep_unknown)
     except csv.Error as error:
         raise FormatError(f"this is no line of a table: {error}", table.line_num) from None
     return found

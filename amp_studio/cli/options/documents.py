@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from amp_studio.cli.arguments import (
     Verbs,
+    count,
     file_or_address,
     json_option,
     language_option,
@@ -80,6 +81,9 @@ def add(verbs: Verbs) -> None:
     sub.add_argument(
         "--keep-unknown", action="store_true", help="keep what is not understood, to be written back"
     )
+    sub.add_argument("--machine", help="machine type, where the text shall not decide")
+    sub.add_argument("--listing", type=count, default=0, metavar="N",
+                     help="which of several listings in one text, counted from 1; without it the last one")  # fmt: skip
     on_fault_option(sub)
     sub = verbs.add(
         "export", "formats", "a parameter file in a text format; the ending shows which", writes="output"

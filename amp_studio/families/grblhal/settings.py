@@ -105,15 +105,16 @@ def compiled_in(schema: Schema) -> dict[Address, Value]:
     }
 
 
-def settings_of_file(file: ParameterFile, *, padded: bool = False) -> dict[int, str]:
+def settings_of_file(file: ParameterFile, *, padded: bool = False, hidden: bool = False) -> dict[int, str]:
     """Return number -> text of every setting that a file sets and this control has; raises StorageError.
 
-    ``padded`` writes the decimals that the control shows also where they are zeros.
+    ``padded`` writes the decimals that the control shows also where they are zeros; ``hidden`` has also settings that
+    the control does not list as it is set (``$180`` without Per axis feedrates).
     """
     found = {}
     for address, value in file.values.items():
         number = number_at(file.machine_schema, address)
-        if number is not None and file.evaluation.state(address).state != "hidden":
+        if number is not None and (hidden or file.evaluation.state(address).state != "hidden"):
             parameter = file.schema.parameters[address[0]]
             text = text_of_value(parameter, value, turns=file.evaluation.turns(address))
             found[number] = _padded(parameter, text) if padded else text

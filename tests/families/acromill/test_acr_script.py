@@ -12,7 +12,7 @@ from amp_studio.families.acromill.formats.acr_command import commands_of
 from amp_studio.families.acromill.formats.acr_script import FORMAT, ORDER
 from amp_studio.files import Header, ParameterFile, content_of, new_file, open_file
 from amp_studio.files.reading import read_content
-from amp_studio.formats import FormatError, export_file, import_file
+from amp_studio.formats import FormatError, ReadOptions, export_file, import_file
 from amp_studio.schema import Value, load_schema
 from tests.families.servo57c422b.small_module import taken, told
 
@@ -353,7 +353,7 @@ def test_new_values_stand_at_the_end_of_a_script_that_had_none() -> None:
 
 
 def test_a_script_of_known_commands_leaves_nothing_behind() -> None:
-    read = FORMAT.read("REM of mine\n\nTLM X4 (volts)\n", MILL, True)
+    read = FORMAT.read("REM of mine\n\nTLM X4 (volts)\n", MILL, ReadOptions(keep_unknown=True))
     assert (read.unknown, read.extra) == ({}, {})
 
 

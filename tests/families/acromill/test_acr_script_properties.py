@@ -13,7 +13,7 @@ from amp_studio.families.acromill.formats.acr_command import commands_of
 from amp_studio.families.acromill.formats.acr_script import FORMAT
 from amp_studio.files import Header, ParameterFile, content_of
 from amp_studio.files.reading import read_content
-from amp_studio.formats import FormatError, file_of
+from amp_studio.formats import FormatError, ReadOptions, file_of
 from amp_studio.schema import Schema, Value, load_schema, read_address
 from amp_studio.schema.catalog import schema_of
 from amp_studio.schema.load import compile_family
@@ -69,7 +69,7 @@ def test_a_value_in_the_unit_of_its_figure_comes_back_exactly(
             file.set(address, Value(number, unit))
     text = FORMAT.write(file)
     assert not re.search(r"[0-9]e[+-]?[0-9]", text, re.IGNORECASE), "no figure has an exponent"
-    back = file_of(MILL, FORMAT.read(text, MILL, False), "TRY")
+    back = file_of(MILL, FORMAT.read(text, MILL, ReadOptions()), "TRY")
     assert back.values == file.values
     assert FORMAT.write(back) == text
 
@@ -84,7 +84,7 @@ def test_a_value_in_the_unit_of_its_figure_comes_back_exactly(
 )  # fmt: skip
 def test_a_script_with_other_commands_comes_back_as_it_was(lines: list[str]) -> None:
     text = "\n".join(lines)
-    file = file_of(MILL, FORMAT.read(text, MILL, True), "TRY")
+    file = file_of(MILL, FORMAT.read(text, MILL, ReadOptions(keep_unknown=True)), "TRY")
     if file.unknown:
         assert FORMAT.write(file) == text
         again = read_content(Path("TRY.amp"), content_of(file))
@@ -104,7 +104,7 @@ def test_a_script_with_other_commands_comes_back_as_it_was(lines: list[str]) -> 
 def test_any_text_is_read_or_told_with_its_line(text: str, keep: bool) -> None:
     place = None
     try:
-        file = file_of(MILL, FORMAT.read(text, MILL, keep), "TRY")
+        file = file_of(MILL, FORMAT.read(text, MILL, ReadOptions(keep)), "TRY")
     except FormatError as fault:
         place = fault.line or 0
     if place is None:

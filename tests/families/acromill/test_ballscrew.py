@@ -9,7 +9,7 @@ import pytest
 from amp_studio.families.acromill.formats.ballscrew import FORMAT
 from amp_studio.families.acromill.formulas import ballscrew_words
 from amp_studio.files import new_file
-from amp_studio.formats import FormatError, export_file, import_file
+from amp_studio.formats import FormatError, ReadOptions, export_file, import_file
 from amp_studio.schema import Value, load_schema
 
 DIFFERENCES = [0.0, 0.00625, 0.00325, 0.00175, -0.0025, *[0.001] * 36, 0.0025]
@@ -47,7 +47,7 @@ def test_a_line_that_cannot_be_meant_is_told(
     text: str, line: int | None, column: int | None, said: str
 ) -> None:
     with pytest.raises(FormatError, match=said) as refused:
-        FORMAT.read(text, load_schema("acromill"), False)
+        FORMAT.read(text, load_schema("acromill"), ReadOptions())
     assert (line, column) == (refused.value.line, refused.value.column)
 
 

@@ -4,13 +4,14 @@ from __future__ import annotations
 
 import json
 from pathlib import Path
+from typing import Any
 
 import pytest
 
 from amp_studio.cli import run
 from amp_studio.families.grblhal.formats.listing import FORMAT
 from amp_studio.files import open_file
-from amp_studio.formats.text_format import FormatError
+from amp_studio.formats.text_format import FormatError, ReadOptions, TextRead
 from amp_studio.schema import Value, load_schema
 
 from .recorded import LISTING
@@ -56,9 +57,13 @@ ok
 """
 
 
-def read(text: str, *, keep: bool = False) -> dict[tuple[str, str], Value]:
+def everything(text: str, **options: Any) -> TextRead:
     assert FORMAT.recognises(text)
-    return FORMAT.read(text, load_schema("grblhal"), keep).values
+    return FORMAT.read(text, load_schema("grblhal"), ReadOptions(**options))
+
+
+def read(text: str) -> dict[tuple[str, str], Value]:
+    return everything(text).values
 
 
 def test_a_listing_comes_back_as_it_was(tmp_path: Path) -> None:
@@ -71,7 +76,7 @@ def test_a_listing_comes_back_as_it_was(tmp_path: Path) -> None:
     assert again.read_text("utf-8") == LISTING
 
 
-def test_a_grbl_is_told_by_having_all_of_its_settings_and_no_other(
+def test_a_listing_of_a_grbl_is_of_that_machine_type(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     text, made = tmp_path / "old.nc", tmp_path / "old.amp"
@@ -85,15 +90,67 @@ def test_a_grbl_is_told_by_having_all_of_its_settings_and_no_other(
         ("stepper.invert_direction", 5),
         ("spindle.max_speed", 1000.0),
     ]
-    older = "".join(line for line in CLASSIC.splitlines(True) if not line.startswith("$3"))
-    assert ("homing.cycle", "") in read(older), "without $3 it is no Grbl, but a part of something"
 
 
-def test_start_up_lines_and_offsets_of_a_log_are_left_out_with_a_note() -> None:
-    text = "$I\n[VER:1.1f:]\n$#\n[G54:0.000,0.000,0.000]\n$N0=G21 G90\n$N1=\n$110=600\nok\n"
-    found = FORMAT.read(text, load_schema("grblhal"), False)
+@pytest.mark.parametrize(
+    ("before", "after"),
+    [("$10=1\n", "$10=511\n"), ("$5=0\n", "$5=7\n"), ("$22=1\n", "$22=17\n"), ("$32=0", "$32=2")],
+)
+def test_the_machine_type_is_the_one_whose_bounds_all_values_fit(before: str, after: str) -> None:
+    changed = CLASSIC.replace(before, after)
+    assert changed != CLASSIC
+    assert (everything(CLASSIC).machine, everything(changed).machine) == ("grbl-1.1", "grblhal")
+
+
+def test_missing_lines_do_not_make_another_control_of_it() -> None:
+    shorter = "".join(line for n, line in enumerate(CLASSIC.splitlines(True)) if n % 5)
+    assert everything(shorter).machine == "grbl-1.1"
+
+
+def test_the_machine_type_can_be_chosen(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    text, made = tmp_path / "old.nc", tmp_path / "old.amp"
+    text.write_text(CLASSIC, "utf-8")
+    assert run(["import", str(text), "-o", str(made), "--machine", "grblhal"]) == 0
+    assert open_file(made).file.machine == "grblhal"
+    assert "machine type" not in capsys.readouterr().err
+    assert run(["import", str(text), "-o", str(tmp_path / "x.amp"), "--machine", "mill"]) == 2
+    assert "Unknown machine type 'mill'" in capsys.readouterr().err
+
+
+def test_start_up_lines_are_kept_as_text_with_a_note_and_offsets_are_left_out() -> None:
+    found = everything("$I\n[VER:1.1f:]\n$#\n[G54:0.000,0.000,0.000]\n$N0=G21 G90\n$N1=\n$110=600\nok\n")
     assert found.values == {("axis.max_rate", "X"): Value(600.0, "mm/min")}
-    assert found.notes == ["start-up lines are no settings and are left out: $N0"]
+    assert found.unknown == {"$N0": "G21 G90", "$N1": ""}
+    assert "start-up lines are no settings and are kept as text: $N0" in found.notes
+
+
+def test_the_header_of_a_backup_is_the_identity_of_the_build_and_comes_back(tmp_path: Path) -> None:
+    text, made, again = tmp_path / "backup.txt", tmp_path / "mill.amp", tmp_path / "again.settings"
+    identity = [
+        "[OPT:VNMSL+,999,1024,4,0]",
+        "[AXS:4:XYZA]",
+        "[BOARD:T41U5XBB]",
+        "[PLUGIN:ENCODER v0.01]",
+        "[PLUGIN:FANS v0.01]",
+    ]
+    text.write_text(
+        "%\n; grblHAL\n" + "".join(f"; {i}\n" for i in identity) + "$N0=\n; 0 - Step pulse time\n$0=10.0\n"
+    )
+    assert run(["import", str(text), "-o", str(made)]) == 0
+    file = open_file(made).file
+    assert (file.machine, file.values["build.axes", ""]) == ("grblhal", Value("XYZA"))
+    assert file.header.extra["control"] == identity
+    assert run(["export", str(made), "-o", str(again)]) == 0
+    assert again.read_text("utf-8").splitlines() == [f"; {i}" for i in identity] + ["$N0=", "$0=10.0"]
+
+
+def test_a_setting_that_is_inactive_as_the_control_is_set_goes_out_again(tmp_path: Path) -> None:
+    text, made, again = tmp_path / "backup.txt", tmp_path / "mill.amp", tmp_path / "again.settings"
+    listing = "$22=17\n$24=150.0\n$180=150.0\n$190=4300.0\n"
+    text.write_text(listing, "utf-8")
+    assert run(["import", str(text), "-o", str(made)]) == 0
+    assert run(["export", str(made), "-o", str(again)]) == 0
+    assert again.read_text("utf-8") == listing
 
 
 def test_a_part_of_a_listing_is_read_as_one_of_grblhal() -> None:
@@ -110,18 +167,28 @@ def test_the_steps_tell_how_many_axes_there_are() -> None:
     assert read(text + "$376=1\n")["axis.steps", "B"] == Value(80.0, "steps/mm")
 
 
-def test_a_setting_that_is_not_known_is_kept_where_that_is_asked_for() -> None:
-    with pytest.raises(FormatError, match=r"line 2, column 1: \$999 is a setting that is not known"):
-        read("$0=5\n$999=a b\n")
-    kept = FORMAT.read("$0=5\n$999=a b\n", load_schema("grblhal"), True)
-    assert kept.unknown == {"$999": "a b"}
+def test_what_is_not_known_is_kept_with_one_note_for_all() -> None:
+    found = everything("$0=5\n$9990=a b\n$9991=7\n")
+    assert found.unknown == {"$9990": "a b", "$9991": "7"}
+    assert [note for note in found.notes if "$9990" in note] == [
+        "2 of 3 settings are not known without the control and kept as text: $9990, $9991"
+    ]
+
+
+def test_every_text_that_is_no_value_is_named_at_once_and_can_be_kept() -> None:
+    text = "$0=1e-05\n$1=25\n$22=1.5\n$100=\n"
+    with pytest.raises(FormatError) as error:
+        everything(text)
+    assert str(error.value) == (
+        "line 1, column 1: $0: '1e-05' is not a number; so are $22 (line 3), $100 (line 4). "
+        "To keep what is no value as text: --keep-unknown"
+    )
+    assert everything(text, keep_unknown=True).unknown == {"$0": "1e-05", "$22": "1.5", "$100": ""}
 
 
 @pytest.mark.parametrize(
     ("text", "message"),
     [
-        ("$0=5\n$0=6\n", r"line 2, column 1: \$0 occurs twice, in line 1 already"),
-        ("$0=5\nG0 X1\n", r"line 2, column 1: 'G0 X1' is no setting"),
         ("$0=1e-05\n", r"line 1, column 1: \$0: '1e-05' is not a number"),
         ("$0=\n", r"\$0: '' is not a number"),
         ("$22=1.5\n", r"\$22: Homing cycle takes whole numbers, not 1.5"),
@@ -133,6 +200,42 @@ def test_a_setting_that_is_not_known_is_kept_where_that_is_asked_for() -> None:
 def test_what_cannot_be_meant_is_refused_with_its_line(text: str, message: str) -> None:
     with pytest.raises(FormatError, match=message):
         read(text)
+
+
+FOUR = "".join(f"Machine {n}:\n======\n{CLASSIC.replace('$110=500', f'$110={n}00')}\n" for n in (1, 2, 3, 4))
+
+
+def test_of_several_listings_the_last_is_read_and_another_can_be_chosen(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    text = tmp_path / "log.txt"
+    text.write_text(FOUR, "utf-8")
+    for options, rate in (([], 400.0), (["--listing", "2"], 200.0)):
+        made = tmp_path / f"{rate}.amp"
+        assert run(["import", str(text), "-o", str(made), *options]) == 0
+        assert open_file(made).file.values["axis.max_rate", "X"] == Value(rate, "mm/min")
+    error = capsys.readouterr().err
+    assert "the text has 4 listings, and number 4 is read (line 128, 'Machine 4:')" in error
+    assert "--listing chooses another: 1 (line 5, 'Machine 1:'), 2 (line 46" in error
+    assert run(["import", str(text), "-o", str(tmp_path / "x.amp"), "--listing", "5"]) == 2
+    assert "there is no listing 5, the text has 4 listings" in capsys.readouterr().err
+
+
+def test_the_same_listing_twice_is_one() -> None:
+    assert not any("listings" in note for note in everything(CLASSIC * 2).notes)
+
+
+def test_a_few_settings_that_come_again_are_changes_unless_the_control_refused_them() -> None:
+    found = everything(f"{CLASSIC}> $100=80\nok\n> $101=90\nerror:9 (locked)\n")
+    assert found.values["axis.steps", "X"] == Value(80.0, "steps/mm")
+    assert found.values["axis.steps", "Y"] == Value(250.0, "steps/mm")
+    assert any("$100 from 250.000 to 80 (line 39)" in note for note in found.notes)
+    assert any("line 41" in note for note in found.notes)
+
+
+def test_a_sentence_about_a_setting_changes_nothing() -> None:
+    found = everything(f"{CLASSIC}Then I set $100=80 and it works.\n")
+    assert found.values["axis.steps", "X"] == Value(250.0, "steps/mm")
 
 
 @pytest.mark.parametrize("text", ["", "G0 X1\n$0=5\n", "hello", "$N0=G21", "$X", "$100 is the first"])

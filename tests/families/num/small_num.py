@@ -9,7 +9,7 @@ import pytest
 
 from amp_studio.families.num.formats.table import FORMAT
 from amp_studio.files import ParameterFile
-from amp_studio.formats import FormatError, file_of
+from amp_studio.formats import FormatError, ReadOptions, file_of
 from amp_studio.schema import Schema
 from amp_studio.schema.catalog import schema_of
 from amp_studio.schema.load import compile_family
@@ -138,11 +138,11 @@ def measured(*lines: str) -> str:
 
 def taken(schema: Schema, text: str, *, keep_unknown: bool = False) -> ParameterFile:
     """Return the file of a table."""
-    return file_of(schema, FORMAT.read(text, schema, keep_unknown), "TRY")
+    return file_of(schema, FORMAT.read(text, schema, ReadOptions(keep_unknown)), "TRY")
 
 
 def fault(schema: Schema, text: str, *, keep_unknown: bool = False) -> str:
     """Return the error of a table that cannot be taken."""
     with pytest.raises(FormatError) as caught:
-        FORMAT.read(text, schema, keep_unknown)
+        FORMAT.read(text, schema, ReadOptions(keep_unknown))
     return str(caught.value)

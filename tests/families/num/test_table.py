@@ -8,7 +8,7 @@ import pytest
 
 from amp_studio.families.num.formats.table import FORMAT
 from amp_studio.files import ParameterFile, content_of, read_content
-from amp_studio.formats import FormatError, all_formats, export_file, import_file
+from amp_studio.formats import FormatError, ReadOptions, all_formats, export_file, import_file
 from amp_studio.schema import Address, Schema, Value
 from tests.families.num.small_num import PARAMETERS, SAMPLE, XOFF, fault, measured, small_num, taken
 
@@ -43,7 +43,7 @@ def test_the_example_of_the_manual_is_written_byte_for_byte(num: Schema) -> None
 
 def test_what_the_example_leaves_out_is_told(num: Schema) -> None:
     """Page 13-14 gives P4 four words and P6 nine, and writes three and five."""
-    notes = FORMAT.read(SAMPLE, num, False).notes
+    notes = FORMAT.read(SAMPLE, num, ReadOptions()).notes
     assert notes == [
         "the table does not contain P16, P18, P21 to P22, P30, P50, P96 to P98, P101, P113",
         "the table does not contain these words: P4N3, P6N5 to P6N8",

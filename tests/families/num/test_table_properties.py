@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 
 from amp_studio.families.num.formats.table import FORMAT
 from amp_studio.families.num.formats.words import words_of
-from amp_studio.formats import FormatError, file_of
+from amp_studio.formats import FormatError, ReadOptions, file_of
 from amp_studio.schema import Schema
 from tests.families.num.small_num import measured, taken
 
@@ -64,10 +64,10 @@ def test_what_is_read_is_written_and_read_again(num: Schema, seed: int) -> None:
 def changes(schema: Schema, table: str, altered: str) -> set[str] | None:
     """Return what an altered table means otherwise, None where an error is reported."""
     try:
-        read = FORMAT.read(altered, schema, False)
+        read = FORMAT.read(altered, schema, ReadOptions())
     except FormatError:
         return None
-    before = FORMAT.read(table, schema, False)
+    before = FORMAT.read(table, schema, ReadOptions())
     if read.notes != before.notes:
         return None
     assert FORMAT.write(file_of(schema, read, "TRY")) == altered, "what is taken comes back as it was"
@@ -143,7 +143,7 @@ def test_whatever_is_taken_comes_back_as_it_was(
             block[1] = block[1].rpartition(" ")[0] or block[1]
     table = measured(*(line for block in blocks for line in block))
     try:
-        read = FORMAT.read(table, num, keep_unknown)
+        read = FORMAT.read(table, num, ReadOptions(keep_unknown))
     except FormatError:
         return
     assert FORMAT.write(file_of(num, read, "TRY")) == table

@@ -8,7 +8,7 @@ from textwrap import dedent
 import pytest
 
 from amp_studio.files import ParameterFile
-from amp_studio.formats import FormatError, TextFormat, file_of
+from amp_studio.formats import FormatError, ReadOptions, TextFormat, file_of
 from amp_studio.schema import Schema, read_address, read_value
 from amp_studio.schema.catalog import schema_of
 from amp_studio.schema.load import compile_family
@@ -92,11 +92,11 @@ def filled(schema: Schema, **said: str) -> ParameterFile:
 
 def taken(form: TextFormat, schema: Schema, text: str, *, keep: bool = False) -> ParameterFile:
     """Return the file that a text makes."""
-    return file_of(schema, form.read(dedent(text), schema, keep), "TRY")
+    return file_of(schema, form.read(dedent(text), schema, ReadOptions(keep)), "TRY")
 
 
 def told(form: TextFormat, schema: Schema, text: str) -> str:
     """Return the error of a text that cannot be meant."""
     with pytest.raises(FormatError) as caught:
-        form.read(dedent(text), schema, False)
+        form.read(dedent(text), schema, ReadOptions())
     return str(caught.value)

@@ -8,7 +8,7 @@ from hypothesis import strategies as st
 from amp_studio.families.servo57c422b.formats.automax import TABLE, TASK
 from amp_studio.families.servo57c422b.formats.registers import Registers, is_writable
 from amp_studio.files import ParameterFile
-from amp_studio.formats import FormatError, file_of
+from amp_studio.formats import FormatError, ReadOptions, file_of
 from amp_studio.schema import Address, Schema, Value
 from amp_studio.schema.storage import is_signed, register_number, value_of_register
 
@@ -55,10 +55,10 @@ def test_what_is_written_is_read_to_the_resolution_of_its_register(
 ) -> None:
     file = data.draw(files(module))
     text = form.write(file)
-    back = file_of(module, form.read(text, module, False), "TRY")
+    back = file_of(module, form.read(text, module, ReadOptions()), "TRY")
     assert back.values == as_held(file)
     again = form.write(back)
-    assert file_of(module, form.read(again, module, False), "TRY").values == back.values
+    assert file_of(module, form.read(again, module, ReadOptions()), "TRY").values == back.values
     assert as_held(back) == back.values, "from then on nothing changes"
 
 
@@ -95,7 +95,7 @@ def tasks(draw: st.DrawFn) -> str:
 
 @given(task=tasks())
 def test_a_task_with_other_statements_comes_back_as_it_was(module: Schema, task: str) -> None:
-    file = file_of(module, TASK.read(task, module, True), "TRY")
+    file = file_of(module, TASK.read(task, module, ReadOptions(keep_unknown=True)), "TRY")
     if file.unknown:
         assert TASK.write(file) == task
     else:
@@ -116,7 +116,7 @@ def test_a_task_with_other_statements_comes_back_as_it_was(module: Schema, task:
 def test_any_text_is_read_or_told_with_its_line(module: Schema, text: str, form: object, keep: bool) -> None:
     place = None
     try:
-        file = file_of(module, form.read(text, module, keep), "TRY")
+        file = file_of(module, form.read(text, module, ReadOptions(keep)), "TRY")
     except FormatError as fault:
         place = fault.line or 0
     if place is None:

@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import ClassVar
 
 from amp_studio.files import ParameterFile
-from amp_studio.formats.text_format import FormatError, TextFormat, TextRead
+from amp_studio.formats.text_format import FormatError, ReadOptions, TextFormat, TextRead
 from amp_studio.schema import InvalidValueError, Schema, load_schema, read_value, write_value
 from amp_studio.schema.registration import Registration
 from amp_studio.sim import AxisLaw, AxisParameters, Law, Machine, Ramp
@@ -37,7 +37,7 @@ FORMULAS = {"limit_mm": limit_mm}
 # -- a separate text format: ``N10=50000 BLU`` ---------------------------------------------------
 
 
-def _read(text: str, schema: Schema, _keep_unknown: bool) -> TextRead:
+def _read(text: str, schema: Schema, _options: ReadOptions) -> TextRead:
     found, file = TextRead(), ParameterFile(schema)
     for n, line in enumerate(text.splitlines()[1:], 1):
         number, _, said = line.removeprefix("N").partition("=")

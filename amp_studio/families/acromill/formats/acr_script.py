@@ -25,7 +25,7 @@ from amp_studio.formats.passthrough_lines import (
     plain,
     shown,
 )
-from amp_studio.formats.text_format import FormatError, TextFormat, TextRead
+from amp_studio.formats.text_format import FormatError, ReadOptions, TextFormat, TextRead
 from amp_studio.schema import Address, InvalidValueError, Schema, Value, load_schema, written
 
 from .acr_command import Command, CommandArgument, CommandSetting, commands_of
@@ -69,15 +69,15 @@ class _ScriptLine:
     """Why the line is not understood."""
 
 
-def _read(text: str, schema: Schema, keep_unknown: bool) -> TextRead:
+def _read(text: str, schema: Schema, options: ReadOptions) -> TextRead:
     lines = list(_lines(text, commands_of(schema, schema.family.default_machine)))
-    if keep_unknown:
+    if options.keep_unknown:
         _set_aside_repeated(lines)
     found = TextRead()
     system = _read_system(lines, schema, found)
     place: dict[CommandSetting, int] = {}
     for line in lines:
-        if line.fault is not None and not keep_unknown:
+        if line.fault is not None and not options.keep_unknown:
             raise line.fault
         for argument in line.arguments:
             before = place.setdefault(argument.setting, line.number)

@@ -8,7 +8,7 @@ from __future__ import annotations
 import re
 
 from amp_studio.files import ParameterFile
-from amp_studio.formats.text_format import FormatError, TextFormat, TextRead
+from amp_studio.formats.text_format import FormatError, ReadOptions, TextFormat, TextRead
 from amp_studio.schema import InvalidValueError, Schema, Value
 from amp_studio.schema.quoting import quoted
 from amp_studio.schema.values import checked
@@ -21,7 +21,7 @@ def _recognises(text: str) -> bool:
     return bool(_WORD.fullmatch(text.lstrip().partition("\n")[0].strip()))
 
 
-def _read(text: str, schema: Schema, _keep_unknown: bool) -> TextRead:
+def _read(text: str, schema: Schema, _options: ReadOptions) -> TextRead:
     table = schema.parameters[_TABLE]
     offered = schema.on(schema.family.default_machine).instances(table)
     tables: dict[str, list[str]] = {}

@@ -16,7 +16,7 @@ from amp_studio.families.acromill.formats.acr_command import CommandSetting, com
 from amp_studio.files import ParameterFile
 from amp_studio.formats.bare_figures import default_system, system_of, write_figure
 from amp_studio.formats.import_export import file_of
-from amp_studio.formats.text_format import FormatError, TextRead
+from amp_studio.formats.text_format import FormatError, ReadOptions, TextRead
 from amp_studio.schema import InvalidValueError, load_schema
 from amp_studio.transfer.content import TakesAllOrRefuses
 from amp_studio.transfer.image import ImageError
@@ -109,10 +109,10 @@ class AcrContent(TakesAllOrRefuses):
             *(lines[name] for name, figures in card.figures.items() if figures),
         ]
         try:
-            found = acr_script.FORMAT.read("\n".join(script), schema, False)
+            found = acr_script.FORMAT.read("\n".join(script), schema, ReadOptions())
             if card.ballscrew:
                 words = [lines[name].removeprefix("BSC ") for name in lines if name in card.ballscrew]
-                found.values.update(ballscrew.FORMAT.read("\n".join(words), schema, False).values)
+                found.values.update(ballscrew.FORMAT.read("\n".join(words), schema, ReadOptions()).values)
         except FormatError as error:
             raise ImageError(f"the script of the card: {error}") from None
         if card.system == default_system(schema) and schema.family.unit_parameter:

@@ -1,11 +1,14 @@
-"""The answer to ``$$`` as every sender saves it: ``$110=500.000`` on each line, often with a remark in parentheses.
+"""The answer to ``$$`` as every sender saves it: ``$110=500.000`` on each line, with whatever is around it (log.py).
 
-What a sender's log has around it is passed over: greeting, ``ok``, status reports, messages, the ``$$`` that was sent.
+The machine type is the one whose settings these are and whose bounds the values fit. What the schema does not have is
+kept as text and written back.
 """
 
 from __future__ import annotations
 
 import re
+from collections.abc import Iterable
+from dataclasses import dataclass
 
 from amp_studio.families.grblhal.settings import (
     SettingError,
@@ -14,89 +17,208 @@ from amp_studio.families.grblhal.settings import (
     values_of_settings,
 )
 from amp_studio.files import ParameterFile
-from amp_studio.formats.text_format import FormatError, TextFormat, TextRead
-from amp_studio.schema import Schema, Value
+from amp_studio.formats.text_format import FormatError, ReadOptions, TextFormat, TextRead
+from amp_studio.schema import Address, Schema, Value, fault
+from amp_studio.schema.nearest import unknown_name
 from amp_studio.schema.quoting import quoted, short
 from amp_studio.schema.storage import StorageError
 
-CLASSIC = "grbl-1.1"
-_SETTING = re.compile(r"\$(0|[1-9][0-9]{0,4})\s*=\s*(.*)")
-_REMARK = re.compile(r"\s*(\(.*\)|;.*)\s*$")
-_AROUND = re.compile(
-    r"(ok|Grbl .*|GrblHAL .*|<.*>|\[.*\]|(>+ *)?\$[$#GIN+]|\$N\d=.*|[;%(].*)?", re.IGNORECASE
-)
-"""Lines of a sender's log that are no settings."""
-_STARTUP = re.compile(r"(\$N\d)=\s*\S.*")
+from .log import Log, LoggedListing, figure, is_listing, read_log
+
 _STEPS = 100
-_NEW_IN_1_1 = {30, 31, 32}
+_OF_AXES = 9
+"""Ten numbers are for each quantity of the axes; the last one is of no axis."""
+_IDENTITY = "control"
+"""Key of the header: the answers of the control to ``$I``."""
 
 
-def _recognises(text: str) -> bool:
-    lines = (line.strip() for line in text.lstrip("\ufeff").split("\n", 50))
-    first = next((line for line in lines if not _AROUND.fullmatch(line)), "")
-    return _SETTING.fullmatch(first) is not None
-
-
-def _settings(text: str) -> tuple[dict[int, str], dict[int, int]]:
-    """Return number -> text, and number -> line; raises FormatError."""
-    settings: dict[int, str] = {}
-    lines: dict[int, int] = {}
-    for n, whole in enumerate(text.lstrip("\ufeff").split("\n"), 1):
-        line = whole.strip()
-        found = _SETTING.fullmatch(line)
-        if found is None:
-            if _AROUND.fullmatch(line):
-                continue
-            raise FormatError(
-                f"{quoted(line)} is no setting: a number and a value are wanted, as $110=500", n, 1
-            )
-        number, value = int(found[1]), _REMARK.sub("", found[2]).strip()
-        if settings.setdefault(number, value) != value:
-            raise FormatError(f"${number} occurs twice, in line {lines[number]} already", n, 1)
-        lines.setdefault(number, n)
-    if not settings:
-        raise FormatError("there is no setting in it")
-    return settings, lines
-
-
-def _read(text: str, schema: Schema, keep_unknown: bool) -> TextRead:
-    settings, lines = _settings(text)
-    machine = _machine(schema, settings)
-    found = TextRead(machine=machine)
-    startup = [line[1] for whole in text.split("\n") if (line := _STARTUP.fullmatch(whole.strip()))]
-    if startup:
-        found.notes.append(f"start-up lines are no settings and are left out: {', '.join(startup[:9])}")
-    known = addresses_by_number(schema.on(machine))
-    for number, value in settings.items():
-        if number not in known:
-            if not keep_unknown:
-                raise FormatError(
-                    f"${number} is a setting that is not known without its control", lines[number], 1
-                )
-            found.unknown[f"${number}"] = value
-    try:
-        found.values, _ = values_of_settings(schema, settings, machine)
-    except SettingError as error:
-        raise FormatError(str(error), lines[error.number], 1) from None
-    count = next((n for n in range(9) if _STEPS + n not in settings), 9)
-    declared, letters = schema.family.declared_axes, schema.family.scopes["axis"].instances
-    if declared and declared.letters and count >= declared.least:
-        found.values[declared.letters, ""] = Value("".join(letters[:count]))
+def _read(text: str, schema: Schema, options: ReadOptions) -> TextRead:
+    log = read_log(text)
+    listing = _chosen(log, options.listing)
+    fit = _machine(schema, log, listing, options.machine)
+    if fit.unreadable and not options.keep_unknown:
+        raise _unreadable(listing, fit)
+    found = TextRead(values=fit.values, machine=fit.machine)
+    kept = sorted((*fit.unknown, *fit.unreadable))
+    found.unknown = {f"${number}": listing.settings[number] for number in kept} | log.startup
+    if log.facts or log.greeting:
+        found.extra[_IDENTITY] = ([log.greeting] if log.greeting else []) + [
+            f"[{tag}:{told}]" for tag, texts in log.facts.items() for told in texts
+        ]
+    found.notes += _notes(schema, log, listing, fit, options)
     return found
 
 
-def _machine(schema: Schema, settings: dict[int, str]) -> str:
-    """Return the machine type: a listing of a Grbl has all of its settings, and no other."""
-    if CLASSIC in schema.machines:
-        classic = set(addresses_by_number(schema.on(CLASSIC)))
-        if classic - _NEW_IN_1_1 <= settings.keys() <= classic:
-            return CLASSIC
-    return schema.family.default_machine
+def _chosen(log: Log, number: int) -> LoggedListing:
+    """Return the listing that is wanted, or the last one; raises FormatError."""
+    if not log.listings:
+        raise FormatError("there is no setting in it")
+    if number > len(log.listings):
+        count = "one listing" if len(log.listings) == 1 else f"{len(log.listings)} listings"
+        raise FormatError(f"there is no listing {number}, the text has {count}")
+    return log.listings[number - 1]  # 0 is the last one
+
+
+# -- machine type ------------------------------------------------------------------------------------------------------
+
+
+@dataclass(frozen=True)
+class _Fit:
+    """The settings of a listing on one machine type."""
+
+    machine: str
+    values: dict[Address, Value]
+    unknown: tuple[int, ...]
+    unreadable: dict[int, str]
+    """Number -> why its text is no value."""
+    outside: int
+    """Values that are not allowed."""
+    missing: int
+    share: float
+    """Part of the settings of the machine type that the listing has."""
+
+
+def _machine(schema: Schema, log: Log, listing: LoggedListing, wanted: str) -> _Fit:
+    """Return the machine type whose settings these are and whose bounds they fit, where none is wanted."""
+    if wanted:
+        if wanted not in schema.machines:
+            raise FormatError(unknown_name("machine type", wanted, schema.machines))
+        return _fit(schema, log, listing, wanted)
+    default, hint = schema.family.default_machine, _hint(log, listing)
+    fits = [_fit(schema, log, listing, machine) for machine in schema.machines]
+    # A few settings are of any control: the one that has most of them is the default.
+    likely = [fit for fit in fits if fit.machine in (default, hint) or fit.share >= 0.5]
+    return min(
+        likely,
+        key=lambda fit: (
+            len(fit.unknown) + len(fit.unreadable) + fit.outside,
+            fit.machine != hint,
+            fit.missing,
+        ),
+    )
+
+
+def _hint(log: Log, listing: LoggedListing) -> str:
+    """Return the machine type that the control or the remarks of its listing name; empty where they name none."""
+    greeting = log.greeting.casefold()
+    if {"NEWOPT", "FIRMWARE", "BOARD", "DRIVER"} & log.facts.keys() or greeting.startswith("grblhal"):
+        return "grblhal"
+    if re.match(r"grbl v?0\.9", greeting) or any("usec" in remark for remark in listing.remarks.values()):
+        return "grbl-0.9"
+    return ""
+
+
+def _fit(schema: Schema, log: Log, listing: LoggedListing, machine: str) -> _Fit:
+    known = addresses_by_number(schema.on(machine))
+    texts = {
+        n: text if n in known and schema.parameters[known[n][0]].type == "text" else figure(text)
+        for n, text in listing.settings.items()
+    }
+    unknown = tuple(n for n in texts if n not in known)
+    unreadable: dict[int, str] = {}
+    values: dict[Address, Value] = {}
+    while True:
+        try:
+            values, _ = values_of_settings(
+                schema, {n: text for n, text in texts.items() if n not in unreadable}, machine
+            )
+        except SettingError as error:
+            unreadable[error.number] = str(error)
+        else:
+            break
+    values |= _axes(schema, log, listing.settings, machine)
+    file = ParameterFile(schema)
+    file.header.machine = machine
+    file.take(values)
+    outside = sum(fault(file.evaluation, address, value) is not None for address, value in values.items())
+    missing = known.keys() - texts.keys()
+    return _Fit(
+        machine, values, unknown, unreadable, outside, len(missing), 1 - len(missing) / max(1, len(known))
+    )
+
+
+def _axes(schema: Schema, log: Log, settings: Iterable[int], machine: str) -> dict[Address, Value]:
+    """Return the letters of the axes: those that the control names, or as many as have settings."""
+    declared, letters = schema.family.declared_axes, schema.family.scopes["axis"].instances
+    if not declared or not declared.letters:
+        return {}
+    told = re.fullmatch(r"\d:([A-Z]{1,9})", (log.facts.get("AXS") or [""])[-1])
+    most = declared.most.get(machine, len(letters))
+    have = [n % 10 for n in settings if n // 10 * 10 in range(_STEPS, _STEPS + 40, 10) and n % 10 < _OF_AXES]
+    count = len(told[1]) if told else max(have, default=-1) + 1
+    is_known = not told or "".join(letters).startswith(told[1])
+    if not is_known or not declared.least <= count <= most:
+        return {}
+    return {(declared.letters, ""): Value("".join(letters[:count]))}
+
+
+# -- what a person should know ------------------------------------------------------------------------------------------
+
+
+def _unreadable(listing: LoggedListing, fit: _Fit) -> FormatError:
+    """Return one error for all settings whose text is no value."""
+    numbers = sorted(fit.unreadable, key=lambda n: listing.lines[n])
+    first, more = numbers[0], numbers[1:]
+    others = f"; so {_are(more)} {', '.join(f'${n} (line {listing.lines[n]})' for n in more)}" if more else ""
+    return FormatError(
+        f"{fit.unreadable[first]}{others}. To keep what is no value as text: --keep-unknown",
+        listing.lines[first],
+        1,
+    )
+
+
+def _notes(
+    schema: Schema, log: Log, listing: LoggedListing, fit: _Fit, options: ReadOptions
+) -> Iterable[str]:
+    if len(log.listings) > 1:
+        others = ", ".join(
+            f"{n} (line {one.first_line}{f', {quoted(short(one.heading))}' if one.heading else ''})"
+            for n, one in enumerate(log.listings, 1)
+            if one is not listing
+        )
+        yield (
+            f"the text has {len(log.listings)} listings, and number {log.listings.index(listing) + 1} is read "
+            f"(line {listing.first_line}{f', {quoted(short(listing.heading))}' if listing.heading else ''}). "
+            f"--listing chooses another: {others}"
+        )
+    if listing.changed:
+        changes = ", ".join(
+            f"${n} from {old} to {new} (line {listing.lines[n]})"
+            for n, (old, new) in sorted(listing.changed.items())
+        )
+        yield f"settings that occur again later have the later value: {changes}"
+    if log.bare:
+        yield f"a number without $ is read as a setting: line {', '.join(map(str, log.bare[:9]))}"
+    if log.refused:
+        yield f"what the control answered with an error is left out: line {', '.join(map(str, log.refused[:9]))}"
+    kept = sorted((*fit.unknown, *fit.unreadable))
+    if kept:
+        yield (
+            f"{len(kept)} of {len(listing.settings)} settings {_are(kept)} not known without the control and kept as text: "
+            + ", ".join(f"${n}" for n in kept)
+        )
+    if any(log.startup.values()):
+        lines = ", ".join(key for key, block in log.startup.items() if block)
+        yield f"start-up lines are no settings and are kept as text: {lines}"
+    if log.others:
+        n, line = log.others[0]
+        count = "a line" if len(log.others) == 1 else f"{len(log.others)} lines"
+        yield f"{count} without a setting left out: line {n}, {quoted(short(line))}{', …' if len(log.others) > 1 else ''}"
+    if not options.machine:
+        name = next(m.name for m in schema.family.machines if m.key == fit.machine)
+        yield f"machine type {name}; --machine chooses another: {', '.join(m.key for m in schema.family.machines)}"
+
+
+def _are(numbers: list[int]) -> str:
+    return "is" if len(numbers) == 1 else "are"
+
+
+# -- writing -----------------------------------------------------------------------------------------------------------
 
 
 def _write(file: ParameterFile) -> str:
     try:
-        settings = settings_of_file(file, padded=True)
+        settings = settings_of_file(file, padded=True, hidden=True)
     except StorageError as error:
         raise FormatError(str(error)) from None
     for key, value in file.unknown.items():
@@ -106,13 +228,26 @@ def _write(file: ParameterFile) -> str:
         raise FormatError(
             f"no setting has a value: {short(file.header.name) or 'the file'} gives an empty listing"
         )
-    for number, value in settings.items():
+    lines = {f"${number}": value for number, value in sorted(settings.items())}
+    startup = {key: value for key, value in sorted(file.unknown.items()) if re.fullmatch(r"\$N[0-9]", key)}
+    for key, value in (lines | startup).items():
         if re.search(r"[\r\n]", value):
-            raise FormatError(f"${number} is a text of several lines, which no setting can be")
-    return "".join(f"${number}={value}\n" for number, value in sorted(settings.items()))
+            raise FormatError(f"{key} is a text of several lines, which no setting can be")
+    told = file.header.extra.get(_IDENTITY)
+    identity = [one for one in told if isinstance(one, str)] if isinstance(told, list) else []
+    remarks = [f"; {' '.join(one.split())}" for one in identity]
+    return "".join(
+        f"{line}\n" for line in (*remarks, *(f"{key}={value}" for key, value in (startup | lines).items()))
+    )
 
 
 FORMAT = TextFormat(
-    "grbl", "Grbl settings, as $$ lists them", ".settings", _recognises, _read, _write,
+    "grbl",
+    "Grbl settings, as $$ lists them",
+    ".settings",
+    is_listing,
+    _read,
+    _write,
     other_endings=(".grbl", ".nc"),
-)  # fmt: skip
+    otherwise="cp1252",
+)

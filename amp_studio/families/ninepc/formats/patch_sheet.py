@@ -10,7 +10,7 @@ from __future__ import annotations
 import re
 
 from amp_studio.files import ParameterFile
-from amp_studio.formats.text_format import FormatError, TextFormat, TextRead
+from amp_studio.formats.text_format import FormatError, ReadOptions, TextFormat, TextRead
 from amp_studio.schema import (
     InvalidValueError,
     Schema,
@@ -56,7 +56,7 @@ def _write(file: ParameterFile) -> str:
     return "\n".join(lines) + "\n"
 
 
-def _read(text: str, schema: Schema, keep_unknown: bool) -> TextRead:
+def _read(text: str, schema: Schema, options: ReadOptions) -> TextRead:
     named = re.search(r"^# machine (\S+)$", text, re.MULTILINE)
     machine = named[1] if named else schema.family.default_machine
     if machine not in schema.machines:
@@ -74,7 +74,7 @@ def _read(text: str, schema: Schema, keep_unknown: bool) -> TextRead:
         try:
             address = file.find(number)
         except UnknownParameterError as error:
-            if not keep_unknown:
+            if not options.keep_unknown:
                 raise FormatError(str(error), n, 1) from None
             if number.strip() in found.unknown:
                 raise FormatError(f"{quoted(number)} occurs twice", n, 1) from None

@@ -12,7 +12,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass, field
 
 from amp_studio.files import ParameterFile
-from amp_studio.formats.text_format import FormatError, TextFormat, TextRead
+from amp_studio.formats.text_format import FormatError, ReadOptions, TextFormat, TextRead
 from amp_studio.schema import InvalidValueError, Schema, Value
 
 from .layout import MOST_VALUES, Cells, Placed, TableLayout, compose, runs
@@ -204,9 +204,9 @@ def _runs_of(letters: str, numbers: list[int]) -> str:
     return ", ".join(f"{letters}{a}" if a == b else f"{letters}{a} to {letters}{b}" for a, b in runs)
 
 
-def _read(text: str, schema: Schema, keep_unknown: bool) -> TextRead:
+def _read(text: str, schema: Schema, options: ReadOptions) -> TextRead:
     lines, layout = split_table(text)
-    reader = _Reader(schema, keep_unknown)
+    reader = _Reader(schema, options.keep_unknown)
     known, blocks = reader.known, list(blocks_of(lines))
     placed = [reader.take(block) for block in blocks]
     reader.values()

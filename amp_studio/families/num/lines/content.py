@@ -9,7 +9,7 @@ from amp_studio.families.num.formats.table import FORMAT, KEY
 from amp_studio.families.num.formats.words import name_of
 from amp_studio.files import ParameterFile
 from amp_studio.formats.import_export import file_of
-from amp_studio.formats.text_format import FormatError
+from amp_studio.formats.text_format import FormatError, ReadOptions
 from amp_studio.schema import load_schema
 from amp_studio.transfer.content import TakesAllOrRefuses
 from amp_studio.transfer.image import ImageError
@@ -33,7 +33,9 @@ class NumTableContent(TakesAllOrRefuses):
         """Return what a table means; words that the schema does not have are kept. Raises ImageError."""
         try:
             return file_of(
-                load_schema(FAMILY), FORMAT.read(table_text(content), load_schema(FAMILY), True), "control"
+                load_schema(FAMILY),
+                FORMAT.read(table_text(content), load_schema(FAMILY), ReadOptions(keep_unknown=True)),
+                "control",
             )
         except FormatError as error:
             raise ImageError(f"the parameter table of the control: {error}") from None

@@ -21,7 +21,7 @@ from amp_studio.formats.passthrough_lines import (
     plain,
     shown,
 )
-from amp_studio.formats.text_format import FormatError, TextFormat, TextRead
+from amp_studio.formats.text_format import FormatError, ReadOptions, TextFormat, TextRead
 from amp_studio.schema import Address, InvalidValueError, Schema, show_value
 from amp_studio.schema.storage import is_low_first
 
@@ -87,9 +87,9 @@ def _write_table(file: ParameterFile) -> str:
     return "\n".join([_in_signs(head), "! register\tvalue\tparameter", *(rows[n] for n in sorted(rows)), ""])
 
 
-def _read_table(text: str, schema: Schema, keep_unknown: bool) -> TextRead:
+def _read_table(text: str, schema: Schema, options: ReadOptions) -> TextRead:
     machine = schema.family.default_machine
-    meaning = RegisterValues(registers_of(schema, machine), keep_unknown)
+    meaning = RegisterValues(registers_of(schema, machine), options.keep_unknown)
     for n, line in enumerate(_lines(text), 1):
         if not line.strip() or line.lstrip().startswith("!"):
             continue
@@ -229,7 +229,7 @@ def _marked_registers(statement: BasicStatement) -> tuple[int, ...]:
     return tuple(map(int, what.split("+"))) if re.fullmatch(r"[0-9]{1,9}(\+[0-9]{1,9})*", what) else ()
 
 
-def _read_task(text: str, schema: Schema, keep_unknown: bool) -> TextRead:
+def _read_task(text: str, schema: Schema, options: ReadOptions) -> TextRead:
     variables, machine = Variables(schema), schema.family.default_machine
     lines = list(read_lines("\n".join(_lines(text))))
     settings: dict[int, Written] = {}  # by the id of its statement
@@ -238,14 +238,14 @@ def _read_task(text: str, schema: Schema, keep_unknown: bool) -> TextRead:
             try:
                 settings[id(statement)] = _setting(statement, variables)
             except FormatError:
-                if not keep_unknown:
+                if not options.keep_unknown:
                     raise
             if re.match(r"IF\b", statement.text, re.IGNORECASE):
                 break  # what follows in the line hangs on the condition (page 4-48)
-    if keep_unknown:  # which of several values counts, the run of the task decides
+    if options.keep_unknown:  # which of several values counts, the run of the task decides
         counts = Counter(one.register for one in settings.values())
         settings = {key: one for key, one in settings.items() if counts[one.register] == 1}
-    meaning = RegisterValues(registers_of(schema, machine), keep_unknown)
+    meaning = RegisterValues(registers_of(schema, machine), options.keep_unknown)
     for one in settings.values():
         meaning.take(one)
     meaning.settle()

@@ -1,0 +1,265 @@
+"""What a saved text of a Grbl contains: listings of settings, between whatever a sender, a forum or a person puts around them.
+
+    $110=500.000 (X-axis maximum rate, mm/min)      as the control shows it, with a remark
+    [12:30:01] > $110=500                           time stamps, marks of a direction, names of programs
+    $$ < $0=10; $1=25; ok                           a whole answer in one line
+    "$110": "500.000",                              a table or an object of another program
+    ; [BOARD:T41U5XBB]                              what the control answers to $I, plain or as a remark
+    Kleine CNC, 21.12.2015:                         a heading
+
+A number that comes again begins a new listing. A few settings that come again are changes of the listing before them.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+from dataclasses import dataclass, field
+
+MARK = "\ufeff"
+_ESCAPES = re.compile(r"\x1b\[[0-9;?]*[A-Za-z]|[\x00-\x08\x0b-\x1f\x7f\u200b-\u200f]")
+_NUMBER = r"[+-]?(?:[0-9]+(?:\.[0-9]*|,[0-9]+)?|[.,][0-9]+)"
+_SETTING = re.compile(r"\$(0|[1-9][0-9]{0,4})([\"'`*]{0,4})[ \t]*(:?=|[:|,;\t])[ \t]*")
+_BARE = re.compile(rf"(0|[1-9][0-9]{{0,2}})[ \t]*=[ \t]*({_NUMBER})[ \t]*(?:[(;].*)?")
+_AHEAD = re.compile(
+    r"""(?:
+      \[[^\]]{0,40}\]                                                  # [12:30:01], [PRB], [ $$ ]
+    | \d{4}[-/.]\d\d?[-/.]\d\d?[T,]? | \d\d?[-/.]\d\d?[-/.]\d{2,4},?   # a date
+    | \d\d?:\d\d(?::\d\d)?(?:[.,]\d+)?(?:[ ]?[AP]\.?M\.?)?Z?      # a time
+    | (?!error|alarm)[A-Za-z][\w.-]{0,19}(?:[ ][\w.-]{1,12}){0,2}[ ]?[>:]             # CNCjs>, client>, Recv:
+    | \$\$[ ]?<? | [-=~]?>+ | <+[-=~]? | [|*•·"'`{,-]+
+    )\s*""",
+    re.VERBOSE | re.IGNORECASE,
+)
+_REMARK = re.compile(r"[(;%#]|//|/\*")
+"""How a line begins that is no setting of the listing, even where it contains one."""
+_END_OF_VALUE = re.compile(r"\(|;(?!\s*\$[0-9])|(?<=\s)(?://|#|/\*)")
+_FACT = re.compile(r"\[([A-Z][A-Z0-9 ]{1,20}):([^\[\]]*)\]")
+_GREETING = re.compile(r"\bgrbl(?:HAL)?[ ]+v?[0-9]\.[0-9]+\w?\b.*", re.IGNORECASE)
+_STARTUP = re.compile(r"(\$N[0-9])=(.*)")
+_REFUSED = re.compile(r"error\s*:\s*[0-9]+", re.IGNORECASE)
+_AROUND = re.compile(
+    r"ok|done|\$[$#GINXHC+]?\S{0,3}|<[^>]*>|\[.*\]|[-=_*#%~.\s\"'`{}()\[\],|/\\]*|ALARM:.*|error:.*|.*['\"]\$['\"].*",
+    re.IGNORECASE,
+)
+"""Lines of a sender's log that nobody misses."""
+_LEAST, _MOST_LISTINGS, _MOST_LINES, _LONGEST = 8, 1000, 20_000, 65_536
+_FACTS = (
+    "VER",
+    "OPT",
+    "NEWOPT",
+    "AXS",
+    "FIRMWARE",
+    "BOARD",
+    "DRIVER",
+    "DRIVER VERSION",
+    "DRIVER OPTIONS",
+    "PLUGIN",
+    "NVS STORAGE",
+    "AUX IO",
+    "KINEMATICS",
+    "SPINDLE",
+    "COMPATIBILITY LEVEL",
+    "MAX STEP RATE",
+)
+
+
+@dataclass
+class LoggedListing:
+    """One listing: number -> text, and number -> line."""
+
+    settings: dict[int, str] = field(default_factory=dict)
+    lines: dict[int, int] = field(default_factory=dict)
+    remarks: dict[int, str] = field(default_factory=dict)
+    heading: str = ""
+    """The last line before it that is neither a setting nor a part of a log."""
+    changed: dict[int, tuple[str, str]] = field(default_factory=dict)
+    """Settings that a later line gives another value: the value of the listing, and the later one."""
+
+    def put(self, number: int, text: str, line: int, remark: str) -> None:
+        self.settings[number], self.lines[number], self.remarks[number] = text, line, remark
+
+    @property
+    def first_line(self) -> int:
+        return min(self.lines.values())
+
+
+@dataclass
+class Log:
+    """What a text contains."""
+
+    listings: list[LoggedListing] = field(default_factory=list)
+    startup: dict[str, str] = field(default_factory=dict)
+    """``$N0`` -> its block of G-code."""
+    facts: dict[str, list[str]] = field(default_factory=dict)
+    """What the control answers to ``$I``: ``BOARD`` -> what is behind it, each time."""
+    greeting: str = ""
+    others: list[tuple[int, str]] = field(default_factory=list)
+    """Lines that are neither a setting nor a part of a log."""
+    bare: list[int] = field(default_factory=list)
+    """Lines of a setting whose ``$`` is missing."""
+    refused: list[int] = field(default_factory=list)
+    """Lines of a changed setting that the control answered with an error."""
+
+
+def is_listing(text: str) -> bool:
+    """Return whether a text is for the most part settings of a Grbl, or has at least a few of them."""
+    return any(_has_settings(text, anywhere) for anywhere in (False, True))
+
+
+def _has_settings(text: str, anywhere: bool) -> bool:
+    found = others = 0
+    for n, _, line, pieces in _lines(text, anywhere):
+        found += len(pieces)
+        others += not pieces and _is_other(line)
+        if found >= _LEAST or n > _MOST_LINES:
+            break
+    return found >= _LEAST or (found > others and not anywhere)
+
+
+def read_log(text: str) -> Log:
+    """Return the listings of a text in their order, and what is around them.
+
+    Settings in the middle of a line are read only where the text has no listing otherwise: "then I set $22=1" is none.
+    """
+    found = _read(text, anywhere=False)
+    if max((len(listing.settings) for listing in found.listings), default=0) >= _LEAST:
+        return found
+    deeper = _read(text, anywhere=True)
+    return deeper if sum(len(one.settings) for one in deeper.listings) >= _LEAST else found
+
+
+def _read(text: str, *, anywhere: bool) -> Log:
+    found, parts = Log(), [LoggedListing()]
+    heading, before = "", (0, 0)
+    """``before`` is number and line of the setting of the line before."""
+    for n, whole, line, pieces in _lines(text, anywhere):
+        if not pieces and (startup := _STARTUP.fullmatch(_plain(line))):
+            found.startup[startup[1]] = startup[2].strip()
+        elif not pieces and _REFUSED.match(line) and before[1] == n - 1:
+            _refuse(found, parts, *before)
+        elif not pieces:
+            _take_fact(found, whole)
+            if _is_other(line):
+                found.others.append((n, whole))
+            if _is_heading(whole) or (_is_other(line) and not _is_heading(heading)):
+                heading = whole.strip("#=* ")
+        for number, value, remark, is_bare in pieces:
+            if number in parts[-1].settings and len(parts) < _MOST_LISTINGS:
+                parts.append(LoggedListing())
+            parts[-1].heading, heading = parts[-1].heading or heading, ""
+            parts[-1].put(number, value, n, remark)
+            found.bare += [n] * is_bare
+            before = number, n
+    found.listings = _whole([part for part in parts if part.settings])
+    return found
+
+
+def _lines(text: str, anywhere: bool) -> Iterator[tuple[int, str, str, list[tuple[int, str, str, bool]]]]:
+    """Yield number, text, text without what a sender writes before it, and the settings of each line that is not empty."""
+    has_signs = "$" in text
+    for n, came in enumerate(re.split(r"\r\n|\r|\n", text.lstrip(MARK)), 1):
+        whole = _ESCAPES.sub("", came[:_LONGEST]).replace("\u00a0", " ").strip()
+        if whole:
+            line = _plain(whole)
+            yield n, whole, line, list(_settings(whole, line, anywhere)) if has_signs else []
+
+
+def _plain(whole: str) -> str:
+    """Return a line without time stamps, names and marks before it."""
+    at = 0
+    while (found := _AHEAD.match(whole, at)) and not _FACT.match(whole, at):
+        at = found.end()
+    return whole[at:].strip()
+
+
+def _settings(whole: str, line: str, anywhere: bool) -> Iterator[tuple[int, str, str, bool]]:
+    """Yield number, text and remark of the settings of a line, and whether the sign before the number is missing."""
+    if found := _BARE.fullmatch(line):
+        if line == whole:
+            yield int(found[1]), found[2], "", True
+        return
+    if anywhere:
+        line = re.sub(r"^\([^)]*\)\s*", "", line)
+    if _REMARK.match(line):
+        return
+    ahead = _SETTING.search(line) if anywhere else _SETTING.match(line)
+    while ahead:
+        end = _END_OF_VALUE.search(line, ahead.end())
+        stop = end.start() if end else len(line)
+        following = _SETTING.search(line, ahead.end(), stop)
+        value = line[ahead.end() : following.start() if following else stop].strip()
+        is_quoted = bool(ahead[2]) or value[:1] in ('"', "'", "`")
+        if ahead[3] in "|;\t,":
+            value = value.lstrip("\"'`* ").split(ahead[3], 1)[0]
+        value = value.lstrip("\"'`* ")
+        if is_quoted or following:
+            value = re.split(r"[\"'`*]|[,;|}\]]\s*$", value, maxsplit=1)[0]
+        value = value.strip().strip("\"'`* ")
+        if ahead[3] not in ("=", ":=") and not is_quoted and not re.match(rf"{_NUMBER}(?![\w.:])", value):
+            return
+        yield int(ahead[1]), value, "" if following else line[stop:].strip("(;) \t"), False
+        ahead = following
+
+
+def _is_other(line: str) -> bool:
+    return not (
+        _AROUND.fullmatch(line) or _REMARK.match(line) or _GREETING.search(line) or _STARTUP.match(line)
+    )
+
+
+def _is_heading(text: str) -> bool:
+    return text.startswith("#") or text.endswith(":")
+
+
+def _take_fact(found: Log, whole: str) -> None:
+    if greeting := _GREETING.search(whole):
+        found.greeting = greeting[0].strip()
+    for tag, text in _FACT.findall(whole):
+        if tag in _FACTS and text not in found.facts.setdefault(tag, []):
+            found.facts[tag].append(text)
+
+
+def _refuse(found: Log, parts: list[LoggedListing], number: int, line: int) -> None:
+    """Take back a change that the control has refused: the answer to it is an error."""
+    part = parts[-1]
+    if any(number in earlier.settings for earlier in parts[:-1]) and part.lines.get(number) == line:
+        del part.settings[number], part.lines[number], part.remarks[number]
+        found.refused.append(line)
+
+
+def _whole(parts: list[LoggedListing]) -> list[LoggedListing]:
+    """Return whole listings, each with the changes that come after it; those that are the same once."""
+    most = max((len(part.settings) for part in parts), default=0)
+    found: list[LoggedListing] = []
+    for part in parts:
+        is_whole = len(part.settings) >= max(_LEAST, most / 2)
+        if is_whole and found and len(found[-1].settings) < max(_LEAST, most / 2):
+            earlier = found.pop()  # settings that were sent before they were listed
+            for number in earlier.settings.keys() - part.settings.keys():
+                part.put(number, earlier.settings[number], earlier.lines[number], earlier.remarks[number])
+            found.append(part)
+        elif is_whole or not found:
+            found.append(part)
+        else:
+            _change(found[-1], part)
+    last = {tuple(sorted(part.settings.items())): part for part in found}
+    return [part for part in found if last[tuple(sorted(part.settings.items()))] is part]
+
+
+def _change(listing: LoggedListing, changes: LoggedListing) -> None:
+    for number, text in changes.settings.items():
+        if number in listing.settings and listing.settings[number] != text:
+            listing.changed[number] = listing.settings[number], text
+        listing.put(number, text, changes.lines[number], changes.remarks[number])
+
+
+def figure(text: str) -> str:
+    """Return the number at the beginning of a text, with a point; the text where it begins with none.
+
+    ``26,667`` is 26.667: a control writes no thousands. ``10 usec`` is 10, ``200.000ok`` is 200.000.
+    """
+    found = re.fullmatch(rf"({_NUMBER})(?:ok|[^\w.:+-].*)?", text, re.IGNORECASE)
+    if not found:
+        return text
+    return found[1].replace(",", ".")

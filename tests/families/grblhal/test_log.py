@@ -1,0 +1,152 @@
+"""Settings are read out of what senders, terminals, forums and other programs make of them."""
+
+from __future__ import annotations
+
+import json
+
+import pytest
+
+from amp_studio.families.grblhal.formats.log import figure, is_listing, read_log
+
+SETTINGS = {
+    0: "10",
+    1: "25",
+    10: "511",
+    11: "0.010",
+    22: "1",
+    100: "250.000",
+    101: "250.000",
+    102: "26.667",
+    110: "500.000",
+    120: "10.000",
+    130: "-0.000",
+}
+LINES = [f"${number}={text}" for number, text in SETTINGS.items()]
+
+
+def each(form: str) -> str:
+    """Return every setting in a form: ``{s}`` is the setting, ``{n}`` its number, ``{v}`` its text, ``{k}`` the line."""
+    return "\n".join(
+        form.format(s=f"${n}={text}", n=n, v=text, k=k) for k, (n, text) in enumerate(SETTINGS.items(), 1)
+    )
+
+
+FORMS = {
+    "plain": each("{s}"),
+    "Windows": "\r\n".join(LINES),
+    "old Macintosh": "\r".join(LINES),
+    "blank lines": each("{s}\n"),
+    "blanks around the sign, and a remark": ">>> $$\n"
+    + each("${n} = {v}    (Step pulse time, microseconds)")
+    + "\nok",
+    "Grbl 0.9": "Grbl 0.9j ['$' for help]\n" + each("{s} (step pulse, usec)"),
+    "remark behind a semicolon": each("{s} ;Step pulse time, microseconds"),
+    "remark behind //": each("{s} // Step pulse"),
+    "remark behind #": each("{s} # Step pulse"),
+    "remark behind a dash": each("{s} - Step pulse time"),
+    "remark in words": each("{s}  Step pulse time, us"),
+    "remark before": each("Step pulse time, us: {s}"),
+    "answer behind the command, in one line": "$$ < " + "; ".join(LINES) + "; ok",
+    "answer behind the command": "$$ < " + "\n".join(LINES) + "\nok",
+    "time and arrow": each("12:34:56.789 -> {s}"),
+    "time and colon": each("12:34:56.789 : {s}"),
+    "time in brackets, and the command": each("[12:30:01] [ $$ ] {s} ;Step pulse time"),
+    "date and time": each("2021-07-11 12:00:01,123 - INFO - {s}"),
+    "date and time with zone": each("2021-07-11T12:00:01.123Z  RX {s}"),
+    "time of twelve hours": each("7/11/2021 1:02:03 PM < {s}"),
+    "CNCjs": "CNCjs 1.10.3 [Grbl]\nConnected\nclient> $$\n"
+    + each("{s} (x, step/mm)")
+    + "\nok\n<Idle|MPos:0,0,0>",
+    "names of directions": "Send: $$\n" + each("Recv: {s}") + "\nRecv: ok",
+    "sent one by one": each("SENT: {s}\nRECV: ok"),
+    "arrows": each("< {s}"),
+    "stars": each("*{s}"),
+    "prompt": "grbl> $$\n" + each(">>> {s}"),
+    "list": each("- `{s}` - step pulse"),
+    "numbered list": each("{k}. {s}"),
+    "block of code": "What is wrong?\n\n```\n" + "\n".join(LINES) + "\n```\nThanks!",
+    "quoted mail": each("> > {s}"),
+    "line ends lost": " ".join(LINES),
+    "commas in place of line ends": ", ".join(LINES),
+    "web page": "<br>\n".join(LINES),
+    "web page in one line": "<br>".join(LINES),
+    "element": each("<setting>{s}</setting>"),
+    "object": json.dumps({f"${n}": text for n, text in SETTINGS.items()}),
+    "object in lines": json.dumps({f"${n}": text for n, text in SETTINGS.items()}, indent=1),
+    "object without quotes": "{\n" + each("  '${n}': {v},") + "\n}",
+    "array": json.dumps(LINES),
+    "program": each('send_line("{s}"); // step pulse'),
+    "table": "Setting,Value,Description\n" + each("${n},{v},Step pulse time"),
+    "table in quotes": each('"${n}","{v}","Step pulse"'),
+    "table with tabs": each("${n}\t{v}\tStep pulse"),
+    "table of Markdown": "| Setting | Value |\n|---|---|\n" + each("| ${n} | {v} | Step pulse, us |"),
+    "decimal commas": each("{s}").replace(".", ","),
+    "table with decimal commas": each("${n};{v}").replace(".", ","),
+    "colours of a terminal": each("\x1b[32m{s}\x1b[0m"),
+    "no line end before ok": each("{s}ok"),
+    "the first sign lost": each("{s}")[1:],
+    "a remark that is a setting": each("{s}\n; $0=99\n// $0=98\n(was $0=97)"),
+}
+
+
+@pytest.mark.parametrize("form", FORMS)
+def test_the_settings_are_read_in_every_form(form: str) -> None:
+    text = FORMS[form]
+    assert is_listing(text), form
+    (listing,) = read_log(text).listings
+    assert {number: figure(value) for number, value in listing.settings.items()} == SETTINGS, form
+
+
+def test_a_text_is_kept_whole() -> None:
+    log = read_log("$300=my mill, left\n$302=192.168.5.1\n$490=G4P0\n$535=02:08:dc:5f:4d:7f\n$66=\n")
+    assert log.listings[0].settings == {
+        300: "my mill, left",
+        302: "192.168.5.1",
+        490: "G4P0",
+        535: "02:08:dc:5f:4d:7f",
+        66: "",
+    }
+
+
+def test_what_a_control_answers_of_itself_is_found_in_remarks_too() -> None:
+    log = read_log(
+        "GrblHAL 1.1f ['$' or '$HELP' for help]\n; [BOARD:T41]\n[AXS:3:XYZ]\n[PLUGIN:A]\n[PLUGIN:B]\n[MSG:x]\n$0=5\n"
+    )
+    assert log.greeting.startswith("GrblHAL 1.1f")
+    assert log.facts == {"BOARD": ["T41"], "AXS": ["3:XYZ"], "PLUGIN": ["A", "B"]}
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "",
+        "G0 X1\n",
+        "hello",
+        "$N0=G21",
+        "$X",
+        "$100 is the first",
+        "I set $100=80\nand $101=80\nand it\nworks",
+        "a=1\n0=5\n",
+    ],
+)
+def test_other_texts_are_none(text: str) -> None:
+    assert not is_listing(text)
+
+
+@pytest.mark.parametrize(
+    ("text", "expected"),
+    [
+        ("250.000", "250.000"),
+        ("26,667", "26.667"),
+        ("1000.", "1000."),
+        ("10 usec", "10"),
+        ("200.000ok", "200.000"),
+        ("1e-05", "1e-05"),
+        ("0x05", "0x05"),
+        ("192.168.5.1", "192.168.5.1"),
+        ("10:5", "10:5"),
+        ("x80", "x80"),
+    ],
+)
+def test_a_figure_is_the_number_at_the_beginning(text: str, expected: str) -> None:
+    assert figure(text) == expected
