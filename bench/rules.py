@@ -120,9 +120,9 @@ def _fixes(full: Path, times: int) -> Measure:
         validators.append(Validator(base.copy()))
         validators[-1].run()
     left = iter(validators)
-    done = len(apply_fixes(next(left), lambda _: True))
+    apply_fixes(next(left), lambda _: True)  # once, so that nothing is loaded while it is measured
     seconds = timed(lambda: apply_fixes(next(left), lambda _: True), times)
-    return Measure(f"every fix, {done} values, of a badly damaged 9/PC file", seconds, 1.0)
+    return Measure("every fix of a badly damaged 9/PC file", seconds, 1.0)
 
 
 def _cam(times: int) -> Measure:

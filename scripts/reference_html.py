@@ -157,6 +157,11 @@ def printed_tables(schema: Schema) -> list[Table]:
     return [printed for printed in schema.tables.values() if printed.id not in own]
 
 
+def rule_source(rule: Rule) -> str:
+    """Return the page of a rule, with its link, or why it is so where no page states it."""
+    return f"page {page_links([rule.page])}" if rule.page else escape(rule.source)
+
+
 def page_links(pages: Iterable[str]) -> str:
     """Return links to the pages of the manual."""
     return ", ".join(link("pages", f"page-{page}", page) for page in dict.fromkeys(pages))

@@ -20,6 +20,7 @@ from reference_html import (
     parameter_link,
     parameter_links,
     printed_tables,
+    rule_source,
     section,
     table,
 )
@@ -54,7 +55,7 @@ def _rule(schema: Schema, rule: Rule) -> Iterator[str]:
     facts += [("Effective value", f"<code>{escape(f'{e.set} = {e.value}')}</code>") for e in rule.effective]
     finds = [message_link(schema, m) for m in schema.messages.values() if rule.id in m.rules]
     facts += [("Message of the control", ", ".join(finds))] if finds else []
-    facts.append(("Source", f"page {page_links([rule.page])}"))
+    facts.append(("Source", rule_source(rule)))
     yield facts_list(facts)
 
 

@@ -68,12 +68,12 @@ def printed_on(schema: Schema) -> dict[str, dict[str, list[str]]]:
             link("commissioning", f"step-{step.number}", f"Step {step.number}: {step.title}"),
         )
     for rule in schema.rules:
-        add([rule.page], "Rules", rule_link(rule))
+        add(filter(None, [rule.page]), "Rules", rule_link(rule))
     for erratum in schema.errata.values():
         readings = (reading.page for reading in erratum.readings)
         add(readings, "Contradictions", link("errata", erratum.id, erratum.id))
     # What a text cites as a page may be a chapter or a list: a page is written as those of the facts are.
-    shapes = {_shape(one) for one in {rule.page for rule in schema.rules}.union(*main.values())}
+    shapes = {_shape(one) for one in {rule.page for rule in schema.rules if rule.page}.union(*main.values())}
     for parameter in schema.parameters.values():
         cited = (
             one

@@ -32,6 +32,7 @@ from reference_html import (
     parameter_links,
     printed_tables,
     rule_link,
+    rule_source,
     section,
     table,
 )
@@ -186,7 +187,7 @@ def linked(schema: Schema, parameter: Parameter) -> Iterator[tuple[str, list[str
     yield (
         "Rules that read it",
         [
-            f"{severity_name(rule.severity)}: {rule_link(rule)} (page {page_links([rule.page])})"
+            f"{severity_name(rule.severity)}: {rule_link(rule)} ({rule_source(rule)})"
             for rule in schema.rules
             if any(read_address(read)[0] == parameter.id for read in rule.reads.values())
         ],

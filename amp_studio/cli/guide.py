@@ -229,7 +229,7 @@ def _step_lines(file: ParameterFile, each: StepProgress) -> Iterator[str]:
     if step.again:
         yield f"Check again: {', '.join(parameter.name for parameter in step.again)}"
     for finding in each.findings:
-        yield f"{finding.severity}: {finding.message}" + (f" ({finding.cited})" if finding.page else "")
+        yield f"{finding.severity}: {finding.message}" + (f" ({finding.cited})" if finding.cited else "")
 
 
 def _as_json(file: ParameterFile, come: GuideProgress, path: Path, only: SetupStep | None) -> dict[str, Any]:

@@ -24,7 +24,7 @@ def finding_json(file: ParameterFile, finding: Finding) -> dict[str, Any]:
         "message": finding.message,
         "fix": [_setting_json(file, setting) for setting in finding.fix],
         "effective": [_setting_json(file, setting) for setting in finding.effective],
-        "source": finding.page,
+        "source": finding.page or finding.reason or None,
     }  # fmt: skip
 
 
@@ -39,7 +39,7 @@ def _setting_json(file: ParameterFile, setting: Setting) -> dict[str, Any]:
 def finding_text(file: ParameterFile, finding: Finding) -> str:
     """Return a finding as one or two lines for the terminal."""
     names = ", ".join(_names(file, finding.addresses[:8]))
-    page = f" ({finding.cited})" if finding.page else ""
+    page = f" ({finding.cited})" if finding.cited else ""
     severity = severity_name(finding.severity)
     lines = [f"{severity:8} {names}{': ' if names else ''}{finding.message}{page}"]
     for what, settings in (("effective value", finding.effective), ("suggested fix", finding.fix)):

@@ -42,7 +42,7 @@ def same_finding_text(file: ParameterFile, same: Sequence[Finding]) -> str:
     every = (a for f in same for a in (f.addresses if len(f.addresses) <= _NAMED else f.causes[:_NAMED]))
     names = ", ".join(label for _, label in _links(file, list(dict.fromkeys(every)), set()))
     first = f"{place}{names}{': ' if names else ''}{note.message}"
-    cited = f" ({same[0].cited})" if same[0].page else ""
+    cited = f" ({same[0].cited})" if same[0].cited else ""
     lines = [f"{severity_name(note.severity):8} {first}{cited}"]
     if note.fix:
         lines.append(f"         suggested fix: {note.fix}")
@@ -78,8 +78,8 @@ def _note(file: ParameterFile, same: Sequence[Finding], printed: set[str]) -> No
         about=tuple(_links(file, addresses, printed)),
         message=same[0].message + (f" Effective value in the control: {used}." if used else ""),
         fix="; ".join(_settings(file, fix)),
-        page=same[0].page or "",
-        is_own=same[0].is_own,
+        page=same[0].page or same[0].reason,
+        is_own=same[0].is_own or bool(same[0].reason),
     )
 
 

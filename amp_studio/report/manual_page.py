@@ -99,7 +99,7 @@ def _page(schema: Schema, parameter: Parameter, machine: str | None) -> str:
     rules = [r for r in schema.rules if any(read_address(t)[0] == parameter.id for t in r.reads.values())]
     lines += _section(
         "Rules that use it",
-        (f"{severity_name(r.severity):14} {r.title} (page {r.page}; {r.id})" for r in rules),
+        (f"{severity_name(r.severity):14} {r.title} ({r.cited}; {r.id})" for r in rules),
     )
     return "\n".join(lines).rstrip()
 

@@ -24,7 +24,7 @@ class Note:
     fix: str
     page: str
     is_own: bool = False
-    """Whether it belongs to a builder's rule; ``page`` is then the place in the rules file."""
+    """Whether ``page`` is a source in words: the place in a builder's rules file, or why a rule is so that no manual states."""
 
     @property
     def cited(self) -> str:

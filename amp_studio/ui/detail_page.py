@@ -163,7 +163,7 @@ class DetailPage(Translated):
         for finding in broken:
             cited = (
                 f' <span style="color:{dim}">{html.escape(worded(finding.cited))}</span>'
-                if finding.page
+                if finding.cited
                 else ""
             )
             mark = f"{severity_html(finding.severity)} <b>{worded(severity_name(finding.severity)).capitalize()}:</b>"

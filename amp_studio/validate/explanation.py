@@ -90,6 +90,8 @@ def rule_title(validator: Validator, finding: Finding) -> str:
 def _source(validator: Validator, finding: Finding) -> str:
     if finding.is_own:
         return "; ".join(filter(None, (finding.page, validator.own.places.get(finding.rule, ""))))
+    if finding.reason:
+        return finding.reason
     return f"{validator.file.schema.family.title}, page {finding.page}" if finding.page else ""
 
 

@@ -44,6 +44,8 @@ class Finding:
     """The instance a rule was broken for; None where no rule was."""
     is_own: bool = False
     """It is of a builder's rule: ``page`` is where he wrote it down, not a page of the manual."""
+    reason: str = ""
+    """Why it is so, of a rule that no manual states: ``page`` is empty then."""
 
     @property
     def addresses(self) -> tuple[Address, ...]:
@@ -58,6 +60,8 @@ class Finding:
     @property
     def cited(self) -> str:
         """Its source in words: ``page 7-20``, or a builder's own words; empty where he gave none."""
+        if self.reason:
+            return self.reason
         return f"page {self.page}" if self.page and not self.is_own else self.page or ""
 
 

@@ -214,12 +214,13 @@ class RuleChecks:
             causes,
             rule.message.format_map(self._texts(check, given)),
             fix,
-            rule.page,
+            rule.source if check.is_own else rule.page,
             bool(fix) and all(entry.safe for entry in rule.fix),
             tuple(self._set(check, given, effective)) if effective else (),
             compared,
             check.instance,
             check.is_own,
+            "" if check.is_own or rule.page else rule.source,
         )
 
     def _unhidden(self, addresses: tuple[Address, ...]) -> tuple[Address, ...]:

@@ -11,6 +11,8 @@ from pathlib import Path
 import pytest
 from statements import statements, untold
 
+from amp_studio.schema import load_schema
+
 LISTS = sorted(Path(__file__).with_name("constraints").glob("*.yaml"))
 
 
@@ -23,3 +25,16 @@ def test_whatever_a_manual_demands_something_tells(path: Path) -> None:
 def test_the_statements_stand_in_the_order_of_the_text(path: Path) -> None:
     lines = [statement.line for statement in statements(path)]
     assert lines == sorted(lines)
+
+
+@pytest.mark.parametrize("family", sorted({path.stem.partition("_")[0] for path in LISTS}))
+def test_each_rule_cites_a_page_with_a_statement_that_was_read(family: str) -> None:
+    """Or none at all, and the reason why it is so."""
+    read = {
+        (rule, statement.page)
+        for path in LISTS
+        for statement in statements(path)
+        for rule in statement.told_by()
+    }
+    cited = [(rule.id, rule.page) for rule in load_schema(family).rules if rule.page]
+    assert [rule for rule in cited if rule not in read] == []

@@ -71,7 +71,14 @@ def _another(file: ParameterFile, address: Address, random: Random) -> Value | N
         whole = isinstance(old.value, int) and abs(number) < 1e15
         return Value(int(number) if whole else round(number, random.choice([1, 3, 5])), old.unit)
     if old is not None and kind < 0.7:  # the same as a sibling's, as of a pair whose two are equal
-        others = [a for a in file.values if a[1] == address[1] and file.values[a].unit == old.unit]
+        kinds = {a: file.schema.parameters[a[0]] for a in file.values}
+        others = [
+            a
+            for a in file.values
+            if a[1] == address[1]
+            and file.values[a].unit == old.unit
+            and (kinds[a].type, kinds[a].choices) == (parameter.type, parameter.choices)
+        ]
         return file.values[random.choice(others)] if others else old
     return fitting(file.schema, parameter, random)
 

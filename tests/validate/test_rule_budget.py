@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 from rule_machines import FAMILIES
 
-from amp_studio.files import ParameterFile
+from amp_studio.files import Change, ParameterFile
 from amp_studio.schema import Value, load_schema
 from amp_studio.validate import Finding, Validator, explain, read_builder_rules, rule_file, trial
 from amp_studio.validate.formulas import GENERAL
@@ -113,7 +113,8 @@ def test_a_text_of_any_length_in_the_file_costs_a_rule_nothing(mill, path: Path)
     """The budget reckons with 4000 characters; a longer value is an error by itself."""
     text = rule(1, "size(name + name) < 0") + rule(2)
     assert len([f for f in findings(path, text, mill) if f.rule == "works.rule1"]) == 7
-    mill.set(("axis.name", "1"), Value("x" * 5000))
+    name = ("axis.name", "1")
+    mill.apply(Change(name, mill.get(name), Value("x" * 5000)))
     assert len([f for f in findings(path, text, mill) if f.rule == "works.rule1"]) == 6
 
 

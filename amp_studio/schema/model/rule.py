@@ -1,9 +1,9 @@
 """What a rule is: a constraint between parameters, its fix, and a builder's own rules and suppressions."""
 
 import re
-from typing import Annotated, Literal
+from typing import Annotated, Literal, Self
 
-from pydantic import Field, field_validator
+from pydantic import Field, field_validator, model_validator
 
 from .record import Model, Page
 
@@ -61,12 +61,26 @@ class Rule(Model):
     """
     compares: dict[str, str] = {}
     """The same for what it is compared with. All other single values it names follow, unless ``blames`` names them."""
-    page: Page
+    page: Page | Literal[""] = ""
+    """The page of the manual that states it."""
+    reason: str = ""
+    """Why it is so, of a rule that no manual states: each rule has either this or a page."""
+
+    @property
+    def source(self) -> str:
+        """The page, or why a rule is so that no manual states."""
+        return self.page or f"not from the manual: {self.reason.rstrip('.')}"
 
     @property
     def cited(self) -> str:
         """The source in words."""
-        return f"page {self.page}"
+        return f"page {self.page}" if self.page else self.source
+
+    @model_validator(mode="after")
+    def _has_one_source(self) -> Self:
+        if bool(self.page) == bool(self.reason):
+            raise ValueError("a rule has either the page that states it or the reason why it is so")
+        return self
 
     @field_validator(
         "blames", "compares", mode="before", json_schema_input_type=dict[str, str] | tuple[str, ...]
@@ -103,9 +117,18 @@ class BuilderRule(Rule):
     """Where it is written, in the builder's own words."""
 
     @property
+    def source(self) -> str:
+        """Where it is written, and why; empty where the builder gives neither."""
+        return "; ".join(filter(None, (self.page, self.reason)))
+
+    @property
     def cited(self) -> str:
         """The source in words; empty where the builder gives none."""
-        return self.page
+        return self.source
+
+    @model_validator(mode="after")
+    def _has_one_source(self) -> Self:
+        return self
 
 
 class Suppression(Model):
