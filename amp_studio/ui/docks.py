@@ -60,6 +60,8 @@ class Docks(Translated):
         """How the docks were when the last file was closed; None while they are there."""
         self._size = QSize(WIDE, LOW)
         self._is_first = True
+        self._width_before = _PANELS[1][2]
+        """Width of the parameter before the preview came beside it."""
         self._taken: set[str] = set()
         """Docks that a small window has taken away."""
         self.docks: list[QDockWidget] = []
@@ -95,9 +97,14 @@ class Docks(Translated):
         return min(max(int(self._size.width() * _PREVIEW_SHARE), _PREVIEW_LEAST), _PREVIEW_MOST)
 
     def show_preview(self, wanted: bool) -> None:
-        """Show or hide the preview; the other panels make room as in a small window."""
+        """Show or hide the preview; the other panels make room as in a small window, and are as before when it is hidden."""
+        parameter = self._dock("Parameter")
+        if wanted and self.preview.isHidden():
+            self._width_before = self._width_before if parameter.isHidden() else parameter.width()
         self.preview.setVisible(wanted)
         self.fit(self._size)
+        if not wanted and not parameter.isHidden():
+            self._window.resizeDocks([parameter], [self._width_before], Qt.Orientation.Horizontal)
         if wanted and not self.preview.isFloating():
             beside = [] if self._dock("Parameter").isHidden() else [(self._dock("Parameter"), _PANELS[1][2])]
             docks, widths = zip(*beside, (self.preview, self._preview_width), strict=True)

@@ -7,6 +7,7 @@ from collections.abc import Callable
 from functools import partial
 from pathlib import Path
 
+from PySide6.QtCore import QStandardPaths
 from PySide6.QtGui import QAction, QKeySequence
 from PySide6.QtWidgets import QFileDialog
 
@@ -21,6 +22,7 @@ from amp_studio.files import (
     same_file,
     write_atomic,
 )
+from amp_studio.files.examples import examples_folder
 from amp_studio.files.local_time import day_and_time
 from amp_studio.files.lock import EditLock
 from amp_studio.validate import Validator, rules_beside
@@ -97,7 +99,7 @@ class FileActions(Translated):
 
     def open_example(self, example: Path) -> None:
         """Open a copy of an example; the example itself is never edited."""
-        path = self.ask_path(self.tr("Copy of an example"), example)
+        path = self.ask_path(self.tr("Copy of an example"), Path(example.name))
         if path is None:
             return
         content = example.read_bytes()
@@ -110,8 +112,7 @@ class FileActions(Translated):
 
     def ask_path(self, title: str, near: Path) -> Path | None:
         """Ask where to save; adds the file extension and asks before a file is replaced."""
-        here = self.window.workspace.path.parent if self.window.workspace else Path()
-        text, _ = QFileDialog.getSaveFileName(self.window, title, str(here / near.with_suffix(".amp")), FILTER,
+        text, _ = QFileDialog.getSaveFileName(self.window, title, str(self._own_folder() / near.with_suffix(".amp")), FILTER,
                                               options=QFileDialog.Option.DontConfirmOverwrite)  # fmt: skip
         if not text:
             return None
@@ -125,6 +126,13 @@ class FileActions(Translated):
         ) != self.tr("&Replace"):
             return None
         return real_path(path) if path.exists() else path  # of a link it is the file that is replaced
+
+    def _own_folder(self) -> Path:
+        """Return the folder of the file in front, or the user's documents; never that of the program's examples."""
+        workspace = self.window.workspace
+        if workspace and examples_folder() not in real_path(workspace.path).parents:
+            return workspace.path.parent
+        return Path(QStandardPaths.writableLocation(QStandardPaths.StandardLocation.DocumentsLocation))
 
     def write_new(self, path: Path, write: Callable[[], Document], instead: FilePage | None = None) -> None:
         """Show the document that ``write`` makes, in the place of a page if one is given; an existing file is backed up first.

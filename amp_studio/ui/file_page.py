@@ -86,6 +86,9 @@ class FilePage(QWidget):
         self.detail.axis_wanted.connect(self.go_to)
         self.findings.activated.connect(self._show_finding)
         self.findings.current_changed.connect(self._outline)
+        self.findings.model.modelReset.connect(
+            self._outline
+        )  # a finding that is gone is no longer the current one
         self.findings.not_set_requested.connect(self.show_not_set)
         self.table.modelReset.connect(self._tell_findings)
         self.table_view.selected.connect(self._tell_findings)

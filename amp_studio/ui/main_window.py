@@ -192,6 +192,7 @@ class MainWindow(StudioWindow):
         """Follow a change of a file, in front or not."""
         self.tabs.rename(page)
         if page is self.page:
+            self._show_value()
             self.enable()
 
     # -- state of the window ---------------------------------------------------

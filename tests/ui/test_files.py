@@ -3,11 +3,15 @@
 from __future__ import annotations
 
 import os
+from collections.abc import Callable
 from pathlib import Path
 
 import pytest
+from PySide6.QtCore import QStandardPaths
+from PySide6.QtWidgets import QFileDialog
 
 from amp_studio.files import Document, backup_path, content_of, open_file
+from amp_studio.files.examples import examples
 from amp_studio.schema import Value
 from amp_studio.ui import file_dialogs
 from amp_studio.ui.main_window import MainWindow
@@ -328,3 +332,20 @@ def test_own_rules_that_cannot_be_read_are_a_finding(open_window, path: Path) ->
     path.with_name("rules.yaml").write_text("rules:\n  - nonsense\n")
     window = open_window(path)
     assert window.workspace.findings[0].message.startswith("rules.yaml, line 2: ")
+
+
+def test_the_copy_of_an_example_is_not_offered_among_the_examples(
+    open_window: Callable[..., MainWindow], monkeypatch: pytest.MonkeyPatch, tmp_path: Path
+) -> None:
+    offered: list[Path] = []
+
+    def dialog(_parent: object, _title: str, path: str, *_: object, **__: object) -> tuple[str, str]:
+        offered.append(Path(path))
+        return "", ""
+
+    monkeypatch.setattr(QFileDialog, "getSaveFileName", dialog)
+    monkeypatch.setattr(QStandardPaths, "writableLocation", lambda _place: str(tmp_path))
+    example = examples()[0].path
+    open_window().files.open_example(example)
+    open_window(example).files.open_example(example)
+    assert offered == [tmp_path / example.name] * 2

@@ -328,3 +328,14 @@ def test_keys_go_from_finding_to_finding_and_their_values(path, bare: bytes, ope
     for _ in range(2):
         action(window, "Previous Finding").trigger()
     assert window.findings.view.currentIndex().row() == len(groups) - 1
+
+
+def test_the_outline_of_a_finding_ends_with_it(window: MainWindow) -> None:
+    page = window.page
+    window.workspace.edit("turned", {("zone.overtravel_positive", "1"): Value(-400.0, "mm")})
+    page.findings.select(next(f for f in window.workspace.findings if f.compared))
+    assert page.table.outlined
+    page.findings.show_all()
+    window.workspace.undo_stack.undo()
+    assert page.findings.current_findings() == ()
+    assert page.table.outlined == frozenset()

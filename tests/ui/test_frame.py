@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
+import pytest
 from PySide6.QtCore import Qt
 from PySide6.QtWidgets import QApplication, QDockWidget
 from pytestqt.qtbot import QtBot
@@ -12,6 +13,8 @@ from amp_studio.files import content_of, new_file
 from amp_studio.ui.main_window import MainWindow
 from amp_studio.ui.segment import Segment
 from amp_studio.ui.tab_end import TabEnd
+
+from .conftest import WAIT_MS, action
 
 EXCESS = ("servo.excess_error", "1")
 
@@ -154,3 +157,35 @@ def test_the_end_of_the_tabs_lists_every_open_file(window: MainWindow, path: Pat
     assert [entry.text() for entry in corner.menu.actions()] == ["mill.amp", "other.amp"]
     corner.menu.actions()[0].trigger()
     assert window.workspace.path == path
+
+
+@pytest.mark.parametrize("size", [(1920, 1080), (1400, 900), (1366, 768), (1024, 700)])
+def test_nothing_has_moved_after_each_panel_was_opened_and_closed_twice(
+    window: MainWindow, size: tuple[int, int], qtbot: QtBot
+) -> None:
+    shown(window, *size)
+    window.docks.reset()
+    QApplication.processEvents()
+    before = places(window)
+    for _ in range(2):
+        action(window, "Report Preview").trigger()
+        qtbot.waitUntil(lambda: window.docks.preview.widget() is not None, timeout=WAIT_MS)
+        QApplication.processEvents()
+        action(window, "Report Preview").trigger()
+        QApplication.processEvents()
+        assert places(window) == before
+    for dock in window.docks.docks:
+        if dock.isHidden():
+            continue
+        for _ in range(2):
+            dock.toggleViewAction().trigger()
+            QApplication.processEvents()
+            dock.toggleViewAction().trigger()
+            QApplication.processEvents()
+        assert places(window) == before, dock.objectName()
+
+
+def places(window: MainWindow) -> dict[str, tuple[int, int, int, int]]:
+    """Return where the table and each panel that is seen are."""
+    widgets = {"table": window.centralWidget()} | {d.objectName(): d for d in window.docks.docks}
+    return {name: w.geometry().getRect() for name, w in widgets.items() if w.isVisible()}

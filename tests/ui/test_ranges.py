@@ -56,6 +56,15 @@ def test_shift_and_arrows_select_a_range_and_the_status_bar_sums_it_up(window: M
     assert window.page.address_text() == "3 cells of 1750 Excess Error, X to Z   min 11 mm   max 11 mm"
 
 
+def test_the_sum_in_the_status_bar_follows_an_undo(window: MainWindow) -> None:
+    select(window, (EXCESS, "1"), (EXCESS, "3"))
+    before = window.status.value.text()
+    window.workspace.edit("more", {(EXCESS, "1"): Value(77.0, "mm")})
+    assert "max 77 mm" in window.status.value.text()
+    window.workspace.undo_stack.undo()
+    assert window.status.value.text() == before
+
+
 def test_keys_pass_over_what_does_not_exist(window: MainWindow, file: ParameterFile) -> None:
     """The feedback ports of the first axes have no analog voltage, which only the spindle has."""
     window.go_to((EXCESS, "1"))
