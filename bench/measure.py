@@ -1,6 +1,6 @@
 """How something is timed, and the one table of all results.
 
-A measure is a list of seconds, or of megabytes. Targets are medians on the machine
+A measure is a list of seconds, of megabytes or of shares. Targets are medians on the machine
 it runs on; the table shows "over" and nothing fails, because a time is not a test.
 """
 
@@ -19,10 +19,10 @@ class Measure:
 
     name: str
     figures: tuple[float, ...]
-    """Seconds, or megabytes."""
+    """Seconds, megabytes or shares."""
     target: float | None = None
     """What the median should stay below; None for what is only reported, and for peers."""
-    unit: Literal["s", "MB"] = "s"
+    unit: Literal["s", "MB", "%"] = "s"
 
     @property
     def verdict(self) -> str:
@@ -72,9 +72,11 @@ def table(measures: Sequence[Measure]) -> str:
 
 
 def said(figure: float, measured: str = "s") -> str:
-    """Write a figure with three digits and the unit that suits it: ``1.23 s``, ``45.6 ms``, ``789 µs``, ``12.3 MB``."""
+    """Write a figure with three digits and the unit that suits it: ``1.23 s``, ``45.6 ms``, ``789 µs``, ``12.3 MB``, ``3 %``."""
     if measured == "MB":
         return f"{figure:.1f} MB"
+    if measured == "%":
+        return f"{figure:.4g} %"
     for factor, unit in ((1.0, "s"), (1e3, "ms"), (1e6, "µs")):
         number = figure * factor
         if number >= 1 or unit == "µs":

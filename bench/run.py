@@ -24,6 +24,7 @@ import find
 import grid
 import machine
 import many_files
+import published
 import rules
 import screen
 import sim
@@ -56,6 +57,7 @@ def measures(folder: Path, times: int) -> Iterator[Measure]:
     yield from warm.measures(folder, full, example, times)
     yield from rules.measures(folder, full, times)
     yield from find.measures(full, times)
+    yield from published.measures()
     yield from sim.measures(folder, times)
     yield from sim_laws.measures(times)
     yield from screen.measures(folder, full, times)

@@ -20,7 +20,6 @@ from amp_studio.files import (
     copy_axis,
     delete_axis,
     fitted_axes,
-    open_file,
     rename_axis,
     retype_axis,
     swap_axes,
@@ -30,6 +29,7 @@ from amp_studio.schema import MASKED, axis_group, axis_meant, show_value
 
 from .console import note, print_json
 from .errors import UsageError
+from .opened import opened
 from .output import note_all
 
 OPERATIONS = {
@@ -51,7 +51,7 @@ def axis_verb(options: argparse.Namespace) -> int:
     if not least <= len(options.arguments) <= most:
         raise UsageError(f"axis {options.operation} takes {_expected(least, most)}: amp-studio axis --help")
     if options.operation in ("list", "compare"):
-        file = open_file(options.path).file
+        file = opened(options.path)
         if options.operation == "list":
             return _list(file, as_json=options.json)
         first, second = (_axis(file, text) for text in options.arguments)

@@ -12,12 +12,13 @@ from functools import partial
 from pathlib import Path
 from typing import Any, NamedTuple
 
-from amp_studio.files import ENDING, ParameterFile, ParameterFileError, open_file
+from amp_studio.files import ENDING, ParameterFile, ParameterFileError
 from amp_studio.report import alike, counted, finding_json, same_finding_text, suppressed_text
 from amp_studio.schema.regular_file import read_file
 from amp_studio.validate import BuilderRules, Finding, Validator, rules_beside
 
 from .console import note, print_json, progress
+from .opened import opened
 from .trouble import keep_details
 
 MANY = 50
@@ -154,7 +155,7 @@ def _check(options: argparse.Namespace, path: Path) -> CheckResult:
 
 
 def _checked(options: argparse.Namespace, path: Path) -> CheckResult:
-    file = open_file(path).file
+    file = opened(path)
     validator = Validator(file, _own_rules(options, path, file))
     findings = validator.run()
     counts = {s: sum(f.severity == s for f in findings) for s in ("error", "warning", "advice")}

@@ -16,13 +16,13 @@ from amp_studio.files import (
     backup_path,
     compare,
     is_there,
-    open_file,
 )
 from amp_studio.files.by_schema import by_schema
 from amp_studio.schema import MASKED, Value, show_value, write_value
 
 from .console import note, print_json, progress
 from .errors import UsageError
+from .opened import opened
 
 
 def diff_verb(options: argparse.Namespace) -> int:
@@ -234,7 +234,7 @@ def _side(text: str) -> tuple[ParameterFile, str | None]:
     from amp_studio.transfer.links.endpoint import is_endpoint
 
     if not is_endpoint(text):
-        return open_file(Path(text)).file, None
+        return opened(Path(text)), None
     from amp_studio.transfer.client.parameters import fetch_image, sha256
     from amp_studio.transfer.content import decode_content
 

@@ -6,7 +6,7 @@ import argparse
 from dataclasses import asdict, replace
 from pathlib import Path
 
-from amp_studio.files import ParameterFile, open_file
+from amp_studio.files import ParameterFile
 from amp_studio.report.wording import counted
 from amp_studio.transfer.client.exchange import Outcome
 from amp_studio.transfer.client.kept import IMAGE, digest_path, open_copy, save_image
@@ -28,6 +28,7 @@ from .comparing import difference_json, print_comparison, print_difference
 from .console import assignments, family, note, print_json, progress
 from .errors import UsageError
 from .fleet import check_fleet, download_to_several, is_fleet, note_exchange, upload_several, verify_several
+from .opened import opened
 from .out_of_range import settle_values
 from .output import check_new, write_new
 from .program import AT_CONTROL, CHANGED, FAULT
@@ -62,7 +63,7 @@ def _secured(options: argparse.Namespace) -> Endpoint:
 
 def download_verb(options: argparse.Namespace) -> int:
     """Send a file to a control; 3 if that is not proved afterwards, 4 where it is not known what it contains."""
-    file, path = open_file(options.path).file, options.path
+    file, path = opened(options.path), options.path
     errors = _note_errors(file, path)
     if errors and not options.accept_errors:
         raise UsageError(f"{path} has {errors}: nothing was sent (--accept-errors sends it anyway)")
@@ -185,7 +186,7 @@ def _readable(image: bytes, output: Path) -> ParameterFile:
 
 def verify_verb(options: argparse.Namespace) -> int:
     """Compare a file with what a control contains, its values and every byte; 1 where they differ."""
-    file = open_file(options.path).file
+    file = opened(options.path)
     check_fleet(options, options.control)
     if is_fleet(options, options.control):
         with asked_politely() as stop:

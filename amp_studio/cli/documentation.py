@@ -6,19 +6,20 @@ import argparse
 from pathlib import Path
 
 from amp_studio.dossier import write_report
-from amp_studio.files import new_file, open_file, real_path
+from amp_studio.files import new_file, real_path
 from amp_studio.report import Contents
 from amp_studio.validate import RULES_FILE, rules_beside
 
 from .console import is_family, note
 from .errors import UsageError
+from .opened import opened
 from .output import check_replaced
 
 
 def report_verb(options: argparse.Namespace) -> int:
     """Write the documentation of a file; 1 where the project's template failed and the standard report was written."""
     check_replaced(options.output, options.path, real_path(options.path).with_name(RULES_FILE))
-    file = open_file(options.path).file
+    file = opened(options.path)
     own = rules_beside(options.path, file.schema)
     as_wanted = write_report(
         file,
@@ -52,7 +53,7 @@ def form_verb(options: argparse.Namespace) -> int:
             raise UsageError("--machine belongs to a family; a file has its own machine type")
         path = Path(options.what)
         check_replaced(options.output, path)
-        file, everything = open_file(path).file, False
+        file, everything = opened(path), False
     write_paper(form_paper(file, everything=everything, language=options.language), options.output, note)
     print(options.output)
     return 0

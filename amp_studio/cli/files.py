@@ -11,7 +11,6 @@ from amp_studio.files import (
     ParameterFile,
     RangeError,
     new_file,
-    open_file,
 )
 from amp_studio.files.lock import now
 from amp_studio.report.wording import counted, state_name
@@ -38,6 +37,7 @@ from .console import assignments, family, note, print_json
 from .errors import UsageError
 from .like import file_like
 from .marked import marks_asked, with_marks
+from .opened import opened
 from .output import check_new, note_all, write_new
 
 NOT_SET = "not-set"
@@ -211,7 +211,7 @@ def _print_not_set(options: argparse.Namespace, file: ParameterFile, only: set[A
 
 def get_verb(options: argparse.Namespace) -> int:
     """Print values."""
-    file = open_file(options.path).file
+    file = opened(options.path)
     if options.params:
         found = [m for p in options.params for m in all_meant(file.evaluation, p)]
     else:

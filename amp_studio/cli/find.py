@@ -7,7 +7,7 @@ from collections.abc import Iterable, Iterator
 from pathlib import Path
 from typing import Any
 
-from amp_studio.files import ENDING, ParameterFile, open_file
+from amp_studio.files import ENDING, ParameterFile
 from amp_studio.find import Finder, Hit, MessagePage, message_page
 from amp_studio.report.wording import counted
 from amp_studio.schema import Schema, family_ids, written
@@ -16,6 +16,7 @@ from amp_studio.validate import Finding, Validator, rules_beside
 
 from .console import family, print_json
 from .errors import UsageError
+from .opened import opened
 
 _NAMED = {
     "parameter": "",
@@ -80,7 +81,7 @@ def _sources(options: argparse.Namespace) -> tuple[list[_Source], list[str]]:
         return [_Source(family(first))], words
     path = Path(first)
     if path.suffix.casefold() == ENDING or (words and path.is_file()):
-        file = open_file(path).file
+        file = opened(path)
         return [_Source(file.schema, file, path)], words
     return [_Source(family(name)) for name in family_ids()], options.words
 

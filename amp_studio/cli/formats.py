@@ -4,13 +4,14 @@ from __future__ import annotations
 
 import argparse
 
-from amp_studio.files import open_file, secret_values
+from amp_studio.files import secret_values
 from amp_studio.formats import FamilyNotGivenError, export_file, import_file
 from amp_studio.report.wording import counted
 from amp_studio.schema import UnknownFamilyError, written
 
 from .console import note
 from .errors import UsageError
+from .opened import opened
 from .out_of_range import settle_values
 from .output import check_new, check_replaced, write_new
 
@@ -45,7 +46,7 @@ def import_verb(options: argparse.Namespace) -> int:
 def export_verb(options: argparse.Namespace) -> int:
     """Write a parameter file in a text format."""
     check_replaced(options.output, options.path)
-    file = open_file(options.path).file
+    file = opened(options.path)
     for key in file.unknown:
         note(f"{key} is not known to this schema")
     hidden = [a for a in file.values if file.evaluation.state(a).state == "hidden"]

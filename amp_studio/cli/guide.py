@@ -8,7 +8,7 @@ from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
-from amp_studio.files import Document, ParameterFile, open_file
+from amp_studio.files import Document, ParameterFile
 from amp_studio.files.local_time import with_local_times
 from amp_studio.files.lock import now as stamp
 from amp_studio.files.lock import user
@@ -32,6 +32,7 @@ from amp_studio.validate import SEVERITIES, Validator, rules_beside
 from .console import family, is_family, note, print_json
 from .errors import UsageError
 from .files import value_row
+from .opened import opened
 from .output import check_replaced, note_all
 
 _MARKS = {"not begun": " ", "begun": "~", "done": "x", "not needed": "-"}
@@ -60,7 +61,7 @@ def guide_verb(options: argparse.Namespace) -> int:
                 note_all(document.notes)
             file = document.file
     else:
-        file = open_file(path).file
+        file = opened(path)
     step = _step(file.schema, asked_for) if asked_for else None
     validator = Validator(file, rules_beside(path, file.schema))
     come = progress(validator, validator.run())

@@ -6,13 +6,14 @@ import argparse
 from collections.abc import Iterator
 from pathlib import Path
 
-from amp_studio.files import ParameterFile, open_file
+from amp_studio.files import ParameterFile
 from amp_studio.files.creation import MadeLike, made_like
 from amp_studio.files.examples import examples
 from amp_studio.schema.nearest import unknown_name
 
 from .console import note
 from .errors import UsageError
+from .opened import opened
 
 
 def file_like(options: argparse.Namespace, axes: list[str]) -> ParameterFile:
@@ -31,7 +32,7 @@ def _made_like(options: argparse.Namespace, axes: list[str]) -> MadeLike:
         raise UsageError(
             unknown_name("file or example", options.like, [e.path.parent.name for e in examples()])
         )
-    source = open_file(path if path.exists() else known[options.like]).file
+    source = opened(path if path.exists() else known[options.like])
     if source.schema.family.family != options.family:
         raise UsageError(
             f"{options.like} is a file for {source.schema.family.name}, not for {options.family}"

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import argparse
 
-from amp_studio.files import open_file
 from amp_studio.report.differences import machine_names, machine_rows, machines_paper
 from amp_studio.report.paper import write_paper
 from amp_studio.schema import MASKED, show_value, write_value
@@ -12,11 +11,12 @@ from amp_studio.schema import MASKED, show_value, write_value
 from .comparing import matched_by_letter_noted
 from .console import note, print_json
 from .errors import UsageError
+from .opened import opened
 
 
 def compare_verb(options: argparse.Namespace) -> int:
     """Print or write what differs between machines; 1 where anything does."""
-    files = [open_file(path).file for path in options.paths]
+    files = [opened(path) for path in options.paths]
     if options.by_letter:
         files = [files[0], *(matched_by_letter_noted(file, files[0]) for file in files[1:])]
     names = machine_names([path.stem for path in options.paths])

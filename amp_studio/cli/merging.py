@@ -13,7 +13,6 @@ from amp_studio.files import (
     Row,
     Typed,
     check_output,
-    open_file,
     text_of_name,
     write_atomic,
 )
@@ -30,6 +29,7 @@ from amp_studio.validate.new_findings import new_findings
 from .comparing import difference_json, named, row_json, shown
 from .console import note, print_json
 from .errors import UsageError
+from .opened import opened
 from .output import check_new
 
 SIDES: dict[str, Side] = {"base": "base", "ours": "a", "theirs": "b"}
@@ -91,10 +91,10 @@ def _check_paths(options: argparse.Namespace) -> None:
 
 def _sources(options: argparse.Namespace) -> tuple[ParameterFile, ParameterFile, ParameterFile | None]:
     """Return ours, theirs and the base. git gives an empty file as the base of a file that both sides added."""
-    ours, theirs = open_file(options.ours).file, open_file(options.theirs).file
+    ours, theirs = opened(options.ours), opened(options.theirs)
     if options.git and options.base.is_file() and options.base.stat().st_size == 0:
         return ours, theirs, ParameterFile(ours.schema)
-    return ours, theirs, open_file(options.base).file
+    return ours, theirs, opened(options.base)
 
 
 def _settle(merge: Merge, texts: list[str]) -> None:

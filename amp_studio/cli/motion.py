@@ -6,7 +6,7 @@ import argparse
 from collections.abc import Sequence
 from dataclasses import asdict
 
-from amp_studio.files import ParameterFile, axis_instances, open_file
+from amp_studio.files import ParameterFile, axis_instances
 from amp_studio.scenarios import IDENTIFY
 from amp_studio.schema import axis_meant
 from amp_studio.sim import (
@@ -31,6 +31,7 @@ from amp_studio.sim import (
 from .console import assignments, note, print_json
 from .errors import UsageError
 from .files import wanted
+from .opened import opened
 from .output import check_replaced
 
 PICTURES = (".svg", ".png")
@@ -43,7 +44,7 @@ def simulate_verb(options: argparse.Namespace) -> int:
     if options.output:
         beside = (each for each in (options.record, options.machine_file) if each)
         check_replaced(options.output, options.path, *beside)
-    file = open_file(options.path).file
+    file = opened(options.path)
     if options.list:
         return _list(file, options.units, as_json=options.json)
     if options.scenario is None:

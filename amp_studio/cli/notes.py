@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import argparse
 
-from amp_studio.files import Document, ParameterFile, open_file
+from amp_studio.files import Document, ParameterFile
 from amp_studio.files.notes import (
     NoteError,
     all_notes,
@@ -20,6 +20,7 @@ from amp_studio.schema.nearest import unknown_name
 
 from .console import note, print_json
 from .errors import UsageError
+from .opened import opened
 from .output import note_all
 
 MACHINE, GROUP = "machine", "group:"
@@ -31,7 +32,7 @@ def note_verb(options: argparse.Namespace) -> int:
     if options.about is None:
         return _list(options)
     if options.text is None and not options.remove:
-        file = open_file(options.path).file
+        file = opened(options.path)
         text = _present(file, _about(file, options))
         if options.json:
             print_json({"about": options.about, "text": text})
@@ -57,7 +58,7 @@ def note_verb(options: argparse.Namespace) -> int:
 
 
 def _list(options: argparse.Namespace) -> int:
-    found = list(all_notes(open_file(options.path).file))
+    found = list(all_notes(opened(options.path)))
     if options.json:
         print_json(
             [{"subject": n.subject, "about": n.about, "label": n.label, "text": n.text} for n in found]

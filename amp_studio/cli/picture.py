@@ -4,11 +4,12 @@ from __future__ import annotations
 
 import argparse
 
-from amp_studio.files import ParameterFile, open_file, write_atomic
+from amp_studio.files import ParameterFile, write_atomic
 from amp_studio.pictures import Scene, draw, pictures_of, scene_json, scene_svg
 
 from .console import note, print_json
 from .errors import UsageError
+from .opened import opened
 from .output import check_replaced
 
 
@@ -18,7 +19,7 @@ def picture_verb(options: argparse.Namespace) -> int:
         check_replaced(options.output, options.path)
         if options.output.suffix.lower() != ".svg":
             raise UsageError(f"A picture is drawn as SVG: name the file {options.output.stem}.svg")
-    file = open_file(options.path).file
+    file = opened(options.path)
     if options.name is None:
         if options.output:
             raise UsageError("Name a picture; amp-studio picture PATH lists them")

@@ -7,7 +7,7 @@ from collections.abc import Iterable, Sequence
 from pathlib import Path
 from typing import Any
 
-from amp_studio.files import ParameterFile, open_file
+from amp_studio.files import ParameterFile
 from amp_studio.report.wording import counted
 from amp_studio.schema.regular_file import read_file
 from amp_studio.sheet import (
@@ -28,6 +28,7 @@ from amp_studio.validate import rules_beside
 
 from .console import note, print_json, progress
 from .errors import UsageError
+from .opened import opened
 from .output import check_replaced
 
 _LARGEST = 1 << 20  # bytes of a list of what the screen shows
@@ -36,7 +37,7 @@ _LARGEST = 1 << 20  # bytes of a list of what the screen shows
 def sheet_verb(options: argparse.Namespace) -> int:
     """Print or write the sheet; with ``--check`` compare what the screen shows: 1 where something is not as keyed in."""
     path: Path = options.path
-    file = open_file(path).file
+    file = opened(path)
     inputs = [path, ticks_path(path), *([options.check] if options.check else [])]
     if options.output:
         check_replaced(options.output, *inputs)
@@ -72,7 +73,7 @@ def _present(text: str) -> tuple[ParameterFile, str]:
 
     path = Path(text)
     if path.suffix != ".img":
-        return open_file(path).file, path.name
+        return opened(path), path.name
     copy = open_copy(path)
     if copy.file is None:
         raise UsageError(f"{path}: {copy.fault}")

@@ -129,7 +129,7 @@ def field_at(parameter: Parameter, bit: int) -> Bit:
     """
     if parameter.type != "bits":
         raise InvalidValueError(f"{parameter.name} is no word of bits")
-    width = parameter.storage.bits if parameter.storage else None
+    width = parameter.word_width
     if width is not None and bit >= width:
         raise InvalidValueError(f"{parameter.name} has the bits 0 to {width - 1}, not {bit}")
     return next(

@@ -158,13 +158,14 @@ class Schema:
     def signature(self) -> str:
         """Checksum over instances, numbers, names, types, units, storage, choices and bits; travels with every file."""
         lines = []
+        machines = [m.key for m in self.family.machines if m.in_signature]
         for parameter in self.parameters.values():
             if not parameter.in_signature:
                 continue
-            instances = {m.key: self.on(m.key).instances(parameter) for m in self.family.machines}
-            numbers = {m.key: self.on(m.key).numbers(parameter) for m in self.family.machines}
+            instances = {m: self.on(m).instances(parameter) for m in machines}
+            numbers = {m: self.on(m).numbers(parameter) for m in machines}
             choices = _codes(parameter.choices)
-            bits = [(b.bit, b.width, b.label, _codes(b.choices)) for b in parameter.bits or ()]
+            bits = [(b.bit, b.width, b.label, _codes(b.choices)) for b in parameter.bits or () if not b.needs]
             storage = parameter.storage.model_dump() if parameter.storage else None
             for word in ("code", "command"):
                 if storage and storage[word] is None:

@@ -175,7 +175,7 @@ def _format_fault(evaluation: Evaluation, address: Address, form: str) -> str | 
 
 def _bits_fault(parameter: Parameter, word: int) -> str | None:
     """Return why a word of bits is not allowed: too wide for the control, or a code that a field does not have."""
-    width = parameter.storage.bits if parameter.storage else None
+    width = parameter.word_width
     if word < 0 or (width is not None and word >> width):
         return f"{parameter.name} {word} does not fit {f'its {width} bits' if width else 'a word of bits'}"
     for field in parameter.bits or ():

@@ -255,7 +255,7 @@ class MainWindow(StudioWindow):
 
     def open_first(self, path: Path) -> None:
         """Open a file from the command line, the welcome page or a drop; an error is shown."""
-        self.guarded(lambda: self.files.open_path(path), self.tr("Open"))
+        self.guarded(lambda: self._open_anything(path), self.tr("Open"))
 
     def dragEnterEvent(self, event: QDragEnterEvent) -> None:
         """Take files and folders of this machine."""
@@ -276,7 +276,12 @@ class MainWindow(StudioWindow):
         """Open a parameter file, or a project by its folder; import the text of a control. Raises ValueError, OSError."""
         if path.is_dir():
             self.projects.open_folder(path)
-        elif path.suffix.lower() in ("", ENDING):
+        elif path.suffix.lower() == ENDING:
             self.files.open_path(path)
         else:
-            self.files.formats.read_from(path)
+            from amp_studio.formats.any_file import is_text_of_control  # not needed at program start
+
+            if path.suffix or is_text_of_control(path):
+                self.files.formats.read_from(path)
+            else:
+                self.files.open_path(path)

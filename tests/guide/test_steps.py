@@ -17,7 +17,22 @@ REST = {
     "57c422b": {"commands", "status", "interrupt"},  # the application program writes them
     "9pc": {"patch_only"},  # no page of the AMP editor has them (37-3)
     "acromill": {"p_parameters", "offsets", "memory", "messages"},  # operators and programs fill them
-    "grblhal": set(),
+    # settings of plugins
+    "grblhal": {
+        "aux_ports",
+        "bluetooth",
+        "can_bus",
+        "embroidery",
+        "encoders",
+        "kinematics",
+        "modbus",
+        "modbus_tcp",
+        "networking",
+        "plasma",
+        "user_settings",
+        "vfd",
+        "wifi",
+    },
     "num": {"reserved"},  # "not documented" or "invalid" (2-1 to 2-3)
     "syntec": set(),
 }

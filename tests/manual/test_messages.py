@@ -15,7 +15,7 @@ from amp_studio.schema.model import ControlMessage
 HERE = Path(__file__).parent
 PRINTED: dict[str, dict[str, list[int]]] = YAML(typ="safe").load((HERE / "messages.yaml").read_text("utf-8"))
 """Family -> text or number -> the lines of the manual's text that have it."""
-COUNTS = {"9pc": 49, "num": 17, "syntec": 18, "57c422b": 9, "acromill": 7, "grblhal": 51}
+COUNTS = {"9pc": 49, "num": 17, "syntec": 18, "57c422b": 9, "acromill": 7, "grblhal": 111}
 PRINTED_TEXTS = [(family, text) for family, texts in PRINTED.items() for text in texts]
 
 

@@ -253,8 +253,8 @@ def test_fields_of_a_word_do_not_overlap_and_fit_it(schema: Schema) -> None:
     for parameter in schema.parameters.values():
         taken = [n for field in parameter.bits or () for n in range(field.bit, field.bit + field.width)]
         assert sorted(set(taken)) == sorted(taken), parameter.id
-        if parameter.storage and parameter.storage.bits and taken:
-            assert max(taken) < parameter.storage.bits, parameter.id
+        if parameter.word_width and taken:
+            assert max(taken) < parameter.word_width, parameter.id
 
 
 def test_every_number_is_unique_on_its_machine_except_the_known_ones(schema: Schema) -> None:

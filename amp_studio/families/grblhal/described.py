@@ -8,7 +8,7 @@ A setting that nobody knows gets an id of its group and its name.
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from typing import Any
 
 from amp_studio.schema import Parameter, Schema, UnitError, load_schema, unit_named
@@ -81,7 +81,9 @@ class _Maker:
         self.told = told
         self.known = load_schema(FAMILY)
         self.ids: set[str] = set()
-        self.by_number = _by_number(self.known)
+        # What is known of other builds is for work without a control; this one describes its own settings.
+        self.of_plain_build = {p.id: p for p in self.known.parameters.values() if p.in_signature}
+        self.by_number = _by_number(self.known, self.of_plain_build)
         self.axes = tuple(told.axes)
         if not self.axes:
             raise DescriptionError("the axes of the control are not described: its answer to $I is needed")
@@ -93,7 +95,7 @@ class _Maker:
             key, name, section = self._group(settings[0])
             names.setdefault(key, (name, section))
             groups.setdefault(key, []).append(self._parameter(settings, key))
-        for parameter in self.known.parameters.values():
+        for parameter in self.of_plain_build.values():
             if parameter.id not in self.ids:
                 group = self.known.group_of[parameter.id]
                 names.setdefault(group.key, (group.name, ""))
@@ -207,7 +209,7 @@ class _Maker:
         name = first.name.partition("-axis ")[2] if axis else first.name
         name = name[:1].upper() + name[1:]
         wanted = known.id if known else f"{group}.{_key(name) or 'setting'}"
-        is_taken = wanted in self.ids or (known is None and wanted in self.known.parameters)
+        is_taken = wanted in self.ids or (known is None and wanted in self.of_plain_build)
         parameter_id = f"{wanted}_{first.number}" if is_taken else wanted
         self.ids.add(parameter_id)
         facts: dict[str, Any] = _value_facts(first, kind, self.axes)
@@ -276,11 +278,11 @@ class _Maker:
         ]  # fmt: skip
 
 
-def _by_number(known: Schema) -> dict[int, list[Parameter]]:
+def _by_number(known: Schema, parameters: Mapping[str, Parameter]) -> dict[int, list[Parameter]]:
     """Return the number of the first instance -> known parameters with it, those of grblHAL before those of Grbl 1.1."""
     found: dict[int, list[Parameter]] = {}
     for machine in known.family.machines:
-        for parameter in known.parameters.values():
+        for parameter in parameters.values():
             layout = known.on(machine.key).layout(parameter)
             start = layout.numbers.start if layout and layout.numbers else None
             if start is not None and parameter not in found.setdefault(start, []):

@@ -37,6 +37,8 @@ class MachineType(Model):
 
     key: Key
     name: str
+    in_signature: bool = True
+    """False for a type that was added when files and controls had the family's signature already."""
 
 
 class AxisProfile(Model):

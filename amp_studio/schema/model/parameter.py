@@ -95,6 +95,8 @@ class Bit(Model):
     """A field of several bits with a signed number (two's complement)."""
     unknown: bool = False
     """The manual's figure is lost: the bit is kept and shown raw."""
+    needs: str = ""
+    """The builds that have it, where the plain one does not: it may be above the width of the plain word."""
 
 
 Bits = Annotated[tuple[Bit, ...], BeforeValidator(_bit_list, json_schema_input_type=tuple[Bit, ...] | Key)]
@@ -299,6 +301,12 @@ class Parameter(Model):
     pages: dict[str, Page] = {}
     """Instance, or the text before its point -> its page, where the manual has another section for it."""
     errata: tuple[str, ...] = ()
+
+    @property
+    def word_width(self) -> int | None:
+        """Bits of a word in the build that has most of them; None where the width is not known."""
+        width = self.storage.bits if self.storage else None
+        return width and max(width, *(b.bit + b.width for b in self.bits or () if b.needs), 0)
 
     @property
     def scopes(self) -> tuple[Scope, ...]:

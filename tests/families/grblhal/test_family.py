@@ -59,7 +59,7 @@ def test_a_setting_is_given_as_its_users_write_it(
         ("$22=Enble", "Did you mean: Enable"),
         ("$22.11=yes", "has the bits 0 to 10, not 11"),
         ("$23=W", "is no bit of Homing direction invert"),
-        ("$140=1", "Unknown parameter '$140'"),
+        ("$999=1", "Unknown parameter '$999'"),
         ("$110=-5", "is outside at least 0 mm/min"),
         ("$26=70000", "is outside 0 to 65535 ms"),
         ("$0=1", "at least 2 µs"),

@@ -194,7 +194,7 @@ def _setting(parameter: Parameter, number: int, axis: str, axes: str, group: int
     labels = tuple(c.label for c in parameter.choices or ())
     kind = _TYPES.get(parameter.type, _TEXT)
     if parameter.bits:
-        named = {b.bit: b.label for b in parameter.bits}
+        named = {b.bit: b.label for b in parameter.bits if not b.needs}
         labels = tuple(named.get(n, "N/A") for n in range(max(named) + 1))
         if parameter.first_axis == 0:
             kind, labels = _AXES, tuple(axes)

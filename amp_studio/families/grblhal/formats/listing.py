@@ -39,7 +39,7 @@ def _read(text: str, schema: Schema, options: ReadOptions) -> TextRead:
     if fit.unreadable and not options.keep_unknown:
         raise _unreadable(listing, fit)
     found = TextRead(values=fit.values, machine=fit.machine)
-    kept = sorted((*fit.unknown, *fit.unreadable))
+    kept = sorted((*fit.unknown, *fit.other, *fit.unreadable))
     found.unknown = {f"${number}": listing.settings[number] for number in kept} | log.startup
     if log.facts or log.greeting:
         found.extra[_IDENTITY] = ([log.greeting] if log.greeting else []) + [
@@ -69,6 +69,8 @@ class _Fit:
     machine: str
     values: dict[Address, Value]
     unknown: tuple[int, ...]
+    other: tuple[int, ...]
+    """Settings that another build has under a number that is known of some builds: their text does not fit there."""
     unreadable: dict[int, str]
     """Number -> why its text is no value."""
     outside: int
@@ -91,7 +93,7 @@ def _machine(schema: Schema, log: Log, listing: LoggedListing, wanted: str) -> _
     return min(
         likely,
         key=lambda fit: (
-            len(fit.unknown) + len(fit.unreadable) + fit.outside,
+            len(fit.unknown) + len(fit.other) + len(fit.unreadable) + fit.outside,
             fit.machine != hint,
             fit.missing,
         ),
@@ -130,10 +132,19 @@ def _fit(schema: Schema, log: Log, listing: LoggedListing, machine: str) -> _Fit
     file = ParameterFile(schema)
     file.header.machine = machine
     file.take(values)
-    outside = sum(fault(file.evaluation, address, value) is not None for address, value in values.items())
+    outside = {address for address, value in values.items() if fault(file.evaluation, address, value)}
+    of_some_builds = {n for n in texts.keys() & known.keys() if schema.parameters[known[n][0]].needs}
+    other = tuple(n for n in of_some_builds if n in unreadable or known[n] in outside)
     missing = known.keys() - texts.keys()
     return _Fit(
-        machine, values, unknown, unreadable, outside, len(missing), 1 - len(missing) / max(1, len(known))
+        machine,
+        {address: value for address, value in values.items() if address not in {known[n] for n in other}},
+        unknown,
+        other,
+        {n: why for n, why in unreadable.items() if n not in other},
+        len(outside - {known[n] for n in other}),
+        len(missing),
+        1 - len(missing) / max(1, len(known)),
     )
 
 
@@ -196,6 +207,11 @@ def _notes(
         yield (
             f"{len(kept)} of {len(listing.settings)} settings {_are(kept)} not known without the control and kept as text: "
             + ", ".join(f"${n}" for n in kept)
+        )
+    if fit.other:
+        yield (
+            f"{len(fit.other)} of {len(listing.settings)} settings {_are(list(fit.other))} another one in this build than in "
+            f"those that are known, and kept as text: {', '.join(f'${n}' for n in sorted(fit.other))}"
         )
     if any(log.startup.values()):
         lines = ", ".join(key for key, block in log.startup.items() if block)

@@ -1,0 +1,42 @@
+"""A file for reading, whatever it is: a parameter file, or a control's own text in its place."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable
+from pathlib import Path
+
+from amp_studio.files import ENDING, ParameterFile, ParameterFileError
+from amp_studio.files.reading import file_content, read_content
+
+from .import_export import all_formats, import_file
+from .text_format import FamilyNotGivenError, FormatError
+
+_HEAD = re.compile(rb"(?m)^(?:\xef\xbb\xbf)?amp_studio[ \t]*:")
+"""The line by which a parameter file is known, under whatever name."""
+
+
+def is_text_of_control(path: Path) -> bool:
+    """Return whether a file is a control's own text; raises ParameterFileError where it cannot be read."""
+    return path.suffix.casefold() != ENDING and _is_text(file_content(path))
+
+
+def _is_text(content: bytes) -> bool:
+    text = content.decode("latin-1")
+    return not _HEAD.search(content) and any(each.recognises(text) for each in all_formats())
+
+
+def open_for_reading(path: Path, notify: Callable[[str], None] = lambda _message: None) -> ParameterFile:
+    """Return the parameters of a parameter file or of a control's own text; raises ParameterFileError.
+
+    ``notify`` is called with what a person should know of a text that was taken.
+    """
+    content = file_content(path)
+    if path.suffix.casefold() == ENDING or not _is_text(content):
+        return read_content(path, content)
+    try:
+        return import_file(path, notify=notify)
+    except FamilyNotGivenError as error:
+        raise ParameterFileError(path, None, f"{error}: import it with --family") from None
+    except FormatError as error:
+        raise ParameterFileError(path, error.line, error.what) from None

@@ -1,0 +1,559 @@
+"""Harvest the settings of grblHAL and its plugins from their sources: numbers, names, units, bounds, bits and build conditions.
+
+    python scripts/harvest_grblhal.py FOLDER/core FOLDER/Plugins_motor … [--write]
+
+Each folder is a checkout, or a git directory, of one repository; the core is the first. Only facts are taken, none of the
+sources' help. What parameter_db describes by hand stays as it is; of it, a mask or a choice that is wider in some build is
+listed. ``--write`` writes the rest to ``parameter_db/grblhal/groups``, one file a group.
+"""
+
+from __future__ import annotations
+
+import argparse
+import re
+import subprocess
+import sys
+from collections.abc import Iterator
+from dataclasses import dataclass, field
+from pathlib import Path
+
+from amp_studio.schema import load_schema
+from amp_studio.schema.units import UnitError, unit_named
+
+GROUPS = Path(__file__).parents[1] / "parameter_db" / "grblhal" / "groups"
+AXES = ("X", "Y", "Z", "A", "B", "C", "U", "V")
+TYPES = {
+    "Format_Bool": "boolean",
+    "Format_Bitfield": "bits",
+    "Format_XBitfield": "bits",
+    "Format_RadioButtons": "choice",
+    "Format_AxisMask": "axes",
+    "Format_Integer": "integer",
+    "Format_Decimal": "real",
+    "Format_String": "text",
+    "Format_Password": "password",
+    "Format_IPv4": "text",
+    "Format_Int8": "integer",
+    "Format_Int16": "integer",
+}
+WIDTHS = {"Format_Int8": 8, "Format_Int16": 16, "Format_Integer": 32}
+UNITS = {
+    "microseconds": "us",
+    "milliseconds": "ms",
+    "seconds": "s",
+    "percent": "%",
+    "step/mm": "steps/mm",
+    "RPM": "rpm",
+    "mm/sec^2": "mm/s2",
+    "mm/sec^3": "mm/s3",
+    "minutes": "min",
+}
+QUANTITIES = {
+    "mm": "length",
+    "mm/min": "velocity",
+    "mm/s2": "acceleration",
+    "mm/s3": "jerk",
+    "steps/mm": "counts-per-length",
+    "ms": "time",
+    "us": "time",
+    "s": "time",
+    "min": "time",
+    "%": "percent",
+    "rpm": "rotation",
+    "Hz": "frequency",
+    "V": "voltage",
+    "mA": "current",
+    "A": "current",
+    "deg": "angle",
+}
+AXIS_UNITS = {
+    "axis_steps": "step/mm",
+    "axis_rate": "mm/min",
+    "axis_accel": "mm/sec^2",
+    "axis_dist": "mm",
+    "axis_jerk": "mm/sec^3",
+}
+RUN_TIME = {
+    "netservices": "Telnet,Websocket,HTTP,FTP,DNS,mDNS,SSDP,WebDAV",  # networking.c service_names
+    "PWM_SPINDLE_NO_DELAYS": ",Disable delays",
+}
+"""Labels that the firmware puts together while it runs."""
+PORTS = 16
+GROUP_NAMES = {
+    "Group_UserSettings": "User settings",
+    "Group_AuxPorts": "Aux ports",
+    "Group_ModBusUnit0": "ModBus TCP",
+    "Group_Encoder0": "Encoders",
+    "Group_Kinematics": "Kinematics",
+    "Group_Networking": "Networking",
+    "Group_Networking_Wifi": "WiFi",
+}
+
+
+@dataclass
+class Found:
+    """One setting as one source describes it."""
+
+    number: int
+    constant: str
+    group: str
+    name: str
+    unit: str
+    form: str
+    labels: str
+    least: str
+    most: str
+    options: str
+    source: str
+    """Repository and file."""
+    line: int
+    condition: str
+    count: int = 1
+    """How many there are with consecutive numbers."""
+
+    @property
+    def is_of_axes(self) -> bool:
+        return self.group == "Group_Axis0"
+
+
+@dataclass
+class Sources:
+    """All that was read."""
+
+    numbers: dict[str, int] = field(default_factory=dict)
+    texts: dict[str, str] = field(default_factory=dict)
+    groups: dict[str, str] = field(default_factory=lambda: dict(GROUP_NAMES))
+    settings: list[Found] = field(default_factory=list)
+
+
+def files_of(folder: Path) -> Iterator[tuple[str, str]]:
+    """Yield name and text of every C source of a checkout or a git directory."""
+    if (folder / "HEAD").exists() or (folder / "objects").exists():
+        git = ["git", f"--git-dir={folder}"]
+        names = subprocess.run(
+            [*git, "ls-tree", "-r", "--name-only", "HEAD"], capture_output=True, text=True, check=True
+        )
+        for name in names.stdout.splitlines():
+            if name.endswith((".c", ".h")):
+                shown = subprocess.run([*git, "show", f"HEAD:{name}"], capture_output=True, check=True)
+                yield name, shown.stdout.decode("utf-8", "replace")
+        return
+    for path in sorted((*folder.rglob("*.c"), *folder.rglob("*.h"))):
+        yield str(path.relative_to(folder)), path.read_text("utf-8", "replace")
+
+
+def without_comments(text: str) -> str:
+    """Return C without remarks, with the same lines."""
+    text = re.sub(r"/\*.*?\*/", lambda m: "\n" * m[0].count("\n"), text, flags=re.DOTALL)
+    return re.sub(r'("(?:[^"\\\n]|\\.)*")|//[^\n]*', lambda m: m[1] or "", text)
+
+
+def read_numbers(text: str, numbers: dict[str, int]) -> None:
+    """Take the numbers of enumerations and definitions that name settings."""
+    for body in re.findall(r"enum\s*\w*\s*\{(.*?)\}", text, re.DOTALL):
+        last = -1
+        for entry in body.split(","):
+            found = re.search(
+                r"(?m)^\s*(\w+)\s*(?:=\s*([^\n]+))?\s*$", re.sub(r"(?m)^\s*#.*$", "", entry).strip()
+            )
+            if found is None:
+                continue
+            value = worth(found[2], numbers) if found[2] else last + 1
+            if value is None:
+                continue
+            numbers.setdefault(found[1], value)
+            last = value
+    for name, body in re.findall(
+        r"(?m)^[ \t]*#\s*define\s+(\w+)[ \t]+(\(?\w+(?:\s*[+*]\s*\w+)*\)?)[ \t]*$", text
+    ):
+        value = worth(body, numbers)
+        if value is not None:
+            numbers.setdefault(name, value)
+
+
+def worth(text: str, numbers: dict[str, int]) -> int | None:
+    """Return what a sum of names and numbers is worth; None where a name is not known."""
+    total = 0
+    for part in text.strip("() ").split("+"):
+        product = 1
+        for factor in part.strip("() ").split("*"):
+            name = factor.strip("() ")
+            value = int(name) if name.isdecimal() else numbers.get(name)
+            if value is None:
+                return None
+            product *= value
+        total += product
+    return total
+
+
+def read_texts(text: str, texts: dict[str, str]) -> None:
+    """Take the texts that variables have; the longest where a name has several."""
+    pattern = r"(?:char\s+(?:const\s*)?\*?\s*(\w+)\s*(?:\[\w*\])?\s*=|#\s*define\s+(\w+))\s*((?:\"(?:[^\"\\\n]|\\.)*\"\s*)+)"
+    for variable, macro, quoted in re.findall(pattern, text):
+        name, value = variable or macro, "".join(re.findall(r'"((?:[^"\\]|\\.)*)"', quoted))
+        if len(value) > len(texts.get(name, "")):
+            texts[name] = value
+
+
+def conditions(lines: list[str]) -> list[str]:
+    """Return for each line under which conditions of the preprocessor it is compiled."""
+    found, stack = [], []
+    for line in lines:
+        part = re.match(r"\s*#\s*(if|ifdef|ifndef|elif|else|endif)\b\s*(.*)", line)
+        if part:
+            word, rest = part[1], " ".join(part[2].split())
+            if word == "endif" and stack:
+                stack.pop()
+            elif word == "elif" and stack:
+                stack[-1] = rest
+            elif word == "else" and stack:
+                stack[-1] = f"!({stack[-1]})"
+            elif word not in ("endif", "elif", "else"):
+                stack.append({"ifdef": f"defined({rest})", "ifndef": f"!defined({rest})"}.get(word, rest))
+        found.append(
+            " && ".join(stack[1:] if stack and stack[0].startswith(("!defined(_", "defined(_")) else stack)
+        )
+    return found
+
+
+def read_settings(name: str, text: str, sources: Sources) -> None:
+    """Take the settings that a file describes."""
+    lines = text.split("\n")
+    under = conditions(lines)
+    for table in re.finditer(r"setting_detail_t\s+\w+\s*\[\s*\]\s*=\s*\{", text):
+        end = text.index("\n};", table.end()) if "\n};" in text[table.end() :] else len(text)
+        for entry in re.finditer(
+            r"(?m)^\s*\{\s*((?:Settings?_|TMC)\w+(?:\s*\+\s*\w+)?)\s*,(.*)$", text[table.end() : end]
+        ):
+            line = text.count("\n", 0, table.end() + entry.start(1)) + 1
+            cells = [cell.strip() for cell in split(entry[2])]
+            number = worth(entry[1], sources.numbers)
+            if number is None or len(cells) < 7 or "GANGED" in entry[1]:
+                continue
+            group, title, unit, form, labels, least, most = cells[:7]
+            sources.settings.append(
+                Found(
+                    number,
+                    entry[1],
+                    group.split("+")[0].strip(),
+                    resolved(title, sources),
+                    resolved(AXIS_UNITS.get(unit, unit), sources),
+                    form,
+                    resolved(labels, sources),
+                    resolved(least, sources),
+                    resolved(most, sources),
+                    ",".join(cells[7:]),
+                    name,
+                    line,
+                    under[line - 1],
+                )
+            )
+
+
+def split(text: str) -> list[str]:
+    """Return the cells between commas that are in no quotes or braces."""
+    cells, depth, quoted, start = [], 0, False, 0
+    for n, sign in enumerate(text):
+        if sign == '"' and text[n - 1] != "\\":
+            quoted = not quoted
+        elif not quoted and sign in "{(":
+            depth += 1
+        elif not quoted and sign in "})":
+            depth -= 1
+            if depth < 0:
+                return [*cells, text[start:n]]
+        elif not quoted and sign == "," and depth == 0:
+            cells.append(text[start:n])
+            start = n + 1
+    return [*cells, text[start:]]
+
+
+def resolved(cell: str, sources: Sources) -> str:
+    """Return the text of a cell: what is in quotes, and the texts of its names."""
+    if cell == "NULL":
+        return ""
+    found = []
+    for quoted, name in re.findall(r'"((?:[^"\\]|\\.)*)"|(\w+(?:\[\w+\])?(?:\.\w+)*)', cell):
+        found.append(
+            quoted
+            or RUN_TIME.get(name, sources.texts.get(name, f"<{name}>" if '"' not in cell or name else ""))
+        )
+    return "".join(found)
+
+
+# -- as parameters -----------------------------------------------------------------------------------------------------
+
+
+def key_of(text: str) -> str:
+    return re.sub("[^a-z0-9]+", "_", text.casefold()).strip("_")[:60]
+
+
+def merged(settings: list[Found]) -> Found:
+    """Return one setting of all that describe a number: the widest one, the first source's name."""
+    first = settings[0]
+    order = ("boolean", "choice", "bits", "axes", "integer", "real", "text", "password")
+    widest = max(
+        settings,
+        key=lambda s: (order.index(TYPES[s.form]), len(s.labels.split(",")) if "<" not in s.labels else 0),
+    )
+    ranges = [(number(s.least), number(s.most)) for s in settings if TYPES[s.form] == TYPES[widest.form]]
+    lows, highs = [low for low, _ in ranges], [high for _, high in ranges]
+    low = None if None in lows else min(filter(lambda b: b is not None, lows))
+    high = None if None in highs else max(filter(lambda b: b is not None, highs))
+    names = list(dict.fromkeys(s.name for s in settings if s.name)) or [first.constant]
+    return Found(
+        first.number,
+        first.constant,
+        first.group,
+        names[0],
+        widest.unit or first.unit,
+        widest.form,
+        widest.labels,
+        "" if low is None else f"{low:g}",
+        "" if high is None else f"{high:.10g}",
+        first.options,
+        first.source,
+        first.line,
+        "; or ".join(
+            dict.fromkeys(f"{s.source}{f', {s.condition}' if s.condition else ''}" for s in settings)
+        )
+        + (f" (also named {', '.join(names[1:])})" if len(names) > 1 else ""),
+        first.count,
+    )
+
+
+def number(text: str) -> float | None:
+    try:
+        return float(text)
+    except ValueError:
+        return None
+
+
+def yaml_text(text: str) -> str:
+    return '"' + text.replace("\\", "\\\\").replace('"', '\\"') + '"'
+
+
+def parameter(setting: Found, identifier: str, nth: int = 0) -> list[str]:
+    """Return the lines of one parameter."""
+    kind = TYPES[setting.form]
+    name = (
+        setting.name.partition("-axis ")[2] if setting.is_of_axes else setting.name.replace("?", str(nth + 1))
+    )
+    name = (name or setting.name)[:1].upper() + (name or setting.name)[1:]
+    page = f"{re.sub('[^A-Z0-9]', '', Path(setting.source.split()[-1]).stem.upper())}{setting.line}"
+    scope = "axis" if setting.is_of_axes else "global"
+    step = ", step: 1" if setting.is_of_axes else ""
+    out = [
+        f"  - id: {identifier}",
+        f"    name: {yaml_text(' '.join(name.split()))}",
+        "    layouts:",
+        f'      - {{machines: [grblhal], scope: {scope}, numbers: {{start: {setting.number + nth}{step}, format: "${{n}}"}}}}',
+        f"    type: {'bits' if kind == 'axes' else 'text' if kind == 'password' else kind}",
+        *value_lines(setting, kind),
+    ]
+    if "reboot_required" in setting.options or ("_OPTS" in setting.options and "REBOOT" in setting.options):
+        out.append("    effect: {level: restart}")
+    if kind == "password":
+        out.append("    secret: true")
+    out += [
+        "    optional: true",
+        "    in_signature: false",
+        "    needs:",
+        f"      - {{what: {yaml_text('a build with ' + setting.condition)}, page: {page}}}",
+        "    help:",
+        "      what: A setting of other builds. Number, name, unit, bounds and bits are those of the firmware's source.",
+        f"      find: Ask the control; its help is the answer to $SED={setting.number + nth}.",
+        "      wrong: The help of the control has it.",
+        f"    page: {page}",
+        "",
+    ]
+    return out
+
+
+def value_lines(setting: Found, kind: str) -> list[str]:
+    command = 'command: "${n}={v}"'
+    if kind == "boolean":
+        return ["    choices: yes_no", f"    storage: {{{command}}}"]
+    if kind == "axes":
+        return ["    bits: axes", "    first_axis: 0", f"    storage: {{bits: 8, signed: false, {command}}}"]
+    if kind == "bits":
+        labels = [f"Port {n}" for n in range(PORTS)] if "<" in setting.labels else setting.labels.split(",")
+        bits = [
+            f"      - {{bit: {n}, label: {yaml_text(label.strip())}}}"
+            for n, label in enumerate(labels)
+            if label.strip() not in ("", "N/A")
+        ]
+        rotary = ["    first_axis: 3"] if "rotary" in setting.constant.casefold() else []
+        return [
+            "    bits:",
+            *bits,
+            *rotary,
+            f"    storage: {{bits: {len(labels)}, signed: false, {command}}}",
+        ]
+    if kind == "choice":
+        known = "<" not in setting.labels and setting.labels
+        labels = setting.labels.split(",") if known else ["First of those that the build has"]
+        keys: list[str] = []
+        for label in labels:
+            key = key_of(label) or f"choice_{len(keys)}"
+            keys.append(key if re.match("[a-z]", key) and key not in keys else f"choice_{len(keys)}")
+        choices = [
+            f"      - {{key: {key}, label: {yaml_text(label.strip())}, raw: {n}}}"
+            for n, (key, label) in enumerate(zip(keys, labels, strict=True))
+            if label.strip() not in ("", "N/A")
+        ]
+        more = [] if known else ["    more_codes: true"]
+        return ["    choices:", *choices, *more, f"    storage: {{{command}}}"]
+    if kind in ("text", "password"):
+        return [f"    storage: {{{command}}}"]
+    unit = UNITS.get(setting.unit, setting.unit)
+    try:
+        unit = unit_named(unit) if unit else ""
+    except UnitError:
+        unit = ""
+    low, high = number(setting.least), number(setting.most)
+    low = min(low, 0.0) if low is not None and "allow_null" in setting.options else low
+    if kind == "integer" and high is None:
+        high = 2.0 ** WIDTHS[setting.form] - 1
+    bounds = f"[{0 if low is None else f'{low:g}'}, {'null' if high is None else f'{high:.10g}'}]"
+    lines = []
+    quantity = QUANTITIES.get(unit, "")
+    if quantity:
+        lines.append(f"    quantity: {quantity}")
+    if quantity and unit not in ("mm", "mm/min", "mm/s2", "mm/s3", "steps/mm"):
+        lines.append(f'    unit: "{unit}"')
+    elif not quantity:
+        is_known = setting.unit and "<" not in setting.unit
+        lines.append(f"    bare: {yaml_text(setting.unit) if is_known else 'not printed in the manual'}")
+    shown = f'unit: "{unit}", ' if quantity else ""
+    decimals = len(setting.labels.partition(".")[2])
+    if kind == "real":
+        lines.append(f"    decimals: {decimals}")
+    lines.append(f'    ranges: {{"{unit if quantity else ""}": {bounds}}}')
+    signed = "true" if (low or 0) < 0 else "false"
+    how = (
+        f"decimals: {decimals}, single: true"
+        if kind == "real"
+        else f"bits: {WIDTHS[setting.form]}, signed: {signed}"
+    )
+    return [*lines, f"    storage: {{{shown}{how}, {command}}}"]
+
+
+def main() -> None:
+    parser = argparse.ArgumentParser(
+        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
+    )
+    parser.add_argument("folders", nargs="+", type=Path)
+    parser.add_argument(
+        "--write", action="store_true", help="write the groups of what is not described by hand"
+    )
+    parser.add_argument("--print", action="store_true", help="print them")
+    options = parser.parse_args()
+    sources, all_files = Sources(), []
+    for folder in options.folders:
+        repository = next(part for part in reversed(folder.parts) if part not in ("repo", ".git")).rpartition(
+            "+"
+        )[2]
+        for name, text in files_of(folder):
+            if "/boards/" not in name:  # settings of one board alone, under numbers that others use otherwise
+                all_files.append((f"{repository} {name}", without_comments(text)))
+    for _ in range(3):  # a base is sometimes in another file than what counts from it
+        for _, text in all_files:
+            read_numbers(text, sources.numbers)
+    for _, text in all_files:
+        read_texts(text, sources.texts)
+        for constant, title in re.findall(r'\{\s*Group_\w+\s*,\s*(Group_\w+)\s*,\s*"([^"]+)"', text):
+            sources.groups.setdefault(constant, title)
+    for name, text in all_files:
+        read_settings(name, text, sources)
+    by_number: dict[int, list[Found]] = {}
+    for setting in sources.settings:
+        by_number.setdefault(setting.number, []).append(setting)
+    report(by_number, sources, write=options.write, show=options.print)
+
+
+def report(by_number: dict[int, list[Found]], sources: Sources, *, write: bool, show: bool) -> None:
+    schema = load_schema("grblhal")
+    here = schema.on("grblhal")
+    by_hand: dict[int, str] = {}
+    for parameter_id, _instance in here.addresses:
+        layout = here.layout(schema.parameters[parameter_id])
+        if (
+            layout
+            and layout.numbers
+            and layout.numbers.start is not None
+            and schema.parameters[parameter_id].in_signature
+        ):
+            by_hand[layout.numbers.start] = parameter_id
+    print(
+        f"{len(by_number)} numbers in {len({s.source for s in sources.settings})} files; {len(by_hand)} described by hand"
+    )
+    groups: dict[str, list[Found]] = {}
+    for n, settings in sorted(by_number.items()):
+        if n in by_hand:
+            known, one = schema.parameters[by_hand[n]], merged(settings)
+            labels = [label for label in one.labels.split(",") if label.strip() not in ("", "N/A")]
+            count = len(known.bits or known.choices or ())
+            if TYPES[one.form] in ("bits", "choice") and "<" not in one.labels and len(labels) > count:
+                print(f"wider: ${n} {known.id}: {count} of {one.labels}")
+            continue
+        one = merged(settings)
+        base = re.sub("Base$", "", one.constant)
+        if "_OPTS" in one.options or "increment" in one.options:
+            one.count = (
+                1
+                if one.is_of_axes
+                else max(1, sum(bool(re.fullmatch(f"{base}[0-9]", c)) for c in sources.numbers))
+            )
+        groups.setdefault(one.group, []).append(one)
+    taken = {p.id for p in schema.parameters.values() if p.in_signature}
+    count = 0
+    known_groups = {g.name: g.key for g in schema.groups if any(p.in_signature for p in g.parameters)}
+    for constant, settings in groups.items():
+        title = (
+            "Axis"
+            if constant == "Group_Axis0"
+            else sources.groups.get(constant, constant.removeprefix("Group_"))
+        )
+        base = known_groups.get(title, key_of(title))
+        key = f"{base}_builds" if title in known_groups else base
+        lines = [
+            "# yaml-language-server: $schema=../../schemas/group.schema.json",
+            "# Written by scripts/harvest_grblhal.py from the sources of the firmware and its plugins: facts of other builds.",
+            f"key: {key}",
+            f"name: {yaml_text(title)}",
+            *(["section: Of other builds"] if title in known_groups else []),
+            'chapter: "S"',
+            *(
+                ["states:", "  - {state: hidden, when: absent_axis, scope: axis, page: S3012}"]
+                if constant == "Group_Axis0"
+                else []
+            ),
+            "parameters:",
+            "",
+        ]
+        for setting in settings:
+            for nth in range(setting.count):
+                title_here = (
+                    setting.name.partition("-axis ")[2]
+                    if setting.is_of_axes
+                    else setting.name.replace("?", str(nth + 1))
+                )
+                identifier = f"{base}.{key_of(title_here) or 'setting'}"
+                if not re.match("[a-z]", key_of(title_here)):
+                    identifier = f"{base}.setting_{setting.number + nth}"
+                if identifier in taken:
+                    identifier += f"_{setting.number + nth}"
+                taken.add(identifier)
+                lines += parameter(setting, identifier, nth)
+                count += 1
+        if write:
+            (GROUPS / f"{key}.yaml").write_text("\n".join(lines).rstrip() + "\n", "utf-8")
+        print(f"group {key}: {len(settings)}")
+        if show:
+            print("\n".join(lines))
+    print(f"{count} parameters more")
+
+
+if __name__ == "__main__":
+    sys.exit(main())

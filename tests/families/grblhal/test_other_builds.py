@@ -1,0 +1,165 @@
+"""What other builds of the firmware have is known without a control, judged by the widest of them, and asked of no file."""
+
+from __future__ import annotations
+
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+from amp_studio.cli import run
+from amp_studio.families.grblhal.described import schema_of
+from amp_studio.families.grblhal.formats.listing import FORMAT
+from amp_studio.files import new_file, open_file
+from amp_studio.formats.text_format import ReadOptions, TextRead
+from amp_studio.schema import Value, load_schema
+from amp_studio.validate import Validator
+
+from .recorded import THREE_AXES
+
+GRBLHAL = load_schema("grblhal")
+
+
+def read(text: str) -> TextRead:
+    return FORMAT.read(text, GRBLHAL, ReadOptions())
+
+
+def errors(tmp_path: Path, text: str) -> list[str]:
+    listing, made = tmp_path / "listing.txt", tmp_path / "made.amp"
+    listing.write_text(text, "utf-8")
+    made.unlink(missing_ok=True)
+    assert run(["import", str(listing), "-o", str(made), "--machine", "grblhal", "--on-fault", "keep"]) == 0
+    return [
+        f.message.partition(" It was forced")[0]
+        for f in Validator(open_file(made).file).run()
+        if f.severity == "error"
+    ]
+
+
+def test_a_new_file_has_none_of_them_and_an_old_one_keeps_its_signature() -> None:
+    others = {p.id for p in GRBLHAL.parameters.values() if not p.in_signature}
+    assert len(others) > 250
+    assert not others & {parameter for parameter, _ in new_file("grblhal", None, "XYZ").values}
+    assert all(
+        p.optional and p.needs
+        for p in GRBLHAL.parameters.values()
+        if p.id in others and "classic" not in p.id
+    )
+
+
+def test_a_control_that_describes_itself_has_its_own_settings_only() -> None:
+    described = schema_of(THREE_AXES)
+    assert not {p.id for p in GRBLHAL.parameters.values() if not p.in_signature} & described.parameters.keys()
+
+
+@pytest.mark.parametrize(
+    ("number", "address", "text", "value"),
+    [
+        (8, ("stepper.ganged_axes_direction_invert", ""), "3", Value(3)),
+        (16, ("spindle.invert_spindle_signals", ""), "1", Value(1)),
+        (70, ("networking.network_services", ""), "11", Value(11)),
+        (140, ("axis.motor_current", "X"), "2801", Value(2801)),
+        (201, ("axis.stallguard4_fast_threshold", "Y"), "22.0", Value(22.0)),
+        (302, ("networking.ip_address", ""), "192.168.5.1", Value("192.168.5.1")),
+        (340, ("spindle.spindle_at_speed_tolerance", ""), "5.0", Value(5.0, "%")),
+        (374, ("modbus.modbus_baud_rate", ""), "3", Value("choice_3")),
+        (395, ("spindle.default_spindle", ""), "2", Value("raw:2")),
+        (491, ("user_settings.macro_2", ""), "G4P0", Value("G4P0")),
+    ],
+)
+def test_settings_of_plugins_are_known(
+    number: int, address: tuple[str, str], text: str, value: Value
+) -> None:
+    assert read(f"${number}={text}\n").values[address] == value
+
+
+def test_a_mask_is_judged_by_the_widest_build(tmp_path: Path) -> None:
+    assert errors(tmp_path, f"$14={(1 << 13) - 1}\n$17=4096\n$6=7\n$65=48\n$22=1281\n$9=17\n") == []
+    assert errors(tmp_path, f"$14={1 << 13}\n") == ["Invert control inputs 8192 does not fit its 13 bits."]
+    assert errors(tmp_path, "$6=8\n") == ["Invert probe inputs 8 does not fit its 3 bits."]
+
+
+def test_a_number_that_another_build_uses_otherwise_is_kept_as_text() -> None:
+    found = read("$453=G4P0\n$100=80\n$650=99\n")
+    assert found.unknown == {"$453": "G4P0", "$650": "99"}
+    assert any("another one in this build" in note and "$453, $650" in note for note in found.notes)
+
+
+def test_forks_of_grbl_are_machine_types(tmp_path: Path) -> None:
+    old = "$0=10\n$1=25\n$2=0\n$3=0\n$4=0\n$5=0\n$6=0\n$10=19\n$11=0.01\n$12=0.002\n$13=0\n$20=0\n$21=0\n$22=0\n$23=0\n$24=25\n$25=500\n$26=250\n$27=1\n"
+    axes = lambda count: "".join(f"${100 + 10 * q + n}=500\n" for q in range(4) for n in range(count))  # noqa: E731  # one line
+    later = "$30=1000\n$31=0\n$32=0\n"
+    found = {
+        name: read(text)
+        for name, text in {
+            "0.9": old + axes(3),
+            "1.1": old + later + axes(3),
+            "5X": old + later + axes(5),
+            "ESP32": old.replace("$0=10\n", "$0=500\n").replace("$10=19", "$10=1")
+            + later
+            + "$33=5000\n$34=0\n$35=0\n$36=100\n"
+            + axes(6),
+        }.items()
+    }
+    assert {name: one.machine for name, one in found.items()} == {
+        "0.9": "grbl-0.9",
+        "1.1": "grbl-1.1",
+        "5X": "grbl-mega-5x",
+        "ESP32": "grbl-esp32",
+    }
+    assert found["0.9"].values["classic.report_options_09", ""] == Value(19)
+    assert found["5X"].values["build.axes", ""] == Value("XYZAB")
+    for name in ("grbl-0.9", "grbl-mega-5x", "grbl-esp32"):
+        path = tmp_path / f"{name}.amp"
+        assert run(["new", "grblhal", str(path), "--machine", name]) == 0
+        assert run(["validate", str(path)]) == 0
+
+
+def test_every_error_of_the_firmware_has_a_meaning() -> None:
+    (listed,) = [m for m in GRBLHAL.message_lists if m.id == "errors"]
+    codes = {int(m.code.partition(":")[2]) for m in listed.messages}
+    assert codes >= set(range(1, 93)) - {59, 67, 68, 69}, "59 and 67 to 69 are not used"
+
+
+SOURCE = """
+typedef enum {
+    Setting_First = 900,
+    Setting_GateBase = 910, // first of three
+    Setting_Gate0 = Setting_GateBase,
+    Setting_Gate1,
+    Setting_Gate2,
+} ids_t;
+static char inputs[] = "Left,N/A,Right";
+/* { Setting_First, Group_X, "Old", NULL, Format_Bool, NULL, NULL, NULL, 0 }, */
+static const setting_detail_t details[] = {
+#if FOO_ENABLE > 1
+    { Setting_First, Group_Foo, "Gate inputs", NULL, Format_Bitfield, inputs, NULL, NULL, Setting_NonCore, &a, NULL, NULL },
+#endif
+    { Setting_GateBase, Group_Foo, "Gate ? time", "milliseconds", Format_Decimal, "-#0.00", "-5", "20", Setting_NonCore, &b, NULL, NULL, X_OPTS },
+};
+static const setting_group_detail_t groups [] = { { Group_Root, Group_Foo, "Gates" } };
+"""
+
+
+def test_the_harvest_finds_numbers_bounds_bits_and_conditions(checkout: Path, tmp_path: Path) -> None:
+    source = tmp_path / "plugin"
+    source.mkdir()
+    (source / "gate.c").write_text(SOURCE, "utf-8")
+    command = [sys.executable, str(checkout / "scripts" / "harvest_grblhal.py"), str(source), "--print"]
+    done = subprocess.run(command, capture_output=True, encoding="utf-8", check=False)
+    assert done.returncode == 0, done.stderr
+    lines = [line.strip() for line in done.stdout.splitlines()]
+    for expected in (
+        "group gates: 2",
+        '- {machines: [grblhal], scope: global, numbers: {start: 900, format: "${n}"}}',
+        '- {bit: 0, label: "Left"}',
+        '- {bit: 2, label: "Right"}',
+        'storage: {bits: 3, signed: false, command: "${n}={v}"}',
+        '- {what: "a build with plugin gate.c, FOO_ENABLE > 1", page: GATE13}',
+        'name: "Gate 3 time"',
+        'ranges: {"ms": [-5, 20]}',
+        "decimals: 2",
+    ):
+        assert expected in lines, done.stdout
+    assert "Old" not in done.stdout
