@@ -255,3 +255,19 @@ def test_a_figure_smaller_than_what_is_shown_is_written_whole(tmp_path: Path) ->
     assert run(["export", str(made), "-o", str(text)]) == 0
     assert "\n$11=0.0004\n" in text.read_text("utf-8")
     assert "\n$100=123.4567891\n" in text.read_text("utf-8")
+
+
+def test_an_example_behind_sentences_changes_nothing_and_is_named() -> None:
+    text = f"{CLASSIC}\nYou can change a value.\n\n\t$33=1\n\t$100=80\n"
+    found = everything(f"Before, try this:\n$20=1\n\nMy settings now.\n{text}")
+    assert found.values["axis.steps", "X"] == Value(250.0, "steps/mm")
+    assert found.values["limits.soft", ""] == Value(False)
+    assert found.machine == "grbl-1.1"
+    assert any(
+        "settings behind sentences change nothing: line" in note and "'$33=1'" in note for note in found.notes
+    )
+
+
+def test_headings_in_between_do_not_end_a_listing() -> None:
+    text = CLASSIC.replace("$100=", "Steps per mm:\n$100=").replace("$110=", "Largest rates\n$110=")
+    assert everything(text).values == everything(CLASSIC).values

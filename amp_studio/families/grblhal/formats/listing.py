@@ -198,6 +198,11 @@ def _notes(
             for n, (old, new) in sorted(listing.changed.items())
         )
         yield f"settings that occur again later have the later value: {changes}"
+    if listing.aside:
+        lines = ", ".join(
+            f"line {line} {quoted(short(text))}" for line, text in list(listing.aside.items())[:9]
+        )
+        yield f"settings behind sentences change nothing: {lines}"
     if log.bare:
         yield f"a number without $ is read as a setting: line {', '.join(map(str, log.bare[:9]))}"
     if log.refused:

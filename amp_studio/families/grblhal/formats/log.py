@@ -75,6 +75,10 @@ class LoggedListing:
     """The last line before it that is neither a setting nor a part of a log."""
     changed: dict[int, tuple[str, str]] = field(default_factory=dict)
     """Settings that a later line gives another value: the value of the listing, and the later one."""
+    is_apart: bool = False
+    """Sentences are between it and what is before it."""
+    aside: dict[int, str] = field(default_factory=dict)
+    """Line -> a few settings behind sentences, as an example is: they change nothing."""
 
     def put(self, number: int, text: str, line: int, remark: str) -> None:
         self.settings[number], self.lines[number], self.remarks[number] = text, line, remark
@@ -131,7 +135,7 @@ def read_log(text: str) -> Log:
 
 def _read(text: str, *, anywhere: bool) -> Log:
     found, parts = Log(), [LoggedListing()]
-    heading, before = "", (0, 0)
+    heading, before, is_apart = "", (0, 0), False
     """``before`` is number and line of the setting of the line before."""
     for n, whole, line, pieces in _lines(text, anywhere):
         if not pieces and (startup := _STARTUP.fullmatch(_plain(line))):
@@ -142,11 +146,14 @@ def _read(text: str, *, anywhere: bool) -> Log:
             _take_fact(found, whole)
             if _is_other(line):
                 found.others.append((n, whole))
+                is_apart = True
             if _is_heading(whole) or (_is_other(line) and not _is_heading(heading)):
                 heading = whole.strip("#=* ")
         for number, value, remark, is_bare in pieces:
-            if number in parts[-1].settings and len(parts) < _MOST_LISTINGS:
-                parts.append(LoggedListing())
+            begins = number in parts[-1].settings or (is_apart and number < before[0])
+            if begins and parts[-1].settings and len(parts) < _MOST_LISTINGS:
+                parts.append(LoggedListing(is_apart=is_apart))
+            is_apart = False
             parts[-1].heading, heading = parts[-1].heading or heading, ""
             parts[-1].put(number, value, n, remark)
             found.bare += [n] * is_bare
@@ -167,6 +174,8 @@ def _lines(text: str, anywhere: bool) -> Iterator[tuple[int, str, str, list[tupl
 
 def _plain(whole: str) -> str:
     """Return a line without time stamps, names and marks before it."""
+    if whole.startswith("<") and whole.endswith(">"):
+        return whole  # a status report
     at = 0
     while (found := _AHEAD.match(whole, at)) and not _FACT.match(whole, at):
         at = found.end()
@@ -230,17 +239,20 @@ def _refuse(found: Log, parts: list[LoggedListing], number: int, line: int) -> N
 
 def _whole(parts: list[LoggedListing]) -> list[LoggedListing]:
     """Return whole listings, each with the changes that come after it; those that are the same once."""
-    most = max((len(part.settings) for part in parts), default=0)
+    least = max(_LEAST, max((len(part.settings) for part in parts), default=0) / 2)
     found: list[LoggedListing] = []
     for part in parts:
-        is_whole = len(part.settings) >= max(_LEAST, most / 2)
-        if is_whole and found and len(found[-1].settings) < max(_LEAST, most / 2):
+        is_whole = len(part.settings) >= least
+        if is_whole and found and len(found[-1].settings) < least:
             earlier = found.pop()  # settings that were sent before they were listed
-            for number in earlier.settings.keys() - part.settings.keys():
-                part.put(number, earlier.settings[number], earlier.lines[number], earlier.remarks[number])
+            if not part.is_apart:
+                for number in earlier.settings.keys() - part.settings.keys():
+                    part.put(number, earlier.settings[number], earlier.lines[number], earlier.remarks[number])
             found.append(part)
         elif is_whole or not found:
             found.append(part)
+        elif part.is_apart and len(found[-1].settings) >= least:
+            found[-1].aside |= {part.lines[n]: f"${n}={text}" for n, text in part.settings.items()}
         else:
             _change(found[-1], part)
     last = {tuple(sorted(part.settings.items())): part for part in found}
