@@ -17,6 +17,7 @@ from amp_studio.report.wording import counted, state_name
 from amp_studio.schema import (
     Address,
     Meant,
+    Parameter,
     UnknownParameterError,
     Value,
     all_meant,
@@ -30,6 +31,7 @@ from amp_studio.schema import (
     write_value,
 )
 from amp_studio.schema import shown as unit_shown
+from amp_studio.schema.bit_fields import labels_of_word
 from amp_studio.schema.storage import stored_number
 from amp_studio.validate.cell_expression import enter
 
@@ -176,7 +178,14 @@ def value_row(file: ParameterFile, address: Address, secrets: bool) -> dict[str,
         "value": plain, "unit": value.unit if value else file.evaluation.unit(address, file.header.units), "raw": raw,
         "default": file.is_default(address), "state": file.evaluation.state(address).state,
         "forced": address in file.forced,
-    } | ({"secret": True, "set": value is not None} if parameter.secret else {}) | _real(file, address)  # fmt: skip
+    } | _labels(parameter, value) | ({"secret": True, "set": value is not None} if parameter.secret else {}) | _real(file, address)  # fmt: skip
+
+
+def _labels(parameter: Parameter, value: Value | None) -> dict[str, str]:
+    """Return what is set in a word of bits by its labels."""
+    if not parameter.bits or value is None or not isinstance(value.value, int):
+        return {}
+    return {"labels": labels_of_word(parameter, value.value)}
 
 
 def _real(file: ParameterFile, address: Address) -> dict[str, Any]:
@@ -243,6 +252,7 @@ def get_verb(options: argparse.Namespace) -> int:
                 shown += f" (in {unit_shown(rows[-1]['unit'])})"
             real = real_value(file.evaluation, address, file.get(address))
             shown += f" = {show_value(parameter, real)}" if real else ""
+            shown += f" ({rows[-1]['labels']})" if "labels" in rows[-1] else ""
             print(f"{file.machine_schema.named(address):52} {shown}{mark}{state}")
     if options.json:
         print_json({"values": rows})

@@ -100,5 +100,5 @@ def test_stopping_it_is_told_and_ends_with_2(amp, mill: Path, monkeypatch) -> No
     def stop(_: object) -> int:
         raise KeyboardInterrupt
 
-    monkeypatch.setattr("amp_studio.cli.files.open_file", stop)
+    monkeypatch.setattr("amp_studio.cli.files.opened", stop)
     assert (amp("get", mill).code, amp("get", mill).err) == (2, "amp-studio: stopped\n")

@@ -18,7 +18,10 @@ from amp_studio.schema import family_ids, load_schema
 SECRET = "7654321"
 OTHER = "7654399"
 MASK = "•••• (secret)"
-WITH_SECRETS = [f for f in family_ids() if any(p.secret for p in load_schema(f).parameters.values())]
+WITH_SECRETS = [
+    f for f in family_ids() if any(p.secret and not p.optional for p in load_schema(f).parameters.values())
+]
+"""Families with a secret that is a number in every file."""
 
 
 def with_password(path: Path, password: str) -> Path:

@@ -144,3 +144,17 @@ def test_what_the_control_keeps_and_shows_is_beside_the_value(text: str, expecte
     address = file.find("$11")
     file.set(address, file.read(address, text))
     assert storage_text(file, address) == expected
+
+
+def test_a_mask_is_shown_with_its_labels_beside_the_number(
+    mill: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert run(["set", str(mill), "$22=67", "$23=5"]) == 0
+    capsys.readouterr()
+    assert run(["get", str(mill), "$22", "$23", "$3"]) == 0
+    first, second, third = capsys.readouterr().out.splitlines()
+    assert first.endswith("67 (Enable, Enable single axis commands, Override locks) *")
+    assert second.endswith("5 (X, Z) *")
+    assert third.endswith("0 (none)")
+    assert run(["get", str(mill), "$23", "--json"]) == 0
+    assert json.loads(capsys.readouterr().out)["values"][0]["labels"] == "X, Z"

@@ -24,6 +24,7 @@ from amp_studio.schema.quoting import quoted, short
 from amp_studio.schema.storage import StorageError
 
 from .log import Log, LoggedListing, figure, is_listing, read_log
+from .relatives import Relative, is_relative, read_relative
 
 _STEPS = 100
 _OF_AXES = 9
@@ -32,8 +33,13 @@ _IDENTITY = "control"
 """Key of the header: the answers of the control to ``$I``."""
 
 
+def _recognises(text: str) -> bool:
+    return is_listing(text) or is_relative(text)
+
+
 def _read(text: str, schema: Schema, options: ReadOptions) -> TextRead:
-    log = read_log(text)
+    relative = None if is_listing(text) else read_relative(text) if is_relative(text) else None
+    log = read_log(text) if relative is None else _log_of(relative)
     listing = _chosen(log, options.listing)
     fit = _machine(schema, log, listing, options.machine)
     if fit.unreadable and not options.keep_unknown:
@@ -41,12 +47,30 @@ def _read(text: str, schema: Schema, options: ReadOptions) -> TextRead:
     found = TextRead(values=fit.values, machine=fit.machine)
     kept = sorted((*fit.unknown, *fit.other, *fit.unreadable))
     found.unknown = {f"${number}": listing.settings[number] for number in kept} | log.startup
+    if relative is not None:
+        found.unknown |= relative.kept
+        found.notes.append(_account_of(relative))
     if log.facts or log.greeting:
         found.extra[_IDENTITY] = ([log.greeting] if log.greeting else []) + [
             f"[{tag}:{told}]" for tag, texts in log.facts.items() for told in texts
         ]
     found.notes += _notes(schema, log, listing, fit, options)
     return found
+
+
+def _log_of(relative: Relative) -> Log:
+    """Return the settings of a related firmware as a listing; raises FormatError where it has none in common."""
+    if not relative.settings:
+        raise FormatError(f"nothing of this {relative.name} is a setting of Grbl")
+    lines = dict.fromkeys(relative.settings, 1)
+    listing = LoggedListing(relative.settings, lines, dict.fromkeys(lines, ""))
+    return Log([listing], greeting=relative.name)
+
+
+def _account_of(relative: Relative) -> str:
+    settings = ", ".join(f"${number}" for number in sorted(relative.settings))
+    kept = f"; kept as text: {len(relative.kept)} entries" if relative.kept else ""
+    return f"a {relative.name}: what it has in common with Grbl was read, {settings}{kept}"
 
 
 def _chosen(log: Log, number: int) -> LoggedListing:
@@ -103,6 +127,8 @@ def _machine(schema: Schema, log: Log, listing: LoggedListing, wanted: str) -> _
 def _hint(log: Log, listing: LoggedListing) -> str:
     """Return the machine type that the control or the remarks of its listing name; empty where they name none."""
     greeting = log.greeting.casefold()
+    if "fluidnc" in greeting or "esp32" in greeting:
+        return "grbl-esp32"
     if {"NEWOPT", "FIRMWARE", "BOARD", "DRIVER"} & log.facts.keys() or greeting.startswith("grblhal"):
         return "grblhal"
     if re.match(r"grbl v?0\.9", greeting) or any("usec" in remark for remark in listing.remarks.values()):
@@ -134,7 +160,8 @@ def _fit(schema: Schema, log: Log, listing: LoggedListing, machine: str) -> _Fit
     file.take(values)
     outside = {address for address, value in values.items() if fault(file.evaluation, address, value)}
     of_some_builds = {n for n in texts.keys() & known.keys() if schema.parameters[known[n][0]].needs}
-    other = tuple(n for n in of_some_builds if n in unreadable or known[n] in outside)
+    masked = {n for n in of_some_builds if schema.parameters[known[n][0]].secret and not texts[n].strip("*")}
+    other = tuple(n for n in of_some_builds if n in unreadable or n in masked or known[n] in outside)
     missing = known.keys() - texts.keys()
     return _Fit(
         machine,
@@ -257,6 +284,10 @@ def _write(file: ParameterFile) -> str:
     told = file.header.extra.get(_IDENTITY)
     identity = [one for one in told if isinstance(one, str)] if isinstance(told, list) else []
     remarks = [f"; {' '.join(one.split())}" for one in identity]
+    others = [
+        f"{key} {text}" for key, text in file.unknown.items() if not re.match(r"\$(N[0-9]|[0-9]{1,5})$", key)
+    ]
+    remarks += [f"; {' '.join(one.split())}" for one in others]
     return "".join(
         f"{line}\n" for line in (*remarks, *(f"{key}={value}" for key, value in (startup | lines).items()))
     )
@@ -266,7 +297,7 @@ FORMAT = TextFormat(
     "grbl",
     "Grbl settings, as $$ lists them",
     ".settings",
-    is_listing,
+    _recognises,
     _read,
     _write,
     other_endings=(".grbl", ".nc"),

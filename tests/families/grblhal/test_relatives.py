@@ -1,0 +1,104 @@
+"""Of Marlin, FluidNC and Grbl_ESP32 what they have in common with Grbl is read; the rest is kept as text."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from amp_studio.cli import run
+from amp_studio.families.grblhal.formats.listing import FORMAT
+from amp_studio.files import open_file
+from amp_studio.formats.text_format import FormatError, ReadOptions, TextRead
+from amp_studio.schema import Value, load_schema
+
+MARLIN = """echo:; Linear Units:
+echo:  G21    ; Units in mm (mm)
+echo:; Steps per unit:
+echo: M92 X80.00 Y80.00 Z400.00 E93.00
+echo:; Maximum feedrates (units/s):
+echo:  M203 X500.00 Y500.00 Z5.5 E25.00
+echo:  M201 X500 Y600 Z100 E5000
+echo:  M204 P500 R1000 T500
+echo:  M205 B20000.00 S0.00 T0.00 J0.01
+echo:  M211 S1
+"""
+FLUIDNC = """board: six pack
+arc_tolerance_mm: 0.002
+junction_deviation_mm: 0.010
+stepping:
+  engine: I2S_STATIC
+  idle_ms: 255
+  pulse_us: 2
+axes:
+  x:
+    steps_per_mm: 100.000
+    max_rate_mm_per_min: 5000.000
+    acceleration_mm_per_sec2: 100.000
+    max_travel_mm: 300.000
+    homing:
+      cycle: 2
+  y:
+    steps_per_mm: 90.000
+  z: {steps_per_mm: 80.000}
+"""
+BY_NAME = "$X/StepsPerMm=80.000\n$Y/StepsPerMm=81.000\n$Z/StepsPerMm=82.000\n$Stepper/Pulse=4\n$GCode/LaserMode=On\n$Spindle/Type=PWM\n"
+
+
+def read(text: str) -> TextRead:
+    assert FORMAT.recognises(text)
+    return FORMAT.read(text, load_schema("grblhal"), ReadOptions())
+
+
+def number(found: TextRead, parameter: str, axis: str = "") -> object:
+    value = found.values.get((parameter, axis))
+    return None if value is None else value.value
+
+
+def test_marlin_lists_rates_in_mm_per_second() -> None:
+    found = read(MARLIN)
+    assert found.values["axis.max_rate", "X"] == Value(30000.0, "mm/min")
+    assert found.values["axis.max_rate", "Z"] == Value(330.0, "mm/min")
+    assert (number(found, "axis.steps", "Z"), number(found, "axis.acceleration", "Y")) == (400.0, 600.0)
+    assert (number(found, "general.junction_deviation"), found.values["limits.soft", ""]) == (
+        0.01,
+        Value(True),
+    )
+    assert found.unknown == {
+        "M92": "E93.00",
+        "M203": "E25.00",
+        "M201": "E5000",
+        "M204": "P500 R1000 T500",
+        "M205": "B20000.00 S0.00 T0.00",
+    }
+    with pytest.raises(FormatError, match="in inches"):
+        read(MARLIN.replace("G21", "G20"))
+
+
+def test_fluidnc_is_read_from_its_configuration_and_from_its_entries() -> None:
+    entries = "$/axes/x/steps_per_mm=100.000\n$/axes/x/max_rate_mm_per_min=5000.000\n$/axes/y/steps_per_mm=90.000\n$/stepping/pulse_us=4\n"
+    for text in (FLUIDNC, entries):
+        found = read(text)
+        assert (number(found, "axis.steps", "X"), number(found, "axis.steps", "Y")) == (100.0, 90.0)
+        assert number(found, "axis.max_rate", "X") == 5000.0
+    found = read(FLUIDNC)
+    assert found.unknown["board"] == "six pack"
+    assert found.unknown["axes/x/homing/cycle"] == "2"
+    assert found.values["build.axes", ""] == Value("XYZ")
+
+
+def test_grbl_esp32_lists_its_settings_by_name() -> None:
+    found = read(BY_NAME)
+    assert [number(found, "axis.steps", axis) for axis in "XYZ"] == [80.0, 81.0, 82.0]
+    assert found.unknown == {"Spindle/Type": "PWM"}
+    assert found.machine == "grbl-esp32"
+
+
+def test_what_is_kept_goes_out_as_remarks(tmp_path: Path) -> None:
+    text, made, again = tmp_path / "m503.txt", tmp_path / "made.amp", tmp_path / "again.settings"
+    text.write_text(MARLIN, "utf-8")
+    assert run(["import", str(text), "-o", str(made)]) == 0
+    assert open_file(made).file.unknown["M204"] == "P500 R1000 T500"
+    assert run(["export", str(made), "-o", str(again)]) == 0
+    assert "; M204 P500 R1000 T500\n" in again.read_text("utf-8")
+    assert "\n$110=30000.000\n" in again.read_text("utf-8")
