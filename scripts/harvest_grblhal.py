@@ -78,6 +78,8 @@ RUN_TIME = {
     "PWM_SPINDLE_NO_DELAYS": ",Disable delays",
 }
 """Labels that the firmware puts together while it runs."""
+NAMES = {"Setting_SpindlePWMBehaviour": "Disable spindle with zero speed (obsolete)"}
+"""Settings that the source calls deprecated alone."""
 PORTS = 16
 GROUP_NAMES = {
     "Group_UserSettings": "User settings",
@@ -305,7 +307,7 @@ def merged(settings: list[Found]) -> Found:
         first.number,
         first.constant,
         first.group,
-        names[0],
+        NAMES.get(first.constant, names[0]),
         widest.unit or first.unit,
         widest.form,
         widest.labels,

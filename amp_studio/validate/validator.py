@@ -221,10 +221,14 @@ class Validator:
         if self._not_set_findings is None:
             self._not_set_findings = [(self._order(advice), advice) for advice in self._missing_values()]
         found += self._not_set_findings
-        for n, key in enumerate(self.file.unknown):
-            message = f"{key} is no parameter of this schema; it is kept as it is."
+        if unknown := list(self.file.unknown):
+            message = (
+                f"{unknown[0]} is no parameter of this schema; it is kept as it is."
+                if len(unknown) == 1
+                else f"{len(unknown)} entries are no parameters of this schema; they are kept as they are: {', '.join(unknown)}."
+            )
             finding = Finding("schema.unknown", "warning", (), message)
-            found.append((self._order(finding, n), finding))
+            found.append((self._order(finding), finding))
         return found
 
     def _missing_values(self) -> Iterator[Finding]:

@@ -86,6 +86,10 @@ def test_entries_of_an_unknown_parameter_are_named(mill) -> None:
     finding = the(mill, "schema.unknown")
     assert (finding.severity, finding.addresses) == ("warning", ())
     assert finding.message == "servo.nonsense@1 is no parameter of this schema; it is kept as it is."
+    mill.unknown["home.nonsense"] = "6"
+    assert the(mill, "schema.unknown").message == (
+        "2 entries are no parameters of this schema; they are kept as they are: servo.nonsense@1, home.nonsense."
+    )
 
 
 # --------------------------------------------------------------------------------------- cross-parameter
