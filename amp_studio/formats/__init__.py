@@ -11,12 +11,14 @@ from .import_export import (
     file_of,
     formats_of,
     import_file,
+    offer_of,
 )
-from .text_format import FamilyNotGivenError, FormatError, ReadOptions, TextFormat, TextRead
+from .text_format import FamilyNotGivenError, FormatError, Offer, ReadOptions, TextFormat, TextRead
 
 __all__ = [
     "FamilyNotGivenError",
     "FormatError",
+    "Offer",
     "ReadOptions",
     "TextFormat",
     "TextRead",
@@ -26,4 +28,5 @@ __all__ = [
     "file_of",
     "formats_of",
     "import_file",
+    "offer_of",
 ]

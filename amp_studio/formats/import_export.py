@@ -14,7 +14,7 @@ from amp_studio.schema.registration import load_part, registered_families, regis
 from amp_studio.schema.regular_file import read_file
 
 from . import values_csv
-from .text_format import FamilyNotGivenError, FormatError, ReadOptions, TextFormat, TextRead
+from .text_format import FamilyNotGivenError, FormatError, Offer, ReadOptions, TextFormat, TextRead
 
 GENERAL: tuple[TextFormat, ...] = (values_csv.FORMAT,)
 """Formats of every family."""
@@ -59,6 +59,18 @@ def import_file(
     for message in read.notes:
         notify(message)
     return file_of(schema, read, path.stem)
+
+
+def offer_of(path: Path, family: str | None = None) -> Offer | None:
+    """Return what may be decided about a text before it is imported; None where that is nothing. Raises OSError."""
+    content = _as_utf8(read_file(path, _MOST_BYTES))
+    try:
+        chosen = _format_for_reading(content, family, None)
+        if chosen.offer is None:
+            return None
+        return chosen.offer(_decoded(content, chosen), load_schema(family or _only_family(chosen)))
+    except FormatError:
+        return None  # the import names it
 
 
 def _decoded(content: bytes, chosen: TextFormat) -> str:

@@ -59,6 +59,17 @@ class TextRead:
 
 
 @dataclass(frozen=True)
+class Offer:
+    """What a person may decide about a text before it is read."""
+
+    family: str
+    listings: tuple[str, ...]
+    """Each of several listings in it: its place and heading, in their order."""
+    machine: str
+    """The machine type that the text decides on."""
+
+
+@dataclass(frozen=True)
 class TextFormat:
     """One text format."""
 
@@ -77,6 +88,8 @@ class TextFormat:
     newline: str = "\n"
     other_endings: tuple[str, ...] = ()
     """Names that are as good for its files."""
+    offer: Callable[[str, Schema], Offer] | None = None
+    """Returns what may be decided about a text; raises FormatError. None where a text decides everything."""
     otherwise: str = ""
     """The encoding of a text that is not of ``encoding``; without it such a text is refused."""
 

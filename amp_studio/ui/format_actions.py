@@ -36,6 +36,8 @@ class FormatActions(Translated):
         self.window, self._ask_path, self._write_new = window, ask_path, write_new
         self._notes: list[str] = []
         """Notes about the text that was read last."""
+        self._machine, self._listing = "", 0
+        """The machine type, and which of several listings, that a person chose for it."""
         self.actions = [
             window.action(self.tr("&Import…"), self.read),
             window.action(self.tr("Ex&port…"), self.write, None, "file"),
@@ -57,6 +59,8 @@ class FormatActions(Translated):
 
     def read_from(self, source: Path) -> None:
         """Ask for a name, and show the parameter file that a text file means."""
+        if not self._decided(source):
+            return
         file = self._understood(source)
         if file is None or not self._takes_what_is_out_of_range(file):
             return
@@ -66,6 +70,36 @@ class FormatActions(Translated):
             self._write_new(path, lambda: Document.create(file, path))
             if self._notes:
                 self.window.show_status("; ".join(self._notes))
+
+    def _decided(self, path: Path) -> bool:
+        """Ask what a text leaves open: which of several listings, the machine type. Returns whether to go on."""
+        from amp_studio.formats import offer_of
+
+        self._machine, self._listing = "", 0
+        offer = in_background(self.window, self.tr("Importing"), lambda: offer_of(path))
+        if offer is None:
+            return True
+        if len(offer.listings) > 1:
+            places = [f"{n}: {place}" for n, place in enumerate(offer.listings, 1)]
+            chosen = self._item(self.tr("Listing:"), places, len(places) - 1)
+            if chosen is None:
+                return False
+            self._listing = chosen + 1
+        machines = [(m.key, m.name) for m in load_schema(offer.family).family.machines]
+        names = [name for _, name in machines]
+        chosen = self._item(
+            self.tr("Machine type:"), names, [key for key, _ in machines].index(offer.machine)
+        )
+        if chosen is None:
+            return False
+        self._machine = machines[chosen][0]
+        return True
+
+    def _item(self, asked: str, names: list[str], present: int) -> int | None:
+        chosen, is_taken = QInputDialog.getItem(
+            self.window, self.tr("Import"), asked, names, present, editable=False
+        )
+        return names.index(chosen) if is_taken else None
 
     def _understood(self, path: Path) -> ParameterFile | None:
         """Return the imported file; asks for the family, and whether to keep lines that are not recognised."""
@@ -115,7 +149,14 @@ class FormatActions(Translated):
         from amp_studio.formats import import_file
 
         self._notes.clear()
-        read = lambda: import_file(path, family, keep_unknown=keep, notify=self._notes.append)  # noqa: E731  # one line to hand over
+        read = lambda: import_file(  # noqa: E731  # one call to hand over
+            path,
+            family,
+            keep_unknown=keep,
+            machine=self._machine,
+            listing=self._listing,
+            notify=self._notes.append,
+        )
         return in_background(self.window, self.tr("Importing"), read)
 
     def _takes_what_is_out_of_range(self, file: ParameterFile) -> bool:

@@ -82,3 +82,20 @@ def test_what_a_text_leaves_out_is_said(window: MainWindow, person: Person, tmp_
     action(window, "Import").trigger()
     assert window.workspace.path == tmp_path / "num.amp"
     assert "; the table does not contain these words: P5N1" in window.statusBar().currentMessage()
+
+
+LISTING = "".join(f"${n}=100\n" for n in (0, 1, 11, 24, 25, 27, 30, 100, 101, 102, 110, 111, 112))
+
+
+def test_the_machine_type_and_one_of_several_listings_are_asked_for(
+    window: MainWindow, person: Person, tmp_path: Path
+) -> None:
+    log = tmp_path / "log.txt"
+    log.write_text(
+        f"First mill:\n{LISTING}\nSecond mill:\n{LISTING.replace('$110=100', '$110=200')}", "utf-8"
+    )
+    person.chooses(log, tmp_path / "first.amp")
+    person.types("1: line 2, 'First mill:'", "Grbl 1.1")
+    action(window, "Import").trigger()
+    file = open_file(tmp_path / "first.amp").file
+    assert (file.machine, file.values["axis.max_rate", "X"]) == ("grbl-1.1", Value(100.0, "mm/min"))

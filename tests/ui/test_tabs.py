@@ -185,6 +185,19 @@ def test_files_are_dropped_into_the_window(open_window, path: Path, other: Path)
     assert names(window) == ["mill.amp", "other.amp"]
 
 
+def test_the_text_of_a_control_is_imported_whatever_it_is_called(
+    open_window, person: Person, tmp_path: Path
+) -> None:
+    window: MainWindow = open_window()
+    for name in ("backup.nc", "backup"):
+        listing, made = tmp_path / name, tmp_path / f"{name}.amp"
+        listing.write_text("".join(f"${n}=100\n" for n in (100, 101, 102, 110, 111, 112)), "utf-8")
+        person.chooses(made)
+        person.types("grblHAL")
+        window.open_first(listing)
+        assert window.workspace.path == made
+
+
 def test_the_files_of_the_last_time_are_opened_again(open_window, path: Path, other: Path, num: Path) -> None:
     window: MainWindow = open_window(path)
     window.files.open_path(other)

@@ -2422,6 +2422,14 @@ Die ungespeicherte Arbeit wiederherstellen? Das lässt sich zurücknehmen.</tran
             <translation>Importieren als</translation>
         </message>
         <message>
+            <source>Listing:</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
+            <source>Machine type:</source>
+            <translation type="unfinished" />
+        </message>
+        <message>
             <source>Control family:</source>
             <translation>Steuerungsfamilie:</translation>
         </message>

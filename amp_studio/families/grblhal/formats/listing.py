@@ -17,7 +17,7 @@ from amp_studio.families.grblhal.settings import (
     values_of_settings,
 )
 from amp_studio.files import ParameterFile
-from amp_studio.formats.text_format import FormatError, ReadOptions, TextFormat, TextRead
+from amp_studio.formats.text_format import FormatError, Offer, ReadOptions, TextFormat, TextRead
 from amp_studio.schema import Address, Schema, Value, fault
 from amp_studio.schema.nearest import unknown_name
 from amp_studio.schema.quoting import quoted, short
@@ -38,7 +38,7 @@ def _recognises(text: str) -> bool:
 
 
 def _read(text: str, schema: Schema, options: ReadOptions) -> TextRead:
-    relative = None if is_listing(text) else read_relative(text) if is_relative(text) else None
+    relative = _relative(text)
     log = read_log(text) if relative is None else _log_of(relative)
     listing = _chosen(log, options.listing)
     fit = _machine(schema, log, listing, options.machine)
@@ -56,6 +56,22 @@ def _read(text: str, schema: Schema, options: ReadOptions) -> TextRead:
         ]
     found.notes += _notes(schema, log, listing, fit, options)
     return found
+
+
+def _offer(text: str, schema: Schema) -> Offer:
+    relative = _relative(text)
+    log = read_log(text) if relative is None else _log_of(relative)
+    fit = _machine(schema, log, _chosen(log, 0), "")
+    return Offer(schema.family.family, tuple(map(_place, log.listings)), fit.machine)
+
+
+def _relative(text: str) -> Relative | None:
+    return read_relative(text) if not is_listing(text) and is_relative(text) else None
+
+
+def _place(listing: LoggedListing) -> str:
+    heading = f", {quoted(short(listing.heading))}" if listing.heading else ""
+    return f"line {listing.first_line}{heading}"
 
 
 def _log_of(relative: Relative) -> Log:
@@ -210,14 +226,11 @@ def _notes(
 ) -> Iterable[str]:
     if len(log.listings) > 1:
         others = ", ".join(
-            f"{n} (line {one.first_line}{f', {quoted(short(one.heading))}' if one.heading else ''})"
-            for n, one in enumerate(log.listings, 1)
-            if one is not listing
+            f"{n} ({_place(one)})" for n, one in enumerate(log.listings, 1) if one is not listing
         )
         yield (
             f"the text has {len(log.listings)} listings, and number {log.listings.index(listing) + 1} is read "
-            f"(line {listing.first_line}{f', {quoted(short(listing.heading))}' if listing.heading else ''}). "
-            f"--listing chooses another: {others}"
+            f"({_place(listing)}). --listing chooses another: {others}"
         )
     if listing.changed:
         changes = ", ".join(
@@ -301,5 +314,6 @@ FORMAT = TextFormat(
     _read,
     _write,
     other_endings=(".grbl", ".nc"),
+    offer=_offer,
     otherwise="cp1252",
 )
