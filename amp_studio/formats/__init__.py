@@ -13,14 +13,14 @@ from .import_export import (
     import_file,
     offer_of,
 )
-from .text_format import FamilyNotGivenError, FormatError, Offer, ReadOptions, TextFormat, TextRead
+from .text_format import FamilyNotGivenError, FormatError, ReadOptions, TextFormat, TextOffer, TextRead
 
 __all__ = [
     "FamilyNotGivenError",
     "FormatError",
-    "Offer",
     "ReadOptions",
     "TextFormat",
+    "TextOffer",
     "TextRead",
     "all_formats",
     "export_file",

@@ -14,7 +14,7 @@ from amp_studio.schema.registration import load_part, registered_families, regis
 from amp_studio.schema.regular_file import read_file
 
 from . import values_csv
-from .text_format import FamilyNotGivenError, FormatError, Offer, ReadOptions, TextFormat, TextRead
+from .text_format import FamilyNotGivenError, FormatError, ReadOptions, TextFormat, TextOffer, TextRead
 
 GENERAL: tuple[TextFormat, ...] = (values_csv.FORMAT,)
 """Formats of every family."""
@@ -61,8 +61,8 @@ def import_file(
     return file_of(schema, read, path.stem)
 
 
-def offer_of(path: Path, family: str | None = None) -> Offer | None:
-    """Return what may be decided about a text before it is imported; None where that is nothing. Raises OSError."""
+def offer_of(path: Path, family: str | None = None) -> TextOffer | None:
+    """Return what may be decided about a text before it is imported; None if there is nothing. Raises OSError."""
     content = _as_utf8(read_file(path, _MOST_BYTES))
     try:
         chosen = _format_for_reading(content, family, None)

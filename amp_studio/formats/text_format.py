@@ -59,7 +59,7 @@ class TextRead:
 
 
 @dataclass(frozen=True)
-class Offer:
+class TextOffer:
     """What a person may decide about a text before it is read."""
 
     family: str
@@ -88,7 +88,7 @@ class TextFormat:
     newline: str = "\n"
     other_endings: tuple[str, ...] = ()
     """Names that are as good for its files."""
-    offer: Callable[[str, Schema], Offer] | None = None
+    offer: Callable[[str, Schema], TextOffer] | None = None
     """Returns what may be decided about a text; raises FormatError. None where a text decides everything."""
     otherwise: str = ""
     """The encoding of a text that is not of ``encoding``; without it such a text is refused."""

@@ -2423,11 +2423,11 @@ Die ungespeicherte Arbeit wiederherstellen? Das lässt sich zurücknehmen.</tran
         </message>
         <message>
             <source>Listing:</source>
-            <translation type="unfinished" />
+            <translation>Auflistung:</translation>
         </message>
         <message>
             <source>Machine type:</source>
-            <translation type="unfinished" />
+            <translation>Maschinentyp:</translation>
         </message>
         <message>
             <source>Control family:</source>

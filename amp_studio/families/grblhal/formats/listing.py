@@ -17,7 +17,7 @@ from amp_studio.families.grblhal.settings import (
     values_of_settings,
 )
 from amp_studio.files import ParameterFile
-from amp_studio.formats.text_format import FormatError, Offer, ReadOptions, TextFormat, TextRead
+from amp_studio.formats.text_format import FormatError, ReadOptions, TextFormat, TextOffer, TextRead
 from amp_studio.schema import Address, Schema, Value, fault
 from amp_studio.schema.nearest import unknown_name
 from amp_studio.schema.quoting import quoted, short
@@ -58,11 +58,11 @@ def _read(text: str, schema: Schema, options: ReadOptions) -> TextRead:
     return found
 
 
-def _offer(text: str, schema: Schema) -> Offer:
+def _offer(text: str, schema: Schema) -> TextOffer:
     relative = _relative(text)
     log = read_log(text) if relative is None else _log_of(relative)
     fit = _machine(schema, log, _chosen(log, 0), "")
-    return Offer(schema.family.family, tuple(map(_place, log.listings)), fit.machine)
+    return TextOffer(schema.family.family, tuple(map(_place, log.listings)), fit.machine)
 
 
 def _relative(text: str) -> Relative | None:
