@@ -4,12 +4,19 @@ from __future__ import annotations
 
 import argparse
 
-from amp_studio.files import secret_values
-from amp_studio.formats import FamilyNotGivenError, export_file, import_file
+from amp_studio.files import ParameterFile
+from amp_studio.formats import (
+    Account,
+    FamilyNotGivenError,
+    account_json,
+    account_lines,
+    export_file,
+    import_file,
+)
 from amp_studio.report.wording import counted
-from amp_studio.schema import UnknownFamilyError, written
+from amp_studio.schema import UnknownFamilyError
 
-from .console import note
+from .console import note, print_json
 from .errors import UsageError
 from .opened import opened
 from .out_of_range import settle_values
@@ -19,6 +26,8 @@ from .output import check_new, check_replaced, write_new
 def import_verb(options: argparse.Namespace) -> int:
     """Make a parameter file of a text; nothing is written when a part of it cannot be meant."""
     check_new(options.output, "an import", options.text)
+    accounts: list[Account] = []
+    notes: list[str] = []
     try:
         file = import_file(
             options.text,
@@ -27,7 +36,8 @@ def import_verb(options: argparse.Namespace) -> int:
             keep_unknown=options.keep_unknown,
             machine=options.machine or "",
             listing=options.listing,
-            notify=note,
+            notify=notes.append,
+            take_account=accounts.append,
         )
     except FamilyNotGivenError as error:
         raise UsageError(f"{options.text}: {error} (name it with --family)") from None
@@ -35,11 +45,12 @@ def import_verb(options: argparse.Namespace) -> int:
         raise UsageError(str(error)) from None
     except ValueError as error:
         raise UsageError(f"{options.text}: {error}") from None
+    for message in notes:
+        note(message)
     settle_values(file, options.on_fault, "an import")
-    if file.unknown:
-        note(f"kept without knowing it: {', '.join(file.unknown)}")
     write_new(file, options.output)
-    print(f"{options.output}: {counted(len(file.values), 'value')}")
+    (account,) = accounts
+    _print_account(options, file, account, counted(account.written, "value"), " ".join(notes))
     return 0
 
 
@@ -47,18 +58,21 @@ def export_verb(options: argparse.Namespace) -> int:
     """Write a parameter file in a text format."""
     check_replaced(options.output, options.path)
     file = opened(options.path)
-    for key in file.unknown:
-        note(f"{key} is not known to this schema")
-    hidden = [a for a in file.values if file.evaluation.state(a).state == "hidden"]
-    if hidden:
-        which = f"{written(hidden[0])} among them" if len(hidden) > 1 else written(hidden[0])
-        verb = "do" if len(hidden) > 1 else "does"
-        note(f"{counted(len(hidden), 'value')} {verb} not exist for this configuration, {which}")
-    chosen = export_file(file, options.output, options.format, note, secrets=options.secrets)
-    left_out = [] if options.secrets else secret_values(file)
-    if left_out:
-        which = f"{written(left_out[0])} among them" if len(left_out) > 1 else written(left_out[0])
-        verb = "are" if len(left_out) > 1 else "is"
-        note(f"{counted(len(left_out), 'secret value')} {verb} left out, {which} (--secrets writes all)")
-    print(f"{options.output}: {chosen.title}, {counted(len(file.values) - len(left_out), 'value')}")
+    export = export_file(file, options.output, options.format, note, secrets=options.secrets)
+    number = counted(len(file.values), "value")
+    _print_account(
+        options, file, export.account, f"{export.format.title}, {export.account.written} of {number}"
+    )
     return 0
+
+
+def _print_account(
+    options: argparse.Namespace, file: ParameterFile, account: Account, written: str, named: str = ""
+) -> None:
+    """Print what went across, and name what did not."""
+    if options.json:
+        print_json(account_json(file, account))
+        return
+    for line in account_lines(file, account, named):
+        note(line)
+    print(f"{options.output}: {written}")

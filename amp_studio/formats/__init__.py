@@ -4,9 +4,12 @@
 family alone is in that family's folder and found by its registration.
 """
 
+from .account import Account, NotWritten, Rounded, UnknownEntry, account_json, account_lines
 from .import_export import (
+    Export,
     all_formats,
     export_file,
+    export_of,
     families_of,
     file_of,
     formats_of,
@@ -16,14 +19,22 @@ from .import_export import (
 from .text_format import FamilyNotGivenError, FormatError, ReadOptions, TextFormat, TextOffer, TextRead
 
 __all__ = [
+    "Account",
+    "Export",
     "FamilyNotGivenError",
     "FormatError",
+    "NotWritten",
     "ReadOptions",
+    "Rounded",
     "TextFormat",
     "TextOffer",
     "TextRead",
+    "UnknownEntry",
+    "account_json",
+    "account_lines",
     "all_formats",
     "export_file",
+    "export_of",
     "families_of",
     "file_of",
     "formats_of",

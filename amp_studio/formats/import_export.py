@@ -4,16 +4,18 @@ from __future__ import annotations
 
 from codecs import BOM_UTF16_BE, BOM_UTF16_LE
 from collections.abc import Callable
+from dataclasses import dataclass
 from pathlib import Path
 
-from amp_studio.files import Header, Notify, ParameterFile, without_secrets, write_atomic
+from amp_studio.files import Header, Notify, ParameterFile, secret_values, without_secrets, write_atomic
 from amp_studio.files.notes import set_value_note
-from amp_studio.schema import Schema, Value, load_schema, read_address
+from amp_studio.schema import Address, Schema, Value, load_schema, read_address
 from amp_studio.schema.nearest import unknown_name
 from amp_studio.schema.registration import load_part, registered_families, registration_of
 from amp_studio.schema.regular_file import read_file
 
 from . import values_csv
+from .account import Account, account_of_export, account_of_import
 from .text_format import FamilyNotGivenError, FormatError, ReadOptions, TextFormat, TextOffer, TextRead
 
 GENERAL: tuple[TextFormat, ...] = (values_csv.FORMAT,)
@@ -37,12 +39,19 @@ def _own_formats(family: str) -> tuple[TextFormat, ...]:
 
 
 def import_file(
-    path: Path, family: str | None = None, *, format_key: str | None = None, keep_unknown: bool = False,
-    machine: str = "", listing: int = 0, notify: Callable[[str], None] = lambda _message: None,
-) -> ParameterFile:  # fmt: skip
+    path: Path,
+    family: str | None = None,
+    *,
+    format_key: str | None = None,
+    keep_unknown: bool = False,
+    machine: str = "",
+    listing: int = 0,
+    notify: Callable[[str], None] = lambda _message: None,
+    take_account: Callable[[Account], object] = lambda _account: None,
+) -> ParameterFile:
     """Return the parameters of a text file, in a file that contains nothing else; values out of range are in it too.
 
-    ``machine`` is the machine type where the text shall not decide, ``listing`` which of several listings in one text,
+    ``take_account`` is called with what became of the text. ``machine`` is the machine type where the text shall not decide, ``listing`` which of several listings in one text,
     counted from 1 (0 is the last one).
     ``notify`` is called with what a person should know of a text that was taken: words it leaves out.
     Without a family, the format or the text has to name it. Raises FormatError with line and column,
@@ -58,7 +67,9 @@ def import_file(
     read.machine = read.machine or machine
     for message in read.notes:
         notify(message)
-    return file_of(schema, read, path.stem)
+    file = file_of(schema, read, path.stem)
+    take_account(account_of_import(file, read))
+    return file
 
 
 def offer_of(path: Path, family: str | None = None) -> TextOffer | None:
@@ -111,26 +122,58 @@ def file_of(schema: Schema, read: TextRead, name: str) -> ParameterFile:
     return file
 
 
-def export_file(
-    file: ParameterFile, path: Path, format_key: str | None = None, notify: Notify = lambda _message: None,
-    *, secrets: bool = False,
-) -> TextFormat:  # fmt: skip
-    """Write a file in a format, named or found by the ending; an existing file is replaced only as a whole.
+@dataclass(frozen=True)
+class Export:
+    """A file as a text of a format: what is written, and what becomes of each value."""
 
-    Secret values are left out unless ``secrets`` asks for them; ``notify`` is called with what of the old file could not be
-    kept. Raises FormatError for a format that is not offered or a value it cannot write, SaveError.
+    format: TextFormat
+    content: bytes
+    account: Account
+
+
+def export_of(
+    file: ParameterFile, path: Path, format_key: str | None = None, *, secrets: bool = False
+) -> Export:
+    """Return what ``export_file`` writes; nothing is written yet. Its account is made by reading the text back.
+
+    Raises FormatError for a format that is not offered, a value it cannot write, and a text that cannot be read back.
     """
     chosen = _format_for_writing(file.schema.family.family, path, format_key)
-    text = chosen.write(file if secrets else without_secrets(file)).replace("\n", chosen.newline)
+    left_out = frozenset[Address]() if secrets else frozenset(secret_values(file))
+    text = chosen.write(file if secrets else without_secrets(file))
     try:
-        content = text.encode(chosen.encoding)
+        content = text.replace("\n", chosen.newline).encode(chosen.encoding)
     except UnicodeEncodeError as error:
-        sign, line = text[error.start], text.count("\n", 0, error.start) + 1
+        sign, line = error.object[error.start], error.object.count("\n", 0, error.start) + 1
         raise FormatError(
             f"'{sign}' is no sign of {chosen.encoding}, in which this format is written", line
         ) from None
-    write_atomic(path, content, notify=notify)
-    return chosen
+    try:
+        read = chosen.read(content.decode(chosen.encoding), file.schema, ReadOptions(True, file.machine))
+    except FormatError as error:
+        raise FormatError(
+            f"what would be written cannot be read back ({error}); nothing was written"
+        ) from None
+    back = file_of(file.schema, read, path.stem)
+    return Export(chosen, content, account_of_export(file, back, chosen.title, left_out))
+
+
+def export_file(
+    file: ParameterFile,
+    path: Path,
+    format_key: str | None = None,
+    notify: Notify = lambda _message: None,
+    *,
+    secrets: bool = False,
+) -> Export:
+    """Write a file in a format, named or found by the ending; an existing file is replaced only as a whole.
+
+    Secret values are left out unless ``secrets`` asks for them; ``notify`` is called with what of the old file could not be
+    kept. Raises as ``export_of`` does, and SaveError.
+    """
+    export = export_of(file, path, format_key, secrets=secrets)
+    write_atomic(path, export.content, notify=notify)
+    return export
 
 
 def _format_for_reading(content: bytes, family: str | None, format_key: str | None) -> TextFormat:

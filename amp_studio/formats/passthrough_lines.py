@@ -32,6 +32,9 @@ def keep(found: TextRead, kind: str, rows: Sequence[PassthroughLine]) -> None:
     unknown = {f"{kind} line {row.kept_as}": row.text for row in rows if row.kept_as}
     if unknown:
         found.unknown = unknown
+        found.unknown_lines = {
+            f"{kind} line {row.kept_as}": n for n, row in enumerate(rows, 1) if row.kept_as
+        }
         found.extra[f"{kind}_script"] = {"lines": [_row_text(row) for row in rows]}
 
 

@@ -47,6 +47,8 @@ class TextRead:
     values: dict[Address, Value] = field(default_factory=dict)
     unknown: dict[str, str] = field(default_factory=dict)
     """Entries that the format has and the schema does not: kept in the parameter file, and written back."""
+    unknown_lines: dict[str, int] = field(default_factory=dict)
+    """The line of each of these, from 1, where it is one."""
     name: str = ""
     machine: str = ""
     """Machine type, where the text names it."""

@@ -13,7 +13,16 @@ from amp_studio.files import ParameterFile
 from amp_studio.files.notes import note_fault, value_note
 from amp_studio.files.reading import read_stored
 from amp_studio.files.spreadsheet import cell_text, text_cell
-from amp_studio.schema import Address, InvalidValueError, Schema, Value, is_mask, write_value, written
+from amp_studio.schema import (
+    Address,
+    InvalidValueError,
+    Schema,
+    Value,
+    is_mask,
+    read_address,
+    write_value,
+    written,
+)
 from amp_studio.schema.quoting import short
 
 from .text_format import FormatError, ReadOptions, TextFormat, TextRead
@@ -43,6 +52,9 @@ def _write(file: ParameterFile) -> str:
             cells = (number, *address, parameter.name, plain, value.unit)
             noted = (value_note(file, address),) if has_notes else ()
             table.writerow(map(text_cell, (*cells, *noted)))
+    for key, text in file.unknown.items():
+        cells = ("", *read_address(key), "", text, "")
+        table.writerow(map(text_cell, (*cells, *([""] if has_notes else []))))
     return _MARK + stream.getvalue()
 
 
@@ -85,10 +97,11 @@ def _take(
         if written(address) in found.unknown:
             raise FormatError(f"{short(written(address))} occurs twice", line, heads.index("id") + 1)
         found.unknown[written(address)] = text
+        found.unknown_lines[written(address)] = line
         return
     if address in found.values:
         raise FormatError(f"{written(address)} occurs twice", line, heads.index("id") + 1)
-    if not row["value"].strip():
+    if not row["value"].strip() and not is_text:
         return
     if is_mask(parameter, row["value"]):
         found.notes.append(f"{written(address)} is a secret that this table does not contain; it is not set")

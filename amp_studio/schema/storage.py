@@ -21,6 +21,8 @@ from .values import choice_key, choice_value, label_of, write_number
 
 WORD = 16
 """Bits of a register."""
+_ENTERED = 8
+"""Most digits of a number that a person enters."""
 _PLAIN = Storage.model_construct()  # of defaults alone: nothing to check, at every start
 
 
@@ -202,8 +204,18 @@ def register_number(parameter: Parameter, value: Value, unit: str) -> int:
 
 
 def value_of_register(parameter: Parameter, number: int, unit: str) -> Value:
-    """Return the value that a whole number in the registers means; raises StorageError."""
-    return from_stored(parameter, fitting(parameter, number), stored_unit(parameter, unit))
+    """Return the value that a whole number in the registers means; raises StorageError.
+
+    One of many digits is the shortest of all that are stored as this number, which a person is likely to have entered: 1600 and
+    not 1600.006103515625.
+    """
+    value = from_stored(parameter, fitting(parameter, number), stored_unit(parameter, unit))
+    if isinstance(value.value, float) and value.value != float(f"{value.value:.{_ENTERED}g}"):
+        for digits in range(1, 17):
+            shorter = Value(float(f"{value.value:.{digits}g}"), value.unit)
+            if round(to_stored(parameter, shorter, stored_unit(parameter, unit))) == number:
+                return shorter
+    return value
 
 
 def words_of(parameter: Parameter, value: Value, unit: str) -> tuple[int, ...]:

@@ -3,25 +3,28 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from PySide6.QtWidgets import QFileDialog, QInputDialog
 
-from amp_studio.files import Document, ParameterFile, check_output, secret_values
+from amp_studio.files import Document, ParameterFile, check_output, write_atomic
 from amp_studio.files.out_of_range import keep, out_of_range
 from amp_studio.schema import family_ids, load_schema
 
 from .questions import ask
 from .studio_window import StudioWindow
 from .task import in_background
-from .translated import Translated, counted
+from .translated import Translated
 
 if TYPE_CHECKING:
-    from amp_studio.formats import FormatError
+    from amp_studio.formats import Account, FormatError
 
 _SHOWN = 8
 """Number of errors of an import that a question lists."""
+_LONGEST = 400
+"""Characters of a list in a question."""
 
 
 class FormatActions(Translated):
@@ -34,6 +37,8 @@ class FormatActions(Translated):
         write_new: Callable[[Path, Callable[[], Document]], None],
     ) -> None:
         self.window, self._ask_path, self._write_new = window, ask_path, write_new
+        self._account: Account
+        """What became of the text that was read last."""
         self._notes: list[str] = []
         """Notes about the text that was read last."""
         self._machine, self._listing = "", 0
@@ -63,6 +68,11 @@ class FormatActions(Translated):
             return
         file = self._understood(source)
         if file is None or not self._takes_what_is_out_of_range(file):
+            return
+        named = " ".join(self._notes)
+        if not self._is_accepted(
+            self.tr("Import"), file, self._account, source.name, self.tr("&Import"), named
+        ):
             return
         path = self._ask_path(self.tr("Import as"), source)
         if path is not None:
@@ -143,12 +153,16 @@ class FormatActions(Translated):
         wanted = ask(
             self.window, self.tr("Import"), question, self.tr("&Keep Them"), self.tr("Cancel"), default=1
         )
-        return file if wanted == self.tr("&Keep Them") else None
+        if wanted != self.tr("&Keep Them"):
+            return None
+        self._account = replace(self._account, kept=(), unknown=())  # the user knows of them now
+        return file
 
     def _import(self, path: Path, family: str | None, keep: bool) -> ParameterFile:
         from amp_studio.formats import import_file
 
         self._notes.clear()
+        accounts: list[Account] = []
         read = lambda: import_file(  # noqa: E731  # one call to hand over
             path,
             family,
@@ -156,8 +170,11 @@ class FormatActions(Translated):
             machine=self._machine,
             listing=self._listing,
             notify=self._notes.append,
+            take_account=accounts.append,
         )
-        return in_background(self.window, self.tr("Importing"), read)
+        file = in_background(self.window, self.tr("Importing"), read)
+        self._account = accounts[0]
+        return file
 
     def _takes_what_is_out_of_range(self, file: ParameterFile) -> bool:
         faults = out_of_range(file)
@@ -187,7 +204,7 @@ class FormatActions(Translated):
 
     def write(self) -> None:
         """Ask for a name and export the open file; the file extension sets the format."""
-        from amp_studio.formats import export_file, formats_of
+        from amp_studio.formats import export_of, formats_of
 
         workspace = self.window.workspace
         assert workspace is not None
@@ -208,18 +225,30 @@ class FormatActions(Translated):
         check_output(path, workspace.path)
         file, key = workspace.file.copy(), found.key if found else None
         secrets = workspace.secrets
+        export = in_background(
+            self.window, self.tr("Exporting"), lambda: export_of(file, path, key, secrets=secrets)
+        )
+        if not self._is_accepted(self.tr("Export"), file, export.account, path.name, self.tr("&Export")):
+            return
         notes: list[str] = []
-        in_background(
-            self.window,
-            self.tr("Exporting"),
-            lambda: export_file(file, path, key, notes.append, secrets=secrets),
+        write_atomic(path, export.content, notify=notes.append)
+        number = self.tr("{written} of {total} values").format(
+            written=export.account.written, total=len(file.values)
         )
-        left_out = 0 if secrets else len(secret_values(file))
-        left_out_note = (
-            self.tr("; {count} left out (to export them, switch on View > Show Secrets)").format(
-                count=counted(left_out, "secret value")
-            )
-            if left_out
-            else ""
+        self.window.show_status("; ".join([f"{path} written ({number})", *notes]))
+
+    def _is_accepted(
+        self, title: str, file: ParameterFile, account: Account, name: str, yes: str, named: str = ""
+    ) -> bool:
+        """Return whether the user accepts the account; asked only where a value does not go across as it is."""
+        from amp_studio.formats import account_lines
+
+        lines = list(account_lines(file, account, named))
+        if not lines:
+            return True
+        lost = len(account.not_representable) + len(account.rounded)
+        head = self.tr("{name}: {written} of {total} values go across as they are.").format(
+            name=name, written=account.written, total=account.written + lost
         )
-        self.window.show_status("; ".join([f"{path} written{left_out_note}", *notes]))
+        shown = [line if len(line) <= _LONGEST else f"{line[:_LONGEST]} …" for line in lines]
+        return ask(self.window, title, "\n\n".join([head, *shown]), yes, self.tr("Cancel")) == yes

@@ -99,3 +99,21 @@ def test_the_machine_type_and_one_of_several_listings_are_asked_for(
     action(window, "Import").trigger()
     file = open_file(tmp_path / "first.amp").file
     assert (file.machine, file.values["axis.max_rate", "X"]) == ("grbl-1.1", Value(100.0, "mm/min"))
+
+
+def test_an_export_shows_what_it_leaves_out_before_it_writes(
+    window: MainWindow, person: Person, tmp_path: Path
+) -> None:
+    person.chooses(tmp_path / "mill.patch")
+    person.answers("Cancel")
+    action(window, "Export").trigger()
+    total = len(window.workspace.file.values)
+    assert f"mill.patch: 296 of {total} values go across as they are." in person.asked[-1]
+    assert "6 values changed by rounding: 1203 10000 mm/min -> 166.66667 mm/s" in person.asked[-1]
+    assert not (tmp_path / "mill.patch").exists()
+
+    person.chooses(tmp_path / "mill.patch")
+    person.answers("Export")
+    action(window, "Export").trigger()
+    assert (tmp_path / "mill.patch").exists()
+    assert window.statusBar().currentMessage().endswith(f"mill.patch written (296 of {total} values)")

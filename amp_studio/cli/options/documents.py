@@ -85,10 +85,12 @@ def add(verbs: Verbs) -> None:
     sub.add_argument("--listing", type=count, default=0, metavar="N",
                      help="which of several listings in one text, counted from 1; without it the last one")  # fmt: skip
     on_fault_option(sub)
+    json_option(sub)
     sub = verbs.add(
         "export", "formats", "a parameter file in a text format; the ending shows which", writes="output"
     )
     sub.add_argument("path", type=path_of)
     sub.add_argument("-o", "--output", type=path_of, required=True)
     sub.add_argument("--format", help="format of the text, where the ending of OUTPUT does not show it")
+    json_option(sub)
     secrets_option(sub)

@@ -2418,6 +2418,10 @@ Die ungespeicherte Arbeit wiederherstellen? Das lässt sich zurücknehmen.</tran
             <translation>Textformate ({endings});;Alle Dateien (*)</translation>
         </message>
         <message>
+            <source>&amp;Import</source>
+            <translation>&amp;Importieren</translation>
+        </message>
+        <message>
             <source>Import as</source>
             <translation>Importieren als</translation>
         </message>
@@ -2492,8 +2496,16 @@ Importieren und als erzwungen kennzeichnen?</translation>
             <translation>Wird exportiert</translation>
         </message>
         <message>
-            <source>; {count} left out (to export them, switch on View &gt; Show Secrets)</source>
-            <translation>; {count} ausgelassen (zum Exportieren Ansicht &gt; Geheimes zeigen einschalten)</translation>
+            <source>&amp;Export</source>
+            <translation>&amp;Exportieren</translation>
+        </message>
+        <message>
+            <source>{written} of {total} values</source>
+            <translation>{written} von {total} Werten</translation>
+        </message>
+        <message>
+            <source>{name}: {written} of {total} values go across as they are.</source>
+            <translation>{name}: {written} von {total} Werten kommen unverändert hinüber.</translation>
         </message>
     </context>
     <context>

@@ -366,7 +366,7 @@ def test_the_verbs_know_a_script_by_its_commands(tmp_path: Path, capsys: pytest.
     assert run(["import", str(script), "-o", str(tmp_path / "a.amp")]) == 2
     assert "line 3, column 1: 'RES X' is no command" in capsys.readouterr().err
     assert run(["import", str(script), "-o", str(tmp_path / "a.amp"), "--keep-unknown"]) == 0
-    assert "kept without knowing it: acr line 3" in capsys.readouterr().err
+    assert "kept as text: acr line 3 (line 3)" in capsys.readouterr().err
     file = open_file(tmp_path / "a.amp").file
     assert said_of(file) == {"servo.torque_limits@X": Value(4.0, "V")}
     assert run(["export", str(tmp_path / "a.amp"), "-o", str(tmp_path / "b.acr")]) == 0

@@ -25,7 +25,7 @@ def test_the_table_of_the_guide_is_written_line_by_line_and_read_again(tmp_path:
     file.set(("ballscrew.table", "X"), table)
     file.set(("ballscrew.table", "Z"), Value("Z0E.00000 Z1E-.00010"))
     path = tmp_path / "screw.bsc"
-    assert export_file(file, path) is FORMAT
+    assert export_file(file, path).format is FORMAT
     lines = path.read_bytes().decode().split("\r\n")
     assert (lines[:3], lines[39:42], lines[42:]) == (PRINTED, LAST, ["Z0E.00000", "Z1E-.00010", ""])
     again = import_file(path)

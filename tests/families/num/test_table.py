@@ -310,7 +310,7 @@ def test_a_table_is_found_by_its_content_and_written_by_its_ending(
     (tmp_path / "in").write_bytes(SAMPLE.encode("ascii"))
     told: list[str] = []
     file = import_file(tmp_path / "in", notify=told.append)
-    assert export_file(file, tmp_path / name).key == "num"
+    assert export_file(file, tmp_path / name).format.key == "num"
     assert (tmp_path / name).read_bytes() == SAMPLE.encode("ascii")
     assert len(told) == 3
 

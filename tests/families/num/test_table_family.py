@@ -113,7 +113,7 @@ def test_words_of_another_software_are_kept_where_that_is_wanted(
     assert run(arguments) == 2
     assert "line 4, column 1: NUM 1020/1040/1060 has no P121N0" in capsys.readouterr().err
     assert run([*arguments, "--keep-unknown"]) == 0
-    assert "kept without knowing it: P121N0" in capsys.readouterr().err
+    assert "kept as text: P121N0 (line 4)" in capsys.readouterr().err
     assert run(["export", str(tmp_path / "machine.amp"), "-o", str(tmp_path / "out.par")]) == 0
     assert (tmp_path / "out.par").read_bytes() == table.read_bytes()
 

@@ -50,6 +50,7 @@ def _read(text: str, schema: Schema, options: ReadOptions) -> TextRead:
     if relative is not None:
         found.unknown |= relative.kept
         found.notes.append(_account_of(relative))
+    found.unknown_lines = {f"${number}": listing.lines[number] for number in kept}
     if log.facts or log.greeting:
         found.extra[_IDENTITY] = ([log.greeting] if log.greeting else []) + [
             f"[{tag}:{told}]" for tag, texts in log.facts.items() for told in texts

@@ -53,6 +53,10 @@ def _write(file: ParameterFile) -> str:
             continue
         unit = (parameter.storage.unit if parameter.storage else None) or ""
         lines.append(f"{number}\t{write_number(stored)}\t{angular(unit) if turns else unit}\t{name}")
+    for key, text in file.unknown.items():
+        if key.isdecimal():  # a number that was kept from such a sheet
+            figure, _, named = text.partition(" ")
+            lines.append(f"{key}\t{figure}\t{named}\t")
     return "\n".join(lines) + "\n"
 
 
@@ -79,6 +83,7 @@ def _read(text: str, schema: Schema, options: ReadOptions) -> TextRead:
             if number.strip() in found.unknown:
                 raise FormatError(f"{quoted(number)} occurs twice", n, 1) from None
             found.unknown[number.strip()] = " ".join(cell for cell in cells[:2] if cell)
+            found.unknown_lines[number.strip()] = n
             continue
         if not schema.parameters[address[0]].patchable:
             raise FormatError(f"{number} cannot be keyed in at the control", n, 1)

@@ -147,6 +147,7 @@ class _Reader:
             else:
                 key = name_of(word)
                 unknown[key] = f"{colon}{form}#{text}"
+                self.found.unknown_lines[key] = block.line
             behind = word[0], word[1] + 1
 
     def values(self) -> None:

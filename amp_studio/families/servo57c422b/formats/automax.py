@@ -103,7 +103,8 @@ def _read_table(text: str, schema: Schema, options: ReadOptions) -> TextRead:
         meaning.take(Written(int(row[2]), number, is_pattern, 1, n, row.start(2) + 1, row.start(4) + 1))
     meaning.settle()
     unknown = {f"R{one.register}": _message(one) for one in meaning.leftover}
-    return TextRead(meaning.values, unknown, machine=machine)
+    lines = {f"R{one.register}": one.line for one in meaning.leftover}
+    return TextRead(meaning.values, unknown, lines, machine=machine)
 
 
 def _kept_word(key: str, text: str) -> str:

@@ -1,0 +1,88 @@
+"""What an export and an import report is what a reading of the text finds, for every format and example."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from amp_studio.files import ParameterFile, new_file, open_file
+from amp_studio.files.examples import examples
+from amp_studio.formats import Account, Export, FormatError, export_file, formats_of, import_file
+from amp_studio.schema import Value, same_value
+from amp_studio.schema.storage import register_number, value_of_register
+
+EVERY = [
+    pytest.param(example.path, chosen.key, id=f"{example.path.stem} {chosen.key}")
+    for example in examples()
+    for chosen in formats_of(example.family)
+]
+
+
+def sent(path: Path, key: str, folder: Path) -> tuple[ParameterFile, Export, ParameterFile]:
+    """Return a file, its export, and what the text contains; skips a format that does not take it."""
+    file = open_file(path).file
+    try:
+        export = export_file(file, folder / "text", key, secrets=True)
+    except FormatError as error:
+        pytest.skip(str(error))
+    return (
+        file,
+        export,
+        import_file(folder / "text", file.schema.family.family, format_key=key, machine=file.machine),
+    )
+
+
+@pytest.mark.parametrize(("path", "key"), EVERY)
+def test_each_value_is_written_or_rounded_or_missing_as_the_text_is(
+    path: Path, key: str, tmp_path: Path
+) -> None:
+    file, export, back = sent(path, key, tmp_path)
+    account = export.account
+    missing = {each.address for each in account.not_representable}
+    rounded = {each.address: each.after for each in account.rounded}
+    assert missing == {a for a in file.values if back.get(a) is None}
+    assert rounded == {
+        a: v for a, old in file.values.items() if (v := back.get(a)) is not None and not same_value(old, v)
+    }
+    assert account.written == len(file.values) - len(missing) - len(rounded)
+    assert all(each.why for each in account.not_representable)
+
+
+@pytest.mark.parametrize(("path", "key"), EVERY)
+def test_what_was_exported_once_comes_back_the_same_ever_after(path: Path, key: str, tmp_path: Path) -> None:
+    _, first, once = sent(path, key, tmp_path)
+    again = export_file(once, tmp_path / "again", key, secrets=True).account
+    assert again.rounded == ()
+    if not first.account.not_representable:  # else what decides which values exist is not in the text
+        assert again == Account(len(once.values))
+
+
+def test_a_register_gives_back_the_number_that_was_entered() -> None:
+    schema = open_file(next(e.path for e in examples() if e.family == "57c422b")).file.schema
+    for name, value in (
+        ("command.home_speed_low", Value(1600.0, "counts/s")),
+        ("cam.time", Value(12.5, "ms")),
+    ):
+        parameter = schema.parameters[name]
+        number = register_number(parameter, value, value.unit)
+        assert value_of_register(parameter, number, value.unit) == value
+
+
+def test_a_table_contains_an_empty_text(tmp_path: Path) -> None:
+    file = new_file("9pc", "mill", ["X"])
+    text = next(a for a in file.addresses() if file.schema.parameters[a[0]].type == "text")
+    file.set(text, Value(""))
+    assert export_file(file, tmp_path / "a.csv").account.rounded == ()
+    assert import_file(tmp_path / "a.csv", "9pc").get(text) == Value("")
+
+
+def test_what_a_file_contains_without_knowing_it_is_named(tmp_path: Path) -> None:
+    sheet = tmp_path / "odd.patch"
+    sheet.write_text("# Patch sheet of X\n# machine mill\n1300\t1\tmm\n99999\t5\n", "utf-8")
+    accounts: list[Account] = []
+    file = import_file(sheet, keep_unknown=True, take_account=accounts.append)
+    (read,) = accounts
+    assert (read.written, read.kept, read.unknown) == (len(file.values), ("5",), (("99999", 4),))
+    assert export_file(file, tmp_path / "a.patch").account.kept == ("5",)
+    assert export_file(file, tmp_path / "a.csv").account.kept == ("5",)
