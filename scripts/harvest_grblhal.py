@@ -80,6 +80,8 @@ RUN_TIME = {
 """Labels that the firmware puts together while it runs."""
 NAMES = {"Setting_SpindlePWMBehaviour": "Disable spindle with zero speed (obsolete)"}
 """Settings that the source calls deprecated alone."""
+SETS = {"ESET_OPTS": (5, 10), "MSET_OPTS": (8, 5)}
+"""Options of settings of which there are several sets: how many, and numbers from one to the next (settings.h)."""
 PORTS = 16
 GROUP_NAMES = {
     "Group_UserSettings": "User settings",
@@ -111,7 +113,8 @@ class Found:
     line: int
     condition: str
     count: int = 1
-    """How many there are with consecutive numbers."""
+    """How many there are, ``step`` numbers apart."""
+    step: int = 1
 
     @property
     def is_of_axes(self) -> bool:
@@ -230,7 +233,8 @@ def read_settings(name: str, text: str, sources: Sources) -> None:
             line = text.count("\n", 0, table.end() + entry.start(1)) + 1
             cells = [cell.strip() for cell in split(entry[2])]
             number = worth(entry[1], sources.numbers)
-            if number is None or len(cells) < 7 or "GANGED" in entry[1]:
+            if number is None or len(cells) < 7 or re.search("GANGED|UserDefined", entry[1]):
+                # an axis of two motors; a number that means something else in each plugin
                 continue
             group, title, unit, form, labels, least, most = cells[:7]
             sources.settings.append(
@@ -349,7 +353,7 @@ def parameter(setting: Found, identifier: str, nth: int = 0) -> list[str]:
         f"  - id: {identifier}",
         f"    name: {yaml_text(' '.join(name.split()))}",
         "    layouts:",
-        f'      - {{machines: [grblhal], scope: {scope}, numbers: {{start: {setting.number + nth}{step}, format: "${{n}}"}}}}',
+        f'      - {{machines: [grblhal], scope: {scope}, numbers: {{start: {setting.number + nth * setting.step}{step}, format: "${{n}}"}}}}',
         f"    type: {'bits' if kind == 'axes' else 'text' if kind == 'password' else kind}",
         *value_lines(setting, kind),
     ]
@@ -364,7 +368,7 @@ def parameter(setting: Found, identifier: str, nth: int = 0) -> list[str]:
         f"      - {{what: {yaml_text('a build with ' + setting.condition)}, page: {page}}}",
         "    help:",
         "      what: A setting of other builds. Number, name, unit, bounds and bits are those of the firmware's source.",
-        f"      find: Ask the control; its help is the answer to $SED={setting.number + nth}.",
+        f"      find: Ask the control; its help is the answer to $SED={setting.number + nth * setting.step}.",
         "      wrong: The help of the control has it.",
         f"    page: {page}",
         "",
@@ -501,12 +505,11 @@ def report(by_number: dict[int, list[Found]], sources: Sources, *, write: bool, 
             continue
         one = merged(settings)
         base = re.sub("Base$", "", one.constant)
-        if "_OPTS" in one.options or "increment" in one.options:
-            one.count = (
-                1
-                if one.is_of_axes
-                else max(1, sum(bool(re.fullmatch(f"{base}[0-9]", c)) for c in sources.numbers))
-            )
+        several = next((option for option in SETS if option in one.options), None)
+        if several:
+            one.count, one.step = SETS[several]
+        elif not one.is_of_axes and ("_OPTS" in one.options or "increment" in one.options):
+            one.count = max(1, sum(bool(re.fullmatch(f"{base}[0-9]", c)) for c in sources.numbers))
         groups.setdefault(one.group, []).append(one)
     taken = {p.id for p in schema.parameters.values() if p.in_signature}
     count = 0
@@ -543,9 +546,9 @@ def report(by_number: dict[int, list[Found]], sources: Sources, *, write: bool, 
                 )
                 identifier = f"{base}.{key_of(title_here) or 'setting'}"
                 if not re.match("[a-z]", key_of(title_here)):
-                    identifier = f"{base}.setting_{setting.number + nth}"
+                    identifier = f"{base}.setting_{setting.number + nth * setting.step}"
                 if identifier in taken:
-                    identifier += f"_{setting.number + nth}"
+                    identifier += f"_{setting.number + nth * setting.step}"
                 taken.add(identifier)
                 lines += parameter(setting, identifier, nth)
                 count += 1

@@ -22,7 +22,6 @@ REST = {
         "aux_ports",
         "bluetooth",
         "can_bus",
-        "embroidery",
         "encoders",
         "kinematics",
         "modbus",

@@ -81,9 +81,9 @@ def test_a_mask_is_judged_by_the_widest_build(tmp_path: Path) -> None:
 
 
 def test_a_number_that_another_build_uses_otherwise_is_kept_as_text() -> None:
-    found = read("$453=G4P0\n$100=80\n$650=99\n")
-    assert found.unknown == {"$453": "G4P0", "$650": "99"}
-    assert any("another one in this build" in note and "$453, $650" in note for note in found.notes)
+    found = read("$700=5\n$100=80\n$650=G4P0\n")
+    assert found.unknown == {"$700": "5", "$650": "G4P0"}
+    assert any("another one in this build" in note and "$650, $700" in note for note in found.notes)
 
 
 def test_forks_of_grbl_are_machine_types(tmp_path: Path) -> None:
