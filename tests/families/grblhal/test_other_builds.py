@@ -83,7 +83,7 @@ def test_a_mask_is_judged_by_the_widest_build(tmp_path: Path) -> None:
 def test_a_number_that_another_build_uses_otherwise_is_kept_as_text() -> None:
     found = read("$700=5\n$100=80\n$650=G4P0\n")
     assert found.unknown == {"$700": "5", "$650": "G4P0"}
-    assert any("another one in this build" in note and "$650, $700" in note for note in found.notes)
+    assert any("another meaning" in note and "$650, $700" in note for note in found.notes)
 
 
 def test_forks_of_grbl_are_machine_types(tmp_path: Path) -> None:
@@ -163,3 +163,10 @@ def test_the_harvest_finds_numbers_bounds_bits_and_conditions(checkout: Path, tm
     ):
         assert expected in lines, done.stdout
     assert "Old" not in done.stdout
+
+
+def test_a_masked_password_and_an_empty_one_are_text_and_no_value() -> None:
+    found = read("$74=\n$75=\n$77=hunter2222\n$331=********\n$300=mill\n")
+    assert found.unknown == {"$75": "", "$331": "********"}
+    assert found.values["wifi.wifi_access_point_ap_password", ""] == Value("hunter2222")
+    assert found.values["wifi.wifi_station_sta_ssid", ""] == Value("")

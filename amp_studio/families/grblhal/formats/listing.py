@@ -255,9 +255,10 @@ def _notes(
             + ", ".join(f"${n}" for n in kept)
         )
     if fit.other:
+        have = "has" if len(fit.other) == 1 else "have"
         yield (
-            f"{len(fit.other)} of {len(listing.settings)} settings {_are(list(fit.other))} another one in this build than in "
-            f"those that are known, and kept as text: {', '.join(f'${n}' for n in sorted(fit.other))}"
+            f"{len(fit.other)} of {len(listing.settings)} settings {have} in this build another meaning than is known, "
+            f"or no value, and {_are(list(fit.other))} kept as text: {', '.join(f'${n}' for n in sorted(fit.other))}"
         )
     if any(log.startup.values()):
         lines = ", ".join(key for key, block in log.startup.items() if block)

@@ -201,10 +201,10 @@ def _settings(whole: str, line: str, anywhere: bool) -> Iterator[tuple[int, str,
         is_quoted = bool(ahead[2]) or value[:1] in ('"', "'", "`")
         if ahead[3] in "|;\t,":
             value = value.lstrip("\"'`* ").split(ahead[3], 1)[0]
-        value = value.lstrip("\"'`* ")
+        value = value.lstrip("\"'`* " if ahead[2] else "\"'` ")
         if is_quoted or following:
             value = re.split(r"[\"'`*]|[,;|}\]]\s*$", value, maxsplit=1)[0]
-        value = value.strip().strip("\"'`* ")
+        value = value.strip().strip("\"'`* " if ahead[2] else "\"'` ")
         if ahead[3] not in ("=", ":=") and not is_quoted and not re.match(rf"{_NUMBER}(?![\w.:])", value):
             return
         yield int(ahead[1]), value, "" if following else line[stop:].strip("(;) \t"), False
