@@ -93,6 +93,10 @@ TAKEN = {(f"{kind} of a length", "9" * 17) for kind in ("csv", "patch")} | {("ac
         ("57c422b", None, "\n" * 500_000 + "10 x"),
         ("9pc", "csv", "id,value,unit\n" + "a" * 2_000_000 + ",,\n"),
         ("num", "num", "%" + "0" * 2_000_000),
+        ("grblhal", "grbl", "$0=1;" * 200_000),
+        ("grblhal", "grbl", "12:00 " * 300_000 + "$0=1"),
+        ("grblhal", None, "$0=1" + "\n#" * 500_000),
+        ("grblhal", None, "M92 X1 " * 200_000),
     ],
 )
 def test_a_text_that_is_made_to_cost_time_costs_little(

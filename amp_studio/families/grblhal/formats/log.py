@@ -16,6 +16,8 @@ import re
 from collections.abc import Iterator
 from dataclasses import dataclass, field
 
+from amp_studio.formats.text_format import FormatError
+
 MARK = "\ufeff"
 _ESCAPES = re.compile(r"\x1b\[[0-9;?]*[A-Za-z]|[\x00-\x08\x0b-\x1f\x7f\u200b-\u200f]")
 _NUMBER = r"[+-]?(?:[0-9]+(?:\.[0-9]*|,[0-9]+)?|[.,][0-9]+)"
@@ -43,7 +45,9 @@ _AROUND = re.compile(
     re.IGNORECASE,
 )
 """Lines of a sender's log that nobody misses."""
-_LEAST, _MOST_LISTINGS, _MOST_LINES, _LONGEST = 8, 1000, 20_000, 65_536
+_LEAST, _MOST_LISTINGS, _LOOKED_AT = 8, 1000, 20_000
+_MOST_LINES, _LONGEST, _LONGEST_VALUE = 200_000, 65_536, 400
+"""A listing has some hundred lines, a log of a day some ten thousand; the longest value is a macro."""
 _FACTS = (
     "VER",
     "OPT",
@@ -108,7 +112,7 @@ class Log:
 
 def is_listing(text: str) -> bool:
     """Return whether a text is for the most part settings of a Grbl, or has at least a few of them."""
-    return any(_has_settings(text, anywhere) for anywhere in (False, True))
+    return "$" in text and any(_has_settings(text, anywhere) for anywhere in (False, True))
 
 
 def _has_settings(text: str, anywhere: bool) -> bool:
@@ -116,7 +120,7 @@ def _has_settings(text: str, anywhere: bool) -> bool:
     for n, _, line, pieces in _lines(text, anywhere):
         found += len(pieces)
         others += not pieces and _is_other(line)
-        if found >= _LEAST or n > _MOST_LINES:
+        if found >= _LEAST or n > _LOOKED_AT:
             break
     return found >= _LEAST or (found > others and not anywhere)
 
@@ -164,12 +168,13 @@ def _read(text: str, *, anywhere: bool) -> Log:
 
 def _lines(text: str, anywhere: bool) -> Iterator[tuple[int, str, str, list[tuple[int, str, str, bool]]]]:
     """Yield number, text, text without what a sender writes before it, and the settings of each line that is not empty."""
-    has_signs = "$" in text
     for n, came in enumerate(re.split(r"\r\n|\r|\n", text.lstrip(MARK)), 1):
         whole = _ESCAPES.sub("", came[:_LONGEST]).replace("\u00a0", " ").strip()
+        if n > _MOST_LINES:
+            raise FormatError(f"a log has at most {_MOST_LINES:,} lines", n)
         if whole:
             line = _plain(whole)
-            yield n, whole, line, list(_settings(whole, line, anywhere)) if has_signs else []
+            yield n, whole, line, list(_settings(whole, line, anywhere))
 
 
 def _plain(whole: str) -> str:
@@ -194,9 +199,9 @@ def _settings(whole: str, line: str, anywhere: bool) -> Iterator[tuple[int, str,
         return
     ahead = _SETTING.search(line) if anywhere else _SETTING.match(line)
     while ahead:
-        end = _END_OF_VALUE.search(line, ahead.end())
+        end = _END_OF_VALUE.search(line, ahead.end(), ahead.end() + _LONGEST_VALUE)
         stop = end.start() if end else len(line)
-        following = _SETTING.search(line, ahead.end(), stop)
+        following = _SETTING.search(line, ahead.end(), min(stop, ahead.end() + _LONGEST_VALUE))
         value = line[ahead.end() : following.start() if following else stop].strip()
         is_quoted = bool(ahead[2]) or value[:1] in ('"', "'", "`")
         if ahead[3] in "|;\t,":
