@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import subprocess
 import sys
+from functools import partial
 from pathlib import Path
 
 import pytest
@@ -12,10 +13,13 @@ from amp_studio.cli import run
 from amp_studio.families.grblhal.described import schema_of
 from amp_studio.families.grblhal.formats.listing import FORMAT
 from amp_studio.files import new_file, open_file
+from amp_studio.formats import file_of
 from amp_studio.formats.text_format import ReadOptions, TextRead
 from amp_studio.schema import Value, load_schema
+from amp_studio.transfer.client.exchange import download
 from amp_studio.validate import Validator
 
+from .bench import Bench, held
 from .recorded import THREE_AXES
 
 GRBLHAL = load_schema("grblhal")
@@ -170,3 +174,15 @@ def test_a_masked_password_and_an_empty_one_are_text_and_no_value() -> None:
     assert found.unknown == {"$75": "", "$331": "********"}
     assert found.values["wifi.wifi_access_point_ap_password", ""] == Value("hunter2222")
     assert found.values["wifi.wifi_station_sta_ssid", ""] == Value("")
+
+
+def test_a_listing_goes_to_a_control_by_its_numbers_and_what_that_lacks_is_not_sent(tmp_path: Path) -> None:
+    bench = Bench(tmp_path / "control")
+    file = file_of(GRBLHAL, read("$110=777\n$16=1\n$370=3\n$N0=G21\n"), "mill")
+    outcome = download(bench.driver, partial(bench.driver.encode, file), lambda _: "kept", signature="")
+    assert outcome.verified
+    assert held(bench).settings[110] == "777.000"
+    sent = b"".join(bench.received).split()
+    assert [line for line in sent if line.partition(b"=")[0] in (b"$110", b"$16", b"$370", b"$N0")] == [
+        b"$110=777"
+    ]
