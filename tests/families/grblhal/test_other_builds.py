@@ -184,5 +184,5 @@ def test_a_listing_goes_to_a_control_by_its_numbers_and_what_that_lacks_is_not_s
     assert held(bench).settings[110] == "777.000"
     sent = b"".join(bench.received).split()
     assert [line for line in sent if line.partition(b"=")[0] in (b"$110", b"$16", b"$370", b"$N0")] == [
-        b"$110=777"
+        b"$110=777.000"
     ]
