@@ -40,7 +40,7 @@ TARGETS = {
     "48 published listings: refused",
     "published listings: values lost or changed",
     "published listings: false errors per listing",
-    "index of 9pc",
+    "index of grblhal",
     "a question, every keystroke of it",
     "the slowest keystroke",
     "a question after an edit",
