@@ -30,7 +30,8 @@ durations: setup ## run all tests and print the sixty that take longest
 mutants: setup ## change every rule and its findings in every way, one at a time, and list what no case notices
 	@AMP_STUDIO_FULL=1 $(BIN)/python -m pytest -q -s tests/validate/test_rule_mutants.py tests/validate/test_finding_mutants.py
 
-campaign: setup ## write anything whatever into machines of every family, thousands of times
+campaign: setup ## generated cases that no run has tried: every property 25 times as often, with another seed each time
+	@AMP_STUDIO_FULL=1 $(BIN)/python -m pytest -q -n $(WORKERS) -m hypothesis $(TESTS)
 	@AMP_STUDIO_FULL=1 $(BIN)/python -m pytest -q -n $(WORKERS) tests/validate/test_any_values.py tests/validate/test_fix_campaign.py
 
 faults: setup ## fault campaigns: failing calls, kills, damaged contents, hostile peers; FAULTS="--only journal --share 0.1 --seed 7"

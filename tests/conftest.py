@@ -8,45 +8,86 @@ import os
 import shutil
 import sys
 import tempfile
+import time
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 import pytest
 from hypothesis import settings
 
+from tests.campaigns import CAMPAIGN, examples
+
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
     from amp_studio.schema import Schema
 
-# Set here, before anything imports Qt or asks where the user's folders are.
-os.environ["QT_QPA_PLATFORM"] = "offscreen"
-os.environ.pop("DISPLAY", None)
-os.environ.pop("WAYLAND_DISPLAY", None)
+_KEPT = (
+    "PATH",
+    "PYTHONPATH",
+    "VIRTUAL_ENV",
+    "LD_LIBRARY_PATH",
+    "TMPDIR",
+    "TEMP",
+    "TMP",
+    "SYSTEMROOT",
+    "COMSPEC",
+    "PATHEXT",
+)
+_KEPT_BEGIN = ("AMP_STUDIO_FULL", "AMP_STUDIO_TEST_", "COV_", "PYTEST_")
+"""Of the environment tests see what finds programs and packages, and what steers the tests: no language, no number of columns,
+no style of Qt, no proxy, no password."""
+_FIXED = {
+    "QT_QPA_PLATFORM": "offscreen",
+    "LANG": "C.UTF-8",
+    "TZ": "UTC",
+}
 
-# The program is started some hundred times: compiled once, whatever the person who runs the tests has set.
-os.environ.pop("PYTHONDONTWRITEBYTECODE", None)
-sys.dont_write_bytecode = False
 
-
-def _private_folders() -> None:
-    """Point the user's folders to temporary ones: one cache for all workers of a run, the rest for each alone."""
+def _private_folders() -> Path:
+    """Make the temporary home of the user: one cache for all workers of a run, the rest for each alone; return the first."""
     home = os.environ.get("AMP_STUDIO_TEST_HOME")
     if home is None:
         home = os.environ["AMP_STUDIO_TEST_HOME"] = tempfile.mkdtemp(prefix="amp-studio-tests-")
         atexit.register(shutil.rmtree, home, ignore_errors=True)
     own = Path(home) / os.environ.get("PYTEST_XDIST_WORKER", "main")
+    os.environ["HOME"] = str(own)
     os.environ["XDG_CACHE_HOME"] = str(Path(home) / "cache")
-    for name in ("CONFIG", "DATA", "STATE"):
-        os.environ[f"XDG_{name}_HOME"] = str(own / name.lower())
+    for name in ("CONFIG", "DATA", "STATE", "RUNTIME"):
+        folder = own / name.lower()
+        folder.mkdir(mode=0o700, parents=True, exist_ok=True)
+        os.environ["XDG_RUNTIME_DIR" if name == "RUNTIME" else f"XDG_{name}_HOME"] = str(folder)
+    return Path(home)
 
 
-_private_folders()
+def _the_fonts_of_the_tests(home: Path) -> None:
+    """Let fontconfig find the one font of ``tests/fonts`` and none of this computer."""
+    file = home / "fonts.conf"
+    text = f"""<?xml version="1.0"?>
+<!DOCTYPE fontconfig SYSTEM "fonts.dtd">
+<fontconfig><dir>{Path(__file__).with_name("fonts")}</dir><cachedir>{home / "cache" / "fontconfig"}</cachedir></fontconfig>
+"""
+    if not file.exists():
+        file.write_text(text, encoding="utf-8")
+    os.environ["FONTCONFIG_FILE"] = str(file)
 
-# Two workers on two cores take as long as they take; a failing example is printed so that it can be repeated.
-# CI repeats the same examples, so that a change is judged by what it changed; every other run explores further.
-settings.register_profile("amp-studio", deadline=None, print_blob=True, derandomize="CI" in os.environ)
-settings.load_profile("amp-studio")
+
+# Set here, before anything imports Qt or asks where the user's folders are.
+for name in [name for name in os.environ if name not in _KEPT and not name.startswith(_KEPT_BEGIN)]:
+    del os.environ[name]
+os.environ.update(_FIXED)
+if hasattr(time, "tzset"):
+    time.tzset()
+os.umask(0o022)
+# The program is started some hundred times: compiled once, whatever the person who runs the tests has set.
+sys.dont_write_bytecode = False
+_the_fonts_of_the_tests(_private_folders())
+
+# Two workers on two cores take as long as they take. Generated cases are the same each time, so that a change is judged by
+# what it changed, and what an earlier run found is not remembered; `make campaign` tries new ones and prints how to repeat one.
+settings.register_profile("fixed", deadline=None, derandomize=True, database=None)
+settings.register_profile("campaign", deadline=None, print_blob=True, max_examples=examples(100))
+settings.load_profile("campaign" if CAMPAIGN else "fixed")
 
 
 # Eight thousand tests, and the schemas they load, stay to the end: Python need not look through them again and again.

@@ -28,6 +28,7 @@ from amp_studio.families.ninepc.formulas.calibration import (
 )
 from amp_studio.files import ParameterFile, new_file
 from amp_studio.schema import Value
+from tests.campaigns import examples
 
 TABLE, REVERSAL = ("calibration.table", "1"), ("servo.reversal_error", "1")
 OFF = Wish(was_on=False)
@@ -70,7 +71,7 @@ def test_a_screw_that_is_too_long_and_a_lost_motion_are_found_as_they_are(mill) 
     assert float(proposal.span_after) == pytest.approx(0, abs=1e-9)
 
 
-@settings(max_examples=40)
+@settings(max_examples=examples(40))
 @given(st.integers(0, 2**32 - 1))
 def test_what_remains_after_a_table_is_what_rounding_leaves(seed: int) -> None:
     file = _new_mill()

@@ -8,6 +8,7 @@ from hypothesis import strategies as st
 
 from amp_studio.files import Conflict, Difference, ParameterFile, compare, merge, new_file
 from amp_studio.schema import Address, Value, load_schema
+from tests.campaigns import examples
 
 CALIBRATION, POSITION, TEETH = (
     ("home.calibration", "1"),
@@ -196,7 +197,7 @@ def content(file: ParameterFile) -> tuple:
     return file.values, file.unknown
 
 
-@settings(max_examples=60)
+@settings(max_examples=examples(60))
 @given(files, files)
 def test_what_only_one_side_changed_is_taken_as_it_is(base: ParameterFile, x: ParameterFile) -> None:
     ours, conflicts = merge(base, x, base)
@@ -206,14 +207,14 @@ def test_what_only_one_side_changed_is_taken_as_it_is(base: ParameterFile, x: Pa
     assert (x.unknown, ()) == (theirs.unknown, compare(x.schema, theirs.values, x.values).differences)
 
 
-@settings(max_examples=60)
+@settings(max_examples=examples(60))
 @given(files, files)
 def test_two_sides_that_agree_have_no_conflict(base: ParameterFile, x: ParameterFile) -> None:
     merged, conflicts = merge(base, x, x)
     assert (content(x), []) == (content(merged), conflicts)
 
 
-@settings(max_examples=60)
+@settings(max_examples=examples(60))
 @given(files, files, files)
 def test_a_merge_takes_every_value_from_a_side_and_every_conflict_is_one(base, ours, theirs) -> None:
     merged, conflicts = merge(base, ours, theirs)
@@ -226,7 +227,7 @@ def test_a_merge_takes_every_value_from_a_side_and_every_conflict_is_one(base, o
     assert fought == turned, "the other way round the same is fought over"
 
 
-@settings(max_examples=60)
+@settings(max_examples=examples(60))
 @given(files, files)
 def test_comparing_the_other_way_round_says_the_same(a: ParameterFile, b: ParameterFile) -> None:
     there, back = compare(a.schema, a.values, b.values), compare(a.schema, b.values, a.values)

@@ -13,6 +13,7 @@ from amp_studio.files import ParameterFile, compare, content_of, new_file, read_
 from amp_studio.files.merging import Merge, Row, Typed
 from amp_studio.files.parameter_file import Marks
 from amp_studio.schema import Address, Value, family_ids, load_schema
+from tests.campaigns import examples
 
 CALIBRATION, POSITION = ("home.calibration", "1"), ("home.position", "1")
 TYPE = ("axis.type", "1")
@@ -272,7 +273,7 @@ def agree(x: ParameterFile, y: ParameterFile) -> bool:
     return not compare(x.schema, x.values, y.values).differences and content(x)[2:] == content(y)[2:]
 
 
-@settings(max_examples=60, deadline=None)
+@settings(max_examples=examples(60))
 @given(three_files())
 def test_a_merge_is_the_same_from_either_side_once_its_conflicts_are_settled(files) -> None:
     base, a, b = files
@@ -282,7 +283,7 @@ def test_a_merge_is_the_same_from_either_side_once_its_conflicts_are_settled(fil
     assert agree(merge.result(), turned.result())
 
 
-@settings(max_examples=60, deadline=None)
+@settings(max_examples=examples(60))
 @given(three_files())
 def test_taking_all_of_a_side_gives_that_side(files) -> None:
     base, a, b = files
@@ -294,7 +295,7 @@ def test_taking_all_of_a_side_gives_that_side(files) -> None:
         assert agree(merge.result(), b)
 
 
-@settings(max_examples=60, deadline=None)
+@settings(max_examples=examples(60))
 @given(three_files())
 def test_what_one_side_left_as_it_was_comes_from_the_other(files) -> None:
     base, a, b = files
@@ -309,7 +310,7 @@ def test_what_one_side_left_as_it_was_comes_from_the_other(files) -> None:
         )
 
 
-@settings(max_examples=40, deadline=None)
+@settings(max_examples=examples(40))
 @given(three_files(), st.randoms(use_true_random=False))
 def test_a_result_saves_and_loads_as_the_same_bytes(files, chance) -> None:
     base, a, b = files

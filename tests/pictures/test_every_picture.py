@@ -13,6 +13,7 @@ from hypothesis import strategies as st
 from amp_studio.files import open_file
 from amp_studio.pictures import draw, pictures_of, scene_json, scene_svg
 from amp_studio.schema import Value
+from tests.campaigns import examples
 
 from .conftest import EXAMPLES
 from .test_other_pictures import handle, moved, notes
@@ -121,7 +122,7 @@ EXTREMES = (0.0, -1.0, 1e-9, 1e300, -1.7e308, 5e-324)
 
 
 @given(data=st.data())
-@settings(max_examples=40)
+@settings(max_examples=examples(40))
 def test_no_value_however_odd_keeps_a_picture_from_being_drawn(checkout, data):
     file = _opened(checkout, data.draw(st.sampled_from(sorted(EXAMPLES)))).copy()
     for parameter in data.draw(

@@ -17,6 +17,7 @@ from amp_studio.schema import (
     program,
     read_address,
 )
+from tests.campaigns import examples
 
 FOUR = """
   - id: device.kind
@@ -252,7 +253,7 @@ def edits(draw) -> list[tuple[tuple[str, str], Value | None]]:
     return found
 
 
-@settings(max_examples=40)
+@settings(max_examples=examples(40))
 @given(edits())
 def test_after_any_edits_the_situation_is_that_of_a_fresh_one(changes) -> None:
     schema = load_schema("9pc")
@@ -281,7 +282,7 @@ def test_after_any_edits_the_situation_is_that_of_a_fresh_one(changes) -> None:
         assert seen(Evaluation(schema, values.get, control)) == seen(kept), address
 
 
-@settings(max_examples=40)
+@settings(max_examples=examples(40))
 @given(edits())
 def test_only_what_a_state_reads_can_change_it(changes) -> None:
     schema = load_schema("9pc")

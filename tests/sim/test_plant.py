@@ -19,6 +19,7 @@ from amp_studio.sim.motion import Until, run_axis
 from amp_studio.sim.plant import PlantState, advance
 from amp_studio.sim.ramps import blocks, end_of, move
 from amp_studio.sim.signals import OUTPUT_TEST
+from tests.campaigns import examples
 from tests.sim.tiny import tiny
 
 H = 0.00025
@@ -37,17 +38,34 @@ def moved(
     return states
 
 
-def energy(machine: Machine, state: PlantState) -> float:
-    """Return kinetic and potential energy of a state, in torque times u."""
+def energies(machine: Machine, state: PlantState) -> tuple[float, float, float, float]:
+    """Return the energies of a state, in torque times u: of motion, of the coupling, in the weight, in the spring."""
     motor_position, motor, load_position, load, *_ = state
-    height = machine.gravity * load_position + 0.5 * machine.spring * load_position**2
+    weight, spring = machine.gravity * load_position, 0.5 * machine.spring * load_position**2
     if not machine.two_masses:
-        return 0.5 * motor**2 / machine.acceleration_per_output + height
+        return 0.5 * motor**2 / machine.acceleration_per_output, 0.0, weight, spring
     frequency, _, ratio = machine.coupling
     total = machine.acceleration_per_output * (1.0 + ratio)
     stiffness = (2.0 * math.pi * frequency) ** 2 / (total + total / ratio)
     stretch = max(abs(motor_position - load_position) - 0.5 * machine.backlash, 0.0)
-    return 0.5 * (motor**2 + ratio * load**2) / total + 0.5 * stiffness * stretch**2 + height
+    return 0.5 * (motor**2 + ratio * load**2) / total, 0.5 * stiffness * stretch**2, weight, spring
+
+
+def gained(machine: Machine, states: list[PlantState], output: float = 0.0) -> tuple[Vector, float]:
+    """Return the energy that came from nowhere up to each state, and what the scheme may leave open of it.
+
+    That is a hundredth of the most energy that was anywhere, each kind by itself: the sum may stay near zero while a falling
+    mass gains as much in motion as it loses in height. And what the forces of one step bring from rest: an axis that
+    friction stops within a step went half of that step at its old speed, be it ever so small.
+    """
+    parts = np.array([energies(machine, state) for state in states])
+    work = np.cumsum([0.0, *(output * (b[0] - a[0]) for a, b in pairwise(states))])
+    have = parts.sum(axis=1)
+    most = float(np.abs(parts).max(axis=0).sum() + np.abs(work).max())
+    force = abs(output) + abs(machine.gravity) + machine.coulomb_friction
+    _, _, ratio = machine.coupling
+    lighter = machine.acceleration_per_output * (1.0 + max(ratio, 1.0 / ratio) if machine.two_masses else 1.0)
+    return have - have[0] - work, 0.01 * most + 0.5 * lighter * (H * force) ** 2
 
 
 def test_a_rigid_mass_under_a_constant_torque_moves_by_the_book() -> None:
@@ -128,22 +146,28 @@ figures = st.fixed_dictionaries(
 )
 
 
+LEFT_TO_FALL = {"acceleration_per_output": 334.0, "gravity": -2.0}
+SLIDING_INTO_A_SPRING = {"acceleration_per_output": 1.0, "gravity": 1.0, "spring": 0.5}
+"""Found by chance: the sum of energies is near or below zero all the time."""
+
+
 @given(figures, st.floats(-10.0, 10.0), st.floats(-50.0, 50.0))
-@settings(max_examples=40, deadline=None)
+@settings(max_examples=examples(40))
 @example({"acceleration_per_output": 50.0, "backlash": 0.1, "gravity": 3.0, "damping": 0.0}, 0.0, 20.0)
+@example(SLIDING_INTO_A_SPRING, 0.0, 0.0)
+@example(LEFT_TO_FALL, 0.0, 1e-5)
+@example({"acceleration_per_output": 1.0, "coulomb_friction": 1.0, "gravity": 1.0}, 0.0, 1e-300)
 def test_energy_never_appears_from_nowhere(values: dict[str, float], output: float, speed: float) -> None:
     machine = Machine(**values)
     start: PlantState = (0.0, speed, 0.0, speed, output, 0.0, 0.0)
-    states = moved(machine, 600, output, start)
-    work = np.cumsum([0.0, *(output * (b[0] - a[0]) for a, b in pairwise(states))])
-    have = np.array([energy(machine, state) for state in states])
-    scale = float(np.max(np.abs(have)) + np.max(np.abs(work)) + 1e-9)
+    more, slack = gained(machine, moved(machine, 600, output, start), output)
     # The leapfrog scheme lets the energy of a spring go to and fro within its own order, and never lets it drift.
-    assert np.max(have - have[0] - work) <= 0.01 * scale
+    assert np.max(more) <= slack
 
 
 @given(figures)
-@settings(max_examples=15, deadline=None)
+@settings(max_examples=examples(15))
+@example(LEFT_TO_FALL)
 def test_a_machine_left_alone_ends_with_less_energy_than_it_had(values: dict[str, float]) -> None:
     machine = Machine(**values)
     start = (
@@ -151,8 +175,8 @@ def test_a_machine_left_alone_ends_with_less_energy_than_it_had(values: dict[str
         if machine.two_masses
         else (0.3, 20.0, 0.3, 20.0, 0.0, 0.0, 0.0)
     )
-    states = moved(machine, 1000, 0.0, start)
-    assert energy(machine, states[-1]) <= energy(machine, states[0]) * 1.01 + 1e-9
+    more, slack = gained(machine, moved(machine, 1000, 0.0, start))
+    assert more[-1] <= slack
 
 
 FULL = {
@@ -251,7 +275,7 @@ def test_an_impossible_machine_is_refused_in_a_sentence(figure: str, value: floa
 def test_contact_across_a_gap_takes_up_and_gives_back_the_same_energy() -> None:
     machine = Machine(1.0, backlash=0.01, coulomb_friction=5.0, gravity=-3.0, spring=0.5, damping=0.0)
     states = moved(machine, 1000, 0.0, (0.3, 20.0, 0.2, -10.0, 0.0, 0.0, 0.0))
-    have = [energy(machine, state) for state in states]
+    have = [sum(energies(machine, state)) for state in states]
     assert max(b - a for a, b in pairwise(have)) < 0.02 * have[0]
     assert have[-1] <= have[0]
 

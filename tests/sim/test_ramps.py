@@ -14,6 +14,7 @@ from amp_studio.sim import Ramp, SimulationError
 from amp_studio.sim.profiles import DURATION, START, WIDTH, command, piece_at
 from amp_studio.sim.ramps import Override, blocks, end_of, move, overridden
 from amp_studio.sim.signals import COMMAND, COMMAND_ACCELERATION, COMMAND_VELOCITY, MONITOR
+from tests.campaigns import examples
 
 LINEAR = Ramp("linear", 500.0, 250.0)
 S_CURVE = Ramp("s-curve", 500.0, jerk=4000.0)
@@ -70,7 +71,7 @@ def test_a_change_up_to_the_velocity_step_needs_no_ramp_and_a_larger_one_has_all
     st.floats(50.0, 10000.0),
     st.floats(100.0, 1e6),
 )
-@settings(max_examples=60, deadline=None)
+@settings(max_examples=examples(60))
 def test_an_s_curve_is_as_fast_as_the_best_trajectory_of_ruckig(
     distance: float, feedrate: float, acceleration: float, jerk: float
 ) -> None:
@@ -160,7 +161,7 @@ def test_an_override_in_the_middle_of_an_s_curve_comes_when_the_ramp_is_over() -
     st.lists(st.tuples(st.floats(0.01, 2.0), st.floats(0.05, 2.0)), max_size=4),
     st.floats(0.5, 200.0),
 )
-@settings(max_examples=60, deadline=None)
+@settings(max_examples=examples(60))
 def test_whatever_is_overridden_the_velocity_has_no_gap_and_the_move_its_length(
     ramp: Ramp, changes: list[tuple[float, float]], distance: float
 ) -> None:

@@ -16,6 +16,7 @@ from amp_studio.transfer.image import (
     encode_image,
     patch_image,
 )
+from tests.campaigns import examples
 
 
 def a_file() -> ParameterFile:
@@ -73,7 +74,7 @@ def test_an_image_of_another_schema_is_refused() -> None:
         decode_image(image)
 
 
-@settings(max_examples=200, deadline=None)
+@settings(max_examples=examples(200))
 @given(st.binary(max_size=200), st.integers(0, 5000))
 def test_damage_never_raises_anything_else(junk: bytes, at: int) -> None:
     """Whatever is written over an image, it is read or refused in one sentence."""

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import contextlib
 import math
-import os
 import struct
 from collections.abc import Callable
 from functools import cache
@@ -30,8 +29,8 @@ from amp_studio.schema import (
 )
 from amp_studio.schema.units import UNITS
 from amp_studio.validate import Validator, apply_all_safe, explain, ranges
+from tests.campaigns import CAMPAIGN, examples
 
-EVERY_EDIT = os.environ.get("AMP_STUDIO_FULL") == "1"
 EXAMPLES = {
     "57c422b": "57c422b-label-press/LABEL_PRESS.amp",
     "acromill": "acromill-router/ROUTER.amp",
@@ -176,7 +175,7 @@ class Edited:
 
 @given(random=st.randoms(use_true_random=False), name=st.sampled_from(MACHINES))
 @settings(
-    max_examples=1000 if EVERY_EDIT else 40,
+    max_examples=examples(40),
     suppress_health_check=[HealthCheck.too_slow, HealthCheck.data_too_large],
 )
 def test_edit_by_edit_or_all_at_once_the_findings_are_the_same(random: Random, name: str, a_machine) -> None:
@@ -189,7 +188,7 @@ def test_edit_by_edit_or_all_at_once_the_findings_are_the_same(random: Random, n
 @pytest.mark.parametrize("name", MACHINES)
 def test_after_many_edits_too(name: str, a_machine) -> None:
     edited, random = Edited(a_machine(name)), Random(name)
-    for _ in range(500 if EVERY_EDIT else 4):
+    for _ in range(500 if CAMPAIGN else 4):
         for _ in range(25):
             edited.edit(random, random.choice([1, 1, 1, 5]))
         assert edited.agree()
@@ -201,10 +200,10 @@ def nasty(parameter: Parameter, schema: Schema) -> list[Value]:
     own = schema.units_of(parameter)
     others = {"", "mm", "in/min", "deg", "%"}.difference(own)
     return [
-        *(Value(number, unit) for number in numbers for unit in (own if EVERY_EDIT else own[:1])),
+        *(Value(number, unit) for number in numbers for unit in (own if CAMPAIGN else own[:1])),
         *(
             Value(number, unit)
-            for number in (numbers if EVERY_EDIT else (1e300, 0.1))
+            for number in (numbers if CAMPAIGN else (1e300, 0.1))
             for unit in sorted(others)
         ),
         *(Value(text) for text in TEXTS),
@@ -221,13 +220,13 @@ def test_no_value_whatever_makes_it_raise(name: str, a_machine) -> None:
     on_the_mill = {parameter_id for parameter_id, _ in load_schema("9pc").on("mill").addresses}
     one_of_each: dict[str, list[Address]] = {}
     for address in file.addresses():
-        if EVERY_EDIT or name != "lathe" or address[0] not in on_the_mill:
+        if CAMPAIGN or name != "lathe" or address[0] not in on_the_mill:
             one_of_each.setdefault(address[0], []).append(address)
     for n, addresses in enumerate(one_of_each.values()):
         address = addresses[min(3, len(addresses) - 1)]
         before = file.get(address)
         values = nasty(file.schema.parameters[address[0]], file.schema)
-        for value in values if EVERY_EDIT else values[n % 3 :: 3]:  # each in its turn
+        for value in values if CAMPAIGN else values[n % 3 :: 3]:  # each in its turn
             set_if_possible(file, address, value)
             assert all(finding.message for finding in validator.update([address]))
         file.set(address, before)
@@ -235,7 +234,7 @@ def test_no_value_whatever_makes_it_raise(name: str, a_machine) -> None:
 
 
 @given(seed=st.integers(0, 2**32), name=st.sampled_from(MACHINES))
-@settings(max_examples=400 if EVERY_EDIT else 15, suppress_health_check=[HealthCheck.too_slow])
+@settings(max_examples=examples(15), suppress_health_check=[HealthCheck.too_slow])
 def test_a_file_of_chance_is_told_explained_and_fixed(seed: int, name: str, a_machine) -> None:
     """As after an upload from a control in which anything was keyed: nearly every value at once."""
     file, random = a_machine(name), Random(seed)
@@ -262,7 +261,7 @@ def test_a_fix_of_a_range_is_allowed_itself(name: str, a_machine) -> None:
     validator.run()
     random = Random(name)
     addresses = (
-        list(file.values) if EVERY_EDIT else random.sample(list(file.values), min(150, len(file.values)))
+        list(file.values) if CAMPAIGN else random.sample(list(file.values), min(150, len(file.values)))
     )
     for address in addresses:
         before = file.get(address)

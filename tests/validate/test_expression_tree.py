@@ -18,6 +18,7 @@ from amp_studio.validate.expression_tree import (
     Node,
     read_expression,
 )
+from tests.campaigns import examples
 
 
 def told(text: str) -> str:
@@ -152,7 +153,7 @@ PIECES = st.sampled_from(
 )  # fmt: skip
 
 
-@settings(max_examples=400, deadline=None)
+@settings(max_examples=examples(400))
 @given(st.one_of(st.lists(PIECES, max_size=12).map("".join), st.text(max_size=30)))
 def test_whatever_is_read_the_engine_reads_too(text: str) -> None:
     try:

@@ -2,22 +2,20 @@
 
 from __future__ import annotations
 
-import os
-
 from fix_campaign import campaign
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
-LONG = os.environ.get("AMP_STUDIO_FULL") == "1"
+from tests.campaigns import CAMPAIGN
 
 
 def test_every_fix_that_is_offered_in_a_random_machine_keeps_its_promises() -> None:
-    tried, broken = campaign(seed=0, count=4000 if LONG else 45)
+    tried, broken = campaign(seed=0, count=4000 if CAMPAIGN else 45)
     assert broken == []
-    assert tried > (4000 if LONG else 50), "and there are fixes to try"
+    assert tried > (4000 if CAMPAIGN else 50), "and there are fixes to try"
 
 
 @given(seed=st.integers(10**6, 10**9))
-@settings(max_examples=500 if LONG else 5, suppress_health_check=[HealthCheck.too_slow], deadline=None)
+@settings(max_examples=500 if CAMPAIGN else 5, suppress_health_check=[HealthCheck.too_slow])
 def test_so_does_every_other(seed: int) -> None:
     assert campaign(seed, 1)[1] == []

@@ -17,6 +17,7 @@ from amp_studio.formats import FormatError, ReadOptions, file_of
 from amp_studio.schema import Schema, Value, load_schema, read_address
 from amp_studio.schema.catalog import schema_of
 from amp_studio.schema.load import compile_family
+from tests.campaigns import examples
 from tests.families.servo57c422b.small_module import taken, told
 
 MILL = load_schema("acromill")
@@ -53,7 +54,7 @@ FIGURES = st.one_of(
     chosen=st.lists(st.sampled_from(SETTINGS), unique=True),
     system=st.sampled_from(["inch", "metric"]),
 )
-@settings(max_examples=60)
+@settings(max_examples=examples(60))
 def test_a_value_in_the_unit_of_its_figure_comes_back_exactly(
     data: st.DataObject, chosen: list[object], system: str
 ) -> None:

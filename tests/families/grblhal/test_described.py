@@ -17,6 +17,7 @@ from amp_studio.files import Header, ParameterFile, ParameterFileError, open_fil
 from amp_studio.schema import Schema, Value, fault, load_schema
 from amp_studio.schema.described import DescriptionError
 from amp_studio.validate import Validator
+from tests.campaigns import examples
 
 from .recorded import HELP, LISTING, THREE_AXES, build, with_lines
 
@@ -253,7 +254,7 @@ def test_a_flood_is_refused_at_once() -> None:
     assert time.process_time() - before < 2
 
 
-@settings(max_examples=60, deadline=None)
+@settings(max_examples=examples(60))
 @given(st.data())
 def test_whatever_a_control_says_there_is_a_schema_or_a_plain_refusal(data: st.DataObject) -> None:
     lines = THREE_AXES.decode().splitlines()

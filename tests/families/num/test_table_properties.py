@@ -11,6 +11,7 @@ from amp_studio.families.num.formats.table import FORMAT
 from amp_studio.families.num.formats.words import words_of
 from amp_studio.formats import FormatError, ReadOptions, file_of
 from amp_studio.schema import Schema
+from tests.campaigns import examples
 from tests.families.num.small_num import measured, taken
 
 VALUES = {
@@ -51,7 +52,7 @@ def table_of(schema: Schema, some: Random, *, whole: bool) -> str:
 
 
 @given(seed=st.integers(0, 2**32))
-@settings(max_examples=50)
+@settings(max_examples=examples(50))
 def test_what_is_read_is_written_and_read_again(num: Schema, seed: int) -> None:
     table = table_of(num, Random(seed), whole=False)
     file = taken(num, table)
@@ -97,7 +98,7 @@ def says_one_thing(schema: Schema, table: str, at: int, sign: str) -> bool:
 
 
 @given(seed=st.integers(0, 2**32), place=st.floats(0, 1, exclude_max=True), code=st.integers(0, 127))
-@settings(max_examples=200)
+@settings(max_examples=examples(200))
 def test_an_altered_byte_is_told_or_changes_one_value(
     num: Schema, seed: int, place: float, code: int
 ) -> None:
@@ -117,7 +118,7 @@ def test_every_altered_byte_of_a_table_is_told_or_changes_one_value(num: Schema)
 
 
 @given(seed=st.integers(0, 2**32), old=st.booleans(), keep_unknown=st.booleans())
-@settings(max_examples=200)
+@settings(max_examples=examples(200))
 def test_whatever_is_taken_comes_back_as_it_was(
     num: Schema, seed: int, old: bool, keep_unknown: bool
 ) -> None:

@@ -11,6 +11,7 @@ from amp_studio.files import ParameterFile
 from amp_studio.formats import FormatError, ReadOptions, file_of
 from amp_studio.schema import Address, Schema, Value
 from amp_studio.schema.storage import is_signed, register_number, value_of_register
+from tests.campaigns import examples
 
 FORMS = st.sampled_from([TABLE, TASK])
 
@@ -49,7 +50,7 @@ def as_held(file: ParameterFile) -> dict[Address, Value]:
 
 
 @given(data=st.data(), form=FORMS)
-@settings(max_examples=60)
+@settings(max_examples=examples(60))
 def test_what_is_written_is_read_to_the_resolution_of_its_register(
     module: Schema, data: st.DataObject, form: object
 ) -> None:

@@ -13,6 +13,7 @@ from hypothesis import strategies as st
 from amp_studio.transfer.emulated.faults import Faults
 from amp_studio.transfer.errors import ConnectionCutError, ControlSilentError, TransferError
 from amp_studio.transfer.links.link import LinkError
+from tests.campaigns import examples
 from tests.transfer.images import NEW, OLD, send
 
 
@@ -120,7 +121,7 @@ def test_a_hopeless_line_ends_in_time_and_with_the_truth(
     assert made.clock.now < 60
 
 
-@settings(max_examples=60, suppress_health_check=[HealthCheck.function_scoped_fixture])
+@settings(max_examples=examples(60), suppress_health_check=[HealthCheck.function_scoped_fixture])
 @given(chance=st.randoms(use_true_random=False), one_in=st.integers(60, 2_000))
 def test_noise_of_any_kind_never_gives_a_wrong_image(
     rig: Callable[..., Any], new_control: Callable[..., Any], chance: random.Random, one_in: int
