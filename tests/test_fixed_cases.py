@@ -10,7 +10,7 @@ from pathlib import Path
 
 import pytest
 from hypothesis import settings
-from PySide6.QtGui import QFontDatabase
+from PySide6.QtGui import QFontDatabase, QFontInfo
 from PySide6.QtWidgets import QApplication
 
 from tests.campaigns import CAMPAIGN
@@ -86,4 +86,5 @@ def test_windows_have_the_font_of_the_tests_and_no_other(qapp: QApplication) -> 
     assert set(QFontDatabase.families()) - of_the_program - {"Sans Serif", "Serif", "Monospace"} == {
         "DejaVu Sans"
     }
-    assert QFontDatabase.systemFont(QFontDatabase.SystemFont.GeneralFont).family() == "DejaVu Sans"
+    general = QFontDatabase.systemFont(QFontDatabase.SystemFont.GeneralFont)
+    assert QFontInfo(general).family() == "DejaVu Sans"

@@ -179,10 +179,11 @@ def open_window(qtbot: QtBot, person: Person) -> Iterator[Callable[..., MainWind
             1200, 640
         )  # the least in which every panel has its own place; a smaller one is painted sooner
         window.show()
-        with qtbot.waitActive(window, timeout=WAIT_MS):
-            window.activateWindow()
         if path is not None:
             window.open_first(path)
+        # After the file: where opening takes its time a progress dialog comes, and no window manager gives the keyboard back.
+        with qtbot.waitActive(window, timeout=WAIT_MS):
+            window.activateWindow()
         return window
 
     yield show
