@@ -271,3 +271,21 @@ def test_an_example_behind_sentences_changes_nothing_and_is_named() -> None:
 def test_headings_in_between_do_not_end_a_listing() -> None:
     text = CLASSIC.replace("$100=", "Steps per mm:\n$100=").replace("$110=", "Largest rates\n$110=")
     assert everything(text).values == everything(CLASSIC).values
+
+
+OLD = (40.02, 40.02, 320, 30, 500, 500, 252, 255, 25, 0.05, 0.1, 25, 3, 0, 1, 0, 0, 0, 0, 25, 250, 100, 1)
+
+
+@pytest.mark.parametrize("keep", [False, True])
+def test_the_numbers_of_grbl_08_mean_other_settings_and_are_refused(keep: bool) -> None:
+    plain = "".join(f"${n}={value}\n" for n, value in enumerate(OLD))
+    for text in (
+        plain,
+        plain.replace("$0=40.02", "$0=250 (x, step/mm)").replace("0.05", "1").replace("=0.1\n", "=1\n"),
+    ):
+        with pytest.raises(FormatError, match=r"line 1, column 1: this is a listing of Grbl 0\.8"):
+            everything(text, keep_unknown=keep)
+    assert everything(f"Old:\n{plain}\nNew:\n{CLASSIC}").machine == "grbl-1.1"
+    assert (
+        everything("$0=10 (step pulse, usec)\n$1=25\n$11=0.01\n").values["classic.idle_delay", ""].value == 25
+    )

@@ -41,6 +41,13 @@ def _read(text: str, schema: Schema, options: ReadOptions) -> TextRead:
     relative = _relative(text)
     log = read_log(text) if relative is None else _log_of(relative)
     listing = _chosen(log, options.listing)
+    if _is_of_grbl_08(listing):
+        raise FormatError(
+            "this is a listing of Grbl 0.8, whose numbers mean other settings ($0 is the steps of X, not the pulse): "
+            "it is not read. Read one of Grbl 0.9 or newer",
+            listing.first_line,
+            1,
+        )
     fit = _machine(schema, log, listing, options.machine)
     if fit.unreadable and not options.keep_unknown:
         raise _unreadable(listing, fit)
@@ -88,6 +95,14 @@ def _account_of(relative: Relative) -> str:
     settings = ", ".join(f"${number}" for number in sorted(relative.settings))
     kept = f"; kept as text: {len(relative.kept)} entries" if relative.kept else ""
     return f"a {relative.name}: what it has in common with Grbl was read, {settings}{kept}"
+
+
+def _is_of_grbl_08(listing: LoggedListing) -> bool:
+    """Return whether a listing is of the time before the steps were $100: $8 to $10 are lengths there, or a remark names them."""
+    if max(listing.settings) > 22:
+        return False
+    fractions = [n for n in (9, 10) if re.fullmatch(r"0?\.\d*[1-9]\d*", figure(listing.settings.get(n, "")))]
+    return bool(fractions) or "/mm" in listing.remarks.get(0, "")
 
 
 def _chosen(log: Log, number: int) -> LoggedListing:
