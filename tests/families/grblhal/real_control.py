@@ -30,8 +30,9 @@ class RealControl:
         with socket.socket() as free:
             free.bind(("127.0.0.1", 0))
             self.port = free.getsockname()[1]
+        # Without a time factor of 0 it reads a byte a millisecond of the clock, and computes all the while.
         self._process = subprocess.Popen(
-            [self._firmware, "-n", "-p", str(self.port), "-e", self._memory], stdin=subprocess.DEVNULL,
+            [self._firmware, "-n", "-t", "0", "-p", str(self.port), "-e", self._memory], stdin=subprocess.DEVNULL,
             stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, cwd=self._memory.parent,
         )  # fmt: skip
         _wait_listening(self.port)
