@@ -12,16 +12,21 @@ from pathlib import Path
 from types import TracebackType
 from typing import TYPE_CHECKING
 
+from .display import MISSING, has_display
+
 if TYPE_CHECKING:
     from .main_window import MainWindow
 
 __all__ = ["main"]
 
+if has_display():
+    from .guard import guard_overrides
+
+    guard_overrides()  # before the first class of this room is made
+
 
 def main(arguments: Sequence[str] | None = None, emulate: bool = False) -> int:
     """Open the desktop program, on files if some are named, else on those of the last time; ``emulate`` starts an emulated control. Returns the exit code."""
-    from .display import MISSING, has_display
-
     if not has_display():
         print(f"amp-studio: {MISSING}", file=sys.stderr, flush=True)
         return 2
@@ -57,15 +62,30 @@ def main(arguments: Sequence[str] | None = None, emulate: bool = False) -> int:
 
 
 def _hook(window: MainWindow):  # type: ignore[no-untyped-def]  # the type of sys.excepthook has no name
-    """Return the hook that shows an internal error as a message; the traceback goes to the terminal."""
+    """Return the hook that shows an internal error as a message; the traceback goes to the terminal.
+
+    One error is reported once: what fails while the window is painted fails again at once. Its message waits for the event loop,
+    because a box that is opened while Qt paints ends the process.
+    """
+    from PySide6.QtCore import QTimer
+
+    reported: set[str] = set()
 
     def show_internal_error(
         kind: type[BaseException], error: BaseException, trace: TracebackType | None
     ) -> None:
         from .questions import show_message
 
+        last = traceback.extract_tb(trace)[-1:]
+        where = f"{kind.__name__} {last[0].filename}:{last[0].lineno}" if last else kind.__name__
+        if where in reported:
+            return
+        reported.add(where)
         traceback.print_exception(kind, error, trace)
-        show_message(window, "Internal error", f"AMP Studio has an internal error: {kind.__name__}: {error}\n\n"
-             "Your work is still open. Save it under a new name.")  # fmt: skip
+        text = (
+            f"AMP Studio has an internal error: {kind.__name__}: {error}\n\n"
+            "Your work is still open. Save it under a new name."
+        )
+        QTimer.singleShot(0, window, lambda: show_message(window, "Internal error", text))
 
     return show_internal_error
