@@ -23,6 +23,7 @@ from amp_studio.guide import (
     steps_of,
     tick,
 )
+from amp_studio.machine import value_row
 from amp_studio.report.check_list import OpenValue, open_value
 from amp_studio.report.finding_lines import finding_json
 from amp_studio.report.wording import counted
@@ -31,7 +32,6 @@ from amp_studio.validate import SEVERITIES, Validator, rules_beside
 
 from .console import family, is_family, note, print_json
 from .errors import UsageError
-from .files import value_row
 from .opened import opened
 from .output import check_replaced, note_all
 

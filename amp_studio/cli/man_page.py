@@ -5,7 +5,7 @@ from __future__ import annotations
 import argparse
 from collections.abc import Iterator
 
-from amp_studio import __version__
+from amp_studio.version import __version__
 
 from .manual import EXIT_CODES, sections
 from .parser import parser, verbs_of

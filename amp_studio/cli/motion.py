@@ -7,6 +7,7 @@ from collections.abc import Sequence
 from dataclasses import asdict
 
 from amp_studio.files import ParameterFile, axis_instances
+from amp_studio.machine import read_assignments
 from amp_studio.scenarios import IDENTIFY
 from amp_studio.schema import axis_meant
 from amp_studio.sim import (
@@ -30,7 +31,6 @@ from amp_studio.sim import (
 
 from .console import assignments, note, print_json
 from .errors import UsageError
-from .files import wanted
 from .opened import opened
 from .output import check_replaced
 
@@ -56,7 +56,7 @@ def simulate_verb(options: argparse.Namespace) -> int:
     settings, own = _settings(options.assignments)
     told: list[str] = []
     before = file.copy()
-    for address, value in wanted(file, own, told.append).items():
+    for address, value in read_assignments(file, assignments(own), told.append).items():
         file.set(address, value)
     axis = _axis(options, file)
     if options.machine_file:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import argparse
 
-from amp_studio import __version__
+from amp_studio.version import __version__
 
 from .arguments import VerbParser, Verbs
 from .options import calibration, checks, documents, exchanges, facts, files, motion, shell

@@ -13,8 +13,6 @@ import sys
 from pathlib import Path
 from typing import BinaryIO, Literal
 
-import amp_studio
-
 from .model import Report
 from .template_copy import copied_template
 from .templating import TemplateMistakeError
@@ -30,7 +28,7 @@ What = Literal["pdf", "html", "pages"]
 
 def made_apart(what: What, report: Report, own: Path, ppi: int = 0) -> list[bytes]:
     """Return what ``made`` returns, from a process apart; raises TemplateMistakeError."""
-    command = [sys.executable, "-P", "-c", _CHILD, str(Path(amp_studio.__file__).parent.parent)]
+    command = [sys.executable, "-P", "-c", _CHILD, str(Path(__file__).parents[2])]
     try:
         done = subprocess.run(
             command,

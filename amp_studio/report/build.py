@@ -8,7 +8,6 @@ from datetime import datetime
 from itertools import groupby
 from pathlib import Path
 
-from amp_studio import __version__
 from amp_studio.files import (
     ParameterFile,
     ParameterFileError,
@@ -24,6 +23,7 @@ from amp_studio.files import (
 from amp_studio.files.notes import all_notes, machine_note
 from amp_studio.schema import Address, Schema, label_of
 from amp_studio.validate import NO_RULES, BuilderRules, Finding, Validator
+from amp_studio.version import __version__
 
 from .axes import printed_axes, scope_of
 from .contents import SORTS, UNIT_CHOICES, Contents

@@ -9,9 +9,9 @@ from dataclasses import dataclass
 from datetime import datetime
 from pathlib import Path
 
-from amp_studio import __version__
 from amp_studio.files import Notify, write_atomic
 from amp_studio.files.spreadsheet import text_cell
+from amp_studio.version import __version__
 
 from .language import Language, language_of
 from .page import filled_page

@@ -114,7 +114,7 @@ class MainWindow(StudioWindow):
         self.addToolBar(self.tools)
 
     def _about(self) -> None:
-        from amp_studio import __version__
+        from amp_studio.version import __version__
 
         show_message(self, self.tr("About AMP Studio"), self.tr("AMP Studio {version}\n\nThe numbered parameters of machine controls: edit, check, print, exchange and simulate them.").format(version=__version__), QMessageBox.Icon.Information)  # fmt: skip
 

@@ -11,8 +11,8 @@ from textwrap import dedent
 
 import pytest
 
-from amp_studio.cli.files import NOT_SET
 from amp_studio.files import backup_path, open_file
+from amp_studio.machine import NOT_SET
 from amp_studio.schema import Value, family_ids, load_schema
 
 # -- new -----------------------------------------------------------------------------------------------------

@@ -79,6 +79,7 @@ def test_what_a_written_file_could_not_keep_is_said(
         accept(ReportDialog, lambda d: d.path.setText(str(path)))
     else:
         person.chooses(path)
+        person.answers("Export")  # without the secrets
     action(window, verb).trigger()
     assert "1 other name of this file (a hard link) still has" in window.statusBar().currentMessage()
     assert (tmp_path / "other name").read_bytes() == b"old"

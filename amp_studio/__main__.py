@@ -1,0 +1,5 @@
+"""``python -m amp_studio``."""
+
+from amp_studio.cli import main
+
+main()

@@ -1,0 +1,129 @@
+"""The public library: the examples of its page, its names, and its errors."""
+
+from __future__ import annotations
+
+import re
+import shutil
+import subprocess
+import sys
+from collections.abc import Callable, Iterator
+from pathlib import Path
+
+import pytest
+
+import amp_studio as amp
+from amp_studio.files.examples import examples
+
+PAGE = Path(__file__).parents[1] / "docs" / "library.md"
+EXAMPLES = re.findall(r"```python\n(.*?)```", PAGE.read_text("utf-8"), re.DOTALL)
+
+
+@pytest.fixture
+def mill(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    """Return a copy of the example in the working folder."""
+    source = next(e.path for e in examples() if e.path.stem == "MILL_1394")
+    monkeypatch.chdir(tmp_path)
+    return Path(shutil.copy(source, tmp_path / "mill.amp"))
+
+
+@pytest.fixture
+def control(tmp_path: Path) -> Iterator[str]:
+    """Start an emulated control in E-stop and return its address."""
+    command = [sys.executable, "-m", "amp_studio", "emulate", "9pc", "--listen", "tcp://127.0.0.1:0",
+               "--state", str(tmp_path / "control"), "--machine", "mill"]  # fmt: skip
+    with subprocess.Popen(command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True) as process:
+        assert process.stdout is not None
+        yield process.stdout.readline().removeprefix("listening on ").strip()
+        process.communicate("quit\n", timeout=60)
+
+
+def test_there_are_ten_examples_of_at_most_five_lines() -> None:
+    assert len(EXAMPLES) == 10
+    assert max(len(example.splitlines()) for example in EXAMPLES) <= 5
+
+
+@pytest.mark.parametrize("example", [e for e in EXAMPLES if "ADDRESS" not in e])
+def test_an_example_runs(mill: Path, example: str) -> None:
+    exec(compile(example, str(PAGE), "exec"), {"amp": amp})  # what a reader types
+
+
+def test_the_example_at_a_control_runs(mill: Path, control: str) -> None:
+    (example,) = (e for e in EXAMPLES if "ADDRESS" in e)
+    exec(compile(example, str(PAGE), "exec"), {"amp": amp, "ADDRESS": control})  # what a reader types
+    machine = amp.connect(control).upload()
+    assert machine.diff(mill) == ()
+    machine["1300@X"] = "3 mm"
+    with pytest.raises(amp.MachineError, match="keep=FOLDER"):
+        amp.connect(control).download(machine)
+    machine["1750@X"] = "0 mm"
+    if any(finding.severity == "error" for finding in machine.check()):
+        with pytest.raises(amp.MachineError, match="nothing was sent"):
+            amp.connect(control).download(machine, keep=mill.parent)
+    assert not amp.connect(control).verify(machine).is_same
+
+
+def test_values_are_set_by_text_number_yes_and_none(mill: Path) -> None:
+    machine = amp.open(mill)
+    for value, text in (("5 mm", "5 mm"), (2.5, "2.5 mm"), (amp.Value(1.0, "in"), "1 in"), (None, "not set")):
+        machine["1300@X"] = value
+        assert str(machine["1300@X"]) == text
+    machine["1300@Y"] = machine["1750@X"]
+    assert machine["1300@Y"].value == machine["1750@X"].value
+    machine["zone.overtravel_used@1"] = False
+    assert machine["zone.overtravel_used@1"].value == "False"
+
+
+@pytest.mark.parametrize(
+    ("act", "kind"),
+    [
+        (lambda m: m["nothing"], amp.UnknownParameterError),
+        (lambda m: m.set({"1300@X": "5 mm", "1300@Y": "soon"}), amp.AssignmentError),
+        (lambda m: m.set({"1203@X": 1e9}), amp.RangeError),
+        (lambda m: m.diff(amp.new("num")), amp.MachineError),
+        (lambda m: m.simulate("nothing"), amp.AmpStudioError),
+        (lambda m: m.report("mill.doc"), amp.MachineError),
+        (lambda m: m.report("mill.txt", colour="red"), amp.MachineError),
+        (lambda m: m.save("there/is/none.amp"), amp.MachineError),
+        (lambda m: m.export("mill.doc"), amp.AmpStudioError),
+        (lambda _: amp.open("none.amp"), amp.AmpStudioError),
+        (lambda _: amp.new("none"), amp.AmpStudioError),
+        (lambda _: amp.new("9pc", machine="none"), amp.MachineError),
+        (lambda _: amp.new("9pc").save(), amp.MachineError),
+        (lambda _: amp.connect("tcp://127.0.0.1:1").identify(), amp.AmpStudioError),
+    ],
+)
+def test_an_error_is_one_of_the_program_and_changes_nothing(
+    mill: Path, act: Callable[[amp.MachineParameters], object], kind: type[Exception]
+) -> None:
+    machine, folder = amp.open(mill), sorted(mill.parent.iterdir())
+    before = dict(machine.file.values)
+    with pytest.raises(kind) as caught:
+        act(machine)
+    assert isinstance(caught.value, amp.AmpStudioError)
+    assert machine.file.values == before
+    assert sorted(mill.parent.iterdir()) == folder
+
+
+def test_a_save_notices_another_program_and_never_replaces_another_file(mill: Path) -> None:
+    mine, other = amp.open(mill), amp.open(mill)
+    other["1300@X"] = "1 mm"
+    other.save()
+    mine["1300@X"] = "2 mm"
+    with pytest.raises(amp.AmpStudioError, match="changed"):
+        mine.save()
+    mine.save("mine.amp")
+    with pytest.raises(amp.MachineError, match="exists already"):
+        other.save("mine.amp")
+    assert [amp.open(name)["1300@X"].value for name in ("mill.amp", "mine.amp")] == [1.0, 2.0]
+
+
+def test_every_public_name_is_there_and_typed() -> None:
+    assert all(getattr(amp, name) is not None for name in amp.__all__)
+    assert (Path(amp.__file__).parent / "py.typed").is_file()
+
+
+def test_the_package_runs_as_a_program() -> None:
+    done = subprocess.run(
+        [sys.executable, "-m", "amp_studio", "--version"], capture_output=True, text=True, check=True
+    )
+    assert done.stdout.split() == ["amp-studio", amp.__version__]
