@@ -226,3 +226,160 @@ def test_a_class_or_alias_has_a_name_that_no_other_has(checkout: Path) -> None:
                 places.setdefault(name, []).append(path.relative_to(checkout).as_posix())
     del places["Setting"]  # what grblHAL calls its parameters, and what a fix sets
     assert {name: where for name, where in places.items() if len(where) > 1} == {}
+
+
+def modules_below(package: Path) -> dict[str, Path]:
+    """Return name -> file of every module; a package's page has the package's name."""
+    return {
+        ".".join(path.relative_to(package.parent).with_suffix("").parts).removesuffix(".__init__"): path
+        for path in sorted(package.rglob("*.py"))
+    }
+
+
+def asked_for(node: ast.Import | ast.ImportFrom, name: str, modules: dict[str, Path]) -> Iterator[str]:
+    """Yield the modules that an import names: a package's page only where a name is taken that is no module of it."""
+    if isinstance(node, ast.Import):
+        yield from (alias.name for alias in node.names if alias.name in modules)
+        return
+    parts = name.split(".") if modules[name].name == "__init__.py" else name.split(".")[:-1]
+    base = ".".join(
+        [*parts[: len(parts) - node.level + 1], *filter(None, [node.module])] if node.level else []
+    )
+    base = base or node.module or ""
+    for alias in node.names:
+        inner = f"{base}.{alias.name}"
+        # A page may give another thing the name of one of its modules (sim.listing): then it is the page that is asked.
+        if inner in modules and alias.name not in given_by(modules[base]):
+            yield inner
+        elif base in modules:
+            yield base
+
+
+def given_by(page: Path) -> set[str]:
+    """Return the names that a page takes from its modules, without modules that keep their name."""
+    return {
+        alias.asname or alias.name
+        for node in ast.parse(page.read_text("utf-8")).body
+        if isinstance(node, ast.ImportFrom) and node.module
+        for alias in node.names
+    }
+
+
+def imports_of(path: Path, *, at_loading: bool) -> list[ast.Import | ast.ImportFrom]:
+    """Return the imports of a file, those for types alone left out; ``at_loading`` leaves out those in functions too."""
+    found: list[ast.Import | ast.ImportFrom] = []
+    open_nodes: list[ast.AST] = [ast.parse(path.read_text("utf-8"))]
+    while open_nodes:
+        node = open_nodes.pop()
+        if isinstance(node, (ast.Import, ast.ImportFrom)):
+            found.append(node)
+        elif at_loading and isinstance(node, (ast.FunctionDef, ast.AsyncFunctionDef, ast.Lambda)):
+            continue
+        elif isinstance(node, ast.If) and "TYPE_CHECKING" in ast.unparse(node.test):
+            open_nodes += node.orelse
+        else:
+            open_nodes += ast.iter_child_nodes(node)
+    return found
+
+
+def own_pages(package: Path) -> list[str]:
+    """Return "module -> page" of every module that imports the page of a package in which it is."""
+    modules = modules_below(package)
+    return [
+        f"{name} -> {page}"
+        for name, path in modules.items()
+        if path.name not in {"__init__.py", "__main__.py"}
+        for node in imports_of(path, at_loading=False)
+        for page in dict.fromkeys(asked_for(node, name, modules))
+        if "." in page and name.startswith(f"{page}.")
+    ]
+
+
+def circles(package: Path) -> list[list[str]]:
+    """Return the modules that import each other when they are loaded, each circle once."""
+    modules = modules_below(package)
+    asked = {
+        name: {m for node in imports_of(path, at_loading=True) for m in asked_for(node, name, modules)}
+        - {name}
+        for name, path in modules.items()
+    }
+    reached = {name: set(direct) for name, direct in asked.items()}
+    grows = True
+    while grows:
+        grows = False
+        for known in reached.values():
+            more = set().union(*(reached[each] for each in known)) - known
+            grows = grows or bool(more)
+            known.update(more)
+    found = {
+        tuple(sorted(other for other in reached[name] if name in reached[other]))
+        for name in modules
+        if name in reached[name]
+    }
+    return [list(each) for each in sorted(found)]
+
+
+def test_no_module_imports_the_page_of_its_own_room(checkout: Path) -> None:
+    """The page imports it: two threads that begin at either end get a module that is not ready."""
+    assert own_pages(checkout / "amp_studio") == []
+
+
+def test_no_modules_import_each_other_when_they_are_loaded(checkout: Path) -> None:
+    assert circles(checkout / "amp_studio") == []
+
+
+@pytest.mark.parametrize(
+    ("line", "pages", "circle"),
+    [
+        ("import amp_studio.sim", True, True),
+        ("from amp_studio.sim import Trace", True, True),
+        ("from . import Trace", True, True),
+        ("from . import trace", False, False),
+        ("from .trace import Trace", False, False),
+        ("def late():\n    from . import Trace", True, False),
+        ("from .listing import listing", False, True),
+    ],
+)
+def test_a_planted_circle_is_found(tmp_path: Path, line: str, pages: bool, circle: bool) -> None:
+    room = tmp_path / "amp_studio" / "sim"
+    room.mkdir(parents=True)
+    (tmp_path / "amp_studio" / "__init__.py").touch()
+    (room / "__init__.py").write_text("from .law import Law\nfrom .trace import Trace\n")
+    (room / "trace.py").write_text("class Trace: ...\n")
+    (room / "listing.py").write_text("from .law import Law\n")
+    (room / "law.py").write_text(f"{line}\nclass Law: ...\n")
+    assert bool(own_pages(tmp_path / "amp_studio")) == pages
+    assert bool(circles(tmp_path / "amp_studio")) == circle
+
+
+def test_the_window_loads_the_simulator_by_its_loader_alone(checkout: Path) -> None:
+    """An import in a function of ui that brings the simulator comes after a call of the loader in that function."""
+    modules = modules_below(checkout / "amp_studio")
+    brings = {"amp_studio.dossier"} | {name for name in modules if f"{name}.".startswith("amp_studio.sim.")}
+    asked = {
+        name: {m for node in imports_of(path, at_loading=True) for m in asked_for(node, name, modules)}
+        for name, path in modules.items()
+    }
+    while more := {name for name, direct in asked.items() if direct & brings} - brings:
+        brings |= more
+    beside = []
+    for name, path in modules.items():
+        if not name.startswith("amp_studio.ui.") or name in brings:
+            continue
+        for function in ast.walk(ast.parse(path.read_text("utf-8"))):
+            if not isinstance(function, ast.FunctionDef):
+                continue
+            loaded = [
+                call.lineno
+                for call in ast.walk(function)
+                if isinstance(call, ast.Call) and ast.unparse(call.func) in {"load", "_load_plots"}
+            ]
+            beside += [
+                f"{name}:{node.lineno}"
+                for node in function.body
+                if isinstance(node, (ast.Import, ast.ImportFrom))
+                and set(asked_for(node, name, modules)) & brings
+                and not any(line < node.lineno for line in loaded)
+            ]
+    assert beside == []
+    assert "amp_studio.ui.step_answer" in brings

@@ -65,8 +65,8 @@ class FilePicture:
 
 
 def pictures_of(file: ParameterFile) -> tuple[FilePicture, ...]:
-    """Return the pictures of a file, those of its family."""
-    return tuple(_pictures(file))
+    """Return the pictures of a file: those of its family that have a part to draw."""
+    return tuple(picture for picture in _pictures(file) if picture.parts)
 
 
 def _pictures(file: ParameterFile) -> Iterator[FilePicture]:

@@ -57,10 +57,17 @@ class AxisComparison(QDialog):
 
     def _axis_box(self, axis: str) -> QComboBox:
         box = QComboBox()
+        self._fill(box, axis)
+        return box
+
+    def _fill(self, box: QComboBox, axis: object) -> None:
+        """Offer the fitted axes, with ``axis`` chosen where it is one of them."""
+        box.blockSignals(True)
+        box.clear()
         for each in fitted_axes(self._workspace.file):
             box.addItem(axis_title(self._workspace.file, each), each)
         box.setCurrentIndex(max(box.findData(axis), 0))
-        return box
+        box.blockSignals(False)
 
     def _lay_out(self) -> None:
         head, foot, column = QHBoxLayout(), QHBoxLayout(), QVBoxLayout(self)
@@ -90,7 +97,14 @@ class AxisComparison(QDialog):
 
     def refresh(self, *_: object) -> None:
         """List again what differs; the current row stays where it was."""
-        file, (first, second) = self._workspace.file, self.axes()
+        file, fitted = self._workspace.file, list(fitted_axes(self._workspace.file))
+        if not fitted:  # nothing is left to compare
+            self.close()
+            return
+        for box in (self.first, self.second):
+            if [box.itemData(n) for n in range(box.count())] != fitted:  # axes came or went
+                self._fill(box, box.currentData())
+        first, second = self.axes()
         row = max(self.list.currentIndex().row(), 0)
         titles = [axis_title(file, axis) for axis in (first, second)]
         found = compare_axes(file, first, second)

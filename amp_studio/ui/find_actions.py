@@ -168,8 +168,8 @@ class FindActions(Translated):
         self._is_read = False
 
     def _read_menus(self) -> None:
-        """Learn which commands can be used now; the menus do not change while somebody types here."""
-        if self._is_read:
+        """Learn which commands can be used now, again if a menu was filled again meanwhile: its old commands are deleted."""
+        if self._is_read and all(_is_alive(action) for action in self._commands.values()):
             return
         self._is_read = True
         able = [(name, action) for name, action in commands(self.window.menuBar()) if action.isEnabled()]
@@ -205,6 +205,9 @@ class FindActions(Translated):
     # -- going there -----------------------------------------------------------------------
 
     def _go(self, row: FindRow) -> None:
+        if row.action is not None and not _is_alive(row.action):
+            self.box.search()  # its menu was filled again
+            return
         if row.action is not None:
             self.box.clear()
             self._leave()
@@ -256,3 +259,12 @@ def _every_family() -> tuple[Finder, ...]:
 def _make_ready(finder: Finder, validator: Validator, *_: object) -> None:
     index_of(finder.schema, finder.machine)
     validator.prepare_edits()
+
+
+def _is_alive(action: QAction) -> bool:
+    """Return whether a command still exists: a menu that is filled again deletes its old ones."""
+    try:
+        action.isEnabled()
+    except RuntimeError:
+        return False
+    return True

@@ -1,7 +1,7 @@
 """What the window loads beside its work: one loader, so that no two threads import parts of one package at the same time.
 
-A package imports its modules and they import it: while one thread is inside of that circle, another that begins at one of the modules waits
-for the first, and Python hands out a module that is not ready rather than let both wait for ever.
+The page of a package imports its modules, and an import of a module takes the lock of the module first, then asks for the page: two
+threads that begin at either end wait for each other, and Python hands out a module that is not ready rather than let both wait for ever.
 """
 
 from __future__ import annotations
@@ -20,7 +20,7 @@ def load(*modules: str) -> None:
             import_module(module)
 
 
-def load_beside(module: str) -> None:
-    """Import a module in another thread, if it is not there yet."""
-    if module not in sys.modules:
-        threading.Thread(target=load, args=(module,), daemon=True).start()
+def load_beside(*modules: str) -> None:
+    """Import modules in another thread, if they are not there yet."""
+    if any(module not in sys.modules for module in modules):
+        threading.Thread(target=load, args=modules, daemon=True).start()

@@ -223,7 +223,9 @@ class MachinesDialog(QDialog):
     def _chosen(self) -> list[_Machine]:
         return [
             machine
-            for n, machine in enumerate(self._machines)
+            for n, machine in enumerate(
+                self._machines[: self.list.count()]
+            )  # while one is added it has no line yet
             if machine.file is not None and self.list.item(n).checkState() == Qt.CheckState.Checked
         ]
 

@@ -15,7 +15,7 @@ from amp_studio.pictures import scene_svg
 from amp_studio.schema import Address
 
 from .file_page import FilePage
-from .loading import load_beside
+from .loading import load, load_beside
 from .picture_split import Arrangement, PictureLayout
 from .pictures_page import PicturesPage
 from .studio_window import StudioWindow
@@ -47,7 +47,7 @@ class PictureActions(QObject):
         page, layout = self.window.page, self.window.settings.pictures()
         if page is None:
             return
-        load_beside(RAMPS)  # the simulator's pieces take a fifth of a second
+        load_beside("amp_studio.sim", RAMPS)  # the simulator's pieces take a fifth of a second
         wants = layout.is_shown and page.pictures is None
         page.middle.arrange(layout)
         if wants and page.middle.arrangement != "instead":
@@ -59,6 +59,7 @@ class PictureActions(QObject):
     def pages(self, page: FilePage) -> PicturesPage:
         """Return the pictures of a file, made when they are first asked for."""
         if page.pictures is None:
+            load("amp_studio.sim", RAMPS)
             pictures = PicturesPage(page.workspace)
             pictures.parameter_wanted.connect(lambda address: self._to_parameter(page, address))
             pictures.left.connect(lambda: self._leave(page))

@@ -81,6 +81,9 @@ class PicturesPage(QWidget):
         self.grid = QGridLayout()
         self.grid.setContentsMargins(GAP2, 0, GAP2, GAP2)
         self.grid.setSpacing(GAP2)
+        self._nothing = QLabel(self.tr("This family has no pictures."))
+        self._nothing.setAlignment(Qt.AlignmentFlag.AlignCenter)
+        self.grid.addWidget(self._nothing, 0, 0)
         layout = QVBoxLayout(self)
         layout.setContentsMargins(0, 0, 0, 0)
         layout.setSpacing(0)
@@ -98,11 +101,8 @@ class PicturesPage(QWidget):
     def _build(self) -> None:
         options = [(name, worded(picture.title), "") for name, picture in self._pictures.items()]
         self.head.offer([(ALL, self.tr("All"), ""), *options])
-        if not self._pictures:
-            nothing = QLabel(self.tr("This family has no pictures."))
-            nothing.setAlignment(Qt.AlignmentFlag.AlignCenter)
-            self.grid.addWidget(nothing, 0, 0)
-        self.show_picture(ALL)
+        self._nothing.setVisible(not self._pictures)
+        self.show_picture(self._shown if self._shown in self._pictures else ALL)
 
     def card(self, name: str) -> PictureCard:
         """Return the card of a picture, made when it is first seen."""
@@ -203,10 +203,25 @@ class PicturesPage(QWidget):
                 elif set(addresses) & set(card.canvas.scene.drawn_from):
                     card.canvas.draw_again()
             return
+        names = list(self._pictures)
         self._pictures = {picture.name: picture for picture in pictures_of(self.workspace.file)}
+        if names != list(self._pictures):  # axes came or went
+            self._drop_cards()
+            self._build()
         for card in self._seen:
-            card.follow(self._pictures.get(card.picture.name, card.picture))
+            card.follow(self._pictures[card.picture.name])
         self.footer.show_handle(self._active.canvas.handle if self._active else None)
+
+    def _drop_cards(self) -> None:
+        """Remove the cards of pictures that there are no longer."""
+        self._front = self._front if self._front in self._pictures else ""
+        for name in [name for name in self.cards if name not in self._pictures]:
+            card = self.cards.pop(name)
+            self.grid.removeWidget(card)
+            card.hide()
+            card.deleteLater()
+            self._seen = [each for each in self._seen if each is not card]
+            self._active = None if self._active is card else self._active
 
     def showEvent(self, event: object) -> None:
         super().showEvent(event)  # type: ignore[arg-type]

@@ -10,7 +10,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 from weakref import WeakKeyDictionary
 
-from PySide6.QtCore import Qt, QTimer, QUrl, Signal
+from PySide6.QtCore import QMetaObject, QObject, Qt, QTimer, QUrl, Signal
 from PySide6.QtGui import QDesktopServices, QKeyEvent
 from PySide6.QtWidgets import QProgressBar, QVBoxLayout, QWidget
 
@@ -20,6 +20,7 @@ from amp_studio.report.templating import OWN
 from amp_studio.schema import Address
 
 from .file_page import FilePage
+from .loading import load
 from .message_bar import MessageBar
 from .page_view import PageView, Spot
 from .preview_head import PreviewHead
@@ -69,6 +70,8 @@ class PreviewPanel(QWidget):
         self.setAccessibleName(self.tr("Report preview"))
         self._choice = choice
         self._page: FilePage | None = None
+        self._links: list[QMetaObject.Connection] = []
+        """To the signals of the page."""
         self._known: WeakKeyDictionary[Workspace, _Shown] = WeakKeyDictionary()
         self._task: Task | None = None
         self._is_stale = False
@@ -120,9 +123,9 @@ class PreviewPanel(QWidget):
             return
         if self._page is not None:
             self._shown().spot = self.view.spot()
-            self._page.selected.disconnect(self._follow)
-            self._page.workspace.changed.disconnect(self.set_again)
-            self._page.workspace.saved.disconnect(self.set_again)
+        for link in self._links:  # of a page that is closed nothing is left to disconnect
+            QObject.disconnect(link)
+        self._links = []
         self._page = page
         self.bar.hide()
         self.view.empty = self.tr("Setting the pages …") if page else ""
@@ -132,9 +135,11 @@ class PreviewPanel(QWidget):
             self.view.show_pages((), PPI)
             self.head.show_count(0)
             return
-        page.selected.connect(self._follow)
-        page.workspace.changed.connect(self.set_again)
-        page.workspace.saved.connect(self.set_again)
+        self._links = [
+            page.selected.connect(self._follow),
+            page.workspace.changed.connect(self.set_again),
+            page.workspace.saved.connect(self.set_again),
+        ]
         self._watch.watch(real_path(page.workspace.path).parent)
         known = self._shown()
         self.view.show_pages(known.pages, known.ppi, known.spot)
@@ -204,6 +209,7 @@ class PreviewPanel(QWidget):
         own, source, known = workspace.validator.own, workspace.path, self._shown().motion
 
         def pages(motion: tuple[PrintedFigure, ...]) -> None:
+            load("amp_studio.sim", "amp_studio.dossier")
             from amp_studio.dossier import set_dossier
 
             notes: list[str] = []
@@ -214,6 +220,7 @@ class PreviewPanel(QWidget):
             self._placed.emit(workspace, found.places())
 
         def work(_: TaskProgress, cancelled: threading.Event) -> None:
+            load("amp_studio.sim", "amp_studio.dossier")
             from amp_studio.dossier import motion_figures
 
             pages(known)

@@ -14,6 +14,7 @@ from PySide6.QtGui import QDesktopServices, QImage, QPageLayout, QPainter
 from amp_studio.files import check_output
 
 from .file_dialogs import ReportDialog
+from .loading import load
 from .studio_window import StudioWindow
 from .task import ProgressDialog, TaskProgress
 from .translated import tr
@@ -48,6 +49,7 @@ def write_to(window: StudioWindow, workspace: Workspace, path: Path) -> None:
     notes: list[str] = []
 
     def work(_: TaskProgress, __: threading.Event) -> None:
+        load("amp_studio.sim", "amp_studio.dossier")
         from amp_studio.dossier import write_report
 
         write_report(
@@ -70,6 +72,7 @@ def _set_for_paper(window: StudioWindow, workspace: Workspace) -> Sequence[bytes
     file, contents, notes = workspace.file.copy(), window.report_choice.contents, list[str]()
 
     def work(_: TaskProgress, __: threading.Event) -> tuple[bytes, ...]:
+        load("amp_studio.sim", "amp_studio.dossier")
         from amp_studio.dossier import motion_figures, set_dossier
 
         motion = () if "motion" in contents.without else tuple(motion_figures(file))

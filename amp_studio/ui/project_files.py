@@ -166,6 +166,6 @@ class ProjectFiles(QObject):
 
 def to_trash(path: Path) -> None:
     """Move a file to the trash of the system. Raises OSError, and then the file is where it was."""
-    moved, _ = QFile.moveToTrash(str(path))
-    if not moved:
+    moved: object = QFile.moveToTrash(str(path))  # with the new name beside it, but for a failure
+    if not (moved[0] if isinstance(moved, tuple) else moved):
         raise OSError(f"{path.name} was not removed: the system has no trash for this folder")

@@ -122,7 +122,8 @@ class RangeActions(Translated):
     def paste(self) -> None:
         """Set values from the clipboard; a block is shown first, with what would change and what is refused."""
         data = QGuiApplication.clipboard().mimeData()
-        rows = read_block(data.text(), data.html() if data.hasHtml() else "")
+        # A clipboard that nothing was ever copied into has no content at all.
+        rows = read_block(data.text(), data.html() if data.hasHtml() else "") if data else []
         rows = [row for row in rows if any(cell.strip() for cell in row)] if len(rows) == 1 else rows
         if not any(cell.strip() for row in rows for cell in row):
             raise ValueError(tr("There is no text to paste."))

@@ -25,6 +25,7 @@ from amp_studio.calibration import compensation_of
 from amp_studio.files import RangeError
 from amp_studio.schema.registration import registration_of
 
+from .loading import load
 from .message_bar import MessageBar
 from .questions import ask
 from .segment import Segment
@@ -130,6 +131,7 @@ class TuningWindow(QWidget):
         Task(lambda *_: _load_plots()).begin()
 
     def _make_answer(self, holder: QSplitter, values: ValuesPage) -> None:
+        _load_plots()
         from .step_answer import StepAnswer
 
         self.answer = StepAnswer()
@@ -138,6 +140,7 @@ class TuningWindow(QWidget):
         self.answer.show_target(self.target)
 
     def _make_calibration(self, holder: QWidget) -> None:
+        _load_plots()
         from .calibration_page import CalibrationPage
 
         self.calibration = CalibrationPage(self.guarded, self.read_measured)
@@ -356,7 +359,6 @@ class TuningWindow(QWidget):
 
 
 def _load_plots() -> None:
-    """Load what draws and simulates, in a thread, so that no page waits for it."""
-    from . import calibration_page, measured_dialog, step_answer
-
-    _ = calibration_page, measured_dialog, step_answer
+    """Load what draws and simulates: first in a thread, so that a page seldom waits for it."""
+    parts = ("calibration_page", "measured_dialog", "step_answer")
+    load("amp_studio.sim", *(f"{__package__}.{part}" for part in parts))

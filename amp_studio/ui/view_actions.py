@@ -102,7 +102,6 @@ class ViewActions(Translated):
             self._fill(self.machine_menu, machines, file.machine, self._set_machine),
         ]
         self.machine_menu.setEnabled(workspace.may_edit)
-        self._groups[1].setEnabled(workspace.may_edit)
         self.secrets.setVisible(any(p.secret for p in file.schema.parameters.values()))
         self.check(workspace)
 
@@ -126,6 +125,8 @@ class ViewActions(Translated):
         """Check the present options; an undo may have changed them, and another file has its own."""
         self._show_motion(workspace)
         table = self.window.table
+        for n, group in enumerate(self._groups):  # units, control types
+            group.setEnabled(workspace is not None and (n == 0 or workspace.may_edit))
         if workspace is None or table is None or not self._groups:
             return
         for group, present in zip(

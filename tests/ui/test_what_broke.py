@@ -2,19 +2,25 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from pathlib import Path
 
 import pytest
-from PySide6.QtCore import Qt
+from PySide6.QtCore import QEvent, QFile, Qt
+from PySide6.QtGui import QGuiApplication
 from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QApplication, QDialog, QWidget
 from pytestqt.qtbot import QtBot
 
 from amp_studio.files import Project, ProjectInfo
+from amp_studio.files.examples import examples
+from amp_studio.pictures import pictures_of
 from amp_studio.schema import Value
+from amp_studio.ui.axis_comparison import AxisComparison
 from amp_studio.ui.axis_dialogs import AxisDialog
 from amp_studio.ui.choice_box import ChoiceBox
 from amp_studio.ui.main_window import MainWindow
+from amp_studio.ui.project_files import to_trash
 from amp_studio.ui.task import ProgressDialog
 
 from .conftest import WAIT_MS, Person, action, editor
@@ -134,3 +140,91 @@ def test_an_edit_in_progress_survives_a_change_of_the_group(window: MainWindow, 
     QApplication.processEvents()
     assert [r.message for r in qtlog.records if "ditor" in r.message] == []
     assert window.workspace.file.get(("servo.excess_error", "1")) in (Value(12.0, "mm"), Value(11.0, "mm"))
+
+
+# -- what a monkey found -------------------------------------------------------------------------------------------------------
+
+
+def test_units_and_control_types_are_not_offered_without_a_file(window: MainWindow) -> None:
+    offered = [action for group in window.view._groups for action in group.actions()]
+    assert all(each.isEnabled() for each in offered)
+    window.close_page(window.page)
+    assert not any(each.isEnabled() for each in offered)
+
+
+def test_a_clipboard_that_never_had_a_content_is_refused_in_words(
+    window: MainWindow, person: Person, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    class Empty:
+        @staticmethod
+        def mimeData() -> None:  # noqa: N802  # as Qt calls it
+            return None
+
+    monkeypatch.setattr(QGuiApplication, "clipboard", Empty)
+    window.go_to(("servo.excess_error", "1"))
+    action(window, "Paste").trigger()
+    assert person.reads() == "There is no text to paste."
+
+
+def test_the_preview_outlives_the_page_that_it_shows(window: MainWindow, path: Path, qtbot: QtBot) -> None:
+    other = path.with_name("other.amp")
+    other.write_bytes(path.read_bytes())
+    action(window, "Report Preview").trigger()
+    qtbot.waitUntil(lambda: window.preview.panel is not None, timeout=WAIT_MS)
+    panel, first = window.preview.panel, window.page
+    panel.show_page(first)
+    window.open_first(other)
+    panel.show_page(first)
+    window.close_page(first)
+    QApplication.sendPostedEvents(None, QEvent.Type.DeferredDelete)
+    panel.show_page(window.page)
+    assert panel._page is window.page
+
+
+def test_the_find_box_forgets_commands_of_a_menu_that_was_made_anew(window: MainWindow) -> None:
+    window.finder.rows("> inch")
+    window.view.follow(window.workspace)
+    QApplication.sendPostedEvents(None, QEvent.Type.DeferredDelete)
+    assert any("inch" in row.text.casefold() for row in window.finder.rows("> inch"))
+
+
+def test_pictures_that_another_control_type_does_not_have_leave_the_page(
+    open_window: Callable[..., MainWindow], tmp_path: Path
+) -> None:
+    (example,) = [each.path for each in examples() if each.family == "grblhal"]
+    path = tmp_path / example.name
+    path.write_bytes(example.read_bytes())
+    window = open_window(path)
+    action(window, "Pictures").trigger()
+    page, machine = window.page.pictures, window.workspace.file.machine
+    names = list(page._pictures)
+    page._front = "gears"
+    window.view._set_machine("grbl-0.9")
+    assert "gears" not in page._pictures
+    assert all(picture.parts for picture in pictures_of(window.workspace.file))
+    window.view._set_machine(machine)
+    assert list(page._pictures) == names
+
+
+def test_the_comparison_of_axes_follows_axes_that_come_and_go(window: MainWindow) -> None:
+    comparison = AxisComparison(window.page, "1", window)
+    assert comparison.first.count() == 5
+    types = {a: v for a, v in window.workspace.file.values.items() if a[0] == "axis.type"}
+    window.workspace.edit("one", dict.fromkeys([a for a in types if a[1] != "1"], Value("unfitted")))
+    comparison.refresh()
+    assert comparison.axes() == ("1", "1")
+    window.workspace.edit("none", dict.fromkeys(types, Value("unfitted")))
+    comparison.refresh()
+    assert not comparison.isVisible()
+
+
+def test_a_trash_that_refuses_is_told_and_the_file_stays(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Qt gives False alone, and a pair where it moves the file."""
+    path = tmp_path / "a.amp"
+    path.write_bytes(b"x")
+    for answer in (False, (False, "")):
+        monkeypatch.setattr(QFile, "moveToTrash", lambda _, answer=answer: answer)
+        with pytest.raises(OSError, match="no trash"):
+            to_trash(path)
