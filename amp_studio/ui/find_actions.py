@@ -19,7 +19,7 @@ from .find_rows import FindRow, rows_of
 from .menu_commands import commands
 from .message_page import MessageWindow
 from .studio_window import StudioWindow
-from .task import Task
+from .task import Task, is_alive
 from .translated import Translated
 
 _SOON_MS = 1_000
@@ -169,7 +169,7 @@ class FindActions(Translated):
 
     def _read_menus(self) -> None:
         """Learn which commands can be used now, again if a menu was filled again meanwhile: its old commands are deleted."""
-        if self._is_read and all(_is_alive(action) for action in self._commands.values()):
+        if self._is_read and all(is_alive(action) for action in self._commands.values()):
             return
         self._is_read = True
         able = [(name, action) for name, action in commands(self.window.menuBar()) if action.isEnabled()]
@@ -205,7 +205,7 @@ class FindActions(Translated):
     # -- going there -----------------------------------------------------------------------
 
     def _go(self, row: FindRow) -> None:
-        if row.action is not None and not _is_alive(row.action):
+        if row.action is not None and not is_alive(row.action):
             self.box.search()  # its menu was filled again
             return
         if row.action is not None:
@@ -259,12 +259,3 @@ def _every_family() -> tuple[Finder, ...]:
 def _make_ready(finder: Finder, validator: Validator, *_: object) -> None:
     index_of(finder.schema, finder.machine)
     validator.prepare_edits()
-
-
-def _is_alive(action: QAction) -> bool:
-    """Return whether a command still exists: a menu that is filled again deletes its old ones."""
-    try:
-        action.isEnabled()
-    except RuntimeError:
-        return False
-    return True

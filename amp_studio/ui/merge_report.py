@@ -14,7 +14,7 @@ from .file_dialogs import PAPER_KINDS, path_of_kind
 from .merge_model import SIDES
 from .merge_sources import MergeSource
 from .message_bar import MessageBar
-from .task import in_background
+from .task import in_background, is_alive
 from .translated import tr
 
 
@@ -36,10 +36,15 @@ def save_merge_report(
         check_output(path, beside)
         in_background(window, title, lambda: _write(merge, names, path))
     except (OSError, ValueError) as error:
-        bar.say(str(error), "error")
+        fault = str(error)
+    else:
+        fault = ""
+    if not is_alive(bar):  # the window was closed meanwhile
         return
-    written = tr("{file} written.")
-    bar.say(written.format(file=path.name))
+    if fault:
+        bar.say(fault, "error")
+    else:
+        bar.say(tr("{file} written.").format(file=path.name))
 
 
 def _write(merge: Merge, names: Mapping[Side, str], path: Path) -> None:

@@ -176,6 +176,15 @@ class ProgressDialog(QDialog):
             self.buttons.setEnabled(False)
 
 
+def is_alive(made: QObject) -> bool:
+    """Return whether an object of Qt still exists: what was waited for may have outlasted its window or its menu."""
+    try:
+        made.objectName()
+    except RuntimeError:
+        return False
+    return True
+
+
 def in_background(parent: QWidget | None, title: str, work: Callable[[], Result]) -> Result:
     """Return the result of ``work``, run in a thread while the window stays responsive; raises its errors."""
 

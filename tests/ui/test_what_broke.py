@@ -12,7 +12,7 @@ from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QApplication, QDialog, QWidget
 from pytestqt.qtbot import QtBot
 
-from amp_studio.files import Project, ProjectInfo
+from amp_studio.files import Merge, Project, ProjectInfo
 from amp_studio.files.examples import examples
 from amp_studio.pictures import pictures_of
 from amp_studio.schema import Value
@@ -20,8 +20,10 @@ from amp_studio.ui.axis_comparison import AxisComparison
 from amp_studio.ui.axis_dialogs import AxisDialog
 from amp_studio.ui.choice_box import ChoiceBox
 from amp_studio.ui.main_window import MainWindow
+from amp_studio.ui.merge_report import save_merge_report
+from amp_studio.ui.message_bar import MessageBar
 from amp_studio.ui.project_files import to_trash
-from amp_studio.ui.task import ProgressDialog
+from amp_studio.ui.task import ProgressDialog, is_alive
 
 from .conftest import WAIT_MS, Person, action, editor
 
@@ -216,6 +218,22 @@ def test_the_comparison_of_axes_follows_axes_that_come_and_go(window: MainWindow
     window.workspace.edit("none", dict.fromkeys(types, Value("unfitted")))
     comparison.refresh()
     assert not comparison.isVisible()
+
+
+def test_a_report_of_a_comparison_outlives_its_window(
+    window: MainWindow, person: Person, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    bar = MessageBar()
+
+    def work_and_close(_parent: object, _title: str, _work: object) -> None:
+        bar.deleteLater()
+        QApplication.sendPostedEvents(None, QEvent.Type.DeferredDelete)
+
+    monkeypatch.setattr("amp_studio.ui.merge_report.in_background", work_and_close)
+    person.chooses(tmp_path / "c.pdf")
+    file = window.workspace.file
+    save_merge_report(window, Merge(file, file, None), {}, tmp_path / "a.amp", bar)
+    assert not is_alive(bar)
 
 
 def test_a_trash_that_refuses_is_told_and_the_file_stays(
