@@ -14,9 +14,9 @@ from hypothesis import strategies as st
 from amp_studio.sim import Machine, Ramp, SimulationError
 from amp_studio.sim.arrays import Vector
 from amp_studio.sim.law import AxisLaw
-from amp_studio.sim.machine import machine_array
+from amp_studio.sim.machine import COULOMB, KEEP, KICK, SIZE, STATIC, machine_array
 from amp_studio.sim.motion import Until, run_axis
-from amp_studio.sim.plant import PlantState, advance
+from amp_studio.sim.plant import PlantState, advance, speed_after
 from amp_studio.sim.ramps import blocks, end_of, move
 from amp_studio.sim.signals import OUTPUT_TEST
 from tests.campaigns import examples
@@ -304,3 +304,11 @@ def test_halving_the_step_hardly_changes_a_drive_with_an_integral() -> None:
     first, second = (float(np.max(np.abs(a - b))) for a, b in pairwise(speeds))
     assert first < 0.003 * 10.0
     assert second < 0.5 * first
+
+
+@pytest.mark.parametrize(("push", "after"), [(-3.0, 0.0), (-5.0, -6.5 * 3.0 / 7.0)])
+def test_a_mass_that_turns_rests_below_its_static_friction(push: float, after: float) -> None:
+    """Coulomb friction 2, static friction 4: a push of 3 turns it no more, though it would keep it going."""
+    m = np.zeros(SIZE)
+    m[COULOMB], m[STATIC], m[KEEP], m[KICK] = 2.0, 4.0, 1.0, 1.0
+    assert speed_after(m, 0, 0.5, push) == pytest.approx(after)
