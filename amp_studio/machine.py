@@ -212,7 +212,7 @@ class MachineParameters:
         """
         from amp_studio.formats import export_file
 
-        return export_file(self.file, Path(path), format_key, secrets=secrets).account
+        return export_file(self.file, path, format_key, secrets=secrets).account
 
 
 def open_machine(path: str | Path) -> MachineParameters:
@@ -242,7 +242,7 @@ def import_text(
     """Return the machine of a control's own text, in any format of the family; raises FormatError."""
     from amp_studio.formats import import_file
 
-    return MachineParameters(import_file(Path(path), family, keep_unknown=keep_unknown))
+    return MachineParameters(import_file(path, family, keep_unknown=keep_unknown))
 
 
 def _setting(name: str) -> str:

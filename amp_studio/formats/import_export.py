@@ -39,7 +39,7 @@ def _own_formats(family: str) -> tuple[TextFormat, ...]:
 
 
 def import_file(
-    path: Path,
+    path: Path | str,
     family: str | None = None,
     *,
     format_key: str | None = None,
@@ -57,6 +57,7 @@ def import_file(
     Without a family, the format or the text has to name it. Raises FormatError with line and column,
     UnknownFamilyError, OSError.
     """
+    path = Path(path)
     content = _as_utf8(read_file(path, _MOST_BYTES))
     chosen = _format_for_reading(content, family, format_key)
     text = _decoded(content, chosen)
@@ -132,12 +133,13 @@ class Export:
 
 
 def export_of(
-    file: ParameterFile, path: Path, format_key: str | None = None, *, secrets: bool = False
+    file: ParameterFile, path: Path | str, format_key: str | None = None, *, secrets: bool = False
 ) -> Export:
     """Return what ``export_file`` writes; nothing is written yet. Its account is made by reading the text back.
 
     Raises FormatError for a format that is not offered, a value it cannot write, and a text that cannot be read back.
     """
+    path = Path(path)
     chosen = _format_for_writing(file.schema.family.family, path, format_key)
     left_out = frozenset[Address]() if secrets else frozenset(secret_values(file))
     text = chosen.write(file if secrets else without_secrets(file))
@@ -160,7 +162,7 @@ def export_of(
 
 def export_file(
     file: ParameterFile,
-    path: Path,
+    path: Path | str,
     format_key: str | None = None,
     notify: Notify = lambda _message: None,
     *,
@@ -172,7 +174,7 @@ def export_file(
     kept. Raises as ``export_of`` does, and SaveError.
     """
     export = export_of(file, path, format_key, secrets=secrets)
-    write_atomic(path, export.content, notify=notify)
+    write_atomic(Path(path), export.content, notify=notify)
     return export
 
 
