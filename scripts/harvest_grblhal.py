@@ -12,7 +12,6 @@ from __future__ import annotations
 import argparse
 import re
 import subprocess
-import sys
 from collections.abc import Iterator
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -202,7 +201,8 @@ def read_texts(text: str, texts: dict[str, str]) -> None:
 
 def conditions(lines: list[str]) -> list[str]:
     """Return for each line under which conditions of the preprocessor it is compiled."""
-    found, stack = [], []
+    found: list[str] = []
+    stack: list[str] = []
     for line in lines:
         part = re.match(r"\s*#\s*(if|ifdef|ifndef|elif|else|endif)\b\s*(.*)", line)
         if part:
@@ -258,7 +258,8 @@ def read_settings(name: str, text: str, sources: Sources) -> None:
 
 def split(text: str) -> list[str]:
     """Return the cells between commas that are in no quotes or braces."""
-    cells, depth, quoted, start = [], 0, False, 0
+    cells: list[str] = []
+    depth, quoted, start = 0, False, 0
     for n, sign in enumerate(text):
         if sign == '"' and text[n - 1] != "\\":
             quoted = not quoted
@@ -303,9 +304,10 @@ def merged(settings: list[Found]) -> Found:
         key=lambda s: (order.index(TYPES[s.form]), len(s.labels.split(",")) if "<" not in s.labels else 0),
     )
     ranges = [(number(s.least), number(s.most)) for s in settings if TYPES[s.form] == TYPES[widest.form]]
-    lows, highs = [low for low, _ in ranges], [high for _, high in ranges]
-    low = None if None in lows else min(filter(lambda b: b is not None, lows))
-    high = None if None in highs else max(filter(lambda b: b is not None, highs))
+    lows = [low for low, _ in ranges if low is not None]
+    highs = [high for _, high in ranges if high is not None]
+    low = min(lows) if len(lows) == len(ranges) else None  # one source without a bound: none
+    high = max(highs) if len(highs) == len(ranges) else None
     names = list(dict.fromkeys(s.name for s in settings if s.name)) or [first.constant]
     return Found(
         first.number,
@@ -561,4 +563,4 @@ def report(by_number: dict[int, list[Found]], sources: Sources, *, write: bool, 
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    main()
