@@ -1,0 +1,71 @@
+"""What ``scripts/measure_house.py`` counts, on sources of a few lines."""
+
+from __future__ import annotations
+
+import ast
+from pathlib import Path
+
+import measure_house
+import pytest
+
+
+@pytest.mark.parametrize(
+    ("line", "taken"),
+    [
+        ("from amp_studio.files import open_file", [("files", "open_file", False)]),
+        (
+            "from amp_studio.files.lock import Lock, locked",
+            [("files", "Lock", True), ("files", "locked", True)],
+        ),
+        ("from ..files.lock import Lock", [("files", "Lock", True)]),
+        ("from amp_studio.files import lock", [("files", "", True)]),
+        ("from amp_studio.files import diff", [("files", "diff", False)]),
+        ("import amp_studio.files.lock", [("files", "", True)]),
+        ("import amp_studio.files", [("files", "", False)]),
+        ("from amp_studio.errors import AmpStudioError", [("errors", "AmpStudioError", False)]),
+        ("from amp_studio.sim.law import Law", []),
+        ("from .law import Law", []),
+        ("import json", []),
+        ("def late():\n    from amp_studio.files.lock import Lock", [("files", "Lock", True)]),
+    ],
+)
+def test_a_name_that_is_taken_past_a_front_page_counts(
+    tmp_path: Path, line: str, taken: list[tuple[str, str, bool]]
+) -> None:
+    sources = {
+        "files/__init__.py": "from .diff import diff\n__all__ = ['diff', 'open_file']\n",
+        "files/diff.py": "def diff(): ...\n",
+        "files/lock.py": "class Lock: ...\n",
+        "errors.py": "",
+        "sim/__init__.py": "",
+        "sim/law.py": "",
+        "sim/here.py": f"{line}\n",
+    }
+    for name, text in sources.items():
+        path = tmp_path / "amp_studio" / name
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_text(text, encoding="utf-8")
+    found = [name for name in measure_house.imported_names(tmp_path / "amp_studio") if name.room == "sim"]
+    assert [(name.given_by, name.name, name.is_past) for name in found] == taken
+
+
+@pytest.mark.parametrize(
+    ("body", "count"),
+    [
+        ("return 1", 1),
+        ("return 1 if a else 2", 2),
+        ("if a and b or c:\n        return 1", 4),
+        ("for x in a:\n        assert x", 3),
+        ("return [x for x in a if x if b]", 4),
+        ("try:\n        pass\n    except ValueError:\n        pass", 2),
+        ("match a:\n        case 1:\n            pass\n        case _:\n            pass", 3),
+        ("def inner():\n        if a:\n            pass", 1),
+    ],
+)
+def test_each_way_in_which_code_can_part_counts(body: str, count: int) -> None:
+    assert measure_house.branches(ast.parse(f"def f(a, b, c):\n    {body}\n").body[0]) == count
+
+
+def test_bodies_are_counted_without_heads_and_docstrings() -> None:
+    source = 'X = 1\n\ndef f(\n    a,\n):\n    """What."""\n    if a:\n        return 1\n\n    def g():\n        return 2\n'
+    assert measure_house.body_lines(ast.parse(source)) == 5
