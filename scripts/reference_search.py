@@ -84,6 +84,10 @@ def family_entries(schema: Schema) -> Iterator[Entry]:
         yield ["page", f"Page {page}", _at("pages", f"page-{page}"), [page], "", ""]
 
 
+INTERNALS = ("architecture", "contributing", "described", "family-code", "schema")
+"""Pages for those who change the program."""
+
+
 def guide_entries(folder: Path) -> list[Entry]:
     """Return an entry for each heading of the pages that people wrote."""
     found: list[Entry] = []
@@ -91,14 +95,17 @@ def guide_entries(folder: Path) -> list[Entry]:
         name = path.relative_to(folder).with_suffix("").as_posix()
         if name.startswith("reference/") or name == "changelog":
             continue
-        kind = "internals" if name in ("architecture", "contributing", "described", "schema") else "guide"
+        is_decision = name.startswith(
+            "decisions/"
+        )  # one entry each: their headings are the same on every page
+        kind = "internals" if is_decision or name in INTERNALS else "guide"
         known: set[str] = set()
         title = ""
         text = path.read_text(encoding="utf-8").partition("```{toctree}")[0]
         plain_text = re.sub(
             r"^```.*?^```", lambda block: block[0].replace("#", " "), text, flags=re.MULTILINE | re.DOTALL
         )
-        _, *sections = re.split(r"^(?=#{1,4} )", plain_text, flags=re.MULTILINE)
+        _, *sections = re.split(rf"^(?=#{{1,{1 if is_decision else 4}}} )", plain_text, flags=re.MULTILINE)
         for section in sections:
             heading, _, below = section.partition("\n")
             plain = re.sub(r"\[(.*?)\]\(.*?\)|[`*]", r"\1", heading.lstrip("# ")).strip()

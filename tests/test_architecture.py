@@ -188,10 +188,7 @@ def test_the_examples_of_contributing_are_facts_the_program_reads(checkout: Path
 def walks(checkout: Path) -> list[tuple[str, str]]:
     """Return module and function of every step of the walks in docs/architecture.md."""
     text = (checkout / "docs" / "architecture.md").read_text(encoding="utf-8")
-    text = text[
-        text.index("## A value typed until it is on disk") : text.index("## How a question is answered")
-    ]
-    return re.findall(r"`([a-z_/]+\.py)`\s+`([\w.]+)`", text)
+    return re.findall(r"`([a-z_/]+\.py)`\s+`([\w.]+)`", text.partition("## Four walks")[2])
 
 
 def test_every_function_of_a_walk_is_where_the_page_says(checkout: Path) -> None:

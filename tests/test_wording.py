@@ -77,6 +77,7 @@ DOCUMENTS = (
     "docs/commands.md",
     "docs/commissioning.md",
     "docs/described.md",
+    "docs/family-code.md",
     "docs/formats.md",
     "docs/rules.md",
     "docs/schema.md",
@@ -90,6 +91,7 @@ DOCUMENTS = (
     "docs/protocols/grblhal.md",
     "Makefile",
     *sorted(p.relative_to(ROOT).as_posix() for p in ROOT.glob("examples/*/README.md")),
+    *sorted(p.relative_to(ROOT).as_posix() for p in ROOT.glob("docs/decisions/*.md")),
 )
 
 _PATTERN = re.compile(rf"\b({'|'.join(map(re.escape, FORBIDDEN))})\b", re.IGNORECASE)

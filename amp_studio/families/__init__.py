@@ -1,6 +1,6 @@
 """What each control family does differently, a folder each: formulas, text formats, drivers, the law of its axes.
 
-The rooms below find it through this table and by nothing else (``schema/registration.py``). docs/architecture.md lists
+The rooms below find it through this table and by nothing else (``schema/registration.py``). docs/family-code.md lists
 what one more family has to write.
 """
 
