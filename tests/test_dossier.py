@@ -9,7 +9,7 @@ from pathlib import Path
 
 import pytest
 
-from amp_studio.dossier import exchanges_of, motion_figures, write_report
+from amp_studio.dossier import exchanges_of, motion_apart, motion_figures, write_report
 from amp_studio.files import open_file
 from amp_studio.report import CHAPTERS, Contents
 from amp_studio.transfer.client.record import add_exchange, exchange_now
@@ -25,6 +25,7 @@ def mill(tmp_path: Path) -> Path:
 
 def test_each_axis_has_its_responses_and_what_they_assume_is_said_once() -> None:
     figures = tuple(motion_figures(open_file(MILL).file))
+    assert motion_apart(open_file(MILL).file) == figures
     assert [f.title for f in figures[:2]] == ["Step, axis 1 (X)", "Frequency, axis 1 (X)"]
     assert figures[-1].title == "What was assumed"
     assert len(set(figures[-1].notes)) == len(figures[-1].notes) > 0

@@ -10,6 +10,7 @@ from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
+    from .apart import ReportNotMadeError, run_apart
     from .build import build_report
     from .by_rule import FindingGroup, finding_axes, finding_groups, fix_lines, fix_text
     from .contents import (
@@ -79,6 +80,8 @@ _PLACES = {
     "SetReport": "pdf",
     "set_report": "write",
     "print_report": "write",
+    "ReportNotMadeError": "apart",
+    "run_apart": "apart",
 }
 """Name -> its module."""
 
@@ -105,6 +108,7 @@ __all__ = [
     "Place",
     "PrintedFigure",
     "Report",
+    "ReportNotMadeError",
     "SetReport",
     "Sort",
     "UnitChoice",
@@ -127,6 +131,7 @@ __all__ = [
     "page_of",
     "print_report",
     "range_text",
+    "run_apart",
     "same_finding_text",
     "set_report",
     "suppressed_text",

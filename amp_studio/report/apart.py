@@ -1,6 +1,7 @@
-"""A report by a project's template is made in a process apart: what works without end is ended there, and what takes all memory ends alone.
+"""Reports are made in a process apart where the program goes on after them, and where a project's template makes them.
 
-Typst runs in the process that calls it, cannot be interrupted, and ends it where memory is over.
+Typst runs in the process that calls it, keeps about 100 MB of each document for those after it, cannot be interrupted, and
+ends the process where memory is over: a template without an end, or with too much, ends alone.
 """
 
 from __future__ import annotations
@@ -13,6 +14,8 @@ import sys
 from pathlib import Path
 from typing import BinaryIO, Literal
 
+from amp_studio.errors import AmpStudioError
+
 from .model import Report
 from .template_copy import copied_template
 from .templating import TemplateMistakeError
@@ -21,33 +24,53 @@ _PATIENCE_S = 40.0
 """Of both: jinja2 has half of it (``templating``)."""
 _MOST_MEMORY = 3 * 2**30
 """Bytes of address space, where the system can bound it."""
-_CHILD = "import sys; sys.path.insert(0, sys.argv.pop()); from amp_studio.report.apart import answer; answer(sys.stdin.buffer, sys.stdout.buffer)"
+_CHILD = "import sys; sys.path.insert(0, sys.argv.pop()); from {module} import answer; answer(sys.stdin.buffer, sys.stdout.buffer)"
 
 What = Literal["pdf", "html", "pages"]
 
 
-def made_apart(what: What, report: Report, own: Path, ppi: int = 0) -> list[bytes]:
-    """Return what ``made`` returns, from a process apart; raises TemplateMistakeError."""
-    command = [sys.executable, "-P", "-c", _CHILD, str(Path(__file__).parents[2])]
+class ReportNotMadeError(AmpStudioError, RuntimeError):
+    """The process that makes a report, or a part of it, did not; the text names the cause."""
+
+
+def run_apart(module: str, question: bytes, patience_s: float | None = None) -> bytes:
+    """Return what ``answer(asked, out)`` of a module writes in a process apart, where it reads the question.
+
+    Raises ReportNotMadeError.
+    """
+    command = [sys.executable, "-P", "-c", _CHILD.format(module=module), str(Path(__file__).parents[2])]
     try:
-        done = subprocess.run(
-            command,
-            input=pickle.dumps((_MOST_MEMORY, what, report, own, ppi)),
-            capture_output=True,
-            timeout=_PATIENCE_S,
-            check=False,
-        )
+        done = subprocess.run(command, input=question, capture_output=True, timeout=patience_s, check=False)
     except subprocess.TimeoutExpired:
-        raise TemplateMistakeError(own, "works without end") from None
+        raise ReportNotMadeError("works without end") from None
+    except OSError as error:
+        raise ReportNotMadeError(f"needs a process, which cannot be started: {error.strerror}") from error
     if done.returncode:
-        why = (
-            "needs too much memory" if b"memory" in done.stderr.lower() else "ended the process that sets it"
+        lacks_memory = b"memory" in done.stderr.lower()
+        raise ReportNotMadeError(
+            "needs too much memory" if lacks_memory else "ended the process that sets it"
         )
-        raise TemplateMistakeError(own, why)
-    head, _, rest = done.stdout.partition(b"\n")
+    return done.stdout
+
+
+def made_apart(what: What, report: Report, own: Path | None, ppi: int = 0) -> list[bytes]:
+    """Return what ``made`` returns, from a process apart.
+
+    Raises TemplateMistakeError where a template is the cause, ReportNotMadeError where it is not.
+    """
+
+    def failed(why: str) -> AmpStudioError:
+        return TemplateMistakeError(own, why) if own else ReportNotMadeError(f"The report {why}")
+
+    try:
+        question = pickle.dumps((_MOST_MEMORY if own else None, what, report, own, ppi))
+        answered = run_apart(__name__, question, _PATIENCE_S if own else None)
+    except ReportNotMadeError as error:
+        raise failed(str(error)) from None
+    head, _, rest = answered.partition(b"\n")
     mistake, lengths = json.loads(head)
     if mistake is not None:
-        raise TemplateMistakeError(own, mistake)
+        raise failed(mistake)
     files, at = [], 0
     for length in lengths:
         files.append(rest[at : at + length])
@@ -55,27 +78,30 @@ def made_apart(what: What, report: Report, own: Path, ppi: int = 0) -> list[byte
     return files
 
 
-def made(what: What, report: Report, own: Path, ppi: int = 0) -> list[bytes]:
+def made(what: What, report: Report, own: Path | None, ppi: int = 0) -> list[bytes]:
     """Return the PDF, the web page, or the Typst source, what is known of its marks, and a PNG of each page.
+
+    ``own`` is a template of the project.
 
     Raises TemplateMistakeError.
     """
     from .page import render_html
     from .pdf import render_pdf, set_pages
 
-    with copied_template(own) as copy:
+    with copied_template(own) if own else contextlib.nullcontext() as copy:
         if what == "html":
             return [render_html(report, copy)]
         if what == "pdf":
             return [render_pdf(report, copy)]
         found = set_pages(report, ppi, copy)
-        return [found.source.encode("utf-8"), found.found_marks().encode("utf-8"), *found.pages]
+        return [found.source.encode("utf-8"), found.marks.encode("utf-8"), *found.pages]
 
 
 def answer(asked: BinaryIO, out: BinaryIO) -> None:
     """Make what the program asks for, in the process apart: a line with mistake and lengths, then the files."""
     most_memory, *wanted = pickle.load(asked)  # noqa: S301 (the program itself has written it)
-    _bound_memory(most_memory)
+    if most_memory:
+        _bound_memory(most_memory)
     mistake, files = None, []
     try:
         files = made(*wanted)

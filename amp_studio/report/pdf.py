@@ -83,25 +83,16 @@ class SetReport:
     pages: tuple[bytes, ...]
     """Each as PNG."""
     source: str
-    root: Path
-    marks: str = ""
-    """What Typst knows of the marks in it, where that was asked for together with the pages."""
+    marks: str
+    """What Typst knows of the marks at the values, as JSON."""
 
     def places(self) -> dict[Address, Place]:
-        """Return where each value is, which takes half as long as the pages; a project's template can leave them out."""
-        found = json.loads(self.marks or self.found_marks())
+        """Return where each value is; a project's template can leave them out."""
+        found = json.loads(self.marks)
         return {
             (anchor.rpartition("@")[0], anchor.rpartition("@")[2]): Place(page, x, y)
             for anchor, page, x, y in (found[0] if found else ())
         }
-
-    def found_marks(self) -> str:
-        """Return what Typst knows of the marks at the values."""
-        import typst
-
-        return typst.query(
-            self.source.encode("utf-8"), "<amp-places>", field="value", **_options(self.source, self.root)
-        )
 
 
 def typst_source(report: Report, own: Path | None = None, *, places: bool = False) -> str:
@@ -154,9 +145,13 @@ def render_pdf(report: Report, own: Path | None = None) -> bytes:
 
 def set_pages(report: Report, ppi: int, own: Path | None = None) -> SetReport:
     """Return each page as PNG, ``ppi`` pixels to the inch; ``own`` is a template of the project. Raises TemplateMistakeError."""
+    import typst
+
     source = typst_source(report, own, places=True)
     pages = _set(source, own, format="png", ppi=ppi)
-    return SetReport(tuple(pages), source, own.parent if own else TEMPLATES)
+    options = _options(source, own.parent if own else TEMPLATES)
+    marks = typst.query(source.encode("utf-8"), "<amp-places>", field="value", **options)
+    return SetReport(tuple(pages), source, marks)
 
 
 def _set(source: str, own: Path | None, **form: object) -> list[bytes]:

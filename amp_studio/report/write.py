@@ -15,7 +15,7 @@ from .contents import Contents
 from .everything import render_json, render_workbook
 from .model import ExchangeLine, PrintedFigure, Report
 from .page import render_html
-from .pdf import SetReport, render_pdf, set_pages
+from .pdf import SetReport, render_pdf
 from .table_csv import render_csv
 from .templating import TemplateMistakeError, own_template
 from .text import render_text
@@ -82,7 +82,10 @@ def set_report(
     exchanges: Sequence[ExchangeLine] = (),
     notify: Notify = lambda _note: None,
 ) -> SetReport:
-    """Return the pages of what ``print_report`` writes as PDF, as pictures with ``ppi`` pixels to the inch: for the eye and for a printer."""
+    """Return the pages of what ``print_report`` writes as PDF, as pictures with ``ppi`` pixels to the inch: for the eye and for a printer.
+
+    Raises ReportNotMadeError, and ParameterFileError for a project that cannot be read.
+    """
     report = build_report(
         file,
         contents,
@@ -93,13 +96,12 @@ def set_report(
         exchanges=exchanges,
     )
     template = own_template(real_path(source).parent, "report.typ.j2")
-    if template is not None:
-        try:
-            written, marks, *pages = made_apart("pages", report, template, ppi)
-            return SetReport(tuple(pages), written.decode("utf-8"), template.parent, marks.decode("utf-8"))
-        except TemplateMistakeError as error:
-            notify(error.then("The standard report is used"))
-    return set_pages(report, ppi)
+    try:
+        source_text, marks, *pages = made_apart("pages", report, template, ppi)
+    except TemplateMistakeError as error:
+        notify(error.then("The standard report is used"))
+        source_text, marks, *pages = made_apart("pages", report, None, ppi)
+    return SetReport(tuple(pages), source_text.decode("utf-8"), marks.decode("utf-8"))
 
 
 def _rendered(report: Report, ending: str, folder: Path | None) -> tuple[bytes, TemplateMistakeError | None]:

@@ -60,8 +60,6 @@ class PreviewPanel(QWidget):
 
     _set = Signal(object, object, tuple, tuple)
     """From the thread: which file, its pages, the drawings in them, notes."""
-    _placed = Signal(object, object)
-    """From the thread: which file, where its values are."""
     value_wanted = Signal(object)
     """The address of a value that was clicked."""
 
@@ -100,7 +98,6 @@ class PreviewPanel(QWidget):
         self._watch = TemplateWatch(self)
         self._watch.changed.connect(self.set_again)
         self._set.connect(self._show_pages)
-        self._placed.connect(self._show_places)
         self.view.turned.connect(self.head.show_page)
         self.view.value_clicked.connect(self.value_wanted)
         self.view.zoomed.connect(self._look_from_near)
@@ -209,7 +206,7 @@ class PreviewPanel(QWidget):
         own, source, known = workspace.validator.own, workspace.path, self._shown().motion
 
         def pages(motion: tuple[PrintedFigure, ...]) -> None:
-            load("amp_studio.sim", "amp_studio.dossier")
+            load("amp_studio.dossier")
             from amp_studio.dossier import set_dossier
 
             notes: list[str] = []
@@ -217,22 +214,17 @@ class PreviewPanel(QWidget):
                 file, contents, ppi, source=source, motion=motion, own=own, notify=notes.append
             )
             self._set.emit(workspace, (found, ppi), motion, tuple(notes))
-            self._placed.emit(workspace, found.places())
 
         def work(_: TaskProgress, cancelled: threading.Event) -> None:
-            load("amp_studio.sim", "amp_studio.dossier")
-            from amp_studio.dossier import motion_figures
+            load("amp_studio.dossier")
+            from amp_studio.dossier import motion_apart
 
             pages(known)
-            drawn: list[PrintedFigure] = []
-            if "motion" in contents.without:
+            if "motion" in contents.without or cancelled.is_set():
                 return
-            for figure in motion_figures(file):
-                if cancelled.is_set():
-                    return
-                drawn.append(figure)
-            if tuple(drawn) != known:
-                pages(tuple(drawn))
+            drawn = motion_apart(file)
+            if drawn != known and not cancelled.is_set():
+                pages(drawn)
 
         return work
 
@@ -249,17 +241,13 @@ class PreviewPanel(QWidget):
         kept = {page: page for page in before}
         known.pages = tuple(kept.get(page, page) for page in report.pages)
         known.ppi, known.motion, known.notes, known.source = ppi, motion, notes, report.source
+        is_first, known.places = not known.places, report.places()
         if self._page is not None and workspace is self._page.workspace:
             self.view.show_pages(known.pages, ppi)
+            self.view.show_places(known.places)
             self.head.show_count(len(known.pages))
             self.head.show_page(self.view.page)
             self._tell(notes)
-
-    def _show_places(self, workspace: Workspace, places: dict[Address, Place]) -> None:
-        known = self._known.setdefault(workspace, _Shown())
-        is_first, known.places = not known.places, places
-        if self._page is not None and workspace is self._page.workspace:
-            self.view.show_places(places)
             if is_first:
                 self._follow(self._page.table_view.address())
 

@@ -72,10 +72,10 @@ def _set_for_paper(window: StudioWindow, workspace: Workspace) -> Sequence[bytes
     file, contents, notes = workspace.file.copy(), window.report_choice.contents, list[str]()
 
     def work(_: TaskProgress, __: threading.Event) -> tuple[bytes, ...]:
-        load("amp_studio.sim", "amp_studio.dossier")
-        from amp_studio.dossier import motion_figures, set_dossier
+        load("amp_studio.dossier")
+        from amp_studio.dossier import motion_apart, set_dossier
 
-        motion = () if "motion" in contents.without else tuple(motion_figures(file))
+        motion = () if "motion" in contents.without else motion_apart(file)
         return set_dossier(
             file,
             contents,

@@ -224,7 +224,7 @@ def test_drawings_of_the_simulator_come_when_they_are_ready(
     window: MainWindow, panel: PreviewPanel, settled, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     figure = PrintedFigure("Step, axis 1", "", ("Not simulated: no machine",))
-    monkeypatch.setattr("amp_studio.dossier.motion_figures", lambda _file: iter([figure]))
+    monkeypatch.setattr("amp_studio.dossier.motion_apart", lambda _file: (figure,))
     pages = len(panel.view.pages)
     window.report_choice.contents = Contents(changed_only=True, without=SHORT.without - {"motion"})
     settled(panel)
