@@ -16,7 +16,7 @@ highlight_language = "none"
 
 html_theme = "furo"
 release = version = re.findall(
-    r'__version__ = "(.*)"', (Path(__file__).parents[3] / "amp_studio/__init__.py").read_text()
+    r'__version__ = "(.*)"', (Path(__file__).parents[3] / "amp_studio/version.py").read_text()
 )[0]
 html_title = f"AMP Studio {release}"
 html_static_path = ["_static"]
