@@ -90,8 +90,8 @@ wheel: setup ## build dist/*.whl and the source archive, without the network
 
 lock: ## write requirements/*.lock again; UPGRADE=1 takes the newest versions
 	@test -x build/lock/bin/uv || { $(or $(PYTHON),python3) -m venv build/lock && build/lock/bin/pip install --quiet $(LOCK_TOOL); }
-	@$(LOCK) --group dev --output-file requirements/dev.lock
-	@$(LOCK) --group build --constraint requirements/dev.lock --output-file requirements/run.lock
+	@$(LOCK) --extra fast --group dev --output-file requirements/dev.lock
+	@$(LOCK) --extra fast --group build --constraint requirements/dev.lock --output-file requirements/run.lock
 	@$(subst pyproject.toml,,$(LOCK)) --group docs --output-file requirements/docs.lock
 
 clean: ## remove everything that make made, .venv too

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import ast
+import itertools
 import os
 import re
 import shutil
@@ -113,13 +114,18 @@ def test_no_file_is_named_for_everything_and_nothing(checkout: Path) -> None:
 
 
 def imported_libraries(package: Path) -> Iterator[tuple[str, Path]]:
-    """Yield the top name of every absolute import of the package, wherever it is in a file."""
+    """Yield the top name of every absolute import of the package, wherever it is in a file, by a statement or by name."""
     for path in sorted(package.rglob("*.py")):
         for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
             if isinstance(node, ast.Import):
                 yield from ((alias.name.partition(".")[0], path) for alias in node.names)
             elif isinstance(node, ast.ImportFrom) and node.level == 0 and node.module:
                 yield node.module.partition(".")[0], path
+            elif isinstance(node, ast.Call) and re.search(
+                r"\b(import_module|find_spec)$", ast.unparse(node.func)
+            ):
+                names = (each.value for each in node.args[:1] if isinstance(each, ast.Constant))
+                yield from ((name.partition(".")[0], path) for name in names if not name.startswith("."))
 
 
 def plain(name: str) -> str:
@@ -127,9 +133,16 @@ def plain(name: str) -> str:
     return re.sub(r"[-_.]+", "-", name).lower()
 
 
+def declared_libraries(pyproject: str) -> set[str]:
+    """Return the distributions that the program requires, and those of its extras."""
+    project = tomllib.loads(pyproject)["project"]
+    extras = project["optional-dependencies"].values()
+    lines = [*project["dependencies"], *(line for extra in extras for line in extra)]
+    return {plain(re.split(r"[^\w.-]", line)[0]) for line in lines}
+
+
 def test_every_imported_library_is_declared(checkout: Path) -> None:
-    project = tomllib.loads((checkout / "pyproject.toml").read_text(encoding="utf-8"))["project"]
-    declared = {plain(re.split(r"[^\w.-]", line)[0]) for line in project["dependencies"]}
+    declared = declared_libraries((checkout / "pyproject.toml").read_text("utf-8"))
     distributions = packages_distributions()
     undeclared = {
         f"{path.relative_to(checkout).as_posix()}: {name}"
@@ -139,6 +152,34 @@ def test_every_imported_library_is_declared(checkout: Path) -> None:
         and not declared & {plain(owner) for owner in distributions.get(name, [name])}
     }
     assert undeclared == set()
+
+
+def test_every_declared_library_is_imported(checkout: Path) -> None:
+    declared = declared_libraries((checkout / "pyproject.toml").read_text("utf-8"))
+    distributions = packages_distributions()
+    imported = {name for name, _ in imported_libraries(checkout / "amp_studio")}
+    used = {plain(owner) for name in imported for owner in distributions.get(name, [name])}
+    assert declared - used == set()
+
+
+def without_reason(pyproject: str) -> list[str]:
+    """Return the lines of the requirements of the program and its extras that have no comment above them."""
+    lines = pyproject[
+        pyproject.index("\ndependencies = [") : pyproject.index("[project.scripts]")
+    ].splitlines()
+    requires = re.compile(r'^  "|^\w+ = \["')
+    return [
+        line
+        for above, line in itertools.pairwise(lines)
+        if requires.match(line) and not above.lstrip().startswith("#")
+    ]
+
+
+def test_every_declared_library_has_its_reason(checkout: Path) -> None:
+    text = (checkout / "pyproject.toml").read_text("utf-8")
+    assert without_reason(text) == []
+    planted = text.replace("\ndependencies = [\n", '\ndependencies = [\n  "rich>=14",\n')
+    assert without_reason(planted) == ['  "rich>=14",']
 
 
 @pytest.mark.parametrize("lock", ["run", "dev"])

@@ -43,7 +43,7 @@ def plain(position_sample: Sample, velocity_sample: Sample | None) -> Run:
 def compiled(position_sample: Sample, velocity_sample: Sample | None) -> Run:
     """Return the kernel of a law as machine code; its vectors are contiguous numpy arrays.
 
-    The first call on a machine compiles it and stores the result. Raises ImportError where numba is not installed.
+    The first call on a machine compiles it and stores the result. Only where `can_compile`.
     """
     import numba
 
@@ -75,9 +75,15 @@ def kernel_name(position_sample: Sample, velocity_sample: Sample | None) -> str:
     return f"run_{hashlib.sha256(chr(10).join(described).encode()).hexdigest()[:16]}"
 
 
-def jit_is_off() -> bool:
-    """Return whether the environment (NUMBA_DISABLE_JIT) asks for plain Python."""
-    return os.environ.get("NUMBA_DISABLE_JIT", "0") not in ("", "0")
+def can_compile() -> bool:
+    """Return whether there is machine code: the extra ``fast`` is installed, and NUMBA_DISABLE_JIT does not ask for plain Python."""
+    if os.environ.get("NUMBA_DISABLE_JIT", "0") not in ("", "0"):
+        return False
+    try:
+        import numba  # noqa: F401  # whether it can be, with the numpy that is here
+    except ImportError:
+        return False
+    return True
 
 
 def is_loaded(position_sample: Sample, velocity_sample: Sample | None) -> bool:

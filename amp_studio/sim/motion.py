@@ -10,7 +10,7 @@ import numpy as np
 import numpy.typing as npt
 
 from . import kernel
-from .compiled import PLAIN_STEPS, compiled, is_loaded, jit_is_off, plain
+from .compiled import PLAIN_STEPS, can_compile, compiled, is_loaded, plain
 from .errors import SimulationError
 from .law import AxisLaw
 from .machine import DELAY_SHARE, DELAY_STEPS, machine_array
@@ -176,7 +176,7 @@ def _run(
     """Run the kernel for about ``expected`` steps; return the filled rows, the signals and the state at the end."""
     law = axis.position_sample, axis.velocity_sample
     machine_code = engine == "compiled" or (engine == "auto" and (expected > PLAIN_STEPS or is_loaded(*law)))
-    if machine_code and not jit_is_off():
+    if machine_code and can_compile():
         arrays = [np.array(each, dtype=np.float64) for each in vectors]
         filled = compiled(*law)(*arrays, rows)
         return filled, arrays[IO].tolist(), arrays[STATE].tolist()
