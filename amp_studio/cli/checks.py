@@ -10,14 +10,14 @@ import sys
 from collections.abc import Callable, Iterator, Sequence
 from functools import partial
 from pathlib import Path
-from typing import Any, NamedTuple
 
 from amp_studio.files import ENDING, ParameterFile, ParameterFileError
-from amp_studio.report import alike, counted, finding_json, same_finding_text, suppressed_text
 from amp_studio.schema.regular_file import read_file
-from amp_studio.validate import BuilderRules, Finding, Validator, rules_beside
+from amp_studio.validate import BuilderRules, Validator, rules_beside
 
-from .console import note, print_json, progress
+from .check_formats import CHECK_FORMATS, CheckFormat, CheckResult, FileFindings
+from .console import note, progress
+from .errors import UsageError
 from .opened import opened
 from .trouble import keep_details
 
@@ -27,52 +27,47 @@ MOST = 61
 """Processes that Windows lets one wait for."""
 AT_A_TIME = 8
 """Files a process is handed at once."""
-
-
-class CheckResult(NamedTuple):
-    """The result of one file; passes from one process to another."""
-
-    path: Path
-    errors: int = 0
-    result: Any = None
-    """Text, or the JSON document."""
-    fault: str = ""
-    """Why the file cannot be checked."""
-
-    @property
-    def json(self) -> Any:
-        """An entry of the list of several files: the document, or why there is none."""
-        return {"file": str(self.path), "error": self.fault} if self.fault else self.result
+WITH_REASONS = ("text", "json")
+"""Formats with a place for what ``--why`` explains."""
 
 
 def validate_verb(options: argparse.Namespace) -> int:
     """Check files, and those in folders: 1 where there are errors, 2 where a file cannot be read, after the others."""
+    form = CHECK_FORMATS[options.format]
+    if options.why and options.format not in WITH_REASONS:
+        raise UsageError(f"--why is for the formats {' and '.join(WITH_REASONS)}")
     if options.rules:
         read_file(
             options.rules
         )  # a file that is not there is a slip of the hand, one that is wrong a finding
     paths, unread = _files(options.paths)
     check = partial(_check, options)
-    counts_shown = len(paths) > 1 and (options.json or not sys.stdout.isatty())
+    counts_shown = len(paths) > 1 and (form.needs_all or not sys.stdout.isatty())
     show = progress() if counts_shown else None
     checked = []
     for n, one in enumerate(_each(check, paths, options.jobs), 1):
         checked.append(one)
-        if one.fault:
-            note(f"amp-studio: {one.fault}")
-        elif not options.json:
-            print(one.result)
+        _print(form, one)
         if show:
             show("checked", n, len(paths))
     for one in unread:
         checked.append(one)
-        note(f"amp-studio: {one.fault}")
-    good = [one for one in checked if not one.fault]
-    if options.json and paths and paths != options.paths[:1]:
-        print_json({"files": [one.json for one in checked]})
-    elif options.json and good:
-        print_json(good[0].result)
-    return 2 if len(good) < len(checked) else int(any(one.errors for one in good))
+        _print(form, one)
+    if form.needs_all and paths:
+        document = checked[0].printed if form.alone and paths == options.paths[:1] else form.all(checked)
+        is_utf8 = (sys.stdout.encoding or "").lower() == "utf-8"
+        if document:
+            print(document if is_utf8 else form.in_ascii(document))
+    is_whole = not any(one.fault for one in checked)
+    return int(any(one.errors for one in checked)) if is_whole else 2
+
+
+def _print(form: CheckFormat, one: CheckResult) -> None:
+    """Print the notes and the fault of a file, and its result where that need not wait for the others."""
+    for text in (*one.notes, *([f"amp-studio: {one.fault}"] if one.fault else [])):
+        note(text)
+    if not form.needs_all and (text := form.shown(one)):
+        print(text)
 
 
 def _files(paths: Sequence[Path]) -> tuple[list[Path], list[CheckResult]]:
@@ -144,29 +139,19 @@ def _start() -> None:
 
 def _check(options: argparse.Namespace, path: Path) -> CheckResult:
     """Check one file; whatever is wrong with it ends no other's check."""
+    notes: list[str] = []
     try:
-        return _checked(options, path)
+        file = opened(path, notes.append)
+        validator = Validator(file, _own_rules(options, path, file))
+        checked = FileFindings(path, validator, validator.run(), options.why)
+        printed = CHECK_FORMATS[options.format].one(checked)
+        return CheckResult(path, checked.counts["error"], printed, tuple(notes))
     except ParameterFileError as fault:
-        return CheckResult(path, fault=str(fault))
+        return CheckResult(path, notes=tuple(notes), fault=str(fault), line=fault.line)
     except KeyboardInterrupt:
         raise
     except BaseException as error:  # a panic of the rule engine is no Exception
-        return CheckResult(path, fault=f"{path}: {keep_details(error)}")
-
-
-def _checked(options: argparse.Namespace, path: Path) -> CheckResult:
-    file = opened(path)
-    validator = Validator(file, _own_rules(options, path, file))
-    findings = validator.run()
-    counts = {s: sum(f.severity == s for f in findings) for s in ("error", "warning", "advice")}
-    if not options.json:
-        lines = _lines(validator, findings, counts, path, why=options.why)
-        return CheckResult(path, counts["error"], "\n".join(lines))
-    return CheckResult(path, counts["error"], {
-        "file": str(path), "errors": counts["error"], "warnings": counts["warning"], "advice": counts["advice"],
-        "findings": [_json(validator, f, options.why) for f in findings],
-        "suppressed": [finding_json(file, s.finding) | {"by": s.suppression.by, "reason": s.suppression.reason}
-                       for s in validator.suppressed]})  # fmt: skip
+        return CheckResult(path, notes=tuple(notes), fault=f"{path}: {keep_details(error)}")
 
 
 def _own_rules(options: argparse.Namespace, path: Path, file: ParameterFile) -> BuilderRules:
@@ -175,34 +160,3 @@ def _own_rules(options: argparse.Namespace, path: Path, file: ParameterFile) -> 
     from amp_studio.validate import read_builder_rules
 
     return read_builder_rules(options.rules, file.schema)
-
-
-def _json(validator: Validator, finding: Finding, why: bool) -> dict[str, Any]:
-    found = finding_json(validator.file, finding)
-    if why:
-        from amp_studio.report import why_parts
-        from amp_studio.validate import explain
-
-        parts = why_parts(validator.file, finding, explain(validator, finding))
-        found["why"] = [{"title": title, "text": text} for title, text, _ in parts]
-    return found
-
-
-def _reasons(validator: Validator, same: Sequence[Finding]) -> Iterator[str]:
-    from amp_studio.report import why_text
-    from amp_studio.validate import explain
-
-    return (why_text(validator.file, finding, explain(validator, finding)) for finding in same)
-
-
-def _lines(
-    validator: Validator, findings: Sequence[Finding], counts: dict[str, int], path: Path, *, why: bool
-) -> Iterator[str]:
-    for same in alike(findings):
-        yield same_finding_text(validator.file, same)
-        if why:
-            yield from _reasons(validator, same)
-    for left in validator.suppressed:
-        yield suppressed_text(validator.file, left)
-    summary = ", ".join(counted(count, severity) for severity, count in counts.items())
-    yield f"{path}: {summary}" + (f", {n} suppressed" if (n := len(validator.suppressed)) else "")

@@ -57,6 +57,7 @@ EXAMPLES: dict[str, tuple[str, ...]] = {
     "validate": (
         f"amp-studio validate {MILL}",
         f"amp-studio validate {MILL} --why --json",
+        f"amp-studio validate {MILL} --format sarif",
     ),
     "fix": (f"amp-studio fix {MILL} --dry-run", f"amp-studio fix {MILL} --safe"),
     "diff": (

@@ -92,6 +92,17 @@ def read_content(path: Path, content: bytes, schema: Schema | None = None) -> Pa
     return _FileReader(path, text_of(path, content, ParameterFileError), schema).read()
 
 
+def value_lines(path: Path) -> dict[Address, int]:
+    """Return the line of each value of a parameter file; nothing for a file that is none, or cannot be read."""
+    try:
+        document = read_yaml(text_of(path, file_content(path)), text_scalar, spans=True)
+    except (FileError, YamlError):
+        return {}
+    values = document.data.get("values") if isinstance(document.data, dict) else None
+    keys = values if isinstance(values, dict) else {}
+    return {read_address(key): document.line(("values", key)) for key in keys}
+
+
 class _FileReader:
     """Reads the text of one parameter file."""
 

@@ -26,7 +26,7 @@ if TYPE_CHECKING:
     )
     from .dangers import dangers_of_change
     from .describe import definition
-    from .finding_lines import finding_json, finding_text, suppressed_text
+    from .finding_lines import finding_json, finding_parts, finding_text, suppressed_text
     from .findings import alike, same_finding_text
     from .manual_page import GRADES, facts, formula_lines, help_parts, one_line, page_of, range_text
     from .model import ExchangeLine, PrintedFigure, Report
@@ -65,6 +65,7 @@ _PLACES = {
     "definition": "describe",
     "facts": "manual_page",
     "finding_json": "finding_lines",
+    "finding_parts": "finding_lines",
     "finding_text": "finding_lines",
     "formula_lines": "manual_page",
     "help_parts": "manual_page",
@@ -122,6 +123,7 @@ __all__ = [
     "finding_axes",
     "finding_groups",
     "finding_json",
+    "finding_parts",
     "finding_text",
     "fix_lines",
     "fix_text",

@@ -38,18 +38,24 @@ def _setting_json(file: ParameterFile, setting: Setting) -> dict[str, Any]:
 
 def finding_text(file: ParameterFile, finding: Finding) -> str:
     """Return a finding as one or two lines for the terminal."""
+    first, *others = finding_parts(file, finding)
+    lines = [f"{severity_name(finding.severity):8} {first}", *(f"         {line}" for line in others)]
+    return "\n".join(lines)
+
+
+def finding_parts(file: ParameterFile, finding: Finding) -> list[str]:
+    """Return what a finding is about with its message and page, then its effective values, then its suggested fix."""
     names = ", ".join(_names(file, finding.addresses[:8]))
     page = f" ({finding.cited})" if finding.cited else ""
-    severity = severity_name(finding.severity)
-    lines = [f"{severity:8} {names}{': ' if names else ''}{finding.message}{page}"]
+    parts = [f"{names}{': ' if names else ''}{finding.message}{page}"]
     for what, settings in (("effective value", finding.effective), ("suggested fix", finding.fix)):
         if settings:
             values = ", ".join(
                 f"{_named(file, s.address)} = {_written(file.schema.parameters[s.address[0]], s.value)}"
                 for s in settings
             )
-            lines.append(f"         {what}: {values}")
-    return "\n".join(lines)
+            parts.append(f"{what}: {values}")
+    return parts
 
 
 def _names(file: ParameterFile, addresses: Iterable[Address]) -> Iterator[str]:

@@ -12,6 +12,9 @@ from amp_studio.cli.arguments import (
     secrets_option,
 )
 
+CHECK_FORMATS = ("text", "json", "sarif", "github", "junit")
+"""What ``validate`` prints; here, because help loads no room (a test compares them)."""
+
 
 def add(verbs: Verbs) -> None:
     """Add the verbs that check and compare."""
@@ -32,7 +35,15 @@ def _checks(verbs: Verbs) -> None:
     sub.add_argument(
         "--why", action="store_true", help="explain each finding: its rule, the values, the page"
     )
-    json_option(sub)
+    sub.add_argument(
+        "--format",
+        choices=CHECK_FORMATS,
+        default="text",
+        help="text, JSON, SARIF 2.1.0, GitHub's workflow commands, or JUnit's XML (default: text)",
+    )
+    sub.add_argument(
+        "--json", dest="format", action="store_const", const="json", help="the same as --format json"
+    )
     sub = verbs.add(
         "fix",
         "fix",
