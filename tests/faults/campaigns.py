@@ -31,8 +31,10 @@ from . import (
     own_contents,
     own_protocols,
     persons,
+    planted,
     racks,
     records,
+    saves,
     sheets,
     stored,
     texts,
@@ -103,6 +105,10 @@ def _fixes(seed: int, runs: int, folder: Path) -> list[str]:
     return fix_campaign.campaign(seed * 10_000, runs)[1]
 
 
+def _own(run: own_protocols.Run) -> Callable[[int, int, Path], list[str]]:
+    return partial(own_protocols.repeated, run)
+
+
 def _hostile(exchange: Callable[[int, Path], list[str]], seed: int, runs: int, folder: Path) -> list[str]:
     found = []
     for n in range(runs):
@@ -117,22 +123,37 @@ MANY = 100_000
 
 CAMPAIGNS = (
     Campaign("a call of the system that fails, in every verb", fail_calls, len(VERBS), 4, len(VERBS)),
+    Campaign("power off after a verb has written", saves.power_off_after_saves, len(VERBS), 1, 2),
+    Campaign(
+        "defects planted for the checks above",
+        planted.unnoticed,
+        3 * len(planted.DEFECTS),
+        planted.SHORT_RUNS,
+        3 * len(planted.DEFECTS),
+    ),
     Campaign("Ctrl-C at any moment of a change", _stopped, 400, 4, 20),
     Campaign("kill -9 of the editor", _killed, 60, 1, 5),
     Campaign("Ctrl-C and SIGTERM at any moment of a download", _stopped_downloads, 100, 1, 5),
     Campaign("Ctrl-C at any moment of an emulated control", _stopped_controls, 100, 1, 10),
     Campaign("download over a bad line, TCP, TLS and pty", download_over_bad_lines, 300, 1, 10),
     Campaign(
-        "NUM table over a bad line, power off in the load", own_protocols.table_under_faults, 2_000, 2, 100
+        "NUM table over a bad line, power off in the load", _own(own_protocols.table_run), 2_000, 3, 100
     ),
     Campaign(
         "ACR terminal over a bad line, power off in the save",
-        own_protocols.terminal_under_faults,
+        _own(own_protocols.terminal_run),
         2_000,
-        2,
+        3,
         100,
     ),
-    Campaign("57C422B registers over a bad line", own_protocols.registers_under_faults, 2_000, 1, 100),
+    Campaign("57C422B registers over a bad line", _own(own_protocols.registers_run), 2_000, 2, 100),
+    Campaign(
+        "house protocol over a bad line, power off in the commit",
+        _own(own_protocols.house_run),
+        2_000,
+        10,
+        100,
+    ),
     Campaign(
         "damaged contents and racks of the 57C422B", partial(_damaged_in, racks.fuzz_racks), MANY, 50, 2_000
     ),

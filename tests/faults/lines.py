@@ -14,6 +14,8 @@ from typing import Any
 EXAMPLE = Path(__file__).resolve().parents[2] / "examples" / "57c422b-label-press" / "LABEL_PRESS.amp"
 CERTIFICATES = Path(__file__).resolve().parents[1] / "transfer" / "links" / "certificates"
 PASSWORD = "correct horse"
+DOWNLOADER = (sys.executable, "-m", "amp_studio.cli")
+"""The program that downloads."""
 
 
 def _faults(chance: random.Random) -> dict[str, Any]:
@@ -68,7 +70,7 @@ def _one(chance: random.Random, work: Path) -> list[str]:
             old = (state / "active.img").read_bytes()
             kept = _kept_name(address)
             ended = subprocess.run(
-                _program("download", path, "--to", address, "--accept-errors"),
+                [*DOWNLOADER, "download", str(path), "--to", address, "--accept-errors"],
                 capture_output=True, text=True, check=False, timeout=180,
                 env=os.environ | ({"AMP_STUDIO_PASSWORD": PASSWORD} if secured else {}),
             )  # fmt: skip
@@ -97,5 +99,5 @@ def _untrue(code: int, said: str, old: bytes, held: bytes, work: Path, how: str)
         found.append(f"exit {code}, the control holds the {'old' if held == old else 'new'} image: {said}")
     copies = [path.read_bytes() for path in work.glob("*.before-*.img")]
     if held != old and copies != [old]:
-        found.append("what the control held was not kept")
+        found.append("what the control contained was not kept")
     return [f"{how}: {what}" for what in found]

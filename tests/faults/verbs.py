@@ -59,18 +59,17 @@ def fail_each_call(
     while most is None or at < most:
         at += 1
         work = folder / f"run-{at}"
-        _lay_out(work)
+        lay_out(work)
         number, for_ever = chance.choice(ERRORS), chance.random() < 0.3
         log = folder / f"log-{at}"
         env = {"LD_PRELOAD": _library(), "FAULT_FOLDER": str(work), "FAULT_AT": str(at), "FAULT_ERRNO": str(number),
                "FAULT_LOG": str(log)} | ({"FAULT_FOREVER": "1"} if for_ever else {})  # fmt: skip
-        before = _contents(work)
+        before = contents(work)
         code, said = _run(verb, work, env)
         failed = log.read_text(encoding="utf-8").split() if log.exists() else []
         how = f"{' '.join(verb)}, seed {seed}, call {at} ({failed[1:2]}, {os.strerror(number)}, for ever: {for_ever})"
         found += [
-            f"{how}: {what}"
-            for what in _violations(code, said, before, _contents(work), wanted, failed[1::2])
+            f"{how}: {what}" for what in _violations(code, said, before, contents(work), wanted, failed[1::2])
         ]
         shutil.rmtree(work)
         if not failed:
@@ -78,7 +77,7 @@ def fail_each_call(
     return at, found
 
 
-def _lay_out(work: Path) -> None:
+def lay_out(work: Path) -> None:
     """Make the folder in which a verb works."""
     work.mkdir(parents=True)
     source = _prepared()
@@ -112,16 +111,23 @@ def _run(verb: tuple[str, ...], work: Path, env: dict[str, str]) -> tuple[int, s
     return ended.returncode, ended.stderr
 
 
-def _contents(work: Path) -> dict[str, bytes]:
+def target_of(before: dict[str, bytes], after: dict[str, bytes]) -> str | None:
+    """Return the file that a verb writes: the one that has changed, besides its backup and its history."""
+    changed = (name for name in after if after[name] != before.get(name))
+    return next((name for name in changed if not name.endswith((".bak", ".history"))), None)
+
+
+def contents(work: Path) -> dict[str, bytes]:
+    """Return the content of every file in a folder."""
     return {path.name: path.read_bytes() for path in work.iterdir() if path.is_file()}
 
 
 def _wanted(verb: tuple[str, ...], work: Path) -> dict[str, bytes]:
     """Return what the folder contains after the verb when nothing fails."""
-    _lay_out(work)
+    lay_out(work)
     code, said = _run(verb, work, {})
     assert code in (0, 1), said
-    return _contents(work)
+    return contents(work)
 
 
 def _violations(
@@ -133,11 +139,8 @@ def _violations(
     failed: list[str],
 ) -> Iterator[str]:
     """Yield what is not as promised."""
-    target = next(
-        name
-        for name in wanted
-        if wanted[name] != before.get(name) and not name.endswith((".bak", ".history"))
-    )
+    target = target_of(before, wanted)
+    assert target is not None
     if "Traceback" in said or "ignored" in said:
         yield said
     changed = after.get(target) != before.get(target)

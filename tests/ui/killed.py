@@ -41,12 +41,12 @@ application.exec()
 """A window in which a value, the notes and the name are changed again and again; each is printed with its time."""
 
 
-def kill_editor(path: Path, *, seed: int) -> list[str]:
-    """Kill one editor at a moment that chance chooses; return what was lost or broken by it."""
+def kill_editor(path: Path, *, seed: int, begin: str = "") -> list[str]:
+    """Kill one editor at a moment that chance chooses; return what was lost or broken by it. ``begin`` is Python that it runs first."""
     chance = random.Random(seed)
     interval, life = chance.choice((20, 100, 700)), chance.uniform(1.2, 3.0)
     before = path.read_bytes()
-    command = [sys.executable, "-c", EDITOR, str(path), str(interval)]
+    command = [sys.executable, "-c", begin + EDITOR, str(path), str(interval)]
     env = os.environ | {"QT_QPA_PLATFORM": "offscreen"}
     with subprocess.Popen(command, stdout=subprocess.PIPE, text=True, env=env) as editor:
         assert editor.stdout is not None

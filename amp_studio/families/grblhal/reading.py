@@ -5,11 +5,13 @@ from __future__ import annotations
 import re
 from collections.abc import Callable, Mapping
 
+from amp_studio.schema.described import DescriptionError
 from amp_studio.schema.visible import visible
 from amp_studio.transfer.errors import ProtocolMismatchError
 from amp_studio.transfer.progress import Progress, quiet
 
-from .content import ENUMERATIONS, IDENTITY, OFFSETS, GrblContent
+from .content import ENUMERATIONS, IDENTITY, OFFSETS, GrblContent, write_content
+from .description import read_description
 from .line import GrblLine, GrblRefusalError
 
 READS = 4
@@ -58,10 +60,28 @@ def read_control(
         enumerations = before.enumerations
     elif is_grblhal(who):
         steps += len(ENUMERATIONS)
-        for name in ENUMERATIONS:
-            enumerations = {**enumerations, **_enumeration(line, name)}
-            step()
+        enumerations = _read_enumerations(line, who, step)
     return GrblContent(who.identity, settings, offsets, startup, enumerations)
+
+
+def _read_enumerations(
+    line: GrblLine, who: GrblContent, step: Callable[[], None]
+) -> Mapping[str, tuple[str, ...]]:
+    """Return how a control describes itself; what cannot be read was damaged on the line if it comes otherwise the next time."""
+    found: Mapping[str, tuple[str, ...]] = {}
+    for attempt in range(READS):
+        before, found = found, {}
+        for name in ENUMERATIONS:
+            found = {**found, **_enumeration(line, name)}
+            if not attempt:
+                step()
+        try:
+            read_description(write_content(GrblContent(who.identity, enumerations=found)))
+        except DescriptionError:
+            if found != before:
+                continue
+        break
+    return found
 
 
 def _read_twice(

@@ -7,20 +7,34 @@ from __future__ import annotations
 
 import random
 from pathlib import Path
+from typing import Any
 
 from amp_studio.families.grblhal.content import read_content, write_content
+from amp_studio.families.grblhal.emulated.firmware import Firmware
 from amp_studio.transfer.client.exchange import download
+from amp_studio.transfer.client.parameters import _Keeping
+from amp_studio.transfer.driver import Receipt
 from amp_studio.transfer.errors import TransferError
 from tests.families.grblhal.bench import Bench, damage
+from tests.faults.bad_line import BadLine
+from tests.faults.disk import Disk
+from tests.faults.downloads import false_copies, forgetting
 
 CHANGES = {0: "6.0", 11: "0.0004", 12: "0.005", 20: "1", 22: "3", 26: "100", 40: "1", 100: "320.5", 110: "3000",
            111: "2500.125", 120: "250", 130: "301.5", 131: "1e3", 132: "77"}  # fmt: skip
 FAULTS = ("none", "cut", "cut for good", "power", "power while it writes", "noise in", "noise out", "deaf", "runs", "alarm",
-          "half a line", "messages", "another person")  # fmt: skip
+          "half a line", "messages", "another person", "forget", "repeat", "swap", "delay", "pause")  # fmt: skip
+OF_THE_LINE = {
+    "repeat": range(60, 600),
+    "swap": range(60, 600),
+    "delay": range(3, 60),
+    "pause": range(1, 900),
+}
+"""Faults of a bad line, with how often or when they strike."""
 
 
-def download_with_faults(seed: int, folder: Path) -> list[str]:
-    """Return what was violated, a sentence each."""
+def download_with_faults(seed: int, folder: Path, only: str | None = None) -> list[str]:
+    """Return what was violated, a sentence each; ``only`` is the fault instead of one that the seed chooses."""
     choose = random.Random(seed)
     bench = Bench(folder, choose.choice([None, None, "grbl-1.1"]))
     firmware = bench.firmware
@@ -45,21 +59,54 @@ def download_with_faults(seed: int, folder: Path) -> list[str]:
     content = write_content(
         type(present)(present.identity, wanted, present.offsets, present.startup, present.enumerations)
     )
-    fault = choose.choice(FAULTS)
+    fault = choose.choice(FAULTS) if only is None else only
     bench.driver.close()
+    shown, copies = _shown(firmware), folder / "copies"
+    copies.mkdir()
     _arm(bench, fault, choose)
-    kept: list[bytes] = []
     told, text, new = "old", "", ()
+    unsafe, disk, is_verified = list[str](), Disk(), False
+    send = bench.driver.send
+
+    def sent(*arguments: Any, **options: Any) -> Receipt:
+        unsafe.extend(disk.unsafe(copies, *copies.glob("*.img*")))
+        return send(*arguments, **options)
+
+    bench.driver.send = sent  # type: ignore[method-assign]
     try:
-        outcome = download(bench.driver, content, lambda old: str(kept.append(old)), signature="")
-        told, text = outcome.at_control, outcome.text
+        with disk.watched(), _Keeping(copies, "control") as copy:
+            outcome = download(bench.driver, content, copy.keep, signature="")
+        told, text, is_verified = outcome.at_control, outcome.text, outcome.verified
     except TransferError as error:
         told, text, new = error.at_control or "old", str(error), error.new
     bench.spoil_in = bench.spoil_out = lambda data: data
-    return [
-        f"seed {seed}, {fault}: {v}"
-        for v in _violations(bench, before, present, wanted, held, kept, told, new, text, fault)
-    ]
+    found = [*unsafe, *disk.faults, *_violations(bench, before, wanted, present, told, new, text, fault)]
+    if fault not in ("another person", "power while it writes"):
+        is_needed = firmware.settings.values() != before
+        found += false_copies(copies, _names, shown, is_needed=is_needed)
+    if is_verified and fault in ("none", "forget", *OF_THE_LINE):
+        now = firmware.settings.values()
+        firmware.answer()  # nothing more is to be sent: the memory is written
+        firmware.power_cycle()
+        found += ["what is active is not saved"] if firmware.settings.values() != now else []
+    return [f"seed {seed}, {fault}: {v}" for v in found]
+
+
+def _names(content: bytes) -> dict[str, str]:
+    """Return what a copy contains."""
+    read = read_content(content)
+    return _named(read.settings, read.offsets, read.startup)
+
+
+def _shown(firmware: Firmware) -> dict[str, str]:
+    """Return what a control contains, from its memory."""
+    settings = {setting.number: setting.show() for setting in firmware.settings.available()}
+    return _named(settings, firmware.offsets, firmware.startup)
+
+
+def _named(settings: dict, offsets: dict, startup: dict) -> dict[str, str]:
+    return {**{f"${n}": text for n, text in settings.items()}, **{n: text for n, text in offsets.items() if n[0] == "G"},
+            **{f"$N{n}": line for n, line in startup.items()}}  # fmt: skip
 
 
 def _arm(bench: Bench, fault: str, choose: random.Random) -> None:
@@ -67,6 +114,17 @@ def _arm(bench: Bench, fault: str, choose: random.Random) -> None:
     firmware = bench.firmware
     if fault == "half a line":
         firmware.receive(choose.choice([b"$130=3", b"$100=1", b"(half", b"$RST=", b"G1X10", b"$22=0" * 30]))
+        return
+    if fault == "forget":
+        bench.firmware.settings.store = forgetting(  # type: ignore[method-assign]
+            {fault: choose.randint(1, 4)}, bench.firmware.settings.store
+        )
+        return
+    if fault in OF_THE_LINE:
+        on_line, opened = {fault: choose.choice(OF_THE_LINE[fault])}, bench.open
+        bench.driver._open_link = lambda look: BadLine(
+            opened(look), bench.clock, choose, on_line, lambda: None
+        )
         return
     left = choose.randint(1, 900) if choose.random() < 0.8 else choose.randint(900, 1500)
     original = bench.spoil_in
@@ -140,11 +198,9 @@ def _cut_power_at_next_save(bench: Bench, answers: int) -> None:
 
 
 def _violations(
-    bench: Bench, before: dict, present: object, wanted: dict, held: bytes, kept: list, told: str, new: tuple, text: str, fault: str
+    bench: Bench, before: dict, wanted: dict, present: object, told: str, new: tuple, text: str, fault: str
 ) -> list[str]:  # fmt: skip
     found = []
-    if kept and kept[0] != held and fault not in ("another person", "power while it writes"):
-        found.append("the copy is not what the control contained")
     reference = Bench(
         bench.folder / "reference", "grbl-1.1" if bench.firmware.settings.is_classic else None
     ).firmware.settings
@@ -185,6 +241,7 @@ def _violations(
         "deaf",
         "another person",
         "power while it writes",
+        *OF_THE_LINE,
     ):
         found.append(f"did not know: {text}")
     return found

@@ -389,6 +389,10 @@ def test_whatever_fails_the_copy_is_whole_and_what_is_told_is_true(seed: int, tm
     assert download_with_faults(seed, tmp_path) == []
 
 
+def test_a_description_that_the_line_has_damaged_is_asked_again(tmp_path: Path) -> None:
+    assert download_with_faults(20_057, tmp_path, "swap") == []
+
+
 def test_a_download_that_loses_its_line_reports_how_many_values_were_confirmed_and_which_was_not_answered(
     bench: Bench,
 ) -> None:
