@@ -20,7 +20,8 @@ from pydantic import TypeAdapter
 from ruamel.yaml import YAML
 
 import amp_studio
-from amp_studio.schema import Parameter, Rule, load_schema, program
+from amp_studio.formats import all_formats, formats_of
+from amp_studio.schema import Parameter, Rule, family_ids, load_schema, program
 from amp_studio.schema.load import compile_family
 from amp_studio.schema.machine_schema import number_of
 
@@ -247,6 +248,45 @@ def test_every_function_of_a_walk_is_where_the_page_says(checkout: Path) -> None
                 break
             here = found.body
     assert lost == []
+
+
+EXAMPLES_OF_FAMILIES = {"cli/examples.py", "demo.py"}
+"""Lines to type, and the job that is shown: they are about some machine."""
+ORDINARY_WORDS = {"and", "NT", "basic", "num", "patch", "registers"}
+"""Parts of such names that are words of the language too."""
+
+
+def texts_of_program(tree: ast.Module) -> Iterator[tuple[int, str]]:
+    """Yield line and text of every string of a module that is no docstring."""
+    nodes = [*ast.walk(tree)]
+    prose = {
+        id(node.value)
+        for node in nodes
+        if isinstance(node, ast.Expr) and isinstance(node.value, ast.Constant)
+    }
+    for node in nodes:
+        if isinstance(node, ast.Constant) and isinstance(node.value, str) and id(node) not in prose:
+            yield node.lineno, node.value
+
+
+def names_of_families() -> re.Pattern[str]:
+    """Return what finds the id, the first words of the name or a format of a family."""
+    formats = {each.key for each in all_formats() if each not in formats_of("")}
+    titles = {word for family in family_ids() for word in load_schema(family).family.name.split()[:2]}
+    names = {*family_ids(), *formats, *titles} - ORDINARY_WORDS
+    return re.compile(rf"(?<![\w.-])({'|'.join(map(re.escape, sorted(names)))})(?![\w-])")
+
+
+def test_nothing_generic_names_a_family_or_its_formats(checkout: Path) -> None:
+    named, package = names_of_families(), checkout / "amp_studio"
+    assert [
+        f"{path.relative_to(package).as_posix()}:{line}: {text}"
+        for path in sorted(package.rglob("*.py"))
+        if path.relative_to(package).parts[0] != "families"
+        and path.relative_to(package).as_posix() not in EXAMPLES_OF_FAMILIES
+        for line, text in texts_of_program(ast.parse(path.read_text("utf-8")))
+        if named.search(text)
+    ] == []
 
 
 def test_a_class_or_alias_has_a_name_that_no_other_has(checkout: Path) -> None:

@@ -9,6 +9,7 @@ import sys
 from collections.abc import Iterator
 from pathlib import Path
 
+from amp_studio.family_places import installed_places, own_formats
 from amp_studio.scenarios import scenario_names
 
 from .examples import EXAMPLES
@@ -49,17 +50,6 @@ _VALUES = (
     "not-set              clears the value: 1300=not-set (an empty value is refused)",
     "Units: mm, in, deg, mm/min, ipm, deg/min, rpm, ms, s, %, V, Hz",
 )
-_FORMATS = (
-    "csv                  table of values, of every family (.csv)",
-    "patch                patch sheet of a 9/PC (.patch)",
-    "num                  NUM parameter table (.par .num .txt)",
-    "acr                  ACR command script (.acr)",
-    "bsc                  ballscrew compensation of an ACR controller (.bsc)",
-    "basic                AutoMax BASIC task (.bas)",
-    "registers            AutoMax register table (.reg)",
-    "grbl                 Grbl settings, as $$ lists them (.settings .grbl .nc)",
-)
-"""Name and endings of every text format; here, because help loads no room (a test compares them)."""
 _ADDRESSES = (
     "tcp://HOST:PORT      a control in the network",
     "tls://HOST:PORT      the same over TLS: ?ca=FILE.pem or ?fingerprint=sha256:… checks its certificate",
@@ -75,7 +65,9 @@ def families() -> tuple[str, ...]:
     """Return the families, as ``family_ids`` of the schema does, without loading it."""
     package = Path(__file__).resolve().parent.parent
     folders = (package / "parameter_db", package.parent / "parameter_db")
-    own = {p.parent.name for folder in folders for p in folder.glob("*/family.yaml")}
+    own = {p.parent.name for folder in folders for p in folder.glob("*/family.yaml")} | set(
+        installed_places()
+    )
     registration = sys.modules.get("amp_studio.schema.registration")  # who registers a family has loaded it
     return tuple(sorted(own | set(registration.added_facts() if registration else ())))
 
@@ -98,7 +90,8 @@ def sections(verb: str) -> Iterator[tuple[str, tuple[str, ...]]]:
     if verb in ("set", "simulate"):
         yield "VALUE", _VALUES
     if verb in ("import", "export"):
-        yield "FORMAT", _FORMATS
+        formats = {"csv": "table of values, of every family (.csv)", **own_formats()}
+        yield "FORMAT", tuple(f"{name:20} {what}" for name, what in formats.items())
     if verb in _ADDRESS:
         yield "ADDRESS", _ADDRESSES
     if verb in EXAMPLES:

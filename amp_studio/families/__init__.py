@@ -1,7 +1,7 @@
 """What each control family does differently, a folder each: formulas, text formats, drivers, the law of its axes.
 
 The rooms below find it through this table and by nothing else (``schema/registration.py``). docs/family-code.md lists
-what one more family has to write.
+what one more family has to write, and how another package brings one.
 """
 
 from __future__ import annotations
@@ -21,3 +21,15 @@ SCENARIOS = {
     "57c422b": ("tune", "gear", "cam", "backlash"),
 }
 """Family -> the scenarios that its law alone has, for help and completion, which load no law."""
+
+FORMATS = {
+    "9pc": {"patch": "patch sheet of a 9/PC (.patch)"},
+    "num": {"num": "NUM parameter table (.par .num .txt)"},
+    "acromill": {
+        "acr": "ACR command script (.acr)",
+        "bsc": "ballscrew compensation of an ACR controller (.bsc)",
+    },
+    "57c422b": {"basic": "AutoMax BASIC task (.bas)", "registers": "AutoMax register table (.reg)"},
+    "grblhal": {"grbl": "Grbl settings, as $$ lists them (.settings .grbl .nc)"},
+}
+"""Family -> its text formats with their endings, for help, which loads none (a test compares them)."""

@@ -98,8 +98,20 @@ class Compiled(Model):
 
 def family_ids() -> tuple[str, ...]:
     """Return the families that have a folder of facts, in alphabetical order."""
-    own = (path.parent.name for path in database_folder().glob("*/family.yaml"))
-    return tuple(sorted({*own, *added_facts()}))
+    return tuple(sorted({*_own_ids(), *added_facts()}))
+
+
+def _own_ids() -> set[str]:
+    return {path.parent.name for path in database_folder().glob("*/family.yaml")}
+
+
+def _folder_of(family_id: str) -> Path:
+    """Return the folder of a family's facts; the other packages are searched for one that the program does not have."""
+    if family_id in _own_ids():
+        return database_folder() / family_id
+    if (folder := added_facts().get(family_id)) is None:
+        raise UnknownFamilyError(family_id)
+    return folder
 
 
 @cache
@@ -109,9 +121,7 @@ def load_compiled(family_id: str) -> Compiled:
     Only the id of a family that is there becomes a part of a path: what a file, an image or a person calls a family
     may be anything.
     """
-    if family_id not in family_ids():
-        raise UnknownFamilyError(family_id)
-    folder = added_facts().get(family_id, database_folder() / family_id)
+    folder = _folder_of(family_id)
     cached = cache_folder() / f"{family_id}-{_content_key(sorted(folder.rglob('*.yaml')))}.json"
     kept = read_cached(cached)
     if kept is not None:

@@ -1,12 +1,13 @@
 """How the code of a control family is found: one record a family, whose parts are loaded when somebody asks for them.
 
-Facts are data and need no record. What a family does differently is code in ``amp_studio/families``, which imports the
-rooms below it; they find it by name alone, through the table ``FAMILIES`` there, so that no room names a family and a
-start loads nothing of one that is not used. ``register`` adds one more: a test's, or another package's.
+Facts are data and need no record. What a family does differently is code in ``amp_studio/families`` or in another package,
+which imports the rooms below it; they find it by name alone (``amp_studio/family_places.py``), so that no room names a
+family and a start loads nothing of one that is not used. ``register`` adds one more to this process: that of a test.
 """
 
 from __future__ import annotations
 
+import logging
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from functools import cache
@@ -15,11 +16,12 @@ from operator import attrgetter
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from amp_studio.family_places import installed_places, own_places
+
 if TYPE_CHECKING:
     from .model import Family
 
-TABLE = "amp_studio.families:FAMILIES"
-"""Family -> where its record is; as every part of a record, ``module:NAME``."""
+_log = logging.getLogger(__name__)
 
 
 @dataclass(frozen=True)
@@ -69,18 +71,35 @@ def unregister(family: str) -> None:
 
 
 def registered_families() -> tuple[str, ...]:
-    """Return the families that have a record, those of the table first."""
-    return tuple(dict.fromkeys((*load_part(TABLE), *_added)))
+    """Return the families that have a record, those of the program first."""
+    return tuple(dict.fromkeys((*own_places(), *_installed(), *_added)))
 
 
 def registration_of(family: str) -> Registration:
     """Return a family's record; one without parts for a family that is facts alone."""
     if family in _added:
         return _added[family]
-    place = load_part(TABLE).get(family)
-    found = load_part(place) if place else Registration(family)
-    assert isinstance(found, Registration)
-    return found
+    if place := own_places().get(family):
+        found = load_part(place)
+        assert isinstance(found, Registration)
+        return found
+    return _installed().get(family, Registration(family))
+
+
+@cache
+def _installed() -> dict[str, Registration]:
+    """Return the records of other packages. One that cannot be loaded is reported and left out, so the others work."""
+    records = {}
+    for family, place in installed_places().items():
+        try:
+            found = load_part(place)
+            if not isinstance(found, Registration) or found.family != family:
+                raise TypeError(f"{place} is no Registration of {family}")
+        except Exception as error:  # code of another package raises what it will
+            _log.warning("The family %s of another package cannot be used: %s", family, error)
+            continue
+        records[family] = found
+    return records
 
 
 def why_not_simulated(family: Family) -> str:
@@ -92,7 +111,8 @@ def why_not_simulated(family: Family) -> str:
 
 def added_facts() -> dict[str, Path]:
     """Return family -> folder of facts, of those that have theirs elsewhere than in ``parameter_db``."""
-    return {family: record.facts for family, record in _added.items() if record.facts is not None}
+    records = {**_installed(), **_added}
+    return {family: record.facts for family, record in records.items() if record.facts is not None}
 
 
 @cache

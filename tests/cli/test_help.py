@@ -116,6 +116,7 @@ def test_help_names_the_text_formats_that_there_are() -> None:
     assert dict(sections("export"))["FORMAT"] == shown
     for line, each in zip(sorted(shown), sorted(all_formats(), key=lambda each: each.key), strict=True):
         assert line.split()[0] == each.key
+        assert each.title in line
         assert line.endswith(f"({' '.join((each.ending, *each.other_endings))})")
 
 

@@ -53,7 +53,7 @@ def _controls(verbs: Verbs) -> None:
         action="append",
         default=[],
         metavar="NAME=VALUE",
-        help="what was ordered with the control, where its family has options: axes=3 for a 9/PC",
+        help="what was ordered with the control, where its family has options: axes=3",
     )
     sub.add_argument(
         "--password-file", type=path_of, metavar="FILE", help="ask clients for the password in its first line"

@@ -153,7 +153,7 @@ LAW = Law(
     _axis, axes=lambda _file: ("X",), settings={"model.rapid": "rapid feedrate (mm/min)"}, scenarios=("step",)
 )
 
-HERE = "tests.families.steps.stepper"
+HERE = __name__
 REGISTRATION = Registration(
     family=FAMILY,
     formulas=f"{HERE}:FORMULAS",
