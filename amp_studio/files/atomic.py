@@ -103,7 +103,7 @@ def write_atomic(
         if kept is not None:
             stack.enter_context(_put_back_unless_saved(kept, temporary))
             os.replace(kept_temporary, kept)
-        _replace(temporary, real, path)
+        _replace(temporary, real, path, is_new=expected is None)
     with contextlib.suppress(OSError):  # the file is the new one already: a fault here is not one of the save
         sync_folder(real.parent)
     for message in notes:
@@ -119,15 +119,30 @@ def was_replaced(path: Path) -> bool:
     return path.absolute() in _replaced
 
 
-def _replace(temporary: Path, real: Path, path: Path) -> None:
+def _replace(temporary: Path, real: Path, path: Path, *, is_new: bool) -> None:
     """Rename over a file, which counts as written before that: an interrupt may come in between."""
     names = {real.absolute(), path.absolute()} - _replaced
     _replaced.update(names)
     try:
-        os.replace(temporary, real)
+        if not is_new or not _named(temporary, real):
+            os.replace(temporary, real)
     except OSError:
         _replaced.difference_update(names)
         raise
+
+
+def _named(temporary: Path, real: Path) -> bool:
+    """Give a file a name that nothing has; returns whether the file system can. Raises ChangedOnDiskError where it is taken.
+
+    So nobody's file is replaced that came at the last moment, and no empty file has to keep the name free.
+    """
+    try:
+        os.link(temporary, real)
+    except FileExistsError:
+        raise ChangedOnDiskError(f"{real.name} exists already") from None
+    except OSError:  # a file system without a second name for a file
+        return False
+    return True
 
 
 _CHANGED = "has been changed by another program since it was opened"

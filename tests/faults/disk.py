@@ -5,7 +5,8 @@ from __future__ import annotations
 import contextlib
 import os
 import stat
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
+from functools import partial
 from pathlib import Path
 from unittest import mock
 
@@ -15,7 +16,7 @@ Inode = tuple[int, int]
 class Disk:
     """Which files and folders have changes that no fsync has forced to the disk yet.
 
-    ``faults`` are the renames that a power loss could have left without the content: a file is forced to the disk first.
+    ``faults`` are the names that a power loss could have left without a content: a file is forced to the disk before it gets one.
     """
 
     def __init__(self) -> None:
@@ -25,7 +26,7 @@ class Disk:
     @contextlib.contextmanager
     def watched(self) -> Iterator[Disk]:
         """Watch the calls of the system; no fsync waits for the disk meanwhile."""
-        write, replace, remove = os.write, os.replace, os.unlink
+        write, replace, link, remove = os.write, os.replace, os.link, os.unlink
 
         def written(handle: int, data: bytes | memoryview) -> int:
             if stat.S_ISREG(os.fstat(handle).st_mode):
@@ -35,20 +36,23 @@ class Disk:
         def synced(handle: int) -> None:
             self._changed.discard(_inode(os.fstat(handle)))
 
-        def replaced(source: str | Path, target: str | Path) -> None:
+        def named(act: Callable[..., None], source: str | Path, target: str | Path, **options: bool) -> None:
             if _inode(Path(source).stat()) in self._changed:
-                self.faults.append(f"{Path(target).name} is replaced by a file that is not on the disk yet")
-            replace(source, target)
+                self.faults.append(f"{Path(target).name} is the name of a file that is not on the disk yet")
+            act(source, target, **options)
             self._changed.add(_inode(Path(target).parent.stat()))
 
         def removed(path: str | Path, **options: int) -> None:
             with contextlib.suppress(OSError):
-                self._changed.discard(_inode(os.lstat(path)))  # its number goes to another file
+                found = os.lstat(path)
+                if found.st_nlink == 1:  # its number goes to another file
+                    self._changed.discard(_inode(found))
             remove(path, **options)
 
         with (
             mock.patch.object(os, "write", written), mock.patch.object(os, "fsync", synced),
-            mock.patch.object(os, "replace", replaced), mock.patch.object(os, "unlink", removed),
+            mock.patch.object(os, "replace", partial(named, replace)),
+            mock.patch.object(os, "link", partial(named, link)), mock.patch.object(os, "unlink", removed),
         ):  # fmt: skip
             yield self
 

@@ -25,6 +25,7 @@ NAMES = {"stdin", "argv", "environ"}
 READERS = {
     "calibration/cells.py": "damaged points of a laser",
     "calibration/reading.py": "damaged points of a laser",
+    "cli/check_formats.py": "",  # what the program itself has printed
     "cli/checks.py": "damaged parameter file",
     "cli/comparing.py": "damaged control image",
     "cli/console.py": "odd values",
@@ -34,6 +35,7 @@ READERS = {
     "cli/plain_files.py": "",  # carries any bytes as they are
     "cli/program.py": "odd command lines",
     "cli/screen.py": "",  # gives the streams, reads nothing
+    "dossier.py": "",  # what the program itself has written for its other process
     "demo.py": "",  # whether there is a display
     "families/grblhal/driver.py": "damaged answers of a Grbl control",
     "families/grblhal/emulated/firmware.py": "odd bytes at an emulated Grbl control",

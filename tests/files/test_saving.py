@@ -7,6 +7,7 @@ import resource
 import stat
 from collections.abc import Callable
 from pathlib import Path
+from typing import Any
 
 import pytest
 
@@ -14,6 +15,7 @@ from amp_studio.files import (
     ChangedOnDiskError,
     Document,
     SaveError,
+    atomic,
     backup_path,
     digest_of,
     open_file,
@@ -76,6 +78,32 @@ def test_a_new_file_has_no_backup(tmp_path: Path) -> None:
     assert {"new.amp"} == names(tmp_path)
 
 
+def test_a_file_that_comes_at_the_last_moment_is_not_replaced_by_a_new_one(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    path, replace = tmp_path / "new.amp", atomic._replace
+
+    def another_first(*arguments: Any, **options: Any) -> None:
+        path.write_bytes(OLD)
+        replace(*arguments, **options)
+
+    monkeypatch.setattr(atomic, "_replace", another_first)
+    with pytest.raises(ChangedOnDiskError, match=r"new\.amp exists already"):
+        write_atomic(path, NEW, None)
+    assert (path.read_bytes(), names(tmp_path)) == (OLD, {"new.amp"})
+
+
+def test_where_a_file_has_one_name_only_a_new_one_is_renamed(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def refused(*_: object) -> None:
+        raise PermissionError(1, "Operation not permitted")
+
+    monkeypatch.setattr(os, "link", refused)
+    write_atomic(tmp_path / "new.amp", NEW, None)
+    assert ((tmp_path / "new.amp").read_bytes(), names(tmp_path)) == (NEW, {"new.amp"})
+
+
 def test_without_a_backup_none_is_made(old: Path) -> None:
     write_atomic(old, NEW, keep_backup=False)
     assert {"machine.amp"} == names(old.parent)
@@ -108,8 +136,8 @@ def test_who_is_reading_the_old_file_reads_it_to_its_end(old: Path) -> None:
 def test_the_content_is_on_the_disk_before_the_name_is_and_the_name_at_the_end(tmp_path: Path, disk) -> None:
     disk.fail(999, for_ever=False)
     write_atomic(tmp_path / "new.amp", NEW, None)
-    steps = [name for name in disk.made if name in ("fsync", "replace")]
-    assert steps == ["fsync", "replace", "fsync"]
+    steps = [name for name in disk.made if name in ("fsync", "link", "replace")]
+    assert steps == ["fsync", "link", "fsync"]
 
 
 # -- somebody else's changes ---------------------------------------------------------------------------------

@@ -15,7 +15,7 @@ from datetime import datetime
 from pathlib import Path
 
 from amp_studio.errors import AmpStudioError
-from amp_studio.files import ENDING, ParameterFile, content_of, open_file, write_atomic
+from amp_studio.files import ENDING, ChangedOnDiskError, ParameterFile, content_of, open_file, write_atomic
 from amp_studio.files.reading import ParameterFileError, read_content
 from amp_studio.schema.regular_file import read_file
 from amp_studio.transfer.content import decode_content, family_of, kind_of
@@ -86,17 +86,20 @@ def keep_image(image: bytes, folder: Path, stem: str, *, readable: bool = True) 
 def save_image(image: bytes, path: Path) -> None:
     """Write an image and its digest under a name that nothing has; raises FileExistsError, OSError."""
     beside = digest_path(path)
-    _need_free(beside)
-    handle = os.open(path, os.O_WRONLY | os.O_CREAT | os.O_EXCL)  # from here on the name is ours
+    for name in (beside, path):
+        _need_free(name)
+    line = f"{hashlib.sha256(image).hexdigest()}  {path.name}\n".encode(errors="surrogateescape")
+    written = []
     try:
-        os.close(handle)
-        write_atomic(path, image, keep_backup=False)
-        line = f"{hashlib.sha256(image).hexdigest()}  {path.name}\n"
-        write_atomic(beside, line.encode(errors="surrogateescape"), expected=None, keep_backup=False)
-    except BaseException:
-        for written in (beside, path):
+        for name, content in ((path, image), (beside, line)):
+            write_atomic(name, content, expected=None, keep_backup=False)
+            written.append(name)
+    except BaseException as error:
+        for name in written:
             with contextlib.suppress(OSError):
-                written.unlink(missing_ok=True)
+                name.unlink(missing_ok=True)
+        if isinstance(error, ChangedOnDiskError):  # somebody has taken the name meanwhile
+            raise FileExistsError(str(error)) from None
         raise
 
 
