@@ -63,6 +63,8 @@ def identify_verb(options: argparse.Namespace) -> int:
         f"{control.name or 'A control'} of the family {control.family}, revision {control.revision or 'unknown'}"
     )
     print(f"protocol {control.protocol}" + ("" if abilities.can_send else ", which takes no download"))
+    if abilities.can_send:
+        print(abilities.lasting_text())
     print(f"axes {', '.join(axes)}" if axes else "axes unknown")
     print(
         f"{len(content)} bytes, "

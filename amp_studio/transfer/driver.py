@@ -27,19 +27,29 @@ class Abilities:
     ``all_or_nothing``  a download that breaks off leaves the old content or the new one, never some of both
     ``maps_numbers``    a file of another schema of the family is sent as well: each parameter by its number
     ``lasting_states``  the states, in the control's own words, in which a write lasts; in any other its driver refuses before
-                        anything is written. Empty where the protocol names no states that a write depends on
+                        anything is written. Empty where the control keeps nothing without power; None where no source states it
     """
 
     can_send: bool = True
     remembers: bool = False
     all_or_nothing: bool = True
     maps_numbers: bool = False
-    lasting_states: tuple[str, ...] = ()
+    lasting_states: tuple[str, ...] | None = None
 
     def check_lasts(self, state: str, why: str) -> None:
         """Refuse a state in which a write does not last, before anything is written; ``why`` is the reason and what to do."""
-        if state not in self.lasting_states:
+        if state not in (self.lasting_states or ()):
             raise TransferError(f"the control is in the state {state[:20]}: {why}")
+
+    def lasting_text(self) -> str:
+        """Return in which states a write lasts, in words."""
+        if self.lasting_states is None:
+            return "in which states of the control a write lasts is not known"
+        return (
+            f"a write lasts in {', '.join(self.lasting_states)}"
+            if self.lasting_states
+            else "a write is lost with the power"
+        )
 
 
 @dataclass(frozen=True)

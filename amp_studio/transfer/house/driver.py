@@ -16,7 +16,7 @@ from .session import Session
 class HouseDriver(HouseContent):
     """Speaks to a control in the sessions of the house protocol (docs/protocols/exchange.md)."""
 
-    abilities = Abilities(can_send=True, remembers=True)
+    abilities = Abilities(can_send=True, remembers=True, lasting_states=("E-stop",))
 
     def __init__(self, session: Session) -> None:
         self.session = session

@@ -22,13 +22,14 @@ def test_identify_names_family_revision_axes_and_checksum(
     assert (found["family"], found["revision"], found["protocol"]) == ("9pc", "emulated", "house")
     assert found["signature"] == load_schema("9pc").signature
     assert found["abilities"] == {
-        "can_send": True, "remembers": True, "all_or_nothing": True, "maps_numbers": False, "lasting_states": [],
+        "can_send": True, "remembers": True, "all_or_nothing": True, "maps_numbers": False, "lasting_states": ["E-stop"],
     }  # fmt: skip
     assert (found["in_estop"], found["restart_needed"], found["unreadable"]) == (True, False, None)
     assert run(["identify", address]) == 0
     text = capsys.readouterr().out.splitlines()
     assert text[0] == "CNC_1 of the family 9pc, revision emulated"
     assert f"sha256 {found['sha256']}" in text
+    assert "a write lasts in E-stop" in text
     assert f"{found['size']} bytes, {found['values']} values" in text
 
 

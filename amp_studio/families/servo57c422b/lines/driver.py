@@ -47,7 +47,7 @@ AXES = {0: "X", AXIS_Y: "Y"}
 class RegisterDriver(RegisterContent, NeverRestarts):
     """Speaks to the live registers of one module."""
 
-    abilities = Abilities(can_send=True, all_or_nothing=False)
+    abilities = Abilities(can_send=True, all_or_nothing=False, lasting_states=())
     takes_live_values: ClassVar[bool] = True
 
     def __init__(
