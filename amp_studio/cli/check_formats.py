@@ -84,6 +84,8 @@ class CheckFormat:
     """Whether it prints once all files are checked."""
     alone = False
     """Whether a file that is no part of a list is printed as it is."""
+    from_here = False
+    """Whether paths are shortened to those from the present folder."""
 
     def one(self, checked: FileFindings) -> str:
         """Return what is printed of a file."""
@@ -153,6 +155,7 @@ class SarifFormat(CheckFormat):
     """SARIF 2.1.0 (OASIS), which services for code scanning and editors read."""
 
     needs_all = True
+    from_here = True
 
     def one(self, checked: FileFindings) -> str:
         validator = checked.validator
@@ -236,6 +239,8 @@ def _sarif_place(path: Path, line: int) -> dict[str, Any]:
 
 class GithubFormat(CheckFormat):
     """Workflow commands of GitHub Actions, which shows them beside the changed lines."""
+
+    from_here = True
 
     def shown(self, one: CheckResult) -> str:
         if not one.fault:

@@ -45,7 +45,7 @@ def validate_verb(options: argparse.Namespace) -> int:
     counts_shown = len(paths) > 1 and (form.needs_all or not sys.stdout.isatty())
     show = progress() if counts_shown else None
     checked = []
-    for n, one in enumerate(_each(check, paths, options.jobs), 1):
+    for n, one in enumerate(_results(options, check, paths), 1):
         checked.append(one)
         _print(form, one)
         if show:
@@ -60,6 +60,39 @@ def validate_verb(options: argparse.Namespace) -> int:
             print(document if is_utf8 else form.in_ascii(document))
     is_whole = not any(one.fault for one in checked)
     return int(any(one.errors for one in checked)) if is_whole else 2
+
+
+def _results(
+    options: argparse.Namespace, check: Callable[[Path], CheckResult], paths: Sequence[Path]
+) -> Iterator[CheckResult]:
+    """Yield the results of files in their order; those of several are kept for the next run."""
+    if len(paths) < 2 or options.no_cache:
+        yield from _each(check, paths, options.jobs)
+        return
+    from .check_cache import CheckCache  # a file alone is checked before its database is open
+
+    cache = CheckCache(options)
+    keys = cache.keys(paths)
+    kept = cache.read(keys, paths)
+    left = [path for path in paths if path not in kept]
+    fresh = _each(check, left, options.jobs)
+    made: list[CheckResult] = []
+    for path in paths:
+        if path in kept:
+            yield kept[path]
+        else:
+            made.append(next(fresh))
+            yield made[-1]
+    before = dict(zip(paths, keys, strict=True))
+    cache.write(
+        {
+            key: one
+            for one, key in zip(made, cache.keys(left), strict=True)
+            # A file that was changed while it was checked has the result of one content or the other.
+            if key is not None and key == before[one.path] and not one.fault
+        },
+        used=keys,
+    )
 
 
 def _print(form: CheckFormat, one: CheckResult) -> None:

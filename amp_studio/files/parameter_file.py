@@ -331,7 +331,11 @@ class ParameterFile:
     def take(self, values: Mapping[Address, Value]) -> None:
         """Take values as they were read, in range or not, and forget what followed from the old ones; raises as ``set`` does."""
         usable = {address: self._usable(address, value) for address, value in values.items()}
-        self.values.update({address: value for address, value in usable.items() if value is not None})
+        self.take_read({address: value for address, value in usable.items() if value is not None})
+
+    def take_read(self, values: Mapping[Address, Value]) -> None:
+        """Take values that ``read_stored`` has returned for addresses of this machine type: they are checked already."""
+        self.values.update(values)
         self.revision += 1
         self.evaluation.forget()
 

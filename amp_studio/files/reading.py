@@ -220,23 +220,24 @@ class _FileReader:
         values: dict[Address, Value] = {}
         machine = file.schema.family.machine_parameter
         ordered = sorted(entries, key=lambda k: k != machine)  # the machine type decides what the others are
+        places = file.machine_schema.places
         for key in ordered:
             address, text = read_address(key), entries[key]
             if not isinstance(text, str):
                 raise self._fault(f"{short(key)} has no single value", "values", key)
             if address in values or key in file.unknown:  # "x" and "x@"
                 raise self._fault(f"{quoted(written(address))} occurs twice", "values", key)
+            if address not in places:
+                file.unknown[key] = text
+                continue
             try:
-                value = value_in_file(file, address, text)
+                values[address] = _read_once(file.schema, address[0], text)
             except InvalidValueError as error:
                 raise self._fault(f"{short(key)}: {error}", "values", key) from None
-            if value is None:
-                file.unknown[key] = text
-            else:
-                values[address] = value
-                if key == machine:
-                    file.take(values)
-        file.take(values)
+            if key == machine:
+                file.take_read(values)
+                places = file.machine_schema.places
+        file.take_read(values)
 
 
 def seal_of(description: bytes) -> str:
@@ -254,16 +255,19 @@ def extra_entries(text: str, data: dict[str, Any]) -> dict[str, object]:
 
 def value_in_file(file: ParameterFile, address: Address, text: str) -> Value | None:
     """Return the value, None for an address the schema does not have; raises InvalidValueError."""
-    schema = file.schema
-    parameter = schema.parameters.get(address[0])
-    if parameter is None or address not in file.machine_schema.places:
+    if address not in file.machine_schema.places:
         return None
+    return _read_once(file.schema, address[0], text)
+
+
+def _read_once(schema: Schema, parameter_id: str, text: str) -> Value:
+    """Return what a text in a file means; raises InvalidValueError in words for a person."""
     try:
         if len(text) > _REMEMBERED:
-            return read_stored(schema, parameter, text)
-        return _stored(schema, parameter.id, text)
+            return read_stored(schema, schema.parameters[parameter_id], text)
+        return _stored(schema, parameter_id, text)
     except InvalidValueError as error:
-        raise InvalidValueError(not_readable(parameter, error)) from None
+        raise InvalidValueError(not_readable(schema.parameters[parameter_id], error)) from None
 
 
 @lru_cache(maxsize=16_384)

@@ -68,6 +68,10 @@ class Question(NamedTuple):
     """The same, if it reads single values alone."""
 
 
+StateGroups = tuple[tuple[Address, ...], ...]
+"""Addresses, those together whose states are the same whatever the values."""
+
+
 @dataclass(frozen=True, slots=True)
 class Answers:
     """What follows from the values that conditions read: the same for all files in which these are equal."""
@@ -76,6 +80,8 @@ class Answers:
     states: dict[StatePlan, StateInfo] = field(default_factory=dict)
     by_address: dict[Address, StateInfo] = field(default_factory=dict)
     """The same states, so that they are quick to look up."""
+    active: dict[int, tuple[StateGroups, tuple[Address, ...]]] = field(default_factory=dict)
+    """Groups of addresses that were asked for, by their identity, and those of them that are active."""
 
 
 _MOST_ANSWERS = 100

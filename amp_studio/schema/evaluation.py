@@ -11,7 +11,7 @@ from collections.abc import Callable, Hashable, Iterable, Mapping
 from .address import Address, UnknownParameterError
 from .addressing import meant
 from .catalog import Schema
-from .conditions import Answers, Asked, Conditions, Reference, StateInfo, conditions_of
+from .conditions import Answers, Asked, Conditions, Reference, StateGroups, StateInfo, conditions_of
 from .expression import Canonical, Circumstances, Key, Keys, canonical_value, value_of
 from .machine_schema import MachineSchema
 from .model import Condition, Scope
@@ -156,6 +156,15 @@ class Evaluation:
     def known_states(self) -> Mapping[Address, StateInfo]:
         """Return the states that were asked for already, until the next change."""
         return (self._answers or self._present()).by_address
+
+    def active(self, groups: StateGroups) -> tuple[Address, ...]:
+        """Return the active ones of groups of addresses whose states are the same whatever the values."""
+        answers = self._answers or self._present()
+        kept = answers.active.get(id(groups))
+        if kept is None:
+            found = tuple([a for alike in groups if self.state(alike[0]).is_active for a in alike])
+            kept = answers.active[id(groups)] = groups, found
+        return kept[1]
 
     def how_state_is_found(self, address: Address) -> Hashable:
         """Return what is equal for addresses whose states are the same whatever the values."""

@@ -187,9 +187,15 @@ class _YamlParser:
         found: dict[Any, Any] = {}
         spans, end = self.document.spans, start.end_mark.index
         while type(event := next(events)).__name__ != "MappingEndEvent":
-            key, _ = self._node(event, events, path)
-            if self.anchors is None and type(event).__name__ == "ScalarEvent":
+            if (
+                self.anchors is None
+                and event.anchor is None
+                and type(event).__name__ == "ScalarEvent"
+                and event.tag is None
+            ):
                 key = event.value  # a key is a name, also where it looks like a number
+            else:
+                key, _ = self._node(event, events, path)
             if not isinstance(key, (str, int)):
                 raise self._error("is not readable: a key is no text", event)
             if key in found:

@@ -134,12 +134,9 @@ class Validator:
         )
         return (*self.own.faults, *stay, *meets_nothing)
 
-    def needed(self) -> Iterator[Address]:
-        """Yield every active value without which the file is not complete, set or not."""
-        evaluation = self.file.evaluation
-        for alike in self._plan.needed:
-            if evaluation.state(alike[0]).is_active:
-                yield from alike
+    def needed(self) -> tuple[Address, ...]:
+        """Return every active value without which the file is not complete, set or not."""
+        return self.file.evaluation.active(self._plan.needed)
 
     @property
     def not_set(self) -> tuple[Address, ...]:
@@ -187,7 +184,7 @@ class Validator:
             self._filed[check.place] = (self._order(finding, check.place), finding)
 
     def _all_not_set(self) -> set[Address]:
-        values = self.file.values.keys()
+        values = self.file.values
         return {address for address in self.needed() if address not in values}
 
     def _check_address(self, address: Address) -> Finding | None:

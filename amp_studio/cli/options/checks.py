@@ -36,6 +36,9 @@ def _checks(verbs: Verbs) -> None:
         "--why", action="store_true", help="explain each finding: its rule, the values, the page"
     )
     sub.add_argument(
+        "--no-cache", action="store_true", help="check every file, also one whose result is kept"
+    )
+    sub.add_argument(
         "--format",
         choices=CHECK_FORMATS,
         default="text",
