@@ -40,6 +40,12 @@ class ContentKind(Protocol):
     def stays(self, file: ParameterFile, held: bytes) -> str:
         """Return which parts of the values that a file sets stay as ``held`` has them: bits of axes it does not have; "" for none."""
 
+    def lacks(self, content: bytes, earlier: bytes) -> str:
+        """Return what of an ``earlier`` content of the same control is not in this one, which may be read short; "" for nothing.
+
+        Raises ImageError.
+        """
+
     def refit(self, content: bytes, held: bytes) -> bytes:
         """Return what a control that contains ``held`` contains once ``content`` is put back; raises ImageError."""
 
@@ -56,6 +62,10 @@ class TakesAllOrRefuses:
 
     def stays(self, file: ParameterFile, held: bytes) -> str:  # noqa: ARG002 -- other kinds need them
         """Return "": a file of such a control has all of each value."""
+        return ""
+
+    def lacks(self, content: bytes, earlier: bytes) -> str:  # noqa: ARG002 -- other kinds need them
+        """Return "": what is read of such a control is whole."""
         return ""
 
 

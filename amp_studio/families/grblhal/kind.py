@@ -81,6 +81,10 @@ class GrblContentKind:
         """Return the bits of masks that a control has and the file does not; raises ImageError."""
         return named_bits(_wanted(file, read_content(held), held).kept)
 
+    def lacks(self, content: bytes, earlier: bytes) -> str:  # noqa: ARG002 -- other kinds need them
+        """Return "": settings come and go with options, and are read until two readings are the same."""
+        return ""
+
     def refit(self, content: bytes, held: bytes) -> bytes:
         """Return what a control contains once a copy is put back: its settings, offsets and start-up lines; raises ImageError.
 

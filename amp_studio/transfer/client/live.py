@@ -20,7 +20,7 @@ from amp_studio.transfer.progress import Progress, quiet
 
 from .exchange import Outcome, download, look_at
 from .kept import keep_image
-from .record import Recording
+from .record import Recording, check_whole
 
 
 class LiveTuning:
@@ -117,5 +117,6 @@ class LiveTuning:
     def _keep(self, content: bytes) -> str:
         """Keep what the control contained at the first look; later contents are those of this session."""
         if not self._kept:
+            check_whole(self._driver, content, self._record, self._address, self._folder)
             self._kept = str(keep_image(content, self._folder, self._stem))
         return self._kept

@@ -19,7 +19,7 @@ from amp_studio.transfer.progress import Progress, quiet
 from .drivers import open_driver, open_driver_at
 from .exchange import Outcome, download, upload
 from .kept import BEFORE, Copy, keep_image, keep_readable, open_copy
-from .record import Recording
+from .record import Recording, check_whole
 
 __all__ = [
     "Copy",
@@ -48,8 +48,11 @@ def download_file(
     a digest that is none.
     """
     approved = read_digest(expected)
-    with closing(open_driver(address, file.schema.family.family)) as driver, _Keeping(folder, stem) as copy:
-        family = file.schema.family.family
+    family = file.schema.family.family
+    with (
+        closing(open_driver(address, family)) as driver,
+        _Keeping(folder, stem, driver, record, address) as copy,
+    ):
         remarks: list[str] = []
 
         def wanted(held: bytes) -> bytes:
@@ -87,7 +90,10 @@ def restore_copy(
     What is kept goes back whatever it is, for the control to decide whether it has contained it. Raises as ``download_file``.
     """
     approved = read_digest(expected)
-    with closing(open_driver(address, copy.family)) as driver, _Keeping(folder, stem) as before:
+    with (
+        closing(open_driver(address, copy.family)) as driver,
+        _Keeping(folder, stem, driver, record, address) as before,
+    ):
         wanted = partial(driver.refit, copy.image)
         if copy.file is not None and not copy.is_kept:
             wanted = partial(driver.encode, copy.file)
@@ -101,8 +107,11 @@ def restore_copy(
 class _Keeping:
     """Keeps what a control contained in a folder: its bytes at once, the parameter file beside them when there is time."""
 
-    def __init__(self, folder: Path, stem: str) -> None:
+    def __init__(
+        self, folder: Path, stem: str, kind: ContentKind, record: Path | None = None, address: str = ""
+    ) -> None:
         self._folder, self._stem = folder, stem.partition(BEFORE)[0]
+        self._kind, self._record, self._address = kind, record, address
         self._kept: tuple[bytes, Path] | None = None
 
     def __enter__(self) -> Self:
@@ -112,7 +121,8 @@ class _Keeping:
         self.finish()
 
     def keep(self, content: bytes) -> str:
-        """Keep the bytes and return where."""
+        """Keep the bytes and return where; raises CopyError for less than the last copy of the control has, OSError."""
+        check_whole(self._kind, content, self._record, self._address, self._folder)
         path = keep_image(content, self._folder, self._stem, readable=False)
         self._kept = content, path
         return str(path)

@@ -18,12 +18,12 @@ from amp_studio.files.local_time import local_time
 from amp_studio.files.lock import now, user
 from amp_studio.schema import MASKED, Value, write_value, written
 from amp_studio.schema.regular_file import read_file
-from amp_studio.transfer.content import decode_content
+from amp_studio.transfer.content import ContentKind, decode_content
 from amp_studio.transfer.errors import AtControl, TransferError
 from amp_studio.transfer.image import ImageError
 
 from .exchange import Outcome
-from .kept import BEFORE
+from .kept import BEFORE, CopyError, open_copy
 
 RECORD = "exchanges.jsonl"
 
@@ -126,6 +126,32 @@ def _exchange(line: str) -> Exchange | None:
         return Exchange(**texts, changes=changes)
     except (ValueError, TypeError, RecursionError):
         return None
+
+
+def check_whole(kind: ContentKind, content: bytes, beside: Path | None, control: str, folder: Path) -> None:
+    """Refuse to keep less than the newest copy of the same control has; raises CopyError.
+
+    The record of the file ``beside`` leads to that copy, in the ``folder`` where the next one is kept. Where there is none that
+    can be read, there is nothing to compare.
+    """
+    try:
+        exchanges = read_exchanges(record_path(beside).parent) if beside is not None else []
+    except OSError:
+        return
+    names = (Path(each.kept).name for each in reversed(exchanges) if each.control == control and each.kept)
+    for path in (folder / name for name in names):
+        try:
+            earlier = open_copy(path).image
+            is_alike = earlier.partition(b"\n")[0] == content.partition(b"\n")[0]
+            lacking = kind.lacks(content, earlier) if is_alike else ""
+        except (OSError, ValueError):
+            continue
+        if lacking:
+            raise CopyError(
+                f"this reading lacks {lacking}, which {path.name} has: try once more; where another control is connected there "
+                "now, keep its copies in another folder"
+            )
+        return
 
 
 def changes_of(before: bytes, after: bytes) -> tuple[tuple[str, str, str], ...]:

@@ -74,7 +74,7 @@ def download_with_faults(seed: int, folder: Path, only: str | None = None) -> li
 
     bench.driver.send = sent  # type: ignore[method-assign]
     try:
-        with disk.watched(), _Keeping(copies, "control") as copy:
+        with disk.watched(), _Keeping(copies, "control", bench.driver) as copy:
             outcome = download(bench.driver, content, copy.keep, signature="")
         told, text, is_verified = outcome.at_control, outcome.text, outcome.verified
     except TransferError as error:

@@ -138,6 +138,11 @@ class AcrContent(TakesAllOrRefuses):
         _take_ballscrew(card, _ballscrew_in(file))
         return card.written()
 
+    def lacks(self, content: bytes, earlier: bytes) -> str:
+        """Return the settings that the card had; a ballscrew table may become shorter. Raises ImageError."""
+        present = CardContent.read(content).figures
+        return names_of([name for name in CardContent.read(earlier).figures if name not in present])
+
     def refit(self, content: bytes, held: bytes) -> bytes:
         """Return what the card contains once settings that were kept are put back; raises ImageError."""
         copy = CardContent.read(content)

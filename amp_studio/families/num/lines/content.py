@@ -60,6 +60,13 @@ class NumTableContent(TakesAllOrRefuses):
             raise ImageError(f"the control does not have {_names(sorted(added))}, which the file sets")
         return content
 
+    def lacks(self, content: bytes, earlier: bytes) -> str:
+        """Return the words that the CNC had; those of another one, by its job reference, do not count. Raises ImageError."""
+        if reference_of(content) != reference_of(earlier):
+            return ""
+        present = words_of_table(content)
+        return _names([word for word in words_of_table(earlier) if word not in present])
+
     def refit(self, content: bytes, held: bytes) -> bytes:
         """Return a table that was kept, if it is of the CNC that contains ``held``; raises ImageError."""
         there, here = reference_of(content), reference_of(held)

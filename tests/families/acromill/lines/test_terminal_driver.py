@@ -6,15 +6,18 @@ import threading
 from collections.abc import Callable
 from functools import partial
 from pathlib import Path
+from unittest import mock
 
 import pytest
 
 from amp_studio.families.acromill.emulated.card import AcrCard
+from amp_studio.families.acromill.lines import driver
 from amp_studio.families.acromill.lines.driver import TerminalDriver
 from amp_studio.files import ParameterFile
 from amp_studio.schema import load_schema
 from amp_studio.schema.values import read_value
 from amp_studio.transfer.client.exchange import Outcome, download, upload
+from amp_studio.transfer.client.parameters import download_file
 from amp_studio.transfer.emulated.faults import Faults, FaultyLink
 from amp_studio.transfer.errors import (
     CancelledError,
@@ -23,6 +26,7 @@ from amp_studio.transfer.errors import (
     ControlSilentError,
     ImageDamagedError,
     ImageRejectedError,
+    KeepFailedError,
     ProtocolMismatchError,
     TransferError,
     WrongFamilyError,
@@ -256,6 +260,41 @@ def test_a_setting_is_missing_only_where_a_second_reading_lacks_it_too(bench: Ca
     refused[0] = 1_000
     with pytest.raises(ImageDamagedError, match="PGAIN Y in one reading and not in another"):
         upload(bench.driver)
+
+
+def another_run(bench: CardBench, file: ParameterFile, folder: Path) -> Outcome:
+    """Download a file as a program does that has just been started; copies and record are in the folder."""
+    bench.driver = TerminalDriver(bench._open, "inch", bench.clock, bench.clock.sleep)
+    with mock.patch("amp_studio.transfer.client.parameters.open_driver", return_value=bench.driver):
+        return download_file(file, "tcp://card:23", folder, "router", record=folder / "router.amp")
+
+
+def test_a_reading_that_is_shorter_than_the_last_copy_stops_the_download_of_another_run(
+    bench: CardBench, tmp_path: Path
+) -> None:
+    folder = tmp_path / "project"
+    folder.mkdir()
+    assert another_run(bench, small_file(ppu="4096"), folder).verified
+    (whole,) = folder.glob("*.img")
+    known = driver.settings()
+    with (
+        mock.patch.object(driver, "settings", return_value=known[:-1]),
+        pytest.raises(KeepFailedError, match=f"lacks FFACC V, which {whole.name} has") as caught,
+    ):
+        another_run(bench, small_file(ppu="5000"), folder)
+    assert (caught.value.at_control, bench.obey("PPU X")) == ("old", ["4096"])
+    assert list(folder.glob("*.img")) == [whole]
+    assert another_run(bench, small_file(ppu="5000"), folder).verified
+
+
+def test_a_short_reading_of_another_card_goes_to_another_folder(bench: CardBench, tmp_path: Path) -> None:
+    project, other = tmp_path / "project", tmp_path / "other"
+    project.mkdir()
+    other.mkdir()
+    another_run(bench, small_file(ppu="4096"), project)
+    (project / "exchanges.jsonl").rename(other / "exchanges.jsonl")
+    with mock.patch.object(driver, "settings", return_value=driver.settings()[:-1]):
+        assert another_run(bench, small_file(ppu="5000"), other).verified
 
 
 def test_a_short_copy_is_not_put_back_as_if_it_were_whole(bench: CardBench) -> None:

@@ -79,3 +79,11 @@ def test_a_line_end_before_xoff_and_a_remark_make_no_other_content() -> None:
 def test_what_is_no_table_is_refused(content: bytes) -> None:
     with pytest.raises(ImageError):
         NumTableContent().decode(content)
+
+
+def test_a_table_of_the_same_cnc_that_lacks_words_of_the_last_copy_is_short() -> None:
+    kind, whole = NumTableContent(), content_of_table(measured(*LINES))
+    short = content_of_table(measured(*LINES[:5]))
+    assert kind.lacks(short, whole) == "P13N0, P13N1, P13N2, P13N3, P13N4"
+    assert kind.lacks(whole, short) == ""
+    assert kind.lacks(short, content_of_table(measured("%12345678", *LINES[1:]))) == ""
