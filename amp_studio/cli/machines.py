@@ -4,8 +4,17 @@ from __future__ import annotations
 
 import argparse
 
-from amp_studio.report.differences import machine_names, machine_rows, machines_paper
+from amp_studio.report.differences import (
+    SIDE_BY_SIDE,
+    alike_of,
+    groups_by_value,
+    machine_groups,
+    machine_names,
+    machine_rows,
+    machines_paper,
+)
 from amp_studio.report.paper import write_paper
+from amp_studio.report.wording import counted
 from amp_studio.schema import MASKED, show_value, write_value
 
 from .comparing import matched_by_letter_noted
@@ -24,7 +33,9 @@ def compare_verb(options: argparse.Namespace) -> int:
         rows, same = machine_rows(files, everything=options.everything)
     except ValueError as error:
         raise UsageError(str(error)) from None
-    first, differs = files[0], any(len({str(v) for v in values}) > 1 for _, values in rows)
+    first, parameters = files[0], files[0].schema.parameters
+    alike = [alike_of(values) for _, values in rows]
+    groups = machine_groups(alike) if rows else [tuple(range(len(files)))]
     if options.output:
         write_paper(
             machines_paper(files, names, everything=options.everything, language=options.language),
@@ -33,15 +44,21 @@ def compare_verb(options: argparse.Namespace) -> int:
         )
         print(options.output)
     elif options.json:
-        parameters = first.schema.parameters
-        print_json({"machines": [str(path) for path in options.paths], "same": same, "rows": [
+        print_json({"machines": [str(path) for path in options.paths], "same": same,
+            "groups": [[str(options.paths[n]) for n in group] for group in groups], "rows": [
             {"param": first.machine_schema.short(address), "id": address[0], "instance": address[1],
              "values": [None if v is None else MASKED if parameters[address[0]].secret else write_value(parameters[address[0]], v)
                         for v in values]}
             for address, values in rows]})  # fmt: skip
     else:
-        for address, values in rows:
-            shown = "  |  ".join(show_value(first.schema.parameters[address[0]], value) for value in values)
-            print(f"{first.machine_schema.named(address):52} {shown}")
+        is_grouped = len(files) > SIDE_BY_SIDE
+        for number, group in enumerate(groups if is_grouped else (), 1):
+            print(f"group {number}, {counted(len(group), 'machine')}: {', '.join(names[n] for n in group)}")
+        for (address, values), same_as in zip(rows, alike, strict=True):
+            shown = [show_value(parameters[address[0]], value) for value in values]
+            if is_grouped:
+                by_value = groups_by_value(same_as, groups)
+                shown = [f"{shown[n]} ({', '.join(map(str, numbers))})" for n, numbers in by_value]
+            print(f"{first.machine_schema.named(address):52} {'  |  '.join(shown)}")
         print(f"{len(rows)} listed, {same} are the same on all {len(files)}")
-    return 1 if differs else 0
+    return int(any(map(any, alike)))

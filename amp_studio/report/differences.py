@@ -18,6 +18,8 @@ from .paper import Paper, PaperTable
 from .wording import counted
 
 _SHARES = (2.2, 5.0, 2.0, 3.4, 3.4)
+SIDE_BY_SIDE = 6
+"""Machines that have a column each; more of them are grouped."""
 
 
 def differences_paper(
@@ -64,22 +66,59 @@ def machines_paper(
 ) -> Paper:
     """Return a table with a line for each value and a column for each machine; only what differs unless ``everything``.
 
-    What most machines have is plain, what departs from it is strong. Raises ValueError for files of different families, or
-    fewer than two.
+    What most machines have is plain, what departs from it is strong. Of many machines those that agree in every value are a group,
+    and each figure has a line with its groups. Raises ValueError for files of different families, or fewer than two.
     """
     lines, same = machine_lines(files, everything=everything, language=language)
-    heads = ("Number", "Parameter", "Belongs to", *names)
-    cells = [(*line.named, *line.shown) for line in lines]
-    strong = {(at, 3 + n) for at, line in enumerate(lines) for n in line.departing}
     differing = sum(line.differs for line in lines)
     facts = (
         ("Control family", files[0].schema.family.name), ("Machines", str(len(files))),
         ("Differ", counted(differing, "value")), ("The same", counted(same, "value")),
     )  # fmt: skip
-    shares = (2.0, 4.0, 1.6, *(2.4 for _ in files))
-    table = PaperTable("", heads, tuple(cells), shares, frozenset(strong))
-    return Paper("Machines compared", ", ".join(names), facts, (table,) if cells else (),
+    if len(files) > SIDE_BY_SIDE:
+        tables, title = tuple(_grouped(lines, names, language)), counted(len(files), "machine")
+    else:
+        tables, title = _side_by_side(lines, names), ", ".join(names)
+    return Paper("Machines compared", title, facts, tables if lines else (),
                  date or datetime.now().astimezone(), "Nothing differs.", language=language)  # fmt: skip
+
+
+def _side_by_side(lines: Sequence[MachineLine], names: Sequence[str]) -> tuple[PaperTable, ...]:
+    heads = ("Number", "Parameter", "Belongs to", *names)
+    cells = [(*line.named, *line.shown) for line in lines]
+    strong = {(at, 3 + n) for at, line in enumerate(lines) for n in line.departing}
+    shares = (2.0, 4.0, 1.6, *(2.4 for _ in names))
+    return (PaperTable("", heads, tuple(cells), shares, frozenset(strong)),)
+
+
+def _grouped(lines: Sequence[MachineLine], names: Sequence[str], language: str) -> Iterator[PaperTable]:
+    """Yield the groups, and a line for each figure that a value has on some of them; all but the first are strong."""
+    groups = machine_groups([line.alike for line in lines])
+    listed = [
+        (str(n), str(len(group)), ", ".join(names[each] for each in group))
+        for n, group in enumerate(groups, 1)
+    ]
+    text = language_of(language).text
+    yield PaperTable(
+        text("Machines that agree in every value"),
+        ("Group", "Machines", "Names"),
+        tuple(listed),
+        (1.0, 1.2, 11.0),
+    )
+    rows: list[tuple[str, ...]] = []
+    strong: set[tuple[int, int]] = set()
+    for line in lines:
+        for n, (machine, numbers) in enumerate(groups_by_value(line.alike, groups)):
+            if n:
+                strong.add((len(rows), 3))
+            rows.append((*line.named, line.shown[machine], ", ".join(map(str, numbers))))
+    yield PaperTable(
+        text("Values"),
+        ("Number", "Parameter", "Belongs to", "Value", "Groups"),
+        tuple(rows),
+        _SHARES,
+        frozenset(strong),
+    )
 
 
 @dataclass(frozen=True, slots=True)
@@ -93,7 +132,13 @@ class MachineLine:
     """Its value on each machine; secrets are masked."""
     departing: frozenset[int]
     """The machines that do not have what most have."""
-    differs: bool
+    alike: tuple[int, ...]
+    """For each machine the first one that has the same."""
+
+    @property
+    def differs(self) -> bool:
+        """Whether any machine has another value than the first."""
+        return any(self.alike)
 
 
 def machine_lines(
@@ -108,10 +153,44 @@ def machine_lines(
             _named(first, address, language),
             tuple(_shown(first, address, value) for value in values),
             frozenset(_departing(values)),
-            any(not same_value(values[0], value) for value in values[1:]),
+            alike_of(values),
         )
         for address, values in rows
     ], same
+
+
+def alike_of(values: Sequence[Value | None]) -> tuple[int, ...]:
+    """Return for each value the place of the first that is the same."""
+    firsts: list[int] = []
+    found: list[int] = []
+    for place, value in enumerate(values):
+        first = next((n for n in firsts if same_value(values[n], value)), place)
+        if first == place:
+            firsts.append(place)
+        found.append(first)
+    return tuple(found)
+
+
+def machine_groups(rows: Sequence[tuple[int, ...]]) -> list[tuple[int, ...]]:
+    """Return the places of the machines that have the same in every row (``alike_of``), the largest group first."""
+    found: dict[tuple[int, ...], list[int]] = {}
+    for place, values in enumerate(zip(*rows, strict=True)):
+        found.setdefault(values, []).append(place)
+    return sorted(map(tuple, found.values()), key=lambda group: (-len(group), group))
+
+
+def groups_by_value(
+    alike: tuple[int, ...], groups: Sequence[tuple[int, ...]]
+) -> list[tuple[int, tuple[int, ...]]]:
+    """Return a machine that has each value of a row, and the numbers of its groups from 1; the most frequent value first."""
+    found: dict[int, list[int]] = {}
+    for number, group in enumerate(groups, 1):
+        found.setdefault(alike[group[0]], []).append(number)
+
+    def machines(entry: tuple[int, list[int]]) -> int:
+        return -sum(len(groups[number - 1]) for number in entry[1])
+
+    return [(machine, tuple(numbers)) for machine, numbers in sorted(found.items(), key=machines)]
 
 
 def machine_names(stems: Sequence[str]) -> list[str]:

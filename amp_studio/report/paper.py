@@ -111,7 +111,7 @@ def _csv(paper: Paper) -> bytes:
     several = len(paper.tables) > 1
     for n, table in enumerate(paper.tables):
         heads = tuple(map(paper.words.text, table.heads))
-        if not n:
+        if not n or table.heads != paper.tables[n - 1].heads:
             lines.writerow(map(text_cell, (paper.words.text("table"), *heads) if several else heads))
         lines.writerows(map(text_cell, (table.title, *row) if several else row) for row in table.rows)
     return text.getvalue().encode("utf-8-sig")

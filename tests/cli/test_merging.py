@@ -237,3 +237,31 @@ def test_a_comparison_has_one_other_side(amp, mill: Path, sides: tuple[str, ...]
 def test_a_file_that_was_never_downloaded_has_no_last_download(amp, mill: Path) -> None:
     said = amp("diff", mill, "--last-download")
     assert (said.code, "No download of mill.amp is recorded" in said.err) == (2, True)
+
+
+def test_many_machines_are_compared_by_groups_that_agree(amp, mill: Path, tmp_path: Path) -> None:
+    paths = [tmp_path / f"line{n}.amp" for n in range(1, 10)]
+    for path in paths:
+        path.write_bytes(mill.read_bytes())
+    assert amp("compare", *paths).out.splitlines()[-1].startswith("0 listed, ")
+    for path, settings in {
+        paths[2]: ("1300=2",),
+        paths[3]: ("1300=2", "2300=4"),
+        paths[4]: ("1300=2", "2300=4"),
+    }.items():
+        amp("set", path, *settings)
+    done = amp("compare", *paths)
+    assert done.code == 1
+    *lines, end = done.out.splitlines()
+    assert end.startswith("2 listed, ")
+    assert lines == [
+        "group 1, 6 machines: line1, line2, line6, line7, line8, line9",
+        "group 2, 2 machines: line4, line5",
+        "group 3, 1 machine: line3",
+        f"{'1300 Home Calibration':52} 0 mm (1)  |  2 mm (2, 3)",
+        f"{'2300 Home Calibration':52} 0 mm (1, 3)  |  4 mm (2)",
+    ]
+    groups = amp("compare", *paths, "--json").json["groups"]
+    assert [[Path(name).stem for name in group] for group in groups] == [
+        ["line1", "line2", "line6", "line7", "line8", "line9"], ["line4", "line5"], ["line3"],
+    ]  # fmt: skip

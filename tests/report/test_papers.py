@@ -22,7 +22,7 @@ from amp_studio.report.differences import differences_paper, machine_rows, machi
 from amp_studio.report.form import form_paper
 from amp_studio.report.paper import PAPER_FORMATS, Paper, PaperTable, check_paper_ending, write_paper
 from amp_studio.report.workbook import WorkbookSheet, workbook
-from amp_studio.schema import Value
+from amp_studio.schema import MASKED, Value
 
 DATE = datetime(2026, 7, 1, 14, 5, tzinfo=UTC)
 NASTY = '=HYPERLINK("http://x","y")'
@@ -73,6 +73,41 @@ def test_of_several_machines_the_one_that_departs_stands_out(
     rows, same = machine_rows([mill, other, mill], everything=True)
     assert len(rows) == same + 2
     assert machines_paper([mill, mill], ["A", "B"]).tables == ()
+
+
+def test_many_machines_are_grouped_by_those_that_agree(
+    mill: ParameterFile, other: ParameterFile, tmp_path: Path
+) -> None:
+    third = other.copy()
+    third.set(("home.calibration", "3"), mill.get(("home.calibration", "3")))
+    files = [mill, other, third, *[mill.copy() for _ in range(300)]]
+    paper = machines_paper(files, [f"M{n}" for n in range(303)], date=DATE)
+    groups, values = paper.tables
+    assert [row[:2] for row in groups.rows] == [("1", "301"), ("2", "1"), ("3", "1")]
+    assert [row[2] for row in groups.rows[1:]] == ["M1", "M2"]
+    assert groups.rows[0][2].startswith("M0, M3, M4, ")
+    assert values.rows == (
+        ("1300", "Home Calibration", "X", "12.5 mm", "1"),
+        ("1300", "Home Calibration", "X", "13 mm", "2, 3"),
+        ("3300", "Home Calibration", "Z", "0 mm", "1, 3"),
+        ("3300", "Home Calibration", "Z", "25.4 mm", "2"),
+    )
+    assert values.strong == {(1, 3), (3, 3)}, "what most machines have is plain"
+    write_paper(paper, tmp_path / "m.csv")
+    lines = (tmp_path / "m.csv").read_text("utf-8-sig").splitlines()
+    assert [line for line in lines if line.startswith("table,")] == [
+        "table,Group,Machines,Names", "table,Number,Parameter,Belongs to,Value,Groups",
+    ]  # fmt: skip
+    assert machines_paper([mill] * 20, ["M"] * 20).tables == ()
+
+
+def test_machines_with_other_secrets_are_in_other_groups(mill: ParameterFile) -> None:
+    files = [mill.copy() for _ in range(8)]
+    for n, file in enumerate(files):
+        file.set(("password.character", "1"), Value(66 if n == 5 else 65))
+    groups, values = machines_paper(files, [f"M{n}" for n in range(8)]).tables
+    assert [row[2] for row in groups.rows] == ["M0, M1, M2, M3, M4, M6, M7", "M5"]
+    assert [row[3:] for row in values.rows] == [(MASKED, "1"), (MASKED, "2")]
 
 
 def test_the_first_sheet_of_a_workbook_is_the_table(
