@@ -186,6 +186,12 @@ def _readable(image: bytes, output: Path) -> ParameterFile:
 
 def verify_verb(options: argparse.Namespace) -> int:
     """Compare a file with what a control contains, its values and every byte; 1 where they differ."""
+    if options.all:
+        from .drift import verify_all_verb  # compares many, and prints papers
+
+        return verify_all_verb(options)
+    if options.path is None or not options.control:
+        raise UsageError("verify takes a file and --with ADDRESS, or --all (see 'amp-studio verify --help')")
     file = opened(options.path)
     check_fleet(options, options.control)
     if is_fleet(options, options.control):

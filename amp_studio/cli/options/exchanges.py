@@ -114,8 +114,15 @@ def _exchanges(verbs: Verbs) -> None:
     sub = verbs.add(
         "verify", "control", "compare values and every byte with what a control contains; print its digest"
     )
-    sub.add_argument("path", type=path_of)
-    _several(sub, "--with", "control")
+    sub.add_argument(
+        "path", type=path_of, nargs="?", help="parameter file (.amp); with --all a folder (default: this one)"
+    )
+    _several(sub, "--with", "control", required=False)
+    sub.add_argument(
+        "--all",
+        action="store_true",
+        help="every control that the folder knows, from its exchanges and projects, against its file",
+    )
     json_option(sub)
     secrets_option(sub)
     sub = verbs.add(
@@ -128,9 +135,9 @@ def _exchanges(verbs: Verbs) -> None:
     json_option(sub)
 
 
-def _several(sub: argparse.ArgumentParser, name: str, dest: str) -> None:
+def _several(sub: argparse.ArgumentParser, name: str, dest: str, *, required: bool = True) -> None:
     """Add the addresses of one control or several, and what is for several only."""
-    sub.add_argument(name, dest=dest, required=True, action="append", metavar="ADDRESS",
+    sub.add_argument(name, dest=dest, required=required, action="append", metavar="ADDRESS",
                      help="address of a control; named again for several, side by side")  # fmt: skip
     sub.add_argument("--stop-on-failure", action="store_true",
                      help="several controls one after the other; none is begun after the first failure")  # fmt: skip

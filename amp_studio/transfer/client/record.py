@@ -107,6 +107,11 @@ def read_exchanges(folder: Path, file: str = "") -> list[Exchange]:
     return [each for each in found if file in ("", each.file, _file_of_copy(each.file))]
 
 
+def file_of_exchange(exchange: Exchange) -> str:
+    """Return the name of the parameter file of an exchange, also where a copy of it was put back."""
+    return _file_of_copy(exchange.file)
+
+
 def _file_of_copy(name: str) -> str:
     """Return the file whose download a copy was kept of."""
     stem, before, _ = name.partition(BEFORE)
