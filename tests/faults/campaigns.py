@@ -26,6 +26,7 @@ from tests.ui.killed import kill_editor
 from . import (
     descriptions,
     editor,
+    exchanges,
     grbl_lines,
     measured_points,
     own_contents,
@@ -52,7 +53,8 @@ class Campaign:
     """One kind of fault.
 
     ``run`` gets a seed, how many runs it is to make, and an empty folder; it returns one sentence a violation.
-    ``whole`` and ``short`` are the runs of ``make faults`` and of the tests, ``at_once`` those made with one seed.
+    ``whole`` and ``short`` are the runs of ``make faults`` and of the tests (0: it has no part that takes seconds), ``at_once`` those
+    made with one seed.
     """
 
     name: str
@@ -123,6 +125,13 @@ MANY = 100_000
 
 CAMPAIGNS = (
     Campaign("a call of the system that fails, in every verb", fail_calls, len(VERBS), 4, len(VERBS)),
+    Campaign(
+        "a call of the system that fails, in every exchange",
+        exchanges.fail_calls_of_exchanges,
+        len(exchanges.VERBS),
+        0,
+        1,
+    ),
     Campaign("power off after a verb has written", saves.power_off_after_saves, len(VERBS), 1, 2),
     Campaign(
         "defects planted for the checks above",

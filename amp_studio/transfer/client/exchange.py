@@ -236,8 +236,8 @@ def _prove(
         return Outcome("old", False, True, kept, restart, digest, text)
     if where:
         at_control: AtControl = "unknown" if driver.abilities.all_or_nothing else "mixed"
-        text = f"The control took the image, but what it contains differs {where}; "
-        text += f"{AT_CONTROL_TEXT[at_control]}."
+        rest = AT_CONTROL_TEXT["unknown"] if driver.abilities.all_or_nothing else "the rest is as it was sent"
+        text = f"The control took the image, but what it contains differs {where}; {rest}."
         return Outcome(at_control, False, True, kept, restart, digest, text + before)
     partly = driver.read_back if isinstance(driver, ReadsBackPartly) else ""
     proof = f"complete: {partly}" if partly else "complete and read back equal"

@@ -91,7 +91,7 @@ def save_image(image: bytes, path: Path) -> None:
     line = f"{hashlib.sha256(image).hexdigest()}  {path.name}\n".encode(errors="surrogateescape")
     written = []
     try:
-        for name, content in ((path, image), (beside, line)):
+        for name, content in ((beside, line), (path, image)):  # an image that is there has its digest
             write_atomic(name, content, expected=None, keep_backup=False)
             written.append(name)
     except BaseException as error:

@@ -226,7 +226,7 @@ def test_settings_that_read_back_otherwise_are_some_new_and_some_not() -> None:
     control.difference = lambda content, found: "in setting 2"  # type: ignore[method-assign]
     outcome = download(control, partial(control.encode, b"1=8\n2=9\n"), lambda _: "kept", signature="s1")
     assert (outcome.at_control, outcome.verified) == ("mixed", False)
-    assert "what it contains differs in setting 2" in outcome.text
+    assert "what it contains differs in setting 2; the rest is as it was sent." in outcome.text
 
 
 class Reversed(HouseContent):
