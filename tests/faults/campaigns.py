@@ -255,6 +255,7 @@ CAMPAIGNS = (
     Campaign("odd expressions in cells", partial(_damaged, editor.fuzz_cell_expressions), MANY, 200, 5_000),
     Campaign("hostile templates of a project", partial(_damaged_in, editor.fuzz_templates), 20_000, 30, 300),
     Campaign("damaged backups", partial(_damaged_in, stored.fuzz_backups), MANY, 50, 5_000),
+    Campaign("damaged results of checks", partial(_damaged_in, stored.fuzz_check_caches), 20_000, 30, 2_000),
     Campaign("damaged cache", partial(_damaged_in, stored.fuzz_caches), MANY, 200, 5_000),
     Campaign("damaged lock notes", partial(_damaged_in, stored.fuzz_locks), MANY, 300, 5_000),
     Campaign(

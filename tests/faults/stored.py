@@ -15,6 +15,9 @@ from unittest import mock
 
 from pydantic import ValidationError
 
+from amp_studio.cli.check_cache import CheckCache
+from amp_studio.cli.check_formats import CheckResult
+from amp_studio.cli.parser import parser
 from amp_studio.files import ParameterFileError, new_file, recover_backup, save_file
 from amp_studio.files.atomic import SaveError
 from amp_studio.files.lock import EditLock, InUseError
@@ -31,6 +34,7 @@ from amp_studio.transfer.image import encode_image
 from amp_studio.validate.rule_file import suppress
 
 from .texts import REPOSITORY, RULES, SMALL, mutants, violations
+from .wire import damaged
 
 FACTS = REPOSITORY / "tests" / "families" / "steps" / "facts"
 
@@ -170,6 +174,26 @@ def fuzz_caches(folder: Path, seed: int, count: int) -> list[str]:
         ]
     finally:
         logging.disable(logging.NOTSET)
+
+
+def fuzz_check_caches(folder: Path, seed: int, count: int) -> list[str]:
+    """Read damaged results of earlier checks: they are as they were kept, or there are none."""
+    chance, path = random.Random(seed), folder / "x.amp"
+    path.write_text(SMALL, encoding="utf-8")
+    with mock.patch("amp_studio.cli.check_cache.cache_folder", return_value=folder / "cache"):
+        cache = CheckCache(parser("validate").parse_args(["validate", str(path)]))
+    (key,) = cache.keys([path])
+    assert key is not None
+    kept = CheckResult(path, 2, "1300: out of range\n" * 40, ("a note",))
+    cache.write({key: kept}, [key])
+    whole = cache._path.read_bytes()
+
+    def look(content: bytes) -> None:
+        cache._path.write_bytes(content)
+        assert cache.read([key], [path]) in ({}, {path: kept})
+
+    contents = (damaged(damaged(whole, chance), chance) for _ in range(count))
+    return violations(contents, look, ())
 
 
 def fuzz_locks(folder: Path, seed: int, count: int) -> list[str]:

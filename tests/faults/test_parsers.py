@@ -25,6 +25,7 @@ NAMES = {"stdin", "argv", "environ"}
 READERS = {
     "calibration/cells.py": "damaged points of a laser",
     "calibration/reading.py": "damaged points of a laser",
+    "cli/check_cache.py": "damaged results of checks",
     "cli/check_formats.py": "",  # what the program itself has printed
     "cli/checks.py": "damaged parameter file",
     "cli/comparing.py": "damaged control image",
