@@ -77,7 +77,7 @@ def account_of_import(file: ParameterFile, read: TextRead) -> Account:
     """Return what became of a text that was read; ``file`` is what was made of it."""
     return Account(
         len(file.values),
-        tuple(read.unknown.values()),
+        (*read.kept, *read.unknown.values()),
         unknown=tuple(UnknownEntry(name, read.unknown_lines.get(name, 0)) for name in read.unknown),
     )
 

@@ -144,7 +144,8 @@ def export_of(
     left_out = frozenset[Address]() if secrets else frozenset(secret_values(file))
     text = chosen.write(file if secrets else without_secrets(file))
     try:
-        content = text.replace("\n", chosen.newline).encode(chosen.encoding)
+        newline = chosen.newline_of(file) if chosen.newline_of else chosen.newline
+        content = text.replace("\n", newline).encode(chosen.encoding)
     except UnicodeEncodeError as error:
         sign, line = error.object[error.start], error.object.count("\n", 0, error.start) + 1
         raise FormatError(

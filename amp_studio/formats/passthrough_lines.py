@@ -27,10 +27,10 @@ class PassthroughLine:
     kept_as: str = ""
 
 
-def keep(found: TextRead, kind: str, rows: Sequence[PassthroughLine]) -> None:
-    """Keep the lines of a script where one of them is not understood; ``kind`` is a word for its format."""
+def keep(found: TextRead, kind: str, rows: Sequence[PassthroughLine], *, always: bool = False) -> None:
+    """Keep the lines of a script where one of them is not understood, or ``always``; ``kind`` is a word for its format."""
     unknown = {f"{kind} line {row.kept_as}": row.text for row in rows if row.kept_as}
-    if unknown:
+    if unknown or always:
         found.unknown = unknown
         found.unknown_lines = {
             f"{kind} line {row.kept_as}": n for n, row in enumerate(rows, 1) if row.kept_as

@@ -49,6 +49,8 @@ class TextRead:
     """Entries that the format has and the schema does not: kept in the parameter file, and written back."""
     unknown_lines: dict[str, int] = field(default_factory=dict)
     """The line of each of these, from 1, where it is one."""
+    kept: list[str] = field(default_factory=list)
+    """Lines that set nothing: kept for the format, and written back in their place."""
     name: str = ""
     machine: str = ""
     """Machine type, where the text names it."""
@@ -88,6 +90,8 @@ class TextFormat:
     """Writes a file; raises FormatError for a value it cannot write."""
     encoding: str = "utf-8"
     newline: str = "\n"
+    newline_of: Callable[[ParameterFile], str] | None = None
+    """Returns the line end of a file that remembers the one of its text; None where all have the same."""
     other_endings: tuple[str, ...] = ()
     """Names that are as good for its files."""
     offer: Callable[[str, Schema], TextOffer] | None = None

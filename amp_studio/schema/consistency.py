@@ -163,10 +163,13 @@ def _in_parameter(
     for n, variant in enumerate(parameter.range_variants):
         if variant.when not in family.conditions:
             yield ("range_variants", n, "when"), f"there is no condition {quoted(variant.when)}"
-    command = parameter.storage.command if parameter.storage else None
-    for named in re.findall(r"{(.*?)}", command or ""):
-        if named not in ("i", "k", "n", "v") and named not in ids:
-            yield ("storage", "command"), f"there is no parameter {quoted(named)} for its command"
+    commands = [("command", parameter.storage.command or "")] if parameter.storage else []
+    commands += [("program", text) for text in parameter.program]
+    for key, command in commands:
+        for named in re.findall(r"{(.*?)}", command):
+            if named not in ("i", "k", "n", "v") and named not in ids:
+                place = ("storage", key) if key == "command" else (key,)
+                yield place, f"there is no parameter {quoted(named)} for its command"
     for place, ranges in _all_ranges(parameter):
         for unit, pair in ranges:
             for end, bound in enumerate(pair):

@@ -277,6 +277,11 @@ class Parameter(Model):
     """
     default: Default | None = None
     storage: Storage | None = None
+    program: tuple[str, ...] = ()
+    """Commands by which programs of the control set it too, in the form of ``storage.command``; all of them with the same value.
+
+    They are read from a program and changed in it, and never sent.
+    """
     angular_when: str | None = None
     """Instead of the family's: the condition under which its length is in degrees (a lead is one on a spindle too)."""
     states: tuple[StateRule, ...] = ()

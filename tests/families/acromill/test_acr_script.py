@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import re
 from pathlib import Path
 
@@ -197,7 +198,7 @@ def test_bare_figures_are_in_the_unit_of_the_machine() -> None:
 def test_a_script_that_does_not_name_its_unit_is_in_that_of_delivery() -> None:
     back = taken(FORMAT, MILL, "EXC AXIS0 4")
     assert said_of(back) == {"axes.excess_error_band@X": Value(4.0, "in")}
-    assert FORMAT.write(back).split("\n")[2:] == ["EXC AXIS0 4", ""]
+    assert FORMAT.write(back) == "EXC AXIS0 4"
     assert told(FORMAT, MILL, "PPU X1\nREM units furlong") == (
         "line 2, column 11: 'furlong' is no unit system here: metric, inch"
     )
@@ -209,13 +210,11 @@ def test_a_script_that_does_not_name_its_unit_is_in_that_of_delivery() -> None:
 @pytest.mark.parametrize(
     ("text", "said"),
     [
-        ("PPU X1\nPROG0", "line 2, column 1: 'PROG0' is no command that sets a parameter here"),
-        ("PPU X1\n  RES X", "line 2, column 3: 'RES X' is no command that sets a parameter here"),
-        ("P12341=P12336", "line 1, column 1: 'P12341=P12336' is no command that sets a parameter here"),
-        ("P200=1", "line 1, column 1: 'P200=1' is no command"),
-        (f"PRINT {'9' * 34}", f"line 1, column 1: 'PRINT {'9' * 34}' is no command"),
-        (f"PRINT {'9' * 35}", f"line 1, column 1: 'PRINT {'9' * 33}…' is no command"),
-        ("10    LD 769", "line 1, column 1: '10    LD 769' is no command"),
+        ("PPU X1\nPGIAN X1", "line 2, column 1: 'PGIAN X1' is no command that sets a parameter here"),
+        ("PPU X1\n  PGIAN X1", "line 2, column 3: 'PGIAN X1' is no command that sets a parameter here"),
+        ("$110=500", "line 1, column 1: '$110=500' is no command that sets a parameter here"),
+        (f"POINT {'9' * 34}", f"line 1, column 1: 'POINT {'9' * 34}' is no command"),
+        (f"POINT {'9' * 35}", f"line 1, column 1: 'POINT {'9' * 33}…' is no command"),
         ("DAC8 GAIN 1", "line 1, column 1: 'DAC8 GAIN 1' is no command"),
         ("DAC0 GAIN 1 DAC1 GAIN 2", "line 1, column 13: 'DAC1 GAIN 2' is no command"),
         ("PGAIN\t0.05", "line 1, column 7: '0.05' sets nothing: PGAIN is written as 'PGAIN X1', for X, Y, Z, A, B, C, U, V"),
@@ -290,27 +289,11 @@ def test_an_axis_the_machine_does_not_have_is_left_out() -> None:
 
 def test_commands_that_set_nothing_are_kept_and_written_back_in_their_place() -> None:
     file = taken(FORMAT, MILL, PRINTED, keep=True)
-    assert list(file.unknown.items()) == [
-        ("acr line 1", "PROG0"),
-        ("acr line 5", "PLC0"),
-        ("acr line 6", "HALT"),
-        ("acr line 7", "NEW"),
-        ("acr line 8", "10    LD 769"),
-        ("acr line 9", "20    AND 801"),
-        ("acr line 10", "90    OUT 32"),
-        ("acr line 11", "RUN"),
-        ("acr line 18", "P12341=P12336"),
-    ]
-    written = (
-        PRINTED.replace("X4096 Y4096", "X4096\nPPU Y4096")
-        .replace(" 4 AXIS", " 4\nEXC AXIS")
-        .replace("     (Times 4 multiplication in opposite direction)", "")
-        .replace(" (Dac0 normal polarity)", "")
-    )
-    assert FORMAT.write(file) == written
-    assert taken(FORMAT, MILL, written, keep=True).values == file.values
+    assert not file.unknown, "a command that sets nothing is a line of a program, and known"
+    assert FORMAT.write(file) == PRINTED
+    assert taken(FORMAT, MILL, PRINTED).values == file.values
     again = read_content(Path("TRY.amp"), content_of(file))
-    assert FORMAT.write(again) == written, "the parameter file keeps them too"
+    assert FORMAT.write(again) == PRINTED, "the parameter file keeps them too"
 
 
 def test_values_changed_in_a_kept_script_stand_in_its_place() -> None:
@@ -352,9 +335,152 @@ def test_new_values_stand_at_the_end_of_a_script_that_had_none() -> None:
     assert FORMAT.write(file) == "SYS\nHALT ALL\nTLM X4\n"
 
 
-def test_a_script_of_known_commands_leaves_nothing_behind() -> None:
-    read = FORMAT.read("REM of mine\n\nTLM X4 (volts)\n", MILL, ReadOptions(keep_unknown=True))
-    assert (read.unknown, read.extra) == ({}, {})
+def test_a_script_that_would_be_written_so_leaves_nothing_behind() -> None:
+    """Remarks, blanks and another order are kept with the lines; what an export writes needs no copy in the file."""
+    read = FORMAT.read(FORMAT.write(new_file("acromill")), MILL, ReadOptions())
+    assert (read.unknown, read.kept, read.notes, read.extra) == ({}, [], [], {})
+    own = "REM of mine\n\nTLM X4 (volts)\n"
+    assert FORMAT.write(taken(FORMAT, MILL, own)) == own
+
+
+# -- start-up programs -----------------------------------------------------------------------------------------
+
+STARTUP = """ECHO 1
+prog0
+DETACH
+ATTACH MASTER0
+ATTACH SLAVE0 AXIS0 "X"
+ATTACH SLAVE1 AXIS1 "Y"
+ATTACH AXIS0 ENC0 DAC0 ENC0
+PPU X 2000.000000 Y2000.0
+BIT8464=0
+AXIS0 ON
+SLIM X0
+HLIM X0
+EXC X(0.25, -0.25) Y(0.5,-0.5)
+PGAIN  X.00244   (volts)
+ACC 40.000000
+DEC 40.000000
+STP 40.000000
+JRK 10.000000
+VEL 60.000000
+10 LD 769
+P12341=P12336
+F500
+"""
+"""Commands in the order and notation of a published start-up program; the figures are made up."""
+
+
+def test_a_start_up_program_is_read_among_its_other_commands_and_comes_back_byte_for_byte(
+    tmp_path: Path,
+) -> None:
+    for end in ("\n", "\r\n"):
+        program, back = tmp_path / "startup.8k", tmp_path / "back.acr"
+        program.write_bytes(STARTUP.replace("\n", end).encode())
+        file = import_file(program)
+        assert said_of(file) == {
+            "axes.pulses_per_unit@X": Value(2000.0, "counts/in"),
+            "axes.pulses_per_unit@Y": Value(2000.0, "counts/in"),
+            "axes.excess_error_band@X": Value(0.25, "in"),
+            "axes.excess_error_band@Y": Value(0.5, "in"),
+            "servo.p_gain@X": Value(0.00244, "V/count"),
+            "speeds.feed_acc_dec": Value(40.0, "in/s2"),
+        }
+        assert not file.unknown
+        again = read_content(Path("startup.amp"), content_of(file))
+        export_file(again, back)
+        assert back.read_bytes() == program.read_bytes()
+
+
+def test_a_changed_value_changes_its_figure_alone() -> None:
+    file = taken(FORMAT, MILL, STARTUP)
+    file.set(("axes.excess_error_band", "Y"), Value(25.4, "mm"))
+    file.set(("axes.pulses_per_unit", "Y"), Value(1000.0, "counts/in"))
+    file.set(("speeds.feed_acc_dec", ""), Value(50.0, "in/s2"))
+    changed = STARTUP.replace("Y(0.5,-0.5)", "Y(1,-1)").replace("Y2000.0", "Y1000")
+    assert FORMAT.write(file) == changed.replace("ACC 40.000000\nDEC 40.000000", "ACC 50\nDEC 50")
+    file.set(("axes.excess_error_band", "X"), Value(0.25 * 25.4, "mm"))
+    assert "X(0.25, -0.25)" in FORMAT.write(file), "the same value in another unit is no change"
+
+
+def test_what_is_not_set_any_more_leaves_its_line() -> None:
+    file = taken(FORMAT, MILL, STARTUP)
+    for address in (("axes.pulses_per_unit", "X"), ("servo.p_gain", "X"), ("speeds.feed_acc_dec", "")):
+        file.set(address, None)
+    text = STARTUP.replace("X 2000.000000 ", "").replace("PGAIN  X.00244   (volts)\n", "")
+    assert FORMAT.write(file) == text.replace("ACC 40.000000\nDEC 40.000000\n", "")
+
+
+def test_a_new_value_comes_after_what_has_to_be_set_before_it() -> None:
+    file = taken(FORMAT, MILL, STARTUP)
+    file.set(("servo.i_gain", "X"), Value(0.1, "V/count/s"))
+    file.set(("servo.torque_limits", "Y"), Value(4.0, "V"))
+    lines = FORMAT.write(file).split("\n")
+    at = {line.split()[0]: n for n, line in enumerate(lines) if line}
+    assert (lines[at["TLM"]], lines[at["IGAIN"]]) == ("TLM Y4", "IGAIN X0.1")
+    assert at["PPU"] < at["EXC"] < at["TLM"] < at["PGAIN"] < at["IGAIN"] < at["ACC"]
+
+
+@pytest.mark.parametrize(
+    "lines",
+    [
+        "EXC X(0.25, -0.3)",  # the band here is one figure for both sides
+        "ACC 40\nDEC 50",  # as is the ramp
+        "ACC 40",  # nobody knows the other one
+        "STP 40",
+        "EXC X(1, -1)\nEXC X(2, -2)",
+    ],
+)
+def test_what_one_parameter_cannot_contain_stays_a_line(lines: str) -> None:
+    text = f"PPU X1\n{lines}\n"
+    file = taken(FORMAT, MILL, text)
+    assert (list(said_of(file)), FORMAT.write(file)) == (["axes.pulses_per_unit@X"], text)
+    read = FORMAT.read(text, MILL, ReadOptions())
+    assert read.kept == lines.split("\n")
+    assert len(read.notes) == 1
+
+
+def test_the_lines_that_are_kept_are_one_note_and_in_the_account(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    program = tmp_path / "startup.acr"
+    program.write_text(STARTUP, encoding="ascii")
+    assert run(["import", str(program), "-o", str(tmp_path / "a.amp"), "--json"]) == 0
+    printed = capsys.readouterr()
+    assert printed.err == (
+        "17 lines of the program set nothing here, kept in their place: ATTACH, AXIS, BIT, DETACH, ECHO, F, HLIM, JRK, LD, P, "
+        "PROG, SLIM, STP, VEL\n"
+    )
+    assert json.loads(printed.out)["kept"][:2] == ["ECHO 1", "prog0"]
+    assert run(["validate", str(program), "--json"]) in (0, 1)
+    found = json.loads(capsys.readouterr().out)["findings"]
+    assert "schema.unknown" not in {each["rule"] for each in found}
+
+
+def test_a_slip_in_a_setting_is_no_line_of_a_program() -> None:
+    for line in ("EXC X4", "PPU X4O96", "DAC0 GAIN", "TLM X", "PGAIN Q1"):
+        assert told(FORMAT, MILL, f"{STARTUP}{line}").startswith(
+            f"line {STARTUP.count(chr(10)) + 1}, column "
+        )
+        assert FORMAT.write(taken(FORMAT, MILL, f"{STARTUP}{line}", keep=True)) == f"{STARTUP}{line}"
+
+
+def test_a_letter_that_the_program_gives_another_axis_is_told() -> None:
+    """Written here it would go to the axis of that letter: PPU X to AXIS0, EXC AXIS1 to Y."""
+    text = 'ATTACH SLAVE0 AXIS1 "X"\nPPU X1\nEXC AXIS1 1'
+    assert (
+        told(FORMAT, MILL, text)
+        == "line 2, column 5: X is AXIS1 of this program (line 1), and here it is AXIS0"
+    )
+    kept = taken(FORMAT, MILL, text, keep=True)
+    assert said_of(kept) == {"axes.excess_error_band@Y": Value(1.0, "in")}
+    assert FORMAT.write(kept) == text
+
+
+def test_lines_that_an_earlier_version_kept_are_written_too() -> None:
+    file = mill(axes_pulses_per_unit_X=Value(2.0, "counts/in"))
+    file.header.extra["acr_script"] = {"lines": ["HALT", "{axes.pulses_per_unit@X}", "RUN"]}
+    assert FORMAT.write(file) == "HALT\nPPU X2\nRUN"
 
 
 # -- the verbs -------------------------------------------------------------------------------------------------
@@ -362,14 +488,14 @@ def test_a_script_of_known_commands_leaves_nothing_behind() -> None:
 
 def test_the_verbs_know_a_script_by_its_commands(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     script = tmp_path / "initfile.8k"
-    script.write_bytes(b"\xef\xbb\xbfREM caf\xc3\xa9\r\nTLM X4\r\nRES X\r\n")
+    script.write_bytes(b"\xef\xbb\xbfREM caf\xc3\xa9\r\nTLM X4\r\nREX X\r\n")
     assert run(["import", str(script), "-o", str(tmp_path / "a.amp")]) == 2
-    assert "line 3, column 1: 'RES X' is no command" in capsys.readouterr().err
+    assert "line 3, column 1: 'REX X' is no command" in capsys.readouterr().err
     assert run(["import", str(script), "-o", str(tmp_path / "a.amp"), "--keep-unknown"]) == 0
     assert "kept as text: acr line 3 (line 3)" in capsys.readouterr().err
     file = open_file(tmp_path / "a.amp").file
     assert said_of(file) == {"servo.torque_limits@X": Value(4.0, "V")}
     assert run(["export", str(tmp_path / "a.amp"), "-o", str(tmp_path / "b.acr")]) == 0
-    assert (tmp_path / "b.acr").read_bytes() == b"REM caf\xc3\xa9\r\nTLM X4\r\nRES X\r\n"
+    assert (tmp_path / "b.acr").read_bytes() == b"REM caf\xc3\xa9\r\nTLM X4\r\nREX X\r\n"
     export_file(new_file("acromill", name="NEW"), tmp_path / "c.acr")
     assert import_file(tmp_path / "c.acr").get(("servo.p_gain", "U")) == Value(0.00244, "V/count")

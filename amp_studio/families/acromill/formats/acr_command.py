@@ -7,7 +7,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -104,10 +104,8 @@ class Command:
         text, count = "", 0
         for part in _PART.finditer(self.form):
             if part["place"] is not None:
-                if part["place"] not in places:
-                    places[part["place"]] = rf"(?P<v{count}>{_NUMBER})"
-                    count += 1
-                text += places[part["place"]]
+                text += places.get(part["place"], rf"(?P<v{count}>{_NUMBER})")
+                count += part["place"] not in places
             elif part["blank"]:
                 text += r"(?:\s+|(?<=[^A-Za-z0-9.])|(?=[^A-Za-z0-9.+-]))"
             else:
@@ -117,10 +115,22 @@ class Command:
 
 def commands_of(schema: Schema, machine: str) -> list[Command]:
     """Return the commands of a family; parameters with one form (``P{i}={v}``) share it, by their instances."""
+    return _commands(schema, machine, _usual_form)
+
+
+def program_commands_of(schema: Schema, machine: str) -> list[Command]:
+    """Return the other forms in which programs of the control set parameters."""
+    return _commands(schema, machine, lambda parameter: parameter.program)
+
+
+def _usual_form(parameter: Parameter) -> tuple[str, ...]:
+    return (parameter.storage.command,) if parameter.storage and parameter.storage.command else ()
+
+
+def _commands(schema: Schema, machine: str, forms: Callable[[Parameter], tuple[str, ...]]) -> list[Command]:
     found: dict[str, dict[tuple[Address, ...], CommandSetting]] = {}
     for parameter in schema.parameters.values():
-        template = parameter.storage.command if parameter.storage else None
-        if template:
+        for template in forms(parameter):
             settings = found.setdefault(template, {})
             for setting in _settings(schema, machine, parameter, template):
                 settings.setdefault(setting.addresses, setting)

@@ -4,17 +4,21 @@ A setting is written in the form that its parameter names: ``PPU X4096``, ``EXC 
 setting is in a line; several axes behind one command are read too, as ``PPU X4096 Y4096`` is printed (page 114).
 Written are scales, signs and limits before the gains they make safe (see ``ORDER``).
 ``REM`` begins a remark (page 128).
+
+A start-up program is such a script among other commands. Lines that set nothing are kept in their place, and a setting is written
+back with every sign that it had; only a figure whose value has changed is another one.
 """
 
 from __future__ import annotations
 
 import re
 from collections import Counter
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
 
 from amp_studio.files import ParameterFile
 from amp_studio.formats.bare_figures import default_system, read_figure, system_of, write_figure
+from amp_studio.formats.import_export import file_of
 from amp_studio.formats.passthrough_lines import (
     PassthroughLine,
     keep,
@@ -26,9 +30,9 @@ from amp_studio.formats.passthrough_lines import (
     shown,
 )
 from amp_studio.formats.text_format import FormatError, ReadOptions, TextFormat, TextRead
-from amp_studio.schema import Address, InvalidValueError, Schema, Value, load_schema, written
+from amp_studio.schema import Address, InvalidValueError, Schema, Value, load_schema, same_value, written
 
-from .acr_command import Command, CommandArgument, CommandSetting, commands_of
+from .acr_command import Command, CommandArgument, CommandSetting, commands_of, program_commands_of
 
 FAMILY = "acromill"
 _KIND = "acr"
@@ -43,6 +47,31 @@ _BEHIND = re.compile(r"\s*+(?:\(.*\)\s*+)?")
 """The guide's own remarks: ``MULT X-4     (Times 4 multiplication in opposite direction)`` (page 114)."""
 
 _LONGEST_LINE = 1000
+_NEWLINE = "\r\n"
+_SET = "set|"
+"""Begins the mark of a kept line that sets something: the line as it was."""
+_ATTACH = re.compile(
+    r"\s*ATTACH\s+SLAVE[0-9]+\s+AXIS(?P<axis>[0-9]{1,2})\s+\"(?P<letter>[A-Z])\"", re.IGNORECASE
+)
+"""The letter that a program gives an axis."""
+_WORDS = re.compile(
+    "ABS|ACC|ADC|ALL|ALM|AS|ATTACH|AUT|AXIS|BASE|BKL|BLK|BLM|BRESET|BSC|CAM|CLEAR|CLOCK|CLOSE|CLR|COM1|COM2|"
+    "CONFIG|CPU|DAC|DEC|DETACH|DGAIN|DIAG|DIM|DST|DWIDTH|DWL|ECHO|ELOAD|ENC|END|ERASE|ESAVE|EXC|F|FBVEL|"
+    "FFACC|FFVEL|FIFO|FLASH|FLZ|FOV|FREQ|FVEL|FWD|GAIN|GEAR|GOSUB|GOTO|HALT|HDW|HELP|HSINT|IDELAY|IF|IGAIN|"
+    "IHPOS|ILIMIT|IMAGE|INC|INH|INPUT|INT|INTCAP|IO|IPB|ITB|IVEL|JLM|JOG|JRK|LIMIT|LIST|LISTEN|LOAD|LOCK|"
+    "LOPASS|LRUN|MASK|MASTER|MAX|MEM|MIN|MODE|MOV|MSEEK|MULT|NEG|NEW|NONE|NORM|NOTCH|OFF|OFFSET|ON|OPEN|"
+    "PAUSE|PBOOT|PERIOD|PGAIN|PLC|PLS|PDIFF|PON|POS|PPU|PRINT|PROG|PROM|RATCH|RATIO|REBOOT|REM|REN|RES|"
+    "RESUME|RETURN|REV|ROTARY|ROTATE|ROV|RUN|SAMP|SAVE|SCALE|SEG|SET|SHIFT|SINE|SLAVE|SRC|STEP|STEPPER|STP|"
+    "SYS|THEN|TLM|TRG|TRJ|TROFF|TRON|UNLOCK|USING|VECDEF|VECTOR|VEL|VER|WIDTH|XID"
+)
+"""Commands of the controller (page 91)."""
+_LATER = ("BIT", "HLIM", "SLIM")
+"""Words of published start-up programs for later controllers: the guide does not have them."""
+_OF_A_PROGRAM = re.compile(
+    r"\s*(?:[0-9]+\s+[A-Z]|(?P<assigned>P|BIT)[0-9]+\s*=|[FXYZABCUV]\s*[-+.0-9]|(?P<word>[A-Z]+)[0-9]*(?![A-Z]))",
+    re.IGNORECASE,
+)
+"""A line with a number, as of a PLC program (page 114); an assignment (pages 45 and 128); a feed or a move (page 115); a command."""
 
 ORDER = ("PPU", "MULT", "DAC", "EXC", "TLM", "LOPASS", "NOTCH", "DWIDTH", "DGAIN", "FBVEL", "PGAIN", "IDELAY", "ILIMIT",
          "IGAIN", "FFVEL", "FFACC")  # fmt: skip
@@ -67,29 +96,70 @@ class _ScriptLine:
     arguments: list[CommandArgument] = field(default_factory=list)
     fault: FormatError | None = None
     """Why the line is not understood."""
+    is_kept: bool = False
+    """It is of a program, and sets nothing."""
 
 
 def _read(text: str, schema: Schema, options: ReadOptions) -> TextRead:
-    lines = list(_lines(text, commands_of(schema, schema.family.default_machine)))
-    if options.keep_unknown:
-        _set_aside_repeated(lines)
+    machine = schema.family.default_machine
+    commands, of_programs = commands_of(schema, machine), program_commands_of(schema, machine)
+    words = {command.word or _first_word(command) for command in commands}
+    lines = list(_lines(text, [*commands, *of_programs], words))
     found = TextRead()
     system = _read_system(lines, schema, found)
+    _check_letters(lines, schema.family.scopes["axis"].instances if "axis" in schema.family.scopes else ())
+    _keep_unequal(lines, of_programs, schema, system)
+    if options.keep_unknown:
+        _set_aside_repeated(lines)
     place: dict[CommandSetting, int] = {}
     for line in lines:
         if line.fault is not None and not options.keep_unknown:
             raise line.fault
         for argument in line.arguments:
             before = place.setdefault(argument.setting, line.number)
-            if before != line.number or argument.setting.addresses[0] in found.values:
+            values = _values(schema, argument, line.number, system)
+            is_new = not any(found.values.get(address, value) != value for address, value in values.items())
+            if before != line.number or not is_new:
                 message = f"{argument.setting.name} occurs twice, in line {before} already"
                 raise FormatError(message, line.number, argument.column)
-            found.values.update(_values(schema, argument, line.number, system))
-    keep(found, _KIND, [row for line in lines for row in _layout(line)])
+            found.values.update(values)
+    found.kept = [line.text for line in lines if line.is_kept]
+    if found.kept:
+        first = sorted({_word_of(text) for text in found.kept})
+        count = f"{len(found.kept)} lines" if len(found.kept) > 1 else "1 line"
+        found.notes.append(
+            f"{count} of the program set nothing here, kept in their place: {', '.join(first)}"
+        )
+    keep(found, _KIND, [_layout(line) for line in lines], always=not _is_ours(text, found, schema))
+    script = found.extra.get(f"{_KIND}_script")
+    if isinstance(script, dict) and "\r" not in text:
+        script["newline"] = "lf"
     return found
 
 
-def _lines(text: str, commands: list[Command]) -> Iterator[_ScriptLine]:
+def _is_ours(text: str, found: TextRead, schema: Schema) -> bool:
+    """Return whether a text would be written so in any case."""
+    head, _, rest = text.partition("\n")
+    if found.kept or not head.startswith(_HEAD):
+        return False
+    try:
+        return _write(file_of(schema, TextRead(found.values), "")).partition("\n")[2] == rest
+    except FormatError:
+        return False
+
+
+def _first_word(command: Command) -> str:
+    word = re.match("[A-Z]+", command.form)
+    return word[0] if word else ""
+
+
+def _word_of(text: str) -> str:
+    """Return what a line of a program begins with, in a word."""
+    word = re.search(r"[A-Z]+", text, re.IGNORECASE)
+    return word[0].upper() if word else text.strip()[:10]
+
+
+def _lines(text: str, commands: list[Command], words: set[str]) -> Iterator[_ScriptLine]:
     for n, row in enumerate(text.removeprefix(_MARK).removeprefix(_MARK_SEEN_AS_LATIN).split("\n"), 1):
         line = _ScriptLine(n, row.rstrip("\r"))
         if len(line.text) > _LONGEST_LINE:
@@ -98,8 +168,64 @@ def _lines(text: str, commands: list[Command]) -> Iterator[_ScriptLine]:
             try:
                 line.arguments = list(_arguments(line, commands))
             except FormatError as fault:
-                line.fault = fault
+                line.is_kept = _is_of_a_program(line.text, words)
+                line.fault = None if line.is_kept else fault
         yield line
+
+
+def _is_of_a_program(text: str, words: set[str]) -> bool:
+    """Return whether a line that sets nothing here is another command; one with the word of a setting is a slip."""
+    found = _OF_A_PROGRAM.match(text)
+    if found is None:
+        return False
+    word = (found["word"] or "").upper()
+    if not word:
+        return True
+    if word == "DAC":
+        return not re.match(r"\s*DAC[0-9]*\s+GAIN\b", text, re.IGNORECASE)
+    return word not in words and (word in _LATER or _WORDS.fullmatch(word) is not None)
+
+
+def _check_letters(lines: list[_ScriptLine], letters: Sequence[str]) -> None:
+    """Refuse settings by a letter that the program gives to another axis than it is here."""
+    given = {}
+    for line in lines:
+        if found := _ATTACH.match(line.text):
+            given[found["letter"].upper()] = int(found["axis"]), line.number
+    other = {x: at for x, at in given.items() if x in letters and letters.index(x) != at[0]}
+    for line in lines:
+        for argument in line.arguments:
+            setting = argument.setting
+            if "{i}" in setting.template and setting.instance in other:
+                axis, at = other[setting.instance]
+                here = letters.index(setting.instance)
+                line.fault = FormatError(
+                    f"{setting.instance} is AXIS{axis} of this program (line {at}), and here it is AXIS{here}",
+                    line.number, argument.column,
+                )  # fmt: skip
+        if line.fault is not None:
+            line.arguments = []
+
+
+def _keep_unequal(lines: list[_ScriptLine], commands: list[Command], schema: Schema, system: str) -> None:
+    """Take settings in the forms of programs for text where not all of them are there with one value."""
+    forms: dict[Address, set[str]] = {}
+    for command in commands:
+        for setting in command.settings:
+            forms.setdefault(setting.addresses[0], set()).add(setting.template)
+    seen: dict[Address, list[tuple[_ScriptLine, str, set[Value]]]] = {}
+    for line in lines:
+        for each in line.arguments:
+            address = each.setting.addresses[0]
+            if each.setting.template in forms.get(address, ()):
+                parameter = schema.parameters[address[0]]
+                values = {read_figure(schema, parameter, text, system) for text, _ in each.figures}
+                seen.setdefault(address, []).append((line, each.setting.template, values))
+    for address, some in seen.items():
+        values = set().union(*(each[2] for each in some))
+        if len(values) > 1 or {each[1] for each in some} != forms[address]:
+            for line, _, _ in some:
+                line.arguments, line.is_kept = [], True
 
 
 def _arguments(line: _ScriptLine, commands: list[Command]) -> Iterator[CommandArgument]:
@@ -124,9 +250,8 @@ def _not_read(line: _ScriptLine, at: int, known: list[Command]) -> FormatError:
         return FormatError(f"'{text}' is no command that sets a parameter here", line.number, at + 1)
     form = " or ".join(f"'{c.example}'" for c in known)
     what = f"'{text}' sets nothing: {known[0].word}" if rest else f"{known[0].word} alone sets nothing: it"
-    return FormatError(
-        f"{what} is written as {form}, for {', '.join(known[0].instances)}", line.number, at + 1
-    )
+    axes = ", ".join(filter(None, known[0].instances))
+    return FormatError(f"{what} is written as {form}{f', for {axes}' if axes else ''}", line.number, at + 1)
 
 
 def _set_aside_repeated(lines: list[_ScriptLine]) -> None:
@@ -165,11 +290,11 @@ def _values(schema: Schema, argument: CommandArgument, line: int, system: str) -
     return values
 
 
-def _layout(line: _ScriptLine) -> list[PassthroughLine]:
-    """Return what is kept of a line: a mark for each setting, or its text."""
+def _layout(line: _ScriptLine) -> PassthroughLine:
+    """Return what is kept of a line."""
     if line.arguments:
-        return [PassthroughLine(mark(written(a.setting.addresses[0]))) for a in line.arguments]
-    return [PassthroughLine(plain(line.text), str(line.number) if line.fault else "")]
+        return PassthroughLine(mark(_SET + line.text))
+    return PassthroughLine(plain(line.text), str(line.number) if line.fault else "")
 
 
 def _recognises(text: str) -> bool:
@@ -179,7 +304,7 @@ def _recognises(text: str) -> bool:
         schema = load_schema(FAMILY)
     except KeyError:
         return False
-    lines = _lines(text[:20_000], commands_of(schema, schema.family.default_machine))
+    lines = _lines(text[:20_000], commands_of(schema, schema.family.default_machine), set())
     return any(line.arguments for line in lines)
 
 
@@ -235,11 +360,21 @@ def _filled(
     file: ParameterFile, layout: list[str], rows: dict[Address, str], units: list[str]
 ) -> Iterator[str]:
     """Yield the lines of a kept script with the values of now; a new setting comes after all that go before it."""
-    at = {what: n for n, row in enumerate(layout) if (what := marked(row))}
+    machine = file.machine
+    commands = [*commands_of(file.schema, machine), *program_commands_of(file.schema, machine)]
+    kept_lines = {n: _kept_line(row, n, commands) for n, row in enumerate(layout) if _is_set(row)}
+    at = {
+        written(address): n
+        for n, line in kept_lines.items()
+        for argument in line.arguments
+        for address in argument.setting.addresses
+    }
+    at |= {what: n for n, row in enumerate(layout) if (what := marked(row)) and n not in kept_lines}
     there = {a: at[written(a)] for a in rows if written(a) in at}
     beside = neighbours(rows, there, there)
     front = [rows[a] for a in beside.get(None, [])]
     names = {written(a): a for a in rows}
+    system = system_of(file)
     if units and not any(_UNITS.fullmatch(shown(row)) for row in layout):
         yield units[0]
     last = len(layout) - 1
@@ -249,19 +384,68 @@ def _filled(
             if n == last and not shown(row) and front:
                 yield from front
                 front = []
-            text = shown(row)
-            yield (
-                f"REM units {system_of(file)}"
-                if file.schema.family.unit_parameter and _UNITS.fullmatch(text)
-                else text
-            )
+            yield _unit_remark(file, shown(row), system)
             continue
         yield from front
         front = []
-        if address := names.get(what):
-            yield rows[address]
-            yield from (rows[a] for a in beside.get(address, []))
+        if n in kept_lines:
+            line = kept_lines[n]
+            if text := _with_values(file, line, system):
+                yield text
+            here = [a for argument in line.arguments for a in argument.setting.addresses[:1]]
+        else:
+            here = [names[what]] if what in names else []
+            yield from (rows[a] for a in here)
+        for address in here:
+            yield from (rows[a] for a in beside.pop(address, []))
     yield from front
 
 
-FORMAT = TextFormat("acr", "ACR command script", ".acr", _recognises, _read, _write, _SIGNS, "\r\n")
+def _is_set(row: str) -> bool:
+    return (marked(row) or "").startswith(_SET)
+
+
+def _kept_line(row: str, n: int, commands: list[Command]) -> _ScriptLine:
+    """Return a kept line with its settings; raises FormatError for one that sets nothing any more."""
+    line = _ScriptLine(n + 1, (marked(row) or "").removeprefix(_SET))
+    line.arguments = list(_arguments(line, commands))
+    return line
+
+
+def _unit_remark(file: ParameterFile, text: str, system: str) -> str:
+    """Return a line that sets nothing; the remark that names the unit of the figures has that of now."""
+    named = _UNITS.fullmatch(text)
+    if named is None or not file.schema.family.unit_parameter or named[1].casefold() == system:
+        return text
+    return f"REM units {system}"
+
+
+def _with_values(file: ParameterFile, line: _ScriptLine, system: str) -> str:
+    """Return a line of a script with the values of now, every other sign as it was; empty where none of them is set."""
+    text, is_any = line.text, False
+    for argument in reversed(line.arguments):
+        if not _row(file, argument.setting, system):
+            text = text[: argument.column - 1] + text[argument.end :]
+            continue
+        is_any = True
+        for address, (figure, column) in reversed(
+            list(zip(argument.setting.addresses, argument.figures, strict=True))
+        ):
+            parameter, value = file.schema.parameters[address[0]], file.values[address]
+            if not same_value(value, read_figure(file.schema, parameter, figure, system)):
+                new, begin = write_figure(file.schema, parameter, value, system), column - 1
+                if new.startswith("-") and text[begin - 1 : begin] == "-":  # the other side of a band
+                    new, begin = new[1:], begin - 1
+                text = text[:begin] + new + text[column - 1 + len(figure) :]
+    return text.rstrip() if is_any and text != line.text else text if is_any else ""
+
+
+def _newline_of(file: ParameterFile) -> str:
+    kept_script = file.header.extra.get(f"{_KIND}_script")
+    is_lf = isinstance(kept_script, dict) and kept_script.get("newline") == "lf"
+    return "\n" if is_lf else _NEWLINE
+
+
+FORMAT = TextFormat(
+    "acr", "ACR command script", ".acr", _recognises, _read, _write, _SIGNS, _NEWLINE, newline_of=_newline_of
+)
