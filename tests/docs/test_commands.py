@@ -37,7 +37,6 @@ MILL = EXAMPLES / "mill-1394/MILL_1394.amp"
 
 CANNOT_RUN = {
     'pipx install ".[fast]"': "installs from the network",
-    "pipx inject amp-studio ld2-drive": "installs a package that is an example",
     "py -m venv .venv": "Windows",
     r".venv\Scripts\python -m pip install --require-hashes -r requirements\dev.lock": "Windows",
     r".venv\Scripts\python -m pip install --no-index --no-deps --no-build-isolation --editable .": "Windows",
