@@ -161,6 +161,16 @@ def language_option(sub: argparse.ArgumentParser) -> None:
     )
 
 
+def text_options(sub: argparse.ArgumentParser) -> None:
+    """Add what is known of a control's own text that is named in place of a parameter file."""
+    sub.add_argument("--family", help="of a control's own text: its family, where the text does not show it")
+    sub.add_argument(
+        "--machine",
+        metavar="TYPE",
+        help="of a control's own text: its machine type, where the text shall not decide",
+    )
+
+
 def secrets_option(sub: argparse.ArgumentParser) -> None:
     """Add --secrets."""
     sub.add_argument("--secrets", action="store_true", help="passwords in clear; they are masked otherwise")

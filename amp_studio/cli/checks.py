@@ -174,13 +174,15 @@ def _check(options: argparse.Namespace, path: Path) -> CheckResult:
     """Check one file; whatever is wrong with it ends no other's check."""
     notes: list[str] = []
     try:
-        file = opened(path, notes.append)
+        file = opened(path, options, notes.append)
         validator = Validator(file, _own_rules(options, path, file))
         checked = FileFindings(path, validator, validator.run(), options.why)
         printed = CHECK_FORMATS[options.format].one(checked)
         return CheckResult(path, checked.counts["error"], printed, tuple(notes))
     except ParameterFileError as fault:
         return CheckResult(path, notes=tuple(notes), fault=str(fault), line=fault.line)
+    except UsageError as fault:
+        return CheckResult(path, notes=tuple(notes), fault=str(fault))
     except KeyboardInterrupt:
         raise
     except BaseException as error:  # a panic of the rule engine is no Exception

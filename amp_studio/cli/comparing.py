@@ -28,7 +28,7 @@ from .opened import opened
 def diff_verb(options: argparse.Namespace) -> int:
     """Compare two files, or a file and a control, or a file with another version of itself; 1 where they differ."""
     _check_sides(options)
-    a, a_digest = _side(options.a)
+    a, a_digest = _side(options, options.a)
     b, b_digest, name = _other_side(options, a)
     if a.schema.family.family != b.schema.family.family:
         raise UsageError(f"{options.a} is for {a.schema.family.name}, {name} for {b.schema.family.name}")
@@ -37,7 +37,7 @@ def diff_verb(options: argparse.Namespace) -> int:
     if options.by_letter:
         other = matched_by_letter_noted(other, a)
     if options.base:
-        return _print_three(options, Merge(a, other, _side(options.base)[0]))
+        return _print_three(options, Merge(a, other, _side(options, options.base)[0]))
     found = compare(a.schema, a.values, other.values)
     if options.output:
         _write_paper(options, a, found, name, (a_digest, b_digest), (b, of_b))
@@ -96,7 +96,7 @@ def _check_sides(options: argparse.Namespace) -> None:
 def _other_side(options: argparse.Namespace, a: ParameterFile) -> tuple[ParameterFile, str | None, str]:
     """Return the second side of a comparison, the digest of its image where it is a control's, and its name."""
     if options.b:
-        return *_side(options.b), options.b
+        return *_side(options, options.b), options.b
     if options.defaults:
         from amp_studio.files.versions import with_defaults
 
@@ -104,7 +104,7 @@ def _other_side(options: argparse.Namespace, a: ParameterFile) -> tuple[Paramete
     if options.axes:
         return _other_axis(a, *options.axes), None, "the other axis"
     if options.backup:
-        return *_side(str(backup_path(Path(options.a)))), "its backup"
+        return *_side(options, str(backup_path(Path(options.a)))), "its backup"
     from amp_studio.transfer.client.last_download import last_download
 
     last = last_download(a, Path(options.a))
@@ -229,12 +229,12 @@ def print_difference(file: ParameterFile, difference: Difference, secrets: bool)
     print(f"{file.machine_schema.named(difference.address):52} {'  |  '.join(sides)}")
 
 
-def _side(text: str) -> tuple[ParameterFile, str | None]:
+def _side(options: argparse.Namespace, text: str) -> tuple[ParameterFile, str | None]:
     """Return a side of a comparison, with the digest of its image where it is a control's."""
     from amp_studio.transfer.links.endpoint import is_endpoint
 
     if not is_endpoint(text):
-        return opened(Path(text)), None
+        return opened(Path(text), options), None
     from amp_studio.transfer.client.parameters import fetch_image, sha256
     from amp_studio.transfer.content import decode_content
 

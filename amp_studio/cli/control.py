@@ -63,7 +63,7 @@ def _secured(options: argparse.Namespace) -> Endpoint:
 
 def download_verb(options: argparse.Namespace) -> int:
     """Send a file to a control; 3 if that is not proved afterwards, 4 where it is not known what it contains."""
-    file, path = opened(options.path), options.path
+    file, path = opened(options.path, options), options.path
     errors = _note_errors(file, path)
     if errors and not options.accept_errors:
         raise UsageError(f"{path} has {errors}: nothing was sent (--accept-errors sends it anyway)")
@@ -192,7 +192,7 @@ def verify_verb(options: argparse.Namespace) -> int:
         return verify_all_verb(options)
     if options.path is None or not options.control:
         raise UsageError("verify takes a file and --with ADDRESS, or --all (see 'amp-studio verify --help')")
-    file = opened(options.path)
+    file = opened(options.path, options)
     check_fleet(options, options.control)
     if is_fleet(options, options.control):
         with asked_politely() as stop:

@@ -19,7 +19,7 @@ from .output import check_replaced
 def report_verb(options: argparse.Namespace) -> int:
     """Write the documentation of a file; 1 where the project's template failed and the standard report was written."""
     check_replaced(options.output, options.path, real_path(options.path).with_name(RULES_FILE))
-    file = opened(options.path)
+    file = opened(options.path, options)
     own = rules_beside(options.path, file.schema)
     as_wanted = write_report(
         file,

@@ -98,7 +98,7 @@ def _print_not_set(options: argparse.Namespace, file: ParameterFile, only: set[A
 
 def get_verb(options: argparse.Namespace) -> int:
     """Print values."""
-    file = opened(options.path)
+    file = opened(options.path, options)
     if options.params:
         found = [m for p in options.params for m in all_meant(file.evaluation, p)]
     else:

@@ -57,7 +57,7 @@ def import_verb(options: argparse.Namespace) -> int:
 def export_verb(options: argparse.Namespace) -> int:
     """Write a parameter file in a text format."""
     check_replaced(options.output, options.path)
-    file = opened(options.path)
+    file = opened(options.path, options)
     export = export_file(file, options.output, options.format, note, secrets=options.secrets)
     number = counted(len(file.values), "value")
     _print_account(

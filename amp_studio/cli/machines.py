@@ -25,7 +25,7 @@ from .opened import opened
 
 def compare_verb(options: argparse.Namespace) -> int:
     """Print or write what differs between machines; 1 where anything does."""
-    files = [opened(path) for path in options.paths]
+    files = [opened(path, options) for path in options.paths]
     if options.by_letter:
         files = [files[0], *(matched_by_letter_noted(file, files[0]) for file in files[1:])]
     names = machine_names([path.stem for path in options.paths])

@@ -91,10 +91,10 @@ def _check_paths(options: argparse.Namespace) -> None:
 
 def _sources(options: argparse.Namespace) -> tuple[ParameterFile, ParameterFile, ParameterFile | None]:
     """Return ours, theirs and the base. git gives an empty file as the base of a file that both sides added."""
-    ours, theirs = opened(options.ours), opened(options.theirs)
+    ours, theirs = opened(options.ours, options), opened(options.theirs, options)
     if options.git and options.base.is_file() and options.base.stat().st_size == 0:
         return ours, theirs, ParameterFile(ours.schema)
-    return ours, theirs, opened(options.base)
+    return ours, theirs, opened(options.base, options)
 
 
 def _settle(merge: Merge, texts: list[str]) -> None:

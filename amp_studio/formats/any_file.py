@@ -26,17 +26,24 @@ def _is_text(content: bytes) -> bool:
     return not _HEAD.search(content) and any(each.recognises(text) for each in all_formats())
 
 
-def open_for_reading(path: Path, notify: Callable[[str], None] = lambda _message: None) -> ParameterFile:
+def open_for_reading(
+    path: Path,
+    notify: Callable[[str], None] = lambda _message: None,
+    *,
+    family: str | None = None,
+    machine: str = "",
+) -> ParameterFile:
     """Return the parameters of a parameter file or of a control's own text; raises ParameterFileError.
 
-    ``notify`` is called with what a person should know of a text that was taken.
+    ``notify`` is called with what a person should know of a text that was taken; ``family`` and ``machine`` are those of a
+    text that shall not decide by itself. Raises UnknownFamilyError.
     """
     content = file_content(path)
     if path.suffix.casefold() == ENDING or not _is_text(content):
         return read_content(path, content)
     try:
-        return import_file(path, notify=notify)
+        return import_file(path, family, machine=machine, notify=notify)
     except FamilyNotGivenError as error:
-        raise ParameterFileError(path, None, f"{error}: import it with --family") from None
+        raise ParameterFileError(path, None, f"{error} (name it with --family)") from None
     except FormatError as error:
         raise ParameterFileError(path, error.line, error.what) from None

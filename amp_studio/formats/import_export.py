@@ -58,6 +58,8 @@ def import_file(
     UnknownFamilyError, OSError.
     """
     path = Path(path)
+    if family:
+        load_schema(family)  # of an unknown one nothing is a format
     content = _as_utf8(read_file(path, _MOST_BYTES))
     chosen = _format_for_reading(content, family, format_key)
     text = _decoded(content, chosen)

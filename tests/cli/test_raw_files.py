@@ -7,6 +7,8 @@ from pathlib import Path
 
 import pytest
 
+from amp_studio import cli
+
 from .conftest import Said
 
 LISTING = "".join(
@@ -102,3 +104,56 @@ def test_what_cannot_be_read_names_its_line_and_what_writes_needs_a_parameter_fi
     before = listing.read_bytes()
     assert amp("set", listing, "$110=5").code == 2
     assert listing.read_bytes() == before
+
+
+FEW = "".join(
+    f"${n}={value}\n"
+    for n, value in {0: 10, 1: 25, 10: 1, 22: 1, 110: 500, 111: 500, 112: 500, 130: 200}.items()
+)
+"""Settings that any Grbl has: the text does not decide which."""
+
+
+@pytest.fixture
+def few(tmp_path: Path) -> Path:
+    path = tmp_path / "few.txt"
+    path.write_text(FEW, "utf-8")
+    return path
+
+
+@pytest.mark.parametrize(
+    "verb",
+    [
+        ("validate", "FEW"), ("get", "FEW", "$110"), ("report", "FEW", "-o", "report.txt"), ("export", "FEW", "-o", "table.csv"),
+        ("diff", "FEW", "FEW"), ("compare", "FEW", "FEW"), ("merge", "FEW", "FEW", "FEW", "-o", "merged.amp"),
+        ("verify", "FEW", "--with", "tcp://127.0.0.1:1"), ("download", "FEW", "--to", "tcp://127.0.0.1:1"),
+    ],
+)  # fmt: skip
+def test_every_verb_takes_the_machine_type_of_a_text(
+    few: Path, verb: tuple[str, ...], monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.chdir(few.parent)
+    words = [str(few) if word == "FEW" else word for word in verb]
+    at_a_control = verb[0] in ("verify", "download")
+    cli.run(words)
+    assert "machine type grblHAL; --machine chooses another" in capsys.readouterr().err
+    (few.parent / "merged.amp").unlink(missing_ok=True)
+    code = cli.run([*words, "--family", "grblhal", "--machine", "grbl-1.1"])
+    printed = capsys.readouterr()
+    (few.parent / "merged.amp").unlink(missing_ok=True)
+    assert "machine type" not in printed.err, "nothing was left to be decided"
+    assert code == 0 or at_a_control, printed.err
+    assert cli.run([*words, "--machine", "saw"]) == 2
+    assert "Unknown machine type 'saw'. Known: grblhal, grbl-1.1" in capsys.readouterr().err
+    assert cli.run([*words, "--family", "grbll"]) == 2
+    assert "Unknown family 'grbll'. Known: " in capsys.readouterr().err
+
+
+def test_the_machine_type_of_a_text_is_the_one_that_is_named(
+    amp: Callable[..., Said], few: Path, tmp_path: Path
+) -> None:
+    merged = tmp_path / "merged.amp"
+    assert amp("merge", few, few, few, "-o", merged, "--machine", "grbl-1.1").code == 0
+    assert "machine: grbl-1.1" in merged.read_text("utf-8")
+    found = amp("validate", few, few, "--machine", "grbl-1.1", "--json")
+    assert found.code == 0
+    assert "machine type" not in found.err

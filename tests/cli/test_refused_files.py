@@ -97,7 +97,7 @@ def test_a_fault_in_the_facts_is_told_in_one_line(amp, mill: Path, tmp_path: Pat
 
 
 def test_stopping_it_is_told_and_ends_with_2(amp, mill: Path, monkeypatch) -> None:
-    def stop(_: object) -> int:
+    def stop(*_: object) -> int:
         raise KeyboardInterrupt
 
     monkeypatch.setattr("amp_studio.cli.files.opened", stop)

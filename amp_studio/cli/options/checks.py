@@ -10,6 +10,7 @@ from amp_studio.cli.arguments import (
     language_option,
     path_of,
     secrets_option,
+    text_options,
 )
 
 CHECK_FORMATS = ("text", "json", "sarif", "github", "junit")
@@ -47,6 +48,7 @@ def _checks(verbs: Verbs) -> None:
     sub.add_argument(
         "--json", dest="format", action="store_const", const="json", help="the same as --format json"
     )
+    text_options(sub)
     sub = verbs.add(
         "fix",
         "fix",
@@ -87,6 +89,7 @@ def _comparing(verbs: Verbs) -> None:
     language_option(sub)
     json_option(sub)
     secrets_option(sub)
+    text_options(sub)
     sub = verbs.add(
         "compare",
         "machines",
@@ -103,6 +106,7 @@ def _comparing(verbs: Verbs) -> None:
     sub.add_argument("-o", "--output", type=path_of, help="the table, as .pdf, .html, .xlsx or .csv")
     language_option(sub)
     json_option(sub)
+    text_options(sub)
     sub = verbs.add("merge", "merging", "three-way merge by parameter", writes="output")
     for name in ("base", "ours", "theirs"):
         sub.add_argument(name, type=path_of)
@@ -119,3 +123,4 @@ def _comparing(verbs: Verbs) -> None:
     sub.add_argument("--window", action="store_true", help="merge in a window of the desktop program")
     json_option(sub)
     secrets_option(sub)
+    text_options(sub)

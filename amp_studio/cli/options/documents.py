@@ -11,6 +11,7 @@ from amp_studio.cli.arguments import (
     on_fault_option,
     path_of,
     secrets_option,
+    text_options,
 )
 
 
@@ -38,6 +39,7 @@ def add(verbs: Verbs) -> None:
         help="units of the figures; both: those of the file, with the other system's beside them (default: file)",
     )
     sub.add_argument("--paper", choices=("a4", "letter"), default="a4", help="paper of a PDF (default: a4)")
+    text_options(sub)
     sub = verbs.add(
         "form", "documentation", "tables to fill in by hand, as .pdf, .html, .xlsx or .csv", writes="output"
     )
@@ -94,3 +96,4 @@ def add(verbs: Verbs) -> None:
     sub.add_argument("--format", help="format of the text, where the ending of OUTPUT does not show it")
     json_option(sub)
     secrets_option(sub)
+    text_options(sub)

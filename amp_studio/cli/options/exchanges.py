@@ -13,6 +13,7 @@ from amp_studio.cli.arguments import (
     path_of,
     seconds,
     secrets_option,
+    text_options,
 )
 
 SENDING = ("xmodem", "xmodem-1k", "ymodem", "raw")
@@ -87,6 +88,7 @@ def _exchanges(verbs: Verbs) -> None:
         action="store_true",
         help="send a file that has errors; they are listed anyway",
     )
+    text_options(sub)
     sub = verbs.add(
         "restore",
         "control",
@@ -125,6 +127,7 @@ def _exchanges(verbs: Verbs) -> None:
     )
     json_option(sub)
     secrets_option(sub)
+    text_options(sub)
     sub = verbs.add(
         "history", "record", "every recorded exchange with controls: who, when, which, digests, changes"
     )

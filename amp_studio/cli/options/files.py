@@ -2,7 +2,14 @@
 
 from __future__ import annotations
 
-from amp_studio.cli.arguments import Verbs, json_option, language_option, path_of, secrets_option
+from amp_studio.cli.arguments import (
+    Verbs,
+    json_option,
+    language_option,
+    path_of,
+    secrets_option,
+    text_options,
+)
 
 AXIS_OPERATIONS = ("list", "compare", "copy", "swap", "name", "type", "add", "remove")
 """What the verb about axes does; here, because help loads no room."""
@@ -52,6 +59,7 @@ def _files(verbs: Verbs) -> None:
     )
     json_option(sub)
     secrets_option(sub)
+    text_options(sub)
     sub = verbs.add(
         "note", "notes", "read and write notes about values, groups and the machine", writes="path"
     )

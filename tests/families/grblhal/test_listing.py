@@ -289,3 +289,45 @@ def test_the_numbers_of_grbl_08_mean_other_settings_and_are_refused(keep: bool) 
     assert (
         everything("$0=10 (step pulse, usec)\n$1=25\n$11=0.01\n").values["classic.idle_delay", ""].value == 25
     )
+
+
+# -- texts with the signs of a remark ----------------------------------------------------------------------
+
+NETWORK = "".join(f"${n}={text}\n" for n, text in {
+    0: "10", 1: "25", 20: "0", 21: "0", 22: "1", 70: "7", 74: "My;SSID", 75: "pa(ss)word;#x", 300: "mill (hall 2) ; left",
+    130: "200", 131: "200", 132: "60", 9999: "a(b);c // d",
+}.items())  # fmt: skip
+
+
+def test_a_text_setting_keeps_the_signs_that_begin_a_remark_elsewhere(tmp_path: Path) -> None:
+    found = everything(NETWORK, machine="grblhal")
+    assert [found.values[key, ""] for key in (
+        "wifi.wifi_station_sta_ssid", "wifi.wifi_station_sta_password", "networking.hostname"
+    )] == [Value("My;SSID"), Value("pa(ss)word;#x"), Value("mill (hall 2) ; left")]  # fmt: skip
+    assert found.unknown == {"$9999": "a(b);c // d"}
+    text, made, again = tmp_path / "backup.txt", tmp_path / "made.amp", tmp_path / "again.settings"
+    text.write_text(NETWORK, "utf-8")
+    assert run(["import", str(text), "-o", str(made), "--machine", "grblhal"]) == 0
+    assert run(["export", str(made), "-o", str(again), "--secrets"]) == 0
+    written = again.read_text("utf-8").splitlines()
+    for line in NETWORK.splitlines():
+        if line.startswith(("$74", "$75", "$300", "$9999")):
+            assert line in written
+
+
+def test_where_figures_have_remarks_one_begins_behind_a_blank_of_a_text() -> None:
+    text = NETWORK.replace("$0=10", "$0=10 (step pulse, usec)").replace(
+        "$74=My;SSID", "$74=My;SSID (network)"
+    )
+    found = everything(text, machine="grblhal").values
+    assert [found[key, ""] for key in (
+        "wifi.wifi_station_sta_ssid", "wifi.wifi_station_sta_password", "networking.hostname"
+    )] == [Value("My;SSID"), Value("pa(ss)word;#x"), Value("mill")]  # fmt: skip
+    assert found["axis.max_travel", "X"] == Value(200.0, "mm")
+
+
+def test_a_text_in_quotes_or_before_another_setting_ends_there() -> None:
+    for line in ('"$74": "Hall;2",', "$74=Hall;2 $75=x"):
+        text = NETWORK.replace("$74=My;SSID\n", f"{line}\n")
+        found = everything(text, machine="grblhal").values
+        assert found["wifi.wifi_station_sta_ssid", ""] == Value("Hall" if line[0] == '"' else "Hall;2")

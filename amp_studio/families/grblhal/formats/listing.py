@@ -53,7 +53,7 @@ def _read(text: str, schema: Schema, options: ReadOptions) -> TextRead:
         raise _unreadable(listing, fit)
     found = TextRead(values=fit.values, machine=fit.machine)
     kept = sorted((*fit.unknown, *fit.other, *fit.unreadable))
-    found.unknown = {f"${number}": listing.settings[number] for number in kept} | log.startup
+    found.unknown = {f"${number}": listing.text_of(number, kept) for number in kept} | log.startup
     if relative is not None:
         found.unknown |= relative.kept
         found.notes.append(_account_of(relative))
@@ -170,8 +170,9 @@ def _hint(log: Log, listing: LoggedListing) -> str:
 
 def _fit(schema: Schema, log: Log, listing: LoggedListing, machine: str) -> _Fit:
     known = addresses_by_number(schema.on(machine))
+    written = {n for n in listing.settings if n in known and schema.parameters[known[n][0]].type == "text"}
     texts = {
-        n: text if n in known and schema.parameters[known[n][0]].type == "text" else figure(text)
+        n: listing.text_of(n, written) if n in written else figure(text)
         for n, text in listing.settings.items()
     }
     unknown = tuple(n for n in texts if n not in known)

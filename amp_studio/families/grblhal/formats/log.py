@@ -13,7 +13,7 @@ A number that comes again begins a new listing. A few settings that come again a
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator
+from collections.abc import Container, Iterator
 from dataclasses import dataclass, field
 
 from amp_studio.formats.text_format import FormatError
@@ -36,6 +36,8 @@ _AHEAD = re.compile(
 _REMARK = re.compile(r"[(;%#]|//|/\*")
 """How a line begins that is no setting of the listing, even where it contains one."""
 _END_OF_VALUE = re.compile(r"\(|;(?!\s*\$[0-9])|(?<=\s)(?://|#|/\*)")
+_FOLLOWING = re.compile(r"\s+\$[0-9]{1,5}=")
+_REMARK_BEHIND_TEXT = re.compile(r"\s+(?:[(;#]|//|/\*)")
 _FACT = re.compile(r"\[([A-Z][A-Z0-9 ]{1,20}):([^\[\]]*)\]")
 _GREETING = re.compile(r"\bgrbl(?:HAL)?[ ]+v?[0-9]\.[0-9]+\w?\b.*", re.IGNORECASE)
 _STARTUP = re.compile(r"(\$N[0-9])=(.*)")
@@ -75,6 +77,8 @@ class LoggedListing:
     settings: dict[int, str] = field(default_factory=dict)
     lines: dict[int, int] = field(default_factory=dict)
     remarks: dict[int, str] = field(default_factory=dict)
+    whole: dict[int, str] = field(default_factory=dict)
+    """Number -> all that is behind its sign, where nothing is written around it."""
     heading: str = ""
     """The last line before it that is neither a setting nor a part of a log."""
     changed: dict[int, tuple[str, str]] = field(default_factory=dict)
@@ -84,8 +88,21 @@ class LoggedListing:
     aside: dict[int, str] = field(default_factory=dict)
     """Line -> a few settings behind sentences, as an example is: they change nothing."""
 
-    def put(self, number: int, text: str, line: int, remark: str) -> None:
+    def put(self, number: int, text: str, line: int, remark: str, whole: str) -> None:
         self.settings[number], self.lines[number], self.remarks[number] = text, line, remark
+        self.whole[number] = whole
+
+    def text_of(self, number: int, texts: Container[int]) -> str:
+        """Return the value of a setting that is a text, as those of ``texts`` are: it may contain the signs that begin a remark.
+
+        Where no figure has a remark there are none; else one begins behind a blank.
+        """
+        whole = self.whole.get(number, "")
+        if not whole:
+            return self.settings[number]
+        figures = (n for n, text in self.settings.items() if n not in texts and re.fullmatch(_NUMBER, text))
+        has_remarks = any(self.remarks[n] for n in figures)
+        return _REMARK_BEHIND_TEXT.split(whole, maxsplit=1)[0] if has_remarks else whole
 
     @property
     def first_line(self) -> int:
@@ -153,20 +170,24 @@ def _read(text: str, *, anywhere: bool) -> Log:
                 is_apart = True
             if _is_heading(whole) or (_is_other(line) and not _is_heading(heading)):
                 heading = whole.strip("#=* ")
-        for number, value, remark, is_bare in pieces:
+        for number, value, remark, rest, is_bare in pieces:
             begins = number in parts[-1].settings or (is_apart and number < before[0])
             if begins and parts[-1].settings and len(parts) < _MOST_LISTINGS:
                 parts.append(LoggedListing(is_apart=is_apart))
             is_apart = False
             parts[-1].heading, heading = parts[-1].heading or heading, ""
-            parts[-1].put(number, value, n, remark)
+            parts[-1].put(number, value, n, remark, rest)
             found.bare += [n] * is_bare
             before = number, n
     found.listings = _whole([part for part in parts if part.settings])
     return found
 
 
-def _lines(text: str, anywhere: bool) -> Iterator[tuple[int, str, str, list[tuple[int, str, str, bool]]]]:
+_Piece = tuple[int, str, str, str, bool]
+"""A setting of a line: number, text, remark, all that is behind its sign, and whether the sign before the number is missing."""
+
+
+def _lines(text: str, anywhere: bool) -> Iterator[tuple[int, str, str, list[_Piece]]]:
     """Yield number, text, text without what a sender writes before it, and the settings of each line that is not empty."""
     for n, came in enumerate(re.split(r"\r\n|\r|\n", text.lstrip(MARK)), 1):
         whole = _ESCAPES.sub("", came[:_LONGEST]).replace("\u00a0", " ").strip()
@@ -187,11 +208,11 @@ def _plain(whole: str) -> str:
     return whole[at:].strip()
 
 
-def _settings(whole: str, line: str, anywhere: bool) -> Iterator[tuple[int, str, str, bool]]:
-    """Yield number, text and remark of the settings of a line, and whether the sign before the number is missing."""
+def _settings(whole: str, line: str, anywhere: bool) -> Iterator[_Piece]:
+    """Yield the settings of a line."""
     if found := _BARE.fullmatch(line):
         if line == whole:
-            yield int(found[1]), found[2], "", True
+            yield int(found[1]), found[2], "", "", True
         return
     if anywhere:
         line = re.sub(r"^\([^)]*\)\s*", "", line)
@@ -212,7 +233,17 @@ def _settings(whole: str, line: str, anywhere: bool) -> Iterator[tuple[int, str,
         value = value.strip().strip("\"'`* " if ahead[2] else "\"'` ")
         if ahead[3] not in ("=", ":=") and not is_quoted and not re.match(rf"{_NUMBER}(?![\w.:])", value):
             return
-        yield int(ahead[1]), value, "" if following else line[stop:].strip("(;) \t"), False
+        is_plain = (
+            ahead[3] == "="
+            and not is_quoted
+            and not following
+            and line[:1] == "$"
+            and whole[:1] not in "\"'`|*{[,"
+        )
+        rest = (
+            _FOLLOWING.split(line[ahead.end() :][:_LONGEST_VALUE], maxsplit=1)[0].strip() if is_plain else ""
+        )
+        yield int(ahead[1]), value, "" if following else line[stop:].strip("(;) \t"), rest, False
         ahead = following
 
 
@@ -252,7 +283,13 @@ def _whole(parts: list[LoggedListing]) -> list[LoggedListing]:
             earlier = found.pop()  # settings that were sent before they were listed
             if not part.is_apart:
                 for number in earlier.settings.keys() - part.settings.keys():
-                    part.put(number, earlier.settings[number], earlier.lines[number], earlier.remarks[number])
+                    part.put(
+                        number,
+                        earlier.settings[number],
+                        earlier.lines[number],
+                        earlier.remarks[number],
+                        earlier.whole[number],
+                    )
             found.append(part)
         elif is_whole or not found:
             found.append(part)
@@ -268,7 +305,7 @@ def _change(listing: LoggedListing, changes: LoggedListing) -> None:
     for number, text in changes.settings.items():
         if number in listing.settings and listing.settings[number] != text:
             listing.changed[number] = listing.settings[number], text
-        listing.put(number, text, changes.lines[number], changes.remarks[number])
+        listing.put(number, text, changes.lines[number], changes.remarks[number], changes.whole[number])
 
 
 def figure(text: str) -> str:
