@@ -12,6 +12,8 @@ from amp_studio.formats import export_file, import_file
 from amp_studio.schema.yaml_reader import read_yaml
 from amp_studio.validate import Validator
 
+from .firmware import machine_of, refusals
+
 LISTINGS: list[dict[str, Any]] = read_yaml(Path(__file__).with_name("listings.yaml").read_text("utf-8")).data[
     "listings"
 ]
@@ -57,3 +59,53 @@ def same(text: str, back: str) -> str:
 def test_the_verb_takes_it_without_a_question(listing: tuple[dict[str, Any], Path], tmp_path: Path) -> None:
     _, path = listing
     assert run(["import", str(path), "-o", str(tmp_path / "made.amp")]) == 0
+
+
+@pytest.mark.parametrize("one", LISTINGS, ids=NAMES)
+def test_the_expected_verdict_is_that_of_the_firmware_s_own_rules(one: dict[str, Any]) -> None:
+    """Neither the reader nor a rule of ours is asked: what the sources of each firmware list and take (firmware.py)."""
+    settings = {int(n): text for n, text in settings_of(one).items()}
+    assert one["machine"] == machine_of(settings)
+    refused = list(refusals(settings, one["machine"]))
+    assert bool(one["errors"]) == bool(refused), refused
+
+
+# -- relatives ---------------------------------------------------------------------------------------------------
+
+OF_GRBL = "0=10 1=25 2=0 3=0 4=0 5=0 6=0 10=1 11=0.010 12=0.002 13=0 20=0 21=0 22=0 23=0 24=25 25=500 26=250 27=1 30=1000 31=0 32=0"
+OF_AXES = {100: "250.000", 110: "500.000", 120: "10.000", 130: "200.000"}
+OF_FLUIDNC = "10=1 20=0 21=1 22=1 23=0 30=24000 32=0"
+"""``make_proxies`` and ``make_settings`` of FluidNC: the numbers that its $$ has, beside those of the axes."""
+
+
+def listed(settings: str, axes: int) -> str:
+    lines = [
+        *settings.split(),
+        *(f"{first + a}={text}" for first, text in OF_AXES.items() for a in range(axes)),
+    ]
+    return "".join(f"${line}\n" for line in lines)
+
+
+@pytest.mark.parametrize(
+    ("name", "head", "settings", "axes", "machine"),
+    [
+        ("Grbl-Mega", "Grbl 1.1g ['$' for help]\n[VER:1.1g.20180813.Mega:]\n", OF_GRBL, 3, "grbl-1.1"),
+        ("Grbl-Mega-5X", "Grbl 1.1m ['$' for help]\n", OF_GRBL, 5, "grbl-mega-5x"),
+        ("Grbl_ESP32", "Grbl 1.3a ['$' for help]\n", f"{OF_GRBL} 33=5000 34=0 35=0 36=100", 4, "grbl-esp32"),
+        ("FluidNC", "Grbl 3.7 [FluidNC v3.7.8 (wifi) '$' for help]\n", OF_FLUIDNC, 4, "grbl-esp32"),
+    ],
+)
+def test_a_listing_of_a_relative_is_read_whole(
+    tmp_path: Path, name: str, head: str, settings: str, axes: int, machine: str
+) -> None:
+    text, again = tmp_path / "listing.txt", tmp_path / "again.settings"
+    text.write_text(f"{head}{listed(settings, axes)}ok\n", "utf-8")
+    file = import_file(text)
+    assert (file.machine, file.unknown) == (machine, {})
+    assert [f.rule for f in Validator(file).run() if f.severity == "error"] == []
+    export_file(file, again)
+    lines = [line for line in again.read_text("utf-8").splitlines() if line.startswith("$")]
+    back = dict(line[1:].split("=", 1) for line in lines)
+    wanted = dict(line[1:].split("=", 1) for line in listed(settings, axes).splitlines())
+    assert {n: same(value, back[n]) for n, value in wanted.items()} == wanted
+    assert back.keys() == wanted.keys()
