@@ -177,13 +177,14 @@ def _violations(
     for name, content in before.items():
         if name != target and after.get(name) != content:
             yield f"{name} was changed"
-    kept = after.get(f"{target}.bak")
-    if changed and target in before and kept is not None and kept != before[target]:
+    if changed and f"{target}.bak" in wanted and after.get(f"{target}.bak") != before[target]:
         yield "the backup is not the previous file"
     may_be_new = {*before, *wanted, f"{target}.bak"} if code != 2 else set(before)
     left = [name for name in after if name not in may_be_new]
-    # What cannot be removed stays; a lock that cannot be examined may be another program's, and is left alone.
+    # What cannot be removed stays; a lock that cannot be examined may be another program's, and is left alone, and a backup
+    # where it cannot be examined whether its file was replaced.
     kept_by = {name for call, name in failed if call == "unlink" or (call in LOOKS and name.endswith(LOCKS))}
+    kept_by |= {f"{target}.bak" for call, name in failed if call in LOOKS and name.endswith(".tmp")}
     if not kept_by >= set(left):
         yield f"left behind: {left}"
 
