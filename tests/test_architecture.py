@@ -430,6 +430,21 @@ def test_a_planted_circle_is_found(tmp_path: Path, line: str, pages: bool, circl
     assert bool(circles(tmp_path / "amp_studio")) == circle
 
 
+LOOPS = {"amp_studio.ui.modal": {"dialog.exec"}, "amp_studio.ui.task": {"loop.exec"}}
+"""Module -> where an event loop may run inside another one; each checks that who waited still exists."""
+
+
+def test_an_event_loop_runs_inside_another_one_in_two_places_alone(checkout: Path) -> None:
+    found: dict[str, set[str]] = {}
+    for name, path in modules_below(checkout / "amp_studio").items():
+        for node in ast.walk(ast.parse(path.read_text("utf-8"))):
+            if isinstance(node, ast.Attribute) and node.attr in {"exec", "exec_", "processEvents"}:
+                found.setdefault(name, set()).add(ast.unparse(node))
+    assert {
+        name: loops - {"application.exec"} for name, loops in found.items() if loops - {"application.exec"}
+    } == LOOPS
+
+
 def test_the_window_loads_the_simulator_by_its_loader_alone(checkout: Path) -> None:
     """An import in a function of ui that brings the simulator comes after a call of the loader in that function."""
     modules = modules_below(checkout / "amp_studio")

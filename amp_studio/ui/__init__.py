@@ -74,8 +74,11 @@ def _hook(window: MainWindow):  # type: ignore[no-untyped-def]  # the type of sy
     def show_internal_error(
         kind: type[BaseException], error: BaseException, trace: TracebackType | None
     ) -> None:
+        from .modal import AskerGoneError
         from .questions import show_message
 
+        if kind is AskerGoneError:
+            return
         last = traceback.extract_tb(trace)[-1:]
         where = f"{kind.__name__} {last[0].filename}:{last[0].lineno}" if last else kind.__name__
         if where in reported:

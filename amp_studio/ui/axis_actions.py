@@ -24,6 +24,7 @@ from amp_studio.schema.model import AxisProfile
 
 from .axis_comparison import AxisComparison
 from .axis_dialogs import AddAxisDialog, AxisDialog
+from .modal import run_dialog
 from .studio_window import StudioWindow
 from .workspace import Workspace
 
@@ -110,7 +111,7 @@ class AxisActions(QObject):
         workspace = self._workspace()
         dialog = self._dialog(title)
         dialog.ask_for(parameter_ids)
-        if dialog.exec():
+        if run_dialog(dialog):
             file = workspace.file
             workspace.edit(title, {a: file.read(a, text) for a, text in dialog.texts().items()})
 
@@ -125,7 +126,7 @@ class AxisActions(QObject):
             return
         dialog = self._dialog(title)
         letter = dialog.ask_for_letter()
-        if dialog.exec():
+        if run_dialog(dialog):
             axis, name = dialog.axis(), letter.currentText()
             workspace.do(title, lambda: rename_axis(workspace.file, axis, name))
 
@@ -139,7 +140,7 @@ class AxisActions(QObject):
             )
         )
         dialog.ask_for([profile.type])
-        if dialog.exec():
+        if run_dialog(dialog):
             axis, text = dialog.axis(), dialog.texts()[(profile.type, dialog.axis())]
             key = str(workspace.file.read((profile.type, axis), text).value)
             workspace.do(title, lambda: retype_axis(workspace.file, axis, key))
@@ -155,7 +156,7 @@ class AxisActions(QObject):
         """Fit one more axis."""
         workspace = self._workspace()
         dialog = AddAxisDialog(workspace, self.window)
-        if dialog.exec():
+        if run_dialog(dialog):
             name, place = dialog.name(), dialog.place()
             workspace.do(
                 self.tr("Add axis {name}").format(name=name), lambda: add_axis(workspace.file, name, place)
@@ -168,7 +169,7 @@ class AxisActions(QObject):
         dialog.note.setText(
             self.tr("The axis becomes unfitted and its values are set to their defaults. You can undo this.")
         )
-        if dialog.exec():
+        if run_dialog(dialog):
             axis = dialog.axis()
             name = axis_title(workspace.file, axis)
             workspace.do(
@@ -185,7 +186,7 @@ class AxisActions(QObject):
         dialog.note.setText(
             self.tr("All values of the axis are copied, except its name. Both axes must have the same type.")
         )
-        if dialog.exec():
+        if run_dialog(dialog):
             source, axis = dialog.axis(), str(target.currentData())
             step = self.tr("Copy axis {source} to {target}").format(source=source, target=axis)
             workspace.do(step, lambda: copy_axis(workspace.file, source, axis))
@@ -198,7 +199,7 @@ class AxisActions(QObject):
         dialog.note.setText(
             self.tr("The axes change places with all their values. What names an axis by its number follows.")
         )
-        if dialog.exec():
+        if run_dialog(dialog):
             first, second = dialog.axis(), str(other.currentData())
             step = self.tr("Swap axes {first} and {second}").format(first=first, second=second)
             workspace.do(step, lambda: swap_axes(workspace.file, first, second))

@@ -17,6 +17,7 @@ from amp_studio.files.out_of_range import settle
 from .control_exchange import ControlExchange
 from .emulated_control import EmulatedControl
 from .file_actions import FileActions
+from .modal import run_dialog
 from .out_of_range import AskInDialogs
 from .questions import ask, show_message
 from .restore import restore
@@ -229,9 +230,8 @@ class ControlActions(Translated):
             return image if answer == self.tr("&Download") else None
         self.exchanges.remember(workspace, by_schema(present, workspace.file.schema))
         found = verify_content(workspace.file, image).values
-        if (
-            not found.differences
-            or DownloadPreview(workspace.file, found, self.window, secrets=workspace.secrets).exec()
+        if not found.differences or run_dialog(
+            DownloadPreview(workspace.file, found, self.window, secrets=workspace.secrets)
         ):
             return image
         return None

@@ -14,6 +14,7 @@ from amp_studio.schema import Address, InvalidValueError
 from amp_studio.validate import RULES_FILE, Finding, apply_all_safe, apply_fixes, calculators, suppress
 
 from .file_page import FilePage
+from .modal import run_dialog
 from .questions import ask, show_message
 from .range_actions import RangeActions
 from .studio_window import StudioWindow
@@ -131,7 +132,7 @@ class EditActions(Translated):
         from .note_dialog import NoteDialog
 
         dialog = NoteDialog(self._workspace(), self.window.selected(), self.window)
-        if dialog.exec():
+        if run_dialog(dialog):
             dialog.write()
 
     def steps(self) -> None:
@@ -201,7 +202,7 @@ class EditActions(Translated):
 
         workspace = self._workspace()
         dialog = SuppressDialog(finding, user(), self.window)
-        if dialog.exec():
+        if run_dialog(dialog):
             path = real_path(workspace.path).with_name(RULES_FILE)  # where rules are looked for
             notes: list[str] = []
             suppress(
@@ -248,7 +249,7 @@ class EditActions(Translated):
         if not any(finding.fix for finding in workspace.listed):
             raise ValueError(self.tr("No finding has a suggested fix."))
         dialog = FixSeveralDialog(workspace, workspace.listed, self.window)
-        if dialog.exec() and (chosen := dialog.chosen()):
+        if run_dialog(dialog) and (chosen := dialog.chosen()):
             self.fix_all(chosen)
         dialog.deleteLater()
 

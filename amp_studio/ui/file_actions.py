@@ -31,6 +31,7 @@ from .compare_actions import FILTER, CompareActions
 from .document_actions import DocumentActions
 from .file_page import FilePage
 from .format_actions import FormatActions
+from .modal import run_dialog
 from .questions import ask
 from .recent_files import RecentFiles
 from .studio_window import StudioWindow
@@ -88,7 +89,7 @@ class FileActions(Translated):
             self.window, self.tr("Reading the families"), read_families
         )  # the dialog offers all of them
         dialog = NewFileDialog(self.window, family or now, project=project, recent=self.recent.paths())
-        if not dialog.exec():
+        if not run_dialog(dialog):
             return
         file = dialog.make()
         path = dialog.path() or self.ask_path(
@@ -352,7 +353,7 @@ class FileActions(Translated):
 
         workspace = self._workspace()
         dialog = FactsDialog(workspace.file.header, self.window)
-        if dialog.exec():
+        if run_dialog(dialog):
             workspace.do(self.tr("Machine facts"), lambda: vars(workspace.file.header).update(dialog.texts()))
 
 

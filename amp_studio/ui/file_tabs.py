@@ -10,6 +10,7 @@ from PySide6.QtGui import QGuiApplication
 from PySide6.QtWidgets import QApplication, QMenu, QSplitter, QTabBar, QTabWidget, QWidget
 
 from .file_page import FilePage
+from .modal import pop_up
 from .tab_end import TabEnd
 
 _RIGHT = QTabBar.ButtonPosition.RightSide
@@ -189,8 +190,7 @@ class FileTabs(QSplitter):
         menu.addAction(
             self.tr("Copy &Path"), partial(QGuiApplication.clipboard().setText, str(page.workspace.path))
         )
-        menu.exec(side.tabBar().mapToGlobal(place))
-        menu.deleteLater()
+        pop_up(menu, side.tabBar().mapToGlobal(place))
 
     def _close_others(self, page: FilePage) -> None:
         for other in self.pages():

@@ -18,8 +18,9 @@ from .find_box import COMMANDS, FindBox
 from .find_rows import FindRow, rows_of
 from .menu_commands import commands
 from .message_page import MessageWindow
+from .modal import is_alive
 from .studio_window import StudioWindow
-from .task import Task, is_alive
+from .task import Task
 from .translated import Translated
 
 _SOON_MS = 1_000

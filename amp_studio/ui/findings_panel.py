@@ -26,6 +26,7 @@ from amp_studio.validate import SEVERITIES, Finding, not_set
 
 from .findings_delegate import FindingsDelegate, Part
 from .findings_model import FindingsModel
+from .modal import pop_up
 from .segment import Segment, chip
 from .theme import FINDING_ROW, GAP2, GAP3, colour, font, icon, paint_icon, severity_icon
 from .translated import counted
@@ -370,5 +371,4 @@ class FindingsPanel(QWidget):
     def _menu(self, place: QPoint) -> None:
         if self.current() is not None:
             menu = self.menu()
-            menu.exec(place)
-            menu.deleteLater()
+            pop_up(menu, place)

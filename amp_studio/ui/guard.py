@@ -17,6 +17,8 @@ from typing import Any
 from PySide6.QtCore import QModelIndex, QObject, QSize, Qt
 from PySide6.QtGui import QIconEngine, QPixmap, QUndoCommand
 
+from .modal import AskerGoneError
+
 _AT_ERROR: dict[str, Callable[[], object]] = {
     "columnCount": int,
     "editorEvent": bool,
@@ -36,6 +38,7 @@ _AT_ERROR: dict[str, Callable[[], object]] = {
     "viewportEvent": bool,
 }
 """Method -> what makes the value that Qt gets after an error; None for all others."""
+_ENDED = (Exception, AskerGoneError)
 _OF_PYTHON = frozenset({"setText"})
 """Methods that are no virtual ones: they are called by this program alone, which gets their errors."""
 
@@ -74,7 +77,7 @@ def guarded(method: FunctionType) -> Callable[..., object]:
         def call(self: object) -> object:
             try:
                 return method(self)
-            except Exception:
+            except _ENDED:
                 return _after_error(at_error)
 
     elif is_exact and code.co_argcount == 2:
@@ -82,7 +85,7 @@ def guarded(method: FunctionType) -> Callable[..., object]:
         def call(self: object, first: object) -> object:
             try:
                 return method(self, first)
-            except Exception:
+            except _ENDED:
                 return _after_error(at_error)
 
     elif is_exact and code.co_argcount == 3:
@@ -90,7 +93,7 @@ def guarded(method: FunctionType) -> Callable[..., object]:
         def call(self: object, first: object, second: object) -> object:
             try:
                 return method(self, first, second)
-            except Exception:
+            except _ENDED:
                 return _after_error(at_error)
 
     else:
@@ -98,7 +101,7 @@ def guarded(method: FunctionType) -> Callable[..., object]:
         def call(self: object, *arguments: object, **named: object) -> object:
             try:
                 return method(self, *arguments, **named)
-            except Exception:
+            except _ENDED:
                 return _after_error(at_error)
 
     return wraps(method)(call)

@@ -20,6 +20,7 @@ from amp_studio.files import ParameterFile
 from amp_studio.sim import SimulationError, machine_for, machine_settings, read_machine
 
 from .identify_dialog import IdentifyDialog
+from .modal import run_dialog
 from .motion_settings import SettingsForm, scrolled
 
 
@@ -70,7 +71,7 @@ class MachinePage(QWidget):
         if not text:
             return
         dialog = IdentifyDialog(file, axis, Path(text), self)
-        if dialog.exec() == QDialog.DialogCode.Accepted and dialog.trace is not None:
+        if run_dialog(dialog) == QDialog.DialogCode.Accepted and dialog.trace is not None:
             self._take(machine_settings(dialog.trace))
 
     def take_file(self) -> None:

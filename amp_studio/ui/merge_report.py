@@ -14,7 +14,8 @@ from .file_dialogs import PAPER_KINDS, path_of_kind
 from .merge_model import SIDES
 from .merge_sources import MergeSource
 from .message_bar import MessageBar
-from .task import in_background, is_alive
+from .modal import is_alive
+from .task import in_background
 from .translated import tr
 
 

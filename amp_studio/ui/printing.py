@@ -15,6 +15,7 @@ from amp_studio.files import check_output
 
 from .file_dialogs import ReportDialog
 from .loading import load
+from .modal import run_dialog
 from .studio_window import StudioWindow
 from .task import ProgressDialog, TaskProgress
 from .translated import tr
@@ -30,7 +31,7 @@ PPI = 200
 def print_report(window: StudioWindow, workspace: Workspace) -> None:
     """Ask what a report contains, and write it or show it as it is printed; nothing where the dialog is cancelled."""
     dialog = ReportDialog(workspace.path, window, window.report_choice.contents)
-    if not dialog.exec():
+    if not run_dialog(dialog):
         return
     path, show = dialog.output, dialog.show_it.isChecked()
     window.report_choice.contents = dialog.contents()
@@ -108,7 +109,7 @@ def print_now(window: StudioWindow, workspace: Workspace) -> None:
 
     printer = _printer_for(workspace)
     dialog = QPrintDialog(printer, window)
-    if dialog.exec():
+    if run_dialog(dialog):
         put_on_paper(_set_for_paper(window, workspace), printer)
     dialog.deleteLater()
 
@@ -121,7 +122,7 @@ def _preview(window: StudioWindow, workspace: Workspace) -> None:
     preview = QPrintPreviewDialog(printer, window)  # which does not keep the printer alive
     preview.setWindowTitle(tr("Report"))
     preview.paintRequested.connect(partial(put_on_paper, pages))
-    preview.exec()
+    run_dialog(preview)
     preview.deleteLater()
 
 

@@ -12,6 +12,7 @@ from amp_studio.files import ParameterFileError, Project
 from amp_studio.schema import Address
 
 from .compare_actions import FILTER
+from .modal import run_dialog
 from .questions import ask
 from .studio_window import StudioWindow
 from .task import PATIENCE_MS, ProgressDialog, in_background
@@ -81,7 +82,7 @@ class ProjectActions(Translated):
         from .file_dialogs import ProjectDialog
 
         dialog = ProjectDialog(None, self.window)
-        if dialog.exec():
+        if run_dialog(dialog):
             info = dialog.info()
             folder = QFileDialog.getExistingDirectory(self.window, self.tr("Folder of the new project"))
             if folder:
@@ -105,7 +106,7 @@ class ProjectActions(Translated):
 
         project = self._the_project()
         dialog = ProjectDialog(project.info, self.window)
-        if dialog.exec():
+        if run_dialog(dialog):
             info = dialog.info()
             keys = ("name", "application", "machine", "control", "control_name", "revision", "notes")
             project.change(**{key: getattr(info, key) for key in keys})

@@ -16,6 +16,7 @@ from amp_studio.validate.summary import FileSummary
 
 from .file_page import FilePage
 from .folder_view import show_in_folder
+from .modal import pop_up
 from .place_tree import COUNTS, INK, KEY, PICTURE, RIGHT, PlaceTree
 from .project_files import ProjectFiles
 from .task import Task
@@ -270,8 +271,9 @@ class ProjectTree(QWidget):
             return
         menu = self.menu_of(item)
         if menu.actions():
-            menu.exec(self.tree.viewport().mapToGlobal(place))
-        menu.deleteLater()
+            pop_up(menu, self.tree.viewport().mapToGlobal(place))
+        else:
+            menu.deleteLater()
 
     def eventFilter(self, watched: QObject, event: QEvent) -> bool:
         """Keep Delete from the action of the table, which has the same key, while the tree has the focus."""

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from PySide6.QtWidgets import QMessageBox, QPushButton, QWidget
 
+from .modal import run_dialog
 from .theme import icon, severity_icon
 
 Icon = QMessageBox.Icon
@@ -15,7 +16,7 @@ def show_message(parent: QWidget | None, title: str, text: str, kind: Icon = Ico
     """Show a message and wait until it is closed."""
     box = QMessageBox(kind, title, text, QMessageBox.StandardButton.Close, parent)
     _show_icon(box, kind)
-    box.exec()
+    run_dialog(box)
 
 
 def _show_icon(box: QMessageBox, kind: Icon) -> None:
@@ -40,6 +41,6 @@ def ask(
         box.addButton(buttons[-1], role)
     box.setDefaultButton(buttons[default])
     box.setEscapeButton(buttons[-1])
-    box.exec()
+    run_dialog(box)
     clicked = box.clickedButton()
     return next((a for a, b in zip(answers, buttons, strict=True) if b is clicked), answers[-1])

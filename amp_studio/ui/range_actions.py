@@ -22,6 +22,7 @@ from amp_studio.schema.quoting import quoted
 
 from .block_preview import BlockPreview
 from .file_page import FilePage
+from .modal import run_dialog
 from .studio_window import StudioWindow
 from .translated import Translated, tr
 
@@ -133,7 +134,7 @@ class RangeActions(Translated):
         entry = self._planned(texts, doubtful)
         if len(entry.cells) == 1 and not left_out:
             self._take(entry)
-        elif BlockPreview(self._page().workspace, entry, left_out, self.window).exec():
+        elif run_dialog(BlockPreview(self._page().workspace, entry, left_out, self.window)):
             self._page().workspace.take(entry)
 
     def _planned(self, texts: Mapping[Address, str], doubtful: set[str]) -> BlockEntry:

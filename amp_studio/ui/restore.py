@@ -13,6 +13,7 @@ from amp_studio.files.by_schema import by_schema
 from amp_studio.validate import Validator, rules_beside
 
 from .control_exchange import ControlExchange
+from .modal import run_dialog
 from .questions import ask
 from .task import TaskProgress, in_background
 from .translated import tr
@@ -105,7 +106,7 @@ def _is_wanted(control: ControlExchange, copy: Copy, path: Path, present: bytes)
         secrets = control.window.workspace.secrets if control.window.workspace else False
         found = compare(copy.file.schema, copy.file.values, by_schema(now, copy.file.schema).values)
         preview = DownloadPreview(copy.file, found, control.window, secrets=secrets, title=tr("Restore"))
-        return bool(preview.exec())
+        return bool(run_dialog(preview))
     question = "\n\n".join(
         [
             *doubts,

@@ -11,6 +11,7 @@ from PySide6.QtCore import QEventLoop, QObject, Qt, QThread, QTimer, Signal
 from PySide6.QtWidgets import QDialog, QDialogButtonBox, QLabel, QProgressBar, QVBoxLayout, QWidget
 
 from .garbage import collect_by_timer
+from .modal import run_dialog, waiting_for
 
 TaskProgress = Callable[[str, int, int], None]
 """Takes a stage, how much is done and of how much; that of an exchange (``transfer.progress``) has the same arguments."""
@@ -119,12 +120,15 @@ class ProgressDialog(QDialog):
         self.task.finished.connect(self._ended)
 
     def run(self, patience: int = 0) -> Any:
-        """Run the task; returns its result or raises its error. The dialog appears after ``patience`` ms."""
+        """Run the task; returns its result or raises its error. The dialog appears after ``patience`` ms.
+
+        Raises AskerGoneError where the parent is gone at the end.
+        """
         self.task.begin()
         if patience:
             self._wait_quietly(patience)
         if not self._over:
-            self.exec()
+            run_dialog(self)
         self.task.wait()
         self.deleteLater()
         if self._error is not None:
@@ -139,7 +143,8 @@ class ProgressDialog(QDialog):
         timer.timeout.connect(loop.quit)
         self.task.finished.connect(loop.quit)
         timer.start(patience)
-        loop.exec(QEventLoop.ProcessEventsFlag.ExcludeUserInputEvents)
+        with waiting_for(self.parent()):
+            loop.exec(QEventLoop.ProcessEventsFlag.ExcludeUserInputEvents)
 
     def _progress(self, stage: str, done: int, total: int) -> None:
         if stage in ("silent", "cut"):
@@ -174,15 +179,6 @@ class ProgressDialog(QDialog):
             self.task.cancelled.set()
             self.text.setText(STOPPING)
             self.buttons.setEnabled(False)
-
-
-def is_alive(made: QObject) -> bool:
-    """Return whether an object of Qt still exists: what was waited for may have outlasted its window or its menu."""
-    try:
-        made.objectName()
-    except RuntimeError:
-        return False
-    return True
 
 
 def in_background(parent: QWidget | None, title: str, work: Callable[[], Result]) -> Result:

@@ -27,6 +27,7 @@ from amp_studio.schema.registration import registration_of
 
 from .loading import load
 from .message_bar import MessageBar
+from .modal import run_dialog
 from .questions import ask
 from .segment import Segment
 from .task import ProgressDialog, Task
@@ -281,7 +282,7 @@ class TuningWindow(QWidget):
         if not text:
             return
         dialog = MeasuredDialog(self.target.file, axis, Path(text), self)
-        if dialog.exec() and dialog.proposal is not None:
+        if run_dialog(dialog) and dialog.proposal is not None:
             self.target.set(self.tr("Calibrate axis {axis}").format(axis=axis), dialog.proposal.settings)
 
     def _undo(self) -> None:

@@ -32,6 +32,7 @@ from .control_actions import ControlActions
 from .file_actions import FileActions
 from .folder_view import show_in_folder
 from .message_bar import MessageBar
+from .modal import pop_up
 from .recent_files import changed_at, folder_of
 from .studio_window import StudioWindow
 from .task import Task
@@ -362,8 +363,7 @@ class WelcomePage(QWidget):
         )
         menu.addAction(self.tr("&Remove from the List"), partial(self._forget, path))
         menu.addAction(self.tr("&Show in Its Folder"), partial(show_in_folder, path))
-        menu.exec(self.list.viewport().mapToGlobal(place))
-        menu.deleteLater()
+        pop_up(menu, self.list.viewport().mapToGlobal(place))
 
     def _family_menu(self, place: QPoint) -> None:
         item = self.families.itemAt(place)
@@ -377,8 +377,7 @@ class WelcomePage(QWidget):
                 menu.addAction(
                     text, partial(self._window.guarded, partial(self._files.open_example, each.path))
                 )
-        menu.exec(self.families.viewport().mapToGlobal(place))
-        menu.deleteLater()
+        pop_up(menu, self.families.viewport().mapToGlobal(place))
 
     def resizeEvent(self, event: QResizeEvent) -> None:
         """Put both columns into one in a narrow window."""

@@ -21,6 +21,7 @@ from PySide6.QtWidgets import (
 )
 
 from .known_controls import KnownControl
+from .modal import pop_up
 from .studio_window import StudioWindow
 from .theme import CONTROL, GAP, GAP2, font, icon
 from .time_words import in_words
@@ -162,5 +163,4 @@ class WelcomeControls(QWidget):
         menu.addAction(self.tr("&Connect"), partial(self._guarded, self._connect, control))
         menu.addAction(self.tr("&Upload…"), self._upload_current)
         menu.addAction(self.tr("&Remove from the List"), partial(self._forget, control))
-        menu.exec(self.list.viewport().mapToGlobal(place))
-        menu.deleteLater()
+        pop_up(menu, self.list.viewport().mapToGlobal(place))

@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
+import threading
 from collections.abc import Callable
 from pathlib import Path
 
 import pytest
-from PySide6.QtCore import QEvent, QFile, Qt
+from PySide6.QtCore import QEvent, QFile, Qt, QTimer
 from PySide6.QtGui import QGuiApplication
 from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QApplication, QDialog, QWidget
@@ -16,14 +17,16 @@ from amp_studio.files import Merge, Project, ProjectInfo
 from amp_studio.files.examples import examples
 from amp_studio.pictures import pictures_of
 from amp_studio.schema import Value
+from amp_studio.ui import _hook
 from amp_studio.ui.axis_comparison import AxisComparison
 from amp_studio.ui.axis_dialogs import AxisDialog
 from amp_studio.ui.choice_box import ChoiceBox
 from amp_studio.ui.main_window import MainWindow
 from amp_studio.ui.merge_report import save_merge_report
 from amp_studio.ui.message_bar import MessageBar
+from amp_studio.ui.modal import AskerGoneError, is_alive, run_dialog
 from amp_studio.ui.project_files import to_trash
-from amp_studio.ui.task import ProgressDialog, is_alive
+from amp_studio.ui.task import ProgressDialog, Task
 
 from .conftest import WAIT_MS, Person, action, editor
 
@@ -234,6 +237,35 @@ def test_a_report_of_a_comparison_outlives_its_window(
     file = window.workspace.file
     save_merge_report(window, Merge(file, file, None), {}, tmp_path / "a.amp", bar)
     assert not is_alive(bar)
+
+
+def close_at_once(asker: QWidget) -> None:
+    """Delete a window as soon as an event loop runs."""
+    QTimer.singleShot(0, asker, asker.deleteLater)
+
+
+def test_what_follows_a_dialog_is_left_out_when_its_window_is_gone(qtbot: QtBot) -> None:
+    asker = QWidget()
+    close_at_once(asker)
+    with pytest.raises(AskerGoneError):
+        run_dialog(QDialog(asker))
+
+
+@pytest.mark.parametrize("patience", [0, 50])
+def test_what_follows_work_is_left_out_when_its_window_is_gone(qtbot: QtBot, patience: int) -> None:
+    asker, go_on = QWidget(), threading.Event()
+    close_at_once(asker)
+    QTimer.singleShot(100, go_on.set)
+    with pytest.raises(AskerGoneError):
+        ProgressDialog("Work", lambda *_: go_on.wait(10), asker).run(patience)
+    go_on.set()
+    Task.end_all()
+
+
+def test_a_gone_window_is_no_internal_error(window: MainWindow, person: Person) -> None:
+    _hook(window)(AskerGoneError, AskerGoneError(), None)
+    QApplication.processEvents()
+    assert person.told == []
 
 
 def test_a_trash_that_refuses_is_told_and_the_file_stays(
