@@ -18,6 +18,7 @@ import time
 import traceback
 from collections import deque
 from collections.abc import Iterator
+from contextlib import suppress
 from pathlib import Path
 from random import Random
 from types import TracebackType
@@ -276,7 +277,8 @@ class Monkey:
 
     def _button(self, name: str) -> None:
         if (button := self._buttons(self._front()).get(name)) is not None:
-            button.click()
+            with suppress(RuntimeError):  # the click took the dialog of the button away
+                button.click()
 
     def _close(self, name: str) -> None:
         if type(front := self._front()).__name__ == name and front is not self.window:
