@@ -28,7 +28,7 @@ if TYPE_CHECKING:
     from PySide6.QtWidgets import QWidget
 
 Action = list[Any]
-"""What is done, and with what, as it stands in the log."""
+"""What is done, and with what: a line of the log."""
 
 FAMILIES = ("9pc", "num", "syntec", "57c422b", "acromill", "grblhal")
 MOST_MEMORY = 700
@@ -47,7 +47,7 @@ _OF_THE_PLATFORM = ("propagateSizeHints", "QFontDatabase", "does not support")
 
 
 def main(family: str, seed: str, seconds: str, log: str = os.devnull) -> int:
-    """Be the monkey; return the exit code. ``seed`` is ``--replay`` and ``seconds`` a log where that is done again."""
+    """Be the monkey; return the exit code. ``seed`` is ``--replay`` and ``seconds`` a log to do it again."""
     actions = None
     if seed == "--replay":
         actions = [json.loads(line) for line in Path(seconds).read_text("utf-8").splitlines()]
