@@ -252,7 +252,7 @@ def test_every_function_of_a_walk_is_where_the_page_says(checkout: Path) -> None
 
 EXAMPLES_OF_FAMILIES = {"cli/examples.py", "demo.py"}
 """Lines to type, and the job that is shown: they are about some machine."""
-ORDINARY_WORDS = {"and", "NT", "basic", "num", "patch", "registers"}
+ORDINARY_WORDS = {"NT", "basic", "num", "patch", "registers"}
 """Parts of such names that are words of the language too."""
 
 
@@ -272,7 +272,8 @@ def texts_of_program(tree: ast.Module) -> Iterator[tuple[int, str]]:
 def names_of_families() -> re.Pattern[str]:
     """Return what finds the id, the first words of the name or a format of a family."""
     formats = {each.key for each in all_formats() if each not in formats_of("")}
-    titles = {word for family in family_ids() for word in load_schema(family).family.name.split()[:2]}
+    words = {word for family in family_ids() for word in load_schema(family).family.name.split()[:2]}
+    titles = {word for word in words if not word.islower()}
     names = {*family_ids(), *formats, *titles} - ORDINARY_WORDS
     return re.compile(rf"(?<![\w.-])({'|'.join(map(re.escape, sorted(names)))})(?![\w-])")
 

@@ -6,6 +6,10 @@ from pathlib import Path
 
 import pytest
 
+from amp_studio.schema import family_ids
+
+KNOWN = ", ".join(family_ids())
+
 VERBS = {
     "get": lambda bad, good, out: ("get", bad),
     "get one": lambda bad, good, out: ("get", bad, "1300", "--json"),
@@ -74,7 +78,7 @@ def test_the_good_file_of_these_stories_is_good(amp, tmp_path: Path) -> None:
         ("no number", "bad.amp, line 4: home.calibration@1: 'five mm' is not a number"),
         (
             "another family",
-            "bad.amp, line 2: Unknown family 'fanuc'. Known: 57c422b, 9pc, acromill, grblhal, num, syntec",
+            f"bad.amp, line 2: Unknown family 'fanuc'. Known: {KNOWN}",
         ),
         ("not text", "bad.amp, line 3: is not UTF-8 text"),
     ],

@@ -218,8 +218,8 @@ def test_a_damaged_image_is_refused_or_is_one_that_comes_back_byte_for_byte(fami
 
     said = [fault_of(damaged) for damaged in mutants(image, seed=9, count=300)]
 
-    assert sum(map(bool, said)) > 200
-    assert len(set(said)) > 100
+    assert sum(map(bool, said)) > 150
+    assert len(set(said)) > min(100, 2 * image.count(b"\n"))
 
 
 @pytest.mark.parametrize(
