@@ -62,7 +62,7 @@ parameters:
 
 
 def write_family(name: str, folder: Path) -> list[Path]:
-    """Write the frame into ``folder``/``name``; raises FileExistsError, and writes nothing, where that is there."""
+    """Write the frame into ``folder``/``name``; raises FileExistsError, and writes nothing, where it exists."""
     family = folder / name
     family.mkdir(parents=True)
     written = []
@@ -83,7 +83,7 @@ def main() -> None:
     if not re.fullmatch(r"[a-z0-9][a-z0-9_-]*", options.name):
         sys.exit(f"'{options.name}' is no id: lower-case letters, digits, '-' and '_'")
     if options.name in family_ids():
-        sys.exit(f"there is a family '{options.name}' already")
+        sys.exit(f"a family '{options.name}' exists already")
     try:
         written = write_family(options.name, options.into or database_folder())
     except OSError as error:
