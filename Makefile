@@ -37,9 +37,8 @@ campaign: setup ## generated cases that no run has tried: every property 25 time
 faults: setup ## fault campaigns: failing calls, kills, damaged contents, hostile peers; FAULTS="--only journal --share 0.1 --seed 7"
 	@PYTHONPATH=.:tests/validate $(BIN)/python -m tests.faults.run $(FAULTS)
 
-monkey: setup ## type and click at random in the window, ten minutes a family: MONKEY="grblhal 7 60" for one family, seed and seconds
-	@if [ -n "$(MONKEY)" ]; then PYTHONPATH=. $(BIN)/python -m tests.faults.monkey $(MONKEY); else \
-	  for family in 9pc num syntec 57c422b acromill grblhal; do PYTHONPATH=. $(BIN)/python -m tests.faults.monkey $$family 1 600 || exit 1; done; fi
+monkey: setup ## type and click at random in the window of one family: MONKEY="grblhal 7 60 LOG" (seed, seconds, log), or "grblhal --replay LOG"; make faults does it for ten minutes a family
+	@PYTHONPATH=. $(BIN)/python -m tests.faults.monkey $(or $(MONKEY),9pc 1 60)
 
 peers: ## build other ends that nobody here wrote into build/peers, from their sources: make peers AMP_STUDIO_PEERS=FOLDER
 	@test -d "$(AMP_STUDIO_PEERS)" || { echo "AMP_STUDIO_PEERS=FOLDER says where the sources are"; exit 1; }

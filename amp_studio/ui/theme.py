@@ -288,6 +288,8 @@ class _Glyph(QIconEngine):
 
     def pixmap(self, size: QSize, mode: QIcon.Mode, state: QIcon.State) -> QPixmap:
         found = QPixmap(size)
+        if found.isNull():  # a window so small that nothing is left for the icon
+            return found
         found.fill(Qt.GlobalColor.transparent)
         painter = QPainter(found)
         self.paint(painter, QRect(QPoint(0, 0), size), mode, state)

@@ -6,6 +6,9 @@
 from __future__ import annotations
 
 import shutil
+import subprocess
+import sys
+import tempfile
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import partial
@@ -29,6 +32,7 @@ from . import (
     exchanges,
     grbl_lines,
     measured_points,
+    monkey,
     own_contents,
     own_protocols,
     persons,
@@ -91,6 +95,21 @@ def _damaged(fuzz: Callable[[int, int], list[str]], seed: int, runs: int, folder
 
 def _damaged_in(fuzz: Callable[[Path, int, int], list[str]], seed: int, runs: int, folder: Path) -> list[str]:
     return fuzz(folder, seed, runs)
+
+
+def _clicked(seed: int, runs: int, folder: Path) -> list[str]:
+    """Click and type in the window of one family for as many seconds as there are runs; a seed after another goes through the families."""
+    family = monkey.FAMILIES[seed % len(monkey.FAMILIES)]
+    log = folder / f"{family}.jsonl"
+    command = [sys.executable, "-m", "tests.faults.monkey", family, str(seed), str(runs), str(log)]
+    done = subprocess.run(command, capture_output=True, text=True, check=False, errors="replace")
+    if done.returncode == 0:
+        return []
+    kept = Path(tempfile.gettempdir()) / f"amp-studio-monkey-{family}-{seed}.jsonl"
+    shutil.copy(log, kept)
+    return [
+        f"{family}: {done.stdout}{done.stderr[-2000:]}done again by: python -m tests.faults.monkey {family} --replay {kept}"
+    ]
 
 
 def _stopped_downloads(seed: int, runs: int, folder: Path) -> list[str]:
@@ -268,4 +287,5 @@ CAMPAIGNS = (
     Campaign("damaged facts", partial(_damaged_in, stored.fuzz_facts), MANY, 50, 5_000),
     Campaign("damaged settings", partial(_damaged_in, stored.fuzz_settings), MANY, 100, 5_000),
     Campaign("every offered fix, machines of random values", _fixes, 1_000, 2, 50),
+    Campaign("clicks and keys at random, seconds", _clicked, 600 * len(monkey.FAMILIES), 0, 600),
 )

@@ -138,7 +138,8 @@ class Monkey:
 
     def _qt_message(self, _kind: object, _context: object, text: str) -> None:
         if not any(word in text for word in _OF_THE_PLATFORM):
-            self._report(f"Qt: {text.split(':', maxsplit=1)[0]}", text)
+            where = "".join(traceback.format_stack()[-4:-1])
+            self._report(f"Qt: {text.split(':', maxsplit=1)[0]}", f"{text}\n{where}")
 
     def _report(self, where: str, text: str) -> None:
         if not any(known.startswith(where) for known in self.errors):

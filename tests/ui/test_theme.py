@@ -195,3 +195,8 @@ def test_what_is_open_over_the_table_changes_its_colours_with_the_theme(
     after = [frame.styleSheet(), frame._keys.text(), words.styleSheet()]
     assert all(old != new for old, new in zip(before, after, strict=True))
     assert "99 mm" in frame.text
+
+
+def test_an_icon_without_room_is_not_painted(qtbot: QtBot, qtlog) -> None:
+    assert theme.icon("x").pixmap(QSize(0, 8)).isNull()
+    assert qtlog.records == []
