@@ -13,7 +13,7 @@ LOCK := build/lock/bin/uv pip compile pyproject.toml --quiet --universal --pytho
 	$(if $(UPGRADE),--upgrade)
 
 .DEFAULT_GOAL := help
-.PHONY: help run test durations mutants campaign faults monkey peers check format schema docs lock bench screenshots man translations wheel clean setup setup-run
+.PHONY: help run test durations mutants campaign slips faults monkey peers check format schema docs lock bench screenshots man translations wheel clean setup setup-run
 
 help: ## this list
 	@awk -F ':.*## ' '/^[a-z-]+:.*## / {printf "  make %-11s %s\n", $$1, $$2}' $(MAKEFILE_LIST)
@@ -33,6 +33,9 @@ mutants: setup ## change every rule and its findings in every way, one at a time
 campaign: setup ## generated cases that no run has tried: every property 25 times as often, with another seed each time
 	@AMP_STUDIO_FULL=1 $(BIN)/python -m pytest -q -n $(WORKERS) -m hypothesis $(TESTS)
 	@AMP_STUDIO_FULL=1 $(BIN)/python -m pytest -q -n $(WORKERS) tests/validate/test_any_values.py tests/validate/test_fix_campaign.py
+
+slips: setup ## plant every slip of one value into the examples and print what share brings a finding: SLIPS="--missed" lists the others
+	@PYTHONPATH=.:tests/validate $(BIN)/python -m slips $(SLIPS)
 
 faults: setup ## fault campaigns: failing calls, kills, damaged contents, hostile peers; FAULTS="--only journal --share 0.1 --seed 7"
 	@PYTHONPATH=.:tests/validate $(BIN)/python -m tests.faults.run $(FAULTS)
