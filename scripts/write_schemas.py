@@ -28,6 +28,7 @@ from amp_studio.schema.model import (
     Messages,
     Model,
     PictureRoles,
+    Plausible,
     Rules,
     Suppression,
     Tables,
@@ -58,6 +59,7 @@ FILES: dict[str, type[BaseModel]] = {
     "messages": Messages,
     "commissioning": Commissioning,
     "pictures": PictureRoles,
+    "plausible": Plausible,
     "units": Units,
     "builder-rules": BuilderRules,
 }

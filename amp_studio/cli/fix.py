@@ -19,13 +19,18 @@ from amp_studio.schema import (
     write_value,
 )
 from amp_studio.schema.nearest import unknown_name
-from amp_studio.validate import SEVERITIES, Finding, Fixed, Validator, apply_fixes, rules_beside
+from amp_studio.validate import (
+    GENERAL_RULES,
+    SEVERITIES,
+    Finding,
+    Fixed,
+    Validator,
+    apply_fixes,
+    rules_beside,
+)
 
 from .console import note, print_json
 from .errors import UsageError
-
-GENERAL_RULES = ("schema.range", "schema.choice", "schema.unknown", "schema.unset")
-"""What findings belong to that come from no rule of a family or of a builder."""
 
 
 def fix_verb(options: argparse.Namespace) -> int:

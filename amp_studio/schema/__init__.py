@@ -34,9 +34,11 @@ from .model import (
     Erratum,
     Group,
     Parameter,
+    Plausible,
     Rule,
     Suppression,
     Table,
+    Usual,
 )
 from .scales import Size, read_real, real_value, size_of
 from .units import UnitError, angular, canonical, canonical_unit, convert, dimension, shown, unit_named
@@ -74,6 +76,7 @@ __all__ = [
     "MachineSchema",
     "Meant",
     "Parameter",
+    "Plausible",
     "Reference",
     "Rule",
     "Schema",
@@ -84,6 +87,7 @@ __all__ = [
     "UnitError",
     "UnknownFamilyError",
     "UnknownParameterError",
+    "Usual",
     "Value",
     "addresses_meant",
     "all_meant",

@@ -21,6 +21,7 @@ from .model import (
     Messages,
     Parameter,
     PictureRoles,
+    Plausible,
     Rule,
     Table,
 )
@@ -36,6 +37,7 @@ class Schema:
     rules: tuple[Rule, ...]
     parameters: dict[str, Parameter]
     group_of: dict[str, Group]
+    plausible: Plausible
     further_text: str = "{}"
     """``FurtherFacts`` as they were compiled, until somebody asks for one of them."""
     description: bytes = b""
@@ -204,6 +206,7 @@ def schema_of(compiled: Compiled, description: bytes = b"") -> Schema:
         rules=compiled.rules,
         parameters={p.id: p for group in compiled.groups for p in group.parameters},
         group_of={p.id: group for group in compiled.groups for p in group.parameters},
+        plausible=compiled.plausible,
         further_text=compiled.further,
         description=description,
     )

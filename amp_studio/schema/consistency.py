@@ -4,11 +4,22 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator, Mapping
+from fnmatch import fnmatchcase
 from pathlib import Path
 from typing import NamedTuple
 
 from .cel_engine import WORD_FUNCTIONS, compile_expression, functions_called
-from .model import BoundRef, Commissioning, Family, Group, Messages, Parameter, Rule, StateRule
+from .model import (
+    BoundRef,
+    Commissioning,
+    Family,
+    Group,
+    Messages,
+    Parameter,
+    Plausible,
+    Rule,
+    StateRule,
+)
 from .quoting import quoted
 from .yaml_reader import KeyPath
 
@@ -62,6 +73,22 @@ def faults_of_messages(
                 for n, name in enumerate(getattr(message, key)):
                     if name not in known[key]:
                         yield path, (*here, key, n), f"{message.id}: there is no {kind} {quoted(name)}"
+
+
+def faults_of_experience(plausible: Plausible, groups: tuple[Group, ...]) -> Iterator[tuple[KeyPath, str]]:
+    """Yield each parameter that the facts of experience name and that does not exist, and each pattern without any."""
+    known = {p.id for group in groups for p in group.parameters}
+    for key, patterns in (("unlike", plausible.unlike), ("may_differ", plausible.may_differ)):
+        for n, pattern in enumerate(patterns):
+            if not any(fnmatchcase(name, pattern) for name in known):
+                yield (key, n), f"there is no parameter {quoted(pattern)}"
+    for key, names in (("smooth", plausible.smooth), ("axis_words", plausible.axis_words)):
+        for n, name in enumerate(names):
+            if name not in known:
+                yield (key, n), f"there is no parameter {quoted(name)}"
+    for name in plausible.usual:
+        if name not in known:
+            yield ("usual", name), f"there is no parameter {quoted(name)}"
 
 
 def _in_family(family: Family, ids: set[str]) -> Iterator[Inconsistency]:

@@ -18,7 +18,7 @@ from pydantic import Field, ValidationError
 from amp_studio.errors import AmpStudioError
 
 from .compiled_cache import cache_folder, read_cached, report_unusable, write_cached
-from .consistency import faults_between, faults_of_messages, faults_of_order
+from .consistency import faults_between, faults_of_experience, faults_of_messages, faults_of_order
 from .file_error import FileError, read_yaml_file
 from .folder import database_folder
 from .model import (
@@ -32,6 +32,7 @@ from .model import (
     Messages,
     Model,
     PictureRoles,
+    Plausible,
     Rule,
     Rules,
     Table,
@@ -92,6 +93,7 @@ class Compiled(Model):
     family: Family
     groups: tuple[Group, ...]
     rules: tuple[Rule, ...]
+    plausible: Plausible = Field(default_factory=Plausible)
     further: str = "{}"
     """``FurtherFacts`` as JSON: to read them takes a twentieth of a start, and most starts never ask for them."""
 
@@ -155,6 +157,10 @@ def compile_family(folder: Path) -> Compiled:
     pictures = _read(drawn, PictureRoles) if drawn.exists() else PictureRoles()
     if wrong := next(iter(faults_of_pictures(pictures, groups)), None):
         raise DatabaseError(drawn, _parsed(drawn).line(wrong[0]), wrong[1])
+    experience = folder / "plausible.yaml"
+    plausible = _read(experience, Plausible) if experience.exists() else Plausible()
+    if wrong := next(iter(faults_of_experience(plausible, groups)), None):
+        raise DatabaseError(experience, _parsed(experience).line(wrong[0]), wrong[1])
     fault = next(iter(faults_between(family, groups)), None)
     if fault is not None:
         path = folder / (f"groups/{fault.group}.yaml" if fault.group else "family.yaml")
@@ -173,7 +179,7 @@ def compile_family(folder: Path) -> Compiled:
         commissioning=commissioning,
         pictures=pictures,
     )
-    return Compiled(family=family, groups=groups, rules=rules, further=further.text())
+    return Compiled(family=family, groups=groups, rules=rules, plausible=plausible, further=further.text())
 
 
 def _of(family: Family, folder: Path) -> list[Path]:

@@ -17,9 +17,10 @@ if TYPE_CHECKING:
     from .calculator import Argument, Calculator, calculate, calculators, shown_result
     from .explanation import Explanation, SeenValue, explain, rule_title
     from .fixes import Fixed, apply_all_safe, apply_fixes
-    from .rule_file import read_builder_rules, suppress
+    from .rule_file import GENERAL_RULES, read_builder_rules, suppress
 
 _PLACES = {
+    "GENERAL_RULES": "rule_file",
     "Argument": "calculator",
     "Calculator": "calculator",
     "Explanation": "explanation",
@@ -46,6 +47,7 @@ def __getattr__(name: str) -> Any:
 
 
 __all__ = [
+    "GENERAL_RULES",
     "NOT_SET",
     "NO_RULES",
     "RULES_FILE",

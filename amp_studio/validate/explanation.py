@@ -13,6 +13,7 @@ from amp_studio.schema.units import canonical_unit
 
 from .finding import Finding
 from .plan import RuleCheck
+from .plausible import TITLES
 from .validator import Validator
 
 _NAME = re.compile(r"'[^']*'|(?<![\w.])[a-z][a-z0-9_]*(?!\w*\()")
@@ -23,6 +24,7 @@ _TITLES = {
     "schema.choice": "A value that is no choice",
     "schema.unset": "Values that are not set",
     "schema.unknown": "An entry that the schema does not know",
+    **TITLES,
 }
 _OWN_RULES = "The builder's own rules"
 

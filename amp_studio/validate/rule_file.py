@@ -39,11 +39,12 @@ from .expression_tree import shown
 from .expressions import RuleError
 from .finding import OWN_FAULT, Finding
 from .plan import checks_of
+from .plausible import TITLES
 from .rule_entry import entry_model
 from .rule_review import MOST_STEPS, review
 
 _SUPPRESSIONS = "suppressions"
-GENERAL_RULES = ("schema.range", "schema.choice", "schema.unset", "schema.unknown")
+GENERAL_RULES = ("schema.range", "schema.choice", "schema.unset", "schema.unknown", *TITLES)
 """Findings of every family that are of no separate rule."""
 MOST_RULES = 2000
 MOST_SUPPRESSIONS = 10_000

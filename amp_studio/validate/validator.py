@@ -14,6 +14,7 @@ from .builder_rules import NO_RULES, BuilderRules, Suppressed, sort_out
 from .checks import Checks
 from .finding import SEVERITIES, Finding
 from .plan import Place, Plan, RuleCheck, make_plan
+from .plausible import Experience
 from .trial import Trials
 
 _Order = tuple[int, int, str, int]
@@ -50,6 +51,7 @@ class Validator:
         self._plan: Plan = make_plan(self.file.schema, self.file.machine, self.own.rules)
         self._checks = Checks(self.file, self.own.places)
         self._trials = Trials(self.file, self._plan, self.own)
+        self._experience = Experience(self.file)
 
     def run(self) -> tuple[Finding, ...]:
         """Check everything; returns the findings, errors first, in the manual's order."""
@@ -64,6 +66,7 @@ class Validator:
         self._circumstances = self._present_circumstances()
         self._revision = self.file.revision
         self._checks.look_again()
+        self._experience.look_at_all()
         self._checks_of = None
         self._not_set = self._all_not_set()
         self._not_set_findings = None
@@ -91,6 +94,7 @@ class Validator:
             for check in self._plan.rule_readers.get(address, ()):
                 checks[check.place] = check
         self._check(addresses, checks.values())
+        self._experience.look_again(edited)
         self._trials.changed(edited, (*addresses, *checks))
 
     def first_fix(self, wanted: Callable[[Finding], bool]) -> Finding | None:
@@ -218,6 +222,9 @@ class Validator:
         if self._not_set_findings is None:
             self._not_set_findings = [(self._order(advice), advice) for advice in self._missing_values()]
         found += self._not_set_findings
+        # A value that is wrong by itself needs no question besides.
+        asked = [f for f in self._experience.findings() if self._filed.keys().isdisjoint(f.causes)]
+        found += [(self._order(advice), advice) for advice in asked]
         if unknown := list(self.file.unknown):
             message = (
                 f"{unknown[0]} is no parameter of this schema; it is kept as it is."

@@ -17,7 +17,8 @@ from amp_studio.schema import Address, Value
 from amp_studio.validate import NO_RULES, SEVERITIES, BuilderRules, Finding, Validator, apply_fixes
 
 FACTORS = [0, -1, 0.1, 0.5, 0.9, 0.999, 1.001, 1.1, 2, 10, 1000]
-NO_FINDING_OF_A_VALUE = ("schema.unset", "rules.unused")
+NO_FINDING_OF_A_VALUE = ("schema.unset", "rules.unused", "plausible.")
+"""Values that are not set, suppressions, and what experience asks about whatever a rule of the manual makes of a value."""
 
 
 @cache
@@ -103,7 +104,7 @@ def unkept(finding: Finding, before: Iterable[Finding], after: Iterable[Finding]
     if finding.key in left:
         yield f"{who}: its finding is still there"
     for key in left.keys() - there.keys():
-        if left[key].rule not in NO_FINDING_OF_A_VALUE and _rank(left[key]) <= _rank(finding):
+        if not left[key].rule.startswith(NO_FINDING_OF_A_VALUE) and _rank(left[key]) <= _rank(finding):
             yield f"{who}: brings {key}"
 
 

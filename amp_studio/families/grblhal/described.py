@@ -116,7 +116,7 @@ class _Maker:
             pictures=known.pictures,
         )  # fmt: skip
         compiled = Compiled(
-            family=self._family(tuple(groups)), groups=made, further=further.text(),
+            family=self._family(tuple(groups)), groups=made, plausible=known.plausible, further=further.text(),
             rules=tuple(r for r in known.rules if r.id != AXES_RULE),
         )  # fmt: skip
         return made_of(compiled, description)

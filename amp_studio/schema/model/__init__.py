@@ -72,6 +72,7 @@ from .pictures import (
     TravelRoles,
     ZoneRole,
 )
+from .plausible import Plausible, Usual
 from .record import (
     Instances,
     Key,
@@ -137,6 +138,7 @@ __all__ = [
     "ParameterId",
     "ParameterState",
     "PictureRoles",
+    "Plausible",
     "Quantity",
     "RampKind",
     "RampRoles",
@@ -164,6 +166,7 @@ __all__ = [
     "UnitScale",
     "UnitSize",
     "Units",
+    "Usual",
     "ValueType",
     "ZoneRole",
 ]

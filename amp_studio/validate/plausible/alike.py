@@ -1,0 +1,197 @@
+"""Like axes against each other: where they agree in nearly all values, the one that differs may be a slip.
+
+Of two axes (spindles, processes) it counts in how many values they can be compared and in which they differ; an edit
+changes the counts of its instance only. Facts of the family name what differs among like axes without any slip.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Hashable, Iterable, Iterator
+from fnmatch import fnmatchcase
+from functools import lru_cache
+from itertools import combinations
+from typing import NamedTuple
+
+from amp_studio.files import ParameterFile
+from amp_studio.schema import ACTIVE, Address, Schema, dimension, show_value
+from amp_studio.validate.finding import Finding
+
+from .slip import slip_between
+
+ALIKE = "plausible.alike"
+REASON = (
+    "ours, not the manual's: axes that are alike in nearly all values seldom differ in one by a slip's factor"
+)
+_SCOPES = ("axis", "spindle", "process", "group")
+_SURE = 15
+"""Compared values from which two instances that differ in a single one are asked about it, whatever the difference."""
+_LEAST = 3
+"""Compared values below which nothing is known of the likeness of two instances."""
+
+
+class _Seen(NamedTuple):
+    """What is compared of a value."""
+
+    key: Hashable
+    measures: str
+
+
+class _Pair(NamedTuple):
+    """Two instances: in how many values they can be compared, and in which they differ."""
+
+    compared: list[int]
+    """A single number."""
+    differing: set[str]
+
+
+@lru_cache(maxsize=32)
+def _comparable(schema: Schema) -> dict[str, bool]:
+    """Return the parameters whose values like instances share, and whether all do: a difference without a slip counts too."""
+    family = schema.family
+    own = [family.axes.name, family.axes.type, family.axes.hardware, family.axes.loop] if family.axes else []
+    if family.declared_axes is not None:
+        fields = (family.declared_axes.name, family.declared_axes.group)
+        own += [field.param for field in fields if field is not None]
+    facts = schema.plausible
+    return {
+        p.id: not any(fnmatchcase(p.id, pattern) for pattern in facts.may_differ)
+        for p in schema.parameters.values()
+        if p.type not in ("text", "format")
+        and p.id not in own
+        and not p.secret
+        and p.access != "read"
+        and not any(fnmatchcase(p.id, pattern) for pattern in facts.unlike)
+    }
+
+
+class Alike:
+    """The like instances of one file."""
+
+    def __init__(self, file: ParameterFile) -> None:
+        self._file = file
+        self._comparable = _comparable(file.schema)
+        self._rows: dict[str, dict[str, dict[str, _Seen]]] = {}
+        """Scope -> instance -> parameter -> what is compared."""
+        self._pairs: dict[tuple[str, str, str], _Pair] = {}
+
+    def look_at_all(self) -> None:
+        """Compare everything."""
+        self._rows.clear()
+        evaluation, comparable = self._file.evaluation, self._comparable
+        keys, known = evaluation.keys, evaluation.known_states()
+        scopes = self._file.schema.on(self._file.machine).scopes
+        for address, value in self._file.values.items():
+            name, instance = address
+            if name not in comparable or not instance or "." in instance or scopes.get(name) not in _SCOPES:
+                continue
+            if (known.get(address) or evaluation.state(address)) is ACTIVE:
+                row = self._rows.setdefault(str(scopes[name]), {}).setdefault(instance, {})
+                row[name] = _Seen(keys[address], dimension(value.unit))
+        self._pairs = {
+            (scope, a, b): _compare(rows[a], rows[b])
+            for scope, rows in self._rows.items()
+            for a, b in combinations(rows, 2)
+        }
+
+    def look_again(self, address: Address) -> bool:
+        """Compare one value again; returns whether anything is otherwise."""
+        name, instance = address
+        scope = self._file.evaluation.scope(address) if name in self._comparable else None
+        if scope not in _SCOPES or not instance or "." in instance:
+            return False
+        rows = self._rows.setdefault(scope, {})
+        row = rows.get(instance)
+        if row is None:
+            self.look_at_all()
+            return True
+        old, new = row.get(name), self._key(address)
+        if old == new:
+            return False
+        if new is None:
+            del row[name]
+        else:
+            row[name] = new
+        for other, values in rows.items():
+            theirs = values.get(name)
+            if other == instance or theirs is None:
+                continue
+            pair = self._pairs.get((scope, instance, other)) or self._pairs[scope, other, instance]
+            pair.compared[0] += (new is not None) - (old is not None)
+            if new is None or new == theirs:
+                pair.differing.discard(name)
+            else:
+                pair.differing.add(name)
+        return True
+
+    def _key(self, address: Address) -> _Seen | None:
+        """Return what is equal for equal values; None where the value does not count."""
+        evaluation = self._file.evaluation
+        value = self._file.values.get(address)
+        if value is None or not evaluation.state(address).is_active:
+            return None
+        return _Seen(evaluation.keys[address], dimension(value.unit))
+
+    def findings(self) -> Iterator[Finding]:
+        """Yield what differs between instances that are otherwise alike, a finding a parameter and scope."""
+        asked: dict[tuple[str, str], list[tuple[str, str, int]]] = {}
+        for (scope, a, b), pair in self._pairs.items():
+            compared, count = pair.compared[0], len(pair.differing)
+            if not count or compared < _LEAST or count > max(1, compared // 8):
+                continue
+            for name in pair.differing:
+                if (count == 1 and compared >= _SURE and self._comparable[name]) or self._slip(
+                    scope, name, a, b
+                ):
+                    asked.setdefault((scope, name), []).append((a, b, compared - count))
+        for (scope, name), pairs in asked.items():
+            yield self._finding(scope, name, pairs)
+
+    def _slip(self, scope: str, name: str, a: str, b: str) -> bool:
+        left, right = self._rows[scope][a][name], self._rows[scope][b][name]
+        same = left.measures == right.measures
+        return same and bool(slip_between(left.key, right.key) or slip_between(right.key, left.key))
+
+    def _finding(self, scope: str, name: str, pairs: list[tuple[str, str, int]]) -> Finding:
+        """Return the finding about a parameter: the one that differs from the rest, or both of two."""
+        rows = self._rows[scope]
+        instances = list(dict.fromkeys(i for a, b, _ in pairs for i in (a, b)))
+        counts: dict[Hashable, list[str]] = {}
+        for instance in instances:
+            counts.setdefault(rows[instance][name], []).append(instance)
+        usual = max(counts.values(), key=len)
+        sure = all(len(same) < len(usual) for same in counts.values() if same is not usual)
+        odd = [i for i in instances if i not in usual] if sure else instances
+        others = [i for i in instances if i not in odd]
+        parameter = self._file.schema.parameters[name]
+        texts = [
+            f"{show_value(parameter, self._file.values[name, i])} on {self._label(name, i)}"
+            for i in (*odd, *others[:1])
+        ]
+        slip = self._words(scope, name, odd[0], (others or odd[1:])[0])
+        agree = min(n for _, _, n in pairs)
+        return Finding(
+            ALIKE,
+            "advice",
+            tuple((name, i) for i in odd),
+            f"{parameter.name} is {_and(texts)}{slip}; they agree in {agree} other values. Is it meant?",
+            compared=tuple((name, i) for i in others),
+            reason=REASON,
+        )
+
+    def _words(self, scope: str, name: str, a: str, b: str) -> str:
+        rows = self._rows[scope]
+        words = slip_between(rows[a][name].key, rows[b][name].key)
+        return f" ({words} the other)" if words else ""
+
+    def _label(self, name: str, instance: str) -> str:
+        return self._file.schema.on(self._file.machine).instance_label((name, instance))
+
+
+def _compare(a: dict[str, _Seen], b: dict[str, _Seen]) -> _Pair:
+    both = a.keys() & b.keys()
+    return _Pair([len(both)], {name for name in both if a[name] != b[name]})
+
+
+def _and(texts: Iterable[str]) -> str:
+    *first, last = texts
+    return f"{', '.join(first)} and {last}" if first else last

@@ -1,0 +1,56 @@
+"""All that is asked of one file out of experience, kept up to date edit by edit."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+
+from amp_studio.files import ParameterFile
+from amp_studio.schema import Address
+from amp_studio.validate.finding import Finding
+
+from .alike import ALIKE, Alike
+from .axis_words import NO_AXIS, AxisWords
+from .rows import ROW, EqualRows
+from .smooth import JUMP, SmoothTables
+from .usual import USUAL, UsualValues
+
+TITLES = {
+    ALIKE: "Like axes that differ in one value",
+    USUAL: "A value that is not usual",
+    JUMP: "A value that jumps out of its table",
+    ROW: "A row that is not like the others",
+    NO_AXIS: "A bit of an axis that is not there",
+}
+"""Rule -> its title."""
+
+
+class Experience:
+    """The recommendations about one file that no manual prints."""
+
+    def __init__(self, file: ParameterFile) -> None:
+        self._file = file
+        self._parts = (Alike(file), UsualValues(file), SmoothTables(file), EqualRows(file), AxisWords(file))
+        self._found: tuple[Finding, ...] | None = None
+
+    def look_at_all(self) -> None:
+        """Look at the whole file."""
+        self._found = None
+        for part in self._parts:
+            part.look_at_all()
+
+    def look_again(self, changed: Iterable[Address]) -> None:
+        """Look again at the changed addresses; one that decides which values count is a reason to look at all."""
+        addresses = list(changed)
+        if any(map(self._file.evaluation.decides_states, addresses)):
+            self.look_at_all()
+            return
+        for address in addresses:
+            for part in self._parts:
+                if part.look_again(address):
+                    self._found = None
+
+    def findings(self) -> tuple[Finding, ...]:
+        """Return what there is now, in no order."""
+        if self._found is None:
+            self._found = tuple(finding for part in self._parts for finding in part.findings())
+        return self._found

@@ -1,0 +1,88 @@
+"""A table of the control whose rows have a few values, each of them several times: a single one may be a slip."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Iterator
+
+from amp_studio.files import ParameterFile
+from amp_studio.schema import Address, show_value
+from amp_studio.validate.finding import Finding
+
+from .slip import slip_between
+
+ROW = "plausible.row"
+REASON = "ours, not the manual's: in a table of equal rows one that is off by a slip's factor is a slip more often than a wish"
+_LEAST = 4
+"""Rows from which a table has a habit."""
+_OFTEN = 3
+"""How often every other value must be there."""
+_NO_FIGURES = (0.0, 1.0, -1.0)
+"""What a row with nothing in it has; nothing is ten times that by a slip."""
+
+
+class EqualRows:
+    """The tables of one file that belong to no axis."""
+
+    def __init__(self, file: ParameterFile) -> None:
+        self._file = file
+        evaluation, here = file.evaluation, file.schema.on(file.machine)
+        self._tables = frozenset(
+            p.id
+            for p in file.schema.parameters.values()
+            if p.type in ("integer", "real")
+            and not p.secret
+            and p.access != "read"
+            and p.id not in file.schema.plausible.smooth
+            and evaluation.scope((p.id, "")) == "global"
+            and len(here.instances(p)) >= _LEAST
+        )
+        self._found: dict[str, Finding] = {}
+
+    def look_at_all(self) -> None:
+        """Look at every table."""
+        self._found.clear()
+        for name in dict.fromkeys(address[0] for address in self._file.values):
+            if name in self._tables:
+                self._look_at(name)
+
+    def look_again(self, address: Address) -> bool:
+        """Look at the table of one value again; returns whether anything is otherwise."""
+        name = address[0]
+        if name not in self._tables:
+            return False
+        before = self._found.pop(name, None)
+        self._look_at(name)
+        return self._found.get(name) != before
+
+    def _look_at(self, name: str) -> None:
+        file, state, keys = self._file, self._file.evaluation.state, self._file.evaluation.keys
+        instances = file.schema.on(file.machine).instances(file.schema.parameters[name])
+        addresses = [(name, i) for i in instances if (name, i) in file.values and state((name, i)).is_active]
+        counts = Counter(keys[address] for address in addresses)
+        alone = [key for key, count in counts.items() if count == 1]
+        if (
+            len(addresses) < _LEAST
+            or len(alone) != 1
+            or min(c for k, c in counts.items() if k != alone[0]) < _OFTEN
+        ):
+            return
+        address = next(a for a in addresses if keys[a] == alone[0])
+        others = [key for key in counts if key != alone[0] and key not in _NO_FIGURES]
+        slip, usual = next(
+            ((s, key) for key in others if (s := slip_between(alone[0], key)) and alone[0]), ("", None)
+        )
+        if slip:
+            other = next(a for a in addresses if keys[a] == usual)
+            self._found[name] = self._finding(address, other, counts[usual], slip)
+
+    def findings(self) -> Iterator[Finding]:
+        """Yield what was found."""
+        yield from self._found.values()
+
+    def _finding(self, address: Address, other: Address, count: int, slip: str) -> Finding:
+        schema, parameter = self._file.schema, self._file.schema.parameters[address[0]]
+        here, there = (show_value(parameter, self._file.values[a]) for a in (address, other))
+        label = schema.on(self._file.machine).label(address)
+        message = f"{label} is {here}, {slip} the {there} that {count} others have. Is it meant?"
+        return Finding(ROW, "advice", (address,), message, compared=(other,), reason=REASON)

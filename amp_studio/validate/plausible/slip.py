@@ -1,0 +1,81 @@
+"""How one number came of another by a slip of the hand: a digit more, inches, the sign, digits swapped."""
+
+from __future__ import annotations
+
+from collections.abc import Hashable
+
+_INCH = 25.4
+_FACTORS = {
+    10.0: "ten times",
+    0.1: "a tenth of",
+    100.0: "a hundred times",
+    0.01: "a hundredth of",
+    1000.0: "a thousand times",
+    0.001: "a thousandth of",
+    _INCH: "25.4 times",
+    1 / _INCH: "1/25.4 of",
+    -1.0: "the negative of",
+}
+
+_POWERS = frozenset(words for factor, words in _FACTORS.items() if factor not in (_INCH, 1 / _INCH, -1.0))
+
+
+def slip_of_default(value: float, default: float, digits: int) -> str:
+    """Return in words how ``value`` came of a printed default of so many significant digits by a slip.
+
+    A round number that is ten times another one is chosen every day; of 4.23333 nobody chooses 42.3333. A slip does not
+    make a number rounder either: 1 mm is no slip of 25.4 mm.
+    """
+    words = slip_between(value, default)
+    if not words or not value or digits < 2 or significant_digits(value) < digits - 1:
+        return ""
+    return "" if digits < 3 and words in _POWERS else words
+
+
+def significant_digits(number: float) -> int:
+    """Return how many digits of a number there are between its first and its last that is not zero."""
+    return len(f"{abs(number):.10g}".split("e")[0].replace(".", "").strip("0"))
+
+
+def slip_between(value: Hashable, other: Hashable) -> str:
+    """Return in words how ``value`` came of ``other`` by a slip (``ten times``); "" where no slip explains it."""
+    if isinstance(value, (bool, str)) or isinstance(other, (bool, str)):
+        return ""
+    if (
+        not isinstance(value, (int, float))
+        or not isinstance(other, (int, float))
+        or value == other
+        or not other
+    ):
+        return ""
+    if value == 0:
+        return "zero instead of"
+    ratio = value / other
+    for factor, words in _FACTORS.items():
+        if abs(ratio - factor) <= 1e-9 * abs(factor) or _is_rounded(value, other * factor):
+            return words
+    return "two digits swapped against" if _is_swapped(float(value), float(other)) else ""
+
+
+def _is_rounded(value: float, exact: float) -> bool:
+    """Return whether a whole number of three digits and more is the exact one, rounded."""
+    return float(value).is_integer() and abs(value) >= 100 and abs(value - exact) <= 0.5
+
+
+def _is_swapped(value: float, other: float) -> bool:
+    """Return whether two neighbouring digits of one are exchanged in the other."""
+    if not 1.02 < abs(value / other) < 50 and not 1.02 < abs(other / value) < 50:
+        return False
+    a, b = _digits(value), _digits(other)
+    length = max(len(a), len(b))
+    a, b = a.rjust(length, "0"), b.rjust(length, "0")
+    differ = [n for n in range(length) if a[n] != b[n]]
+    if len(differ) != 2 or differ[1] != differ[0] + 1:
+        return False
+    first, second = differ
+    return (a[first], a[second]) == (b[second], b[first]) and (value < 0) == (other < 0)
+
+
+def _digits(number: float) -> str:
+    """Return the digits of a number on both sides of the point, six behind it."""
+    return f"{abs(number):.6f}".replace(".", "")

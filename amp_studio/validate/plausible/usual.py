@@ -1,0 +1,151 @@
+"""One value against what it usually is: a range of experience where the manual prints none, and a sign that makes no sense."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass, field
+from functools import lru_cache
+
+from amp_studio.files import ParameterFile
+from amp_studio.schema import (
+    Address,
+    Parameter,
+    Schema,
+    Usual,
+    Value,
+    canonical,
+    dimension,
+    show_value,
+    shown,
+    write_figure,
+)
+from amp_studio.schema.expression import Remembered
+from amp_studio.validate.finding import Finding
+
+from .slip import significant_digits, slip_of_default
+
+USUAL = "plausible.usual"
+REASON = "ours, not the manual's: what the parameter usually is, or can mean"
+_NEVER_NEGATIVE = frozenset(
+    {
+        "velocity", "angular velocity", "acceleration", "angular acceleration", "rotary acceleration", "jerk", "angular jerk",
+        "time", "frequency", "resolution", "power", "memory", "gain", "integral gain",
+        "derivative gain", "acceleration gain", "percent",
+    }
+)  # fmt: skip
+"""Dimensions of which nothing is ever less than zero, where the manual does not say so."""
+
+
+@dataclass(frozen=True, slots=True)
+class _Known:
+    """What is usual of one parameter."""
+
+    parameter: Parameter
+    usual: Usual | None
+    spans: dict[str, tuple[float, float]]
+    """Dimension -> least and greatest usual value, in its canonical unit."""
+    signed: bool
+    """Whether a negative value may mean something, or is an error by itself."""
+    default: float | None
+    """The printed default, in the canonical unit of ``default_measures``; None where it has too few digits to know a slip by."""
+    default_measures: str
+    default_digits: int
+    fine: Remembered = field(default_factory=Remembered, repr=False)
+    """Numbers with their units that nothing is asked about, in whatever file."""
+
+
+@lru_cache(maxsize=32)
+def _facts(schema: Schema) -> dict[str, _Known]:
+    found = {}
+    for parameter in schema.parameters.values():
+        if parameter.type not in ("integer", "real") or parameter.secret or parameter.access == "read":
+            continue
+        usual = schema.plausible.usual.get(parameter.id)
+        spans = {
+            dimension(unit): (canonical(low, unit), canonical(high, unit))
+            for unit, (low, high) in (usual.between if usual else {}).items()
+        }
+        default = parameter.default.value if parameter.default else 0
+        negative = isinstance(default, (int, float)) and default < 0
+        printed = any(low is not None for low, _ in (parameter.ranges or {}).values())
+        signed = printed or bool(parameter.range_variants) or negative
+        number, digits = 0.0, 0
+        if parameter.default and isinstance(default, (int, float)) and not parameter.default.instances:
+            number, digits = canonical(default, parameter.default.unit), significant_digits(default)
+        if usual or not signed or digits >= 2:
+            measures = dimension(parameter.default.unit) if parameter.default else ""
+            found[parameter.id] = _Known(
+                parameter, usual, spans, signed, number if digits >= 2 else None, measures, digits
+            )
+    return found
+
+
+class UsualValues:
+    """The values of one file that are not as they usually are."""
+
+    def __init__(self, file: ParameterFile) -> None:
+        self._file = file
+        self._facts = _facts(file.schema)
+        self._found: dict[Address, Finding] = {}
+
+    def look_at_all(self) -> None:
+        """Look at every value."""
+        self._found.clear()
+        facts, state = self._facts, self._file.evaluation.state
+        for address, value in self._file.values.items():
+            known = facts.get(address[0])
+            if (
+                known is None
+                or isinstance(value.value, (bool, str))
+                or (value.value, value.unit) in known.fine
+            ):
+                continue
+            what = _doubt(known, value)
+            if not what:
+                known.fine[value.value, value.unit] = True
+            if what and state(address).is_active:
+                self._found[address] = self._finding(known, address, value, what)
+
+    def look_again(self, address: Address) -> bool:
+        """Look at one value again; returns whether anything is otherwise."""
+        facts = self._facts.get(address[0])
+        if facts is None:
+            return False
+        before = self._found.pop(address, None)
+        value = self._file.values.get(address)
+        if value is not None and not isinstance(value.value, (bool, str)):
+            what = _doubt(facts, value)
+            if what and self._file.evaluation.state(address).is_active:
+                self._found[address] = self._finding(facts, address, value, what)
+        return self._found.get(address) != before
+
+    def findings(self) -> Iterator[Finding]:
+        """Yield what was found."""
+        yield from self._found.values()
+
+    def _finding(self, facts: _Known, address: Address, value: Value, what: str) -> Finding:
+        label = self._file.schema.on(self._file.machine).label(address)
+        message = f"{label} is {show_value(facts.parameter, value)}; {what}. Is it meant?"
+        return Finding(USUAL, "advice", (address,), message, reason=REASON)
+
+
+def _doubt(facts: _Known, value: Value) -> str:
+    """Return what is unusual about a number, in words; "" for nothing."""
+    number, usual = float(value.value), facts.usual
+    measures = dimension(value.unit)
+    if usual is not None and number not in usual.also:
+        if usual.among:
+            if number not in usual.among:
+                return f"usual are {', '.join(map(write_figure, usual.among))}"
+        elif (span := facts.spans.get(measures)) is not None and not span[0] <= canonical(
+            number, value.unit
+        ) <= span[1]:
+            unit, (low, high) = next((u, b) for u, b in usual.between.items() if dimension(u) == measures)
+            return f"usual is {write_figure(low)} to {write_figure(high)} {shown(unit)}".rstrip()
+    if facts.default is not None and measures == facts.default_measures:
+        words = slip_of_default(canonical(number, value.unit), facts.default, facts.default_digits)
+        if words:
+            return f"that is {words} the printed default"
+    if number < 0 and not facts.signed and measures in _NEVER_NEGATIVE:
+        return f"a negative {measures} has no meaning"
+    return ""

@@ -1,0 +1,174 @@
+"""What no manual prints: like axes, usual figures, smooth tables, rows and axis words. All of it is a recommendation."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+from plausible_machines import RECIPES, false_findings, plausible_machines
+from rule_machines import FAMILIES, machines, sound
+
+from amp_studio.files import ParameterFile, open_file
+from amp_studio.files.examples import examples_folder
+from amp_studio.schema import Address, Value
+from amp_studio.validate import Finding, Validator, explain, read_builder_rules
+from tests.campaigns import CAMPAIGN
+
+
+def example(name: str) -> ParameterFile:
+    return open_file(next((examples_folder() / name).glob("*.amp"))).file
+
+
+def found(file: ParameterFile, address: Address, value: Value) -> list[Finding]:
+    """Return what experience finds after one edit; a full run finds the same."""
+    validator = Validator(file)
+    assert [f for f in validator.run() if f.rule.startswith("plausible.")] == []
+    file.set_many({address: value}, force="a slip")
+    now = [f for f in validator.update([address]) if f.rule.startswith("plausible.")]
+    assert now == [f for f in Validator(file).run() if f.rule.startswith("plausible.")]
+    return now
+
+
+@pytest.mark.parametrize("path", sorted(examples_folder().glob("*/*.amp")), ids=lambda path: path.stem)
+def test_an_example_has_nothing_to_ask_about(path: Path) -> None:
+    assert [f.message for f in Validator(open_file(path).file).run()] == []
+
+
+@pytest.mark.parametrize(("family", "name"), [(f, n) for f in FAMILIES for n in machines(f)["machines"]])
+def test_nor_has_a_sound_machine(family: str, name: str) -> None:
+    assert [f.message for f in Validator(sound(family, name)).run() if f.rule.startswith("plausible.")] == []
+
+
+def test_nor_have_plausible_machines_of_every_family() -> None:
+    assert set(RECIPES) == set(FAMILIES)
+    assert false_findings(40 if CAMPAIGN else 4) == []
+
+
+def test_plausible_machines_are_other_machines() -> None:
+    base = example("grblhal-router")
+    for file in plausible_machines("grblhal", 5):
+        assert sum(value != base.values[address] for address, value in file.values.items()) > 8
+
+
+def test_one_of_three_like_axes_that_is_ten_times_too_high_is_asked_about() -> None:
+    file = example("acromill-router")
+    (finding,) = found(file, ("axes.inposition_band", "Y"), Value(0.01, "in"))
+    assert finding.severity == "advice"
+    assert not finding.fix
+    assert finding.causes == (("axes.inposition_band", "Y"),)
+    assert finding.compared == (("axes.inposition_band", "X"), ("axes.inposition_band", "Z"))
+    assert "0.01 in on Axis Y and 0.001 in on Axis X (ten times the other)" in finding.message
+    assert "ours, not the manual's" in finding.cited
+    assert finding.page is None
+    validator = Validator(file)
+    validator.run()
+    assert explain(validator, finding).title == "Like axes that differ in one value"
+
+
+def test_of_two_like_axes_both_are_asked_about() -> None:
+    file = example("mill-1394")
+    finding = next(f for f in found(file, ("home.speed_off_switch", "1"), Value(2.2333, "mm/s")))
+    assert {address[1] for address in finding.causes} == {"1", "2"}
+
+
+def test_what_differs_among_like_axes_is_no_matter() -> None:
+    assert found(example("acromill-router"), ("axes.soft_limit_minus", "Y"), Value(-22.0, "in")) == []
+    assert found(example("acromill-router"), ("axes.pulses_per_unit", "Y"), Value(40960.0, "counts/in")) == []
+    (tenth,) = found(example("acromill-router"), ("axes.pulses_per_unit", "Y"), Value(2048.0, "counts/in"))
+    assert "(a tenth of the other)" in tenth.message
+
+
+@pytest.mark.parametrize(
+    ("param", "value", "words"),
+    [
+        ("comm.baud_rate", 960, "usual are 300, 600, 1200"),
+        ("comm.data_bits", 80, "usual are 7, 8"),
+        ("comm.port", -1, "usual are 1, 2, 3, 4"),
+        ("control.lead_in_radius", Value(6.35, "in"), "usual is 0.03 to 2 in"),
+        ("speeds.trial", Value(-100.0, "in/min"), "usual is 11 to 900 in/min"),
+    ],
+)
+def test_a_value_that_is_not_usual_is_asked_about(param: str, value: int | Value, words: str) -> None:
+    given = value if isinstance(value, Value) else Value(value)
+    findings = found(example("acromill-router"), (param, ""), given)
+    assert any(words in f.message for f in findings)
+
+
+def test_a_usual_range_counts_in_every_unit() -> None:
+    """0.03 to 2 in are 0.762 to 50.8 mm."""
+    assert found(example("acromill-router"), ("control.lead_in_radius", ""), Value(50.0, "mm")) == []
+    assert found(example("acromill-router"), ("control.lead_in_radius", ""), Value(51.0, "mm")) != []
+
+
+def test_a_gain_is_never_negative() -> None:
+    findings = found(example("acromill-router"), ("servo.i_gain", "X"), Value(-2.0, "V/count/s"))
+    assert any("a negative integral gain has no meaning" in f.message for f in findings)
+
+
+def test_a_slip_of_the_printed_default_is_asked_about_where_it_has_digits_enough() -> None:
+    file = example("mill-1394")
+    address: Address = ("feedrate.external_decel_cutting", "")
+    assert str(file.default(address))
+    assert file.values[address] == file.default(address)
+    (finding,) = found(file, address, Value(4.2333, "mm/s"))
+    assert "that is ten times the printed default" in finding.message
+
+
+def test_a_point_of_a_cam_that_jumps_out_is_asked_about_and_a_corner_is_not() -> None:
+    file = example("57c422b-label-press")
+    (finding,) = found(file, ("cam.time_points", "Y.5"), Value(141, "counts"))
+    assert finding.rule == "plausible.jump"
+    assert "between" in finding.message
+    corner = example("57c422b-label-press")
+    corner.set_many(
+        {("cam.time_points", f"Y.{n}"): Value(min(n, 16) * 100, "counts") for n in range(32)},
+        force="a corner",
+    )
+    assert [f for f in Validator(corner).run() if f.rule == "plausible.jump"] == []
+
+
+def test_a_row_that_is_off_by_a_slip_is_asked_about() -> None:
+    (finding,) = found(example("num-1060-mill"), ("misc.potentiometer", "3"), Value(210, "%"))
+    assert finding.rule == "plausible.row"
+    assert "two digits swapped against the 120 %" in finding.message
+    assert found(example("num-1060-mill"), ("misc.potentiometer", "3"), Value(100, "%")) == []
+
+
+def test_a_bit_of_an_axis_that_is_not_there_is_asked_about() -> None:
+    (finding,) = found(example("num-1060-mill"), ("axes.modulo", ""), Value(0x48))
+    assert finding.message.endswith("has the bit of axis 6, which is not there. Is it meant?")
+
+
+def test_what_decides_which_axes_there_are_is_a_reason_to_look_at_all() -> None:
+    file = example("acromill-router")
+    validator = Validator(file)
+    validator.run()
+    for address, value in (
+        (("axes.inposition_band", "Z"), Value(0.01, "in")),
+        (("view.number_of_axes", ""), Value(2)),
+        (("view.number_of_axes", ""), Value(3)),
+    ):
+        file.set_many({address: value}, force="a test")
+        assert validator.update([address]) == Validator(file).run()
+
+
+def test_what_is_meant_is_suppressed_as_any_finding(tmp_path: Path) -> None:
+    rules = tmp_path / "rules.yaml"
+    rules.write_text(
+        "suppressions:\n"
+        "  - {rule: plausible.alike, params: [axes.inposition_band@Y], reason: worn scale, by: M. Brandt}\n",
+        encoding="utf-8",
+    )
+    file = example("acromill-router")
+    file.set(("axes.inposition_band", "Y"), Value(0.01, "in"))
+    validator = Validator(file, read_builder_rules(rules, file.schema))
+    assert [f.rule for f in validator.run()] == []
+    assert [s.finding.rule for s in validator.suppressed] == ["plausible.alike"]
+
+
+def test_a_value_out_of_its_range_is_not_asked_about_too() -> None:
+    file = example("mill-1394")
+    file.set_many({("tool.pocket_count", ""): Value(-24)}, force="a slip")
+    assert [f.rule for f in Validator(file).run() if ("tool.pocket_count", "") in f.causes] == [
+        "schema.range"
+    ]
