@@ -59,6 +59,10 @@ class FileFindings:
     findings: Sequence[Finding]
     why: bool
     """Whether each finding is explained."""
+    delivered: Sequence[Finding] = ()
+    """Findings about values as delivered, of steps that are not reached: a state of the file."""
+    steps: Sequence[int] = ()
+    """The numbers of these steps."""
 
     @property
     def counts(self) -> dict[str, int]:
@@ -71,6 +75,16 @@ class FileFindings:
         text = ", ".join(counted(count, severity) for severity, count in self.counts.items())
         suppressed = len(self.validator.suppressed)
         return f"{self.path}: {text}" + (f", {suppressed} suppressed" if suppressed else "")
+
+    @property
+    def state(self) -> str:
+        """How much is as delivered and to be set in later steps, in words; "" for nothing."""
+        counts = [(s, sum(f.severity == s for f in self.delivered)) for s in SEVERITIES]
+        text = ", ".join(counted(count, severity) for severity, count in counts if count)
+        steps = (
+            f"step {self.steps[0]}" if len(self.steps) == 1 else f"steps {', '.join(map(str, self.steps))}"
+        )
+        return f"as delivered, to be set in {steps} of commissioning: {text}" if text else ""
 
     def message(self, finding: Finding) -> str:
         """Return a finding in one line: what it is about, its page and its fix."""
@@ -111,6 +125,8 @@ class CheckFormat:
                 yield from _reasons(validator, same)
         for left in validator.suppressed:
             yield suppressed_text(validator.file, left)
+        if checked.state:
+            yield checked.state
         yield checked.summary
 
 
@@ -133,7 +149,8 @@ class JsonFormat(CheckFormat):
             "file": str(checked.path), "errors": counts["error"], "warnings": counts["warning"], "advice": counts["advice"],
             "findings": [self._finding(checked, f) for f in checked.findings],
             "suppressed": [finding_json(file, s.finding) | {"by": s.suppression.by, "reason": s.suppression.reason}
-                           for s in checked.validator.suppressed]})  # fmt: skip
+                           for s in checked.validator.suppressed],
+            "delivered": [self._finding(checked, f) for f in checked.delivered]})  # fmt: skip
 
     def all(self, results: Sequence[CheckResult]) -> str:
         entries = [one.printed or _dumped({"file": str(one.path), "error": one.fault}) for one in results]

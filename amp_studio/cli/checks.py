@@ -13,7 +13,7 @@ from pathlib import Path
 
 from amp_studio.files import ENDING, ParameterFile, ParameterFileError
 from amp_studio.schema.regular_file import read_file
-from amp_studio.validate import BuilderRules, Validator, rules_beside
+from amp_studio.validate import NOT_SET, BuilderRules, Validator, rules_beside
 
 from .check_formats import CHECK_FORMATS, CheckFormat, CheckResult, FileFindings
 from .console import note, progress
@@ -176,7 +176,7 @@ def _check(options: argparse.Namespace, path: Path) -> CheckResult:
     try:
         file = opened(path, options, notes.append)
         validator = Validator(file, _own_rules(options, path, file))
-        checked = FileFindings(path, validator, validator.run(), options.why)
+        checked = _checked(path, validator, options.why)
         printed = CHECK_FORMATS[options.format].one(checked)
         return CheckResult(path, checked.counts["error"], printed, tuple(notes))
     except ParameterFileError as fault:
@@ -187,6 +187,19 @@ def _check(options: argparse.Namespace, path: Path) -> CheckResult:
         raise
     except BaseException as error:  # a panic of the rule engine is no Exception
         return CheckResult(path, notes=tuple(notes), fault=f"{path}: {keep_details(error)}")
+
+
+def _checked(path: Path, validator: Validator, why: bool) -> FileFindings:
+    """Return the findings of a file, apart from those about values as delivered, of steps that are not reached."""
+    findings = validator.run()
+    if not validator.not_set or all(finding.rule == NOT_SET for finding in findings):
+        return FileFindings(path, validator, findings, why)
+    from amp_studio.guide import as_delivered  # most files are complete
+
+    state = as_delivered(validator, findings)
+    deferred = set(map(id, state.findings))
+    shown = tuple(finding for finding in findings if id(finding) not in deferred)
+    return FileFindings(path, validator, shown, why, state.findings, state.steps)
 
 
 def _own_rules(options: argparse.Namespace, path: Path, file: ParameterFile) -> BuilderRules:

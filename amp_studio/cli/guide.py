@@ -195,7 +195,7 @@ def _overview(file: ParameterFile, come: GuideProgress, path: Path) -> Iterator[
             if len(each.open) > _MOST:
                 yield f"        and {len(each.open) - _MOST} more"
     if come.deferred:
-        yield f"{counted(len(come.deferred), 'finding')} of later steps left out here; validate lists every finding"
+        yield f"{counted(len(come.deferred), 'finding')} of later steps left out here; validate --json lists them"
 
 
 def _step_line(each: StepProgress, width: int) -> str:

@@ -5,15 +5,18 @@ steps that have been reached and which are deferred; ``next_open`` is the next v
 ticked is kept in the head of the file (``tick``).
 """
 
+from .delivered import Delivered, as_delivered
 from .progress import GuideProgress, StepProgress, StepState, next_open, progress
 from .steps import SetupStep, find_step, step_of, steps_of
 from .ticks import tick
 
 __all__ = [
+    "Delivered",
     "GuideProgress",
     "SetupStep",
     "StepProgress",
     "StepState",
+    "as_delivered",
     "find_step",
     "next_open",
     "progress",

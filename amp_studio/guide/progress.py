@@ -9,7 +9,7 @@ to the others. Where it reads none it belongs to the step of what is wrong.
 The steps are reached in their order, as far as the first that is not finished: it has an open value, or an error belongs
 to it. A finding that belongs to a later step is deferred (left out of a list, never of a check), unless somebody has set
 what is wrong: he learns it at once.
-``validate``, a download and its preview know nothing of steps.
+A download and its preview know nothing of steps.
 """
 
 from __future__ import annotations
@@ -124,7 +124,7 @@ def progress(validator: Validator, findings: Sequence[Finding] | None = None) ->
             has_default = parameters[address[0]].default is not None
             total[number] += not has_default
             own[number] += not has_default or not file.is_default(address)
-    belongs = [(f, *_belongs_to(file, f)) for f in findings if f.rule != NOT_SET]
+    belongs = [(f, *belongs_to(file, f)) for f in findings if f.rule != NOT_SET]
     errors = [number for f, number, _ in belongs if f.severity == "error" and number]
     reached = min([*open_of, *errors], default=len(steps) + 1)
     about: dict[int, list[Finding]] = {}
@@ -150,7 +150,7 @@ def progress(validator: Validator, findings: Sequence[Finding] | None = None) ->
     )
 
 
-def _belongs_to(file: ParameterFile, finding: Finding) -> tuple[int, bool]:
+def belongs_to(file: ParameterFile, finding: Finding) -> tuple[int, bool]:
     """Return the number of the step to which a finding belongs, 0 for none, and whether somebody has set what is wrong."""
     places = step_of(file.schema)
 

@@ -77,6 +77,7 @@ SARIF = closed(  # 3.13
 @pytest.fixture
 def machines(amp, tmp_path: Path, mill: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     """Return a folder with a bad machine, a good one and one that cannot be read; the run begins there."""
+    amp("set", mill, "1310=1 mm")  # somebody has begun
     amp("set", mill, "1300=1e6", "--force")
     (tmp_path / "bad mill: 100%, old.amp").write_bytes(mill.read_bytes())
     amp("set", mill, "1300=0")
@@ -247,6 +248,7 @@ def test_reasons_are_for_text_and_json(amp, mill: Path) -> None:
 def test_a_terminal_without_utf_8_gets_the_same_document(amp, mill: Path, tmp_path: Path, form: str) -> None:
     named = tmp_path / "Fräse.amp"
     named.write_bytes(mill.read_bytes())
+    amp("set", named, "3300=1e9", "--force")  # in degrees
     document = amp("validate", named, "--format", form).out.strip()
     in_ascii = CHECK_FORMATS[form].in_ascii(document)
     assert in_ascii.isascii()

@@ -57,6 +57,7 @@ def test_the_fix_of_a_finding_can_be_given_to_set(amp, mill: Path) -> None:
 
 
 def test_several_files_are_checked_in_one_go(amp, mill: Path, plain: Path) -> None:
+    amp("set", mill, "1310=1 mm")
     said = amp("validate", plain, mill, "--json")
     assert (1, [str(plain), str(mill)]) == (said.code, [document["file"] for document in said.json["files"]])
     totals = [line for line in amp("validate", plain, mill).out.splitlines() if " errors, " in line]

@@ -22,6 +22,7 @@ def start(*arguments: object, **env: str) -> subprocess.CompletedProcess[bytes]:
 
 
 def test_exit_codes_and_streams_are_those_of_the_contract(mill: Path) -> None:
+    assert start("set", mill, "1310=1 mm").returncode == 0  # a file that is as delivered has no errors yet
     right, wrong, refused = (
         start("get", mill, "1300", "--json"),
         start("validate", mill),

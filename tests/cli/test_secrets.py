@@ -183,7 +183,7 @@ def test_the_mask_itself_is_no_value(machine: Path, amp) -> None:
 def test_the_printed_password_is_warned_of_and_not_written(amp, tmp_path: Path) -> None:
     path = tmp_path / "new.amp"
     amp("new", "9pc", path)
-    said = amp("validate", path, "--why").out
+    said = amp("validate", path, "--why", "--json").out
     assert "9pc.password.factory-setting" in said
     assert "AB-D4" not in said
     assert "[65" not in said

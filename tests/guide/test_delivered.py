@@ -1,0 +1,56 @@
+"""A fresh file is calm: what is wrong with printed defaults is a state until somebody begins."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from amp_studio.files import ParameterFile, new_file, open_file
+from amp_studio.files.examples import examples_folder
+from amp_studio.guide import as_delivered
+from amp_studio.schema import Value, family_ids
+from amp_studio.validate import NOT_SET, Finding, Validator
+
+
+def shown(file: ParameterFile) -> list[Finding]:
+    """Return what is left of the findings without those about values as delivered."""
+    validator = Validator(file)
+    findings = validator.run()
+    state = set(map(id, as_delivered(validator, findings).findings))
+    return [f for f in findings if f.rule != NOT_SET and id(f) not in state]
+
+
+@pytest.mark.parametrize("family", family_ids())
+def test_a_fresh_file_has_no_finding_with_axes_or_without(family: str) -> None:
+    assert shown(new_file(family)) == []
+    axes = ["X", "Y"]
+    assert shown(new_file(family, None, axes if family not in ("57c422b", "grblhal") else ())) == []
+
+
+def test_what_is_as_delivered_has_its_steps() -> None:
+    validator = Validator(new_file("acromill"))
+    state = as_delivered(validator, validator.run())
+    assert sum(f.severity == "warning" for f in state.findings) == 31
+    assert state.steps == (2, 3, 4, 5, 8)
+
+
+def test_what_somebody_has_set_wrong_is_a_finding_at_once() -> None:
+    file = new_file("9pc", "mill", ["X", "Y"])
+    file.set(("home.calibration", "1"), Value(1e6, "mm"))
+    assert ("home.calibration", "1") in [f.causes[0] for f in shown(file)]
+
+
+def test_once_somebody_has_begun_the_first_step_has_its_errors() -> None:
+    file = new_file("9pc", "mill", ["X", "Y"])
+    file.set(("home.position", "1"), Value(1.0, "mm"))
+    assert {f.rule for f in shown(file) if f.severity == "error"} == {
+        "9pc.servo.hardware-missing",
+        "9pc.servo.loop-type-missing",
+    }
+
+
+@pytest.mark.parametrize("path", sorted(examples_folder().glob("*/*.amp")), ids=lambda path: path.stem)
+def test_a_complete_file_has_no_such_state(path: Path) -> None:
+    validator = Validator(open_file(path).file)
+    assert as_delivered(validator, validator.run()).findings == ()
