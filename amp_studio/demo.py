@@ -16,7 +16,7 @@ from pathlib import Path
 import platformdirs
 
 from amp_studio.files.examples import examples_folder
-from amp_studio.ui.display import has_display
+from amp_studio.ui.base.display import has_display
 
 EXAMPLE = "mill-1394"
 

@@ -25,10 +25,10 @@ def measures(folder: Path, times: int) -> Iterator[Measure]:
 
     from amp_studio.files import Document, Merge, ParameterFile
     from amp_studio.schema import Value
-    from amp_studio.ui.merge_model import BASE, A, B
-    from amp_studio.ui.merge_sources import MergeSource, MergeSources
-    from amp_studio.ui.merge_window import MergeWindow
-    from amp_studio.ui.workspace import Workspace
+    from amp_studio.ui.base.workspace import Workspace
+    from amp_studio.ui.merge.model import BASE, A, B
+    from amp_studio.ui.merge.sources import MergeSource, MergeSources
+    from amp_studio.ui.merge.window import MergeWindow
 
     QSettings.setPath(QSettings.Format.NativeFormat, QSettings.Scope.UserScope, str(folder))
     application = QApplication.instance() or QApplication(["bench"])

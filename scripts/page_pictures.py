@@ -127,7 +127,7 @@ def _grab(widget: Any) -> QPixmap:
 
 def new(stage: Stage, _: Path) -> QPixmap:
     """The dialog of a new file, filled in."""
-    from amp_studio.ui.new_file_dialog import NewFileDialog
+    from amp_studio.ui.dialogs.new_file_dialog import NewFileDialog
 
     dialog = NewFileDialog(stage.window, "9pc")
     dialog.machine.setCurrentIndex(dialog.machine.findData("mill"))
@@ -149,7 +149,7 @@ def errors(stage: Stage, path: Path) -> QPixmap:
 
 def fixes(stage: Stage, path: Path) -> QPixmap:
     """Every suggested fix, to be chosen from."""
-    from amp_studio.ui.finding_dialogs import FixSeveralDialog
+    from amp_studio.ui.findings.dialogs import FixSeveralDialog
 
     window = _shown(stage, path)
     dialog = FixSeveralDialog(window.workspace, window.workspace.listed, window)
@@ -187,7 +187,7 @@ def motion(stage: Stage, path: Path) -> QPixmap:
     """A move of the X axis."""
     from screenshots import settle
 
-    from amp_studio.ui.task import Task
+    from amp_studio.ui.base.task import Task
 
     window = _shown(stage, path)
     window.go_to(("feedrate.rapid", "1"))
@@ -203,8 +203,8 @@ def record(stage: Stage, path: Path) -> QPixmap:
     from screenshots import settle
 
     from amp_studio.files import open_file
-    from amp_studio.ui.identify_dialog import IdentifyDialog
-    from amp_studio.ui.task import Task
+    from amp_studio.ui.base.task import Task
+    from amp_studio.ui.motion.identify_dialog import IdentifyDialog
 
     dialog = IdentifyDialog(open_file(path).file, "1", path.with_name("record.csv"), stage.window)
     dialog.resize(1000, 560)

@@ -40,11 +40,11 @@ from PySide6.QtWidgets import QApplication, QWidget  # noqa: E402
 
 from amp_studio.files import Document, ParameterFile, Project, ProjectInfo, compare, new_file, save_file  # noqa: E402
 from amp_studio.schema import Value  # noqa: E402
+from amp_studio.ui.base.task import Task  # noqa: E402
+from amp_studio.ui.base.theme import scheme  # noqa: E402
+from amp_studio.ui.base.translated import speak  # noqa: E402
+from amp_studio.ui.base.workspace import Workspace  # noqa: E402
 from amp_studio.ui.main_window import MainWindow  # noqa: E402
-from amp_studio.ui.task import Task  # noqa: E402
-from amp_studio.ui.theme import scheme  # noqa: E402
-from amp_studio.ui.translated import speak  # noqa: E402
-from amp_studio.ui.workspace import Workspace  # noqa: E402
 
 EXCESS, RAPID, CALIBRATION = ("servo.excess_error", "1"), ("feedrate.rapid", "1"), ("home.calibration", "1")
 
@@ -215,8 +215,8 @@ class Stage:
 
     def compare(self) -> None:
         """Two sources, then three with a conflict."""
-        from amp_studio.ui.merge_model import BASE, A, B
-        from amp_studio.ui.merge_sources import MergeSource
+        from amp_studio.ui.merge.model import BASE, A, B
+        from amp_studio.ui.merge.sources import MergeSource
 
         window = self.window
         base, other = window.workspace.file.copy(), window.workspace.file.copy()
@@ -236,7 +236,7 @@ class Stage:
     def exchange(self) -> None:
         """What a download would change, and what was exchanged before."""
         from amp_studio.transfer.client.record import Exchange, add_exchange
-        from amp_studio.ui.download_preview import DownloadPreview
+        from amp_studio.ui.control.download_preview import DownloadPreview
 
         workspace = self.window.workspace
         held = workspace.file.copy()
@@ -267,7 +267,7 @@ class Stage:
 
     def tuning(self) -> None:
         """Every page of the tuning window."""
-        from amp_studio.ui.tuning_actions import tune
+        from amp_studio.ui.actions.tuning import tune
 
         tune(self.window, self.window.control.exchanges)
         with self.beside("TuningWindow") as tuning:
@@ -277,8 +277,8 @@ class Stage:
 
     def dialogs(self) -> None:
         """Calculator, tables, steps of undo, and the dialog of a new file."""
-        from amp_studio.ui.file_dialogs import ReportDialog
-        from amp_studio.ui.new_file_dialog import NewFileDialog
+        from amp_studio.ui.dialogs.file_dialogs import ReportDialog
+        from amp_studio.ui.dialogs.new_file_dialog import NewFileDialog
 
         self.window.go_to(("servo.lead_screw_pitch", "1"))
         for n, (act, kind, name) in enumerate((
@@ -353,7 +353,7 @@ class Stage:
         """The findings of several files."""
         import threading
 
-        from amp_studio.ui.project_check import ProjectCheckDialog, check_files
+        from amp_studio.ui.project.check import ProjectCheckDialog, check_files
 
         paths = sorted(self.files.glob("*/*.amp"))
         checked = check_files(paths, lambda *_: None, threading.Event())

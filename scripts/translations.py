@@ -24,7 +24,7 @@ def updated(path: Path) -> bytes:
     with tempfile.TemporaryDirectory() as folder:
         copy = Path(shutil.copy(path, folder))
         tool = Path(sys.executable).with_name("pyside6-lupdate")
-        modules = sorted(str(module) for module in UI.glob("*.py"))
+        modules = sorted(str(module) for module in UI.rglob("*.py"))
         unseen = Path(folder) / "in_f_strings.py"
         unseen.write_text("".join(f"{call}\n" for call in calls_in_f_strings()), encoding="utf-8")
         modules.append(str(unseen))
@@ -38,7 +38,7 @@ def updated(path: Path) -> bytes:
 def calls_in_f_strings() -> list[str]:
     """Return the calls of ``tr`` within f-strings, where lupdate does not look, as calls of their own."""
     found = set()
-    for module in UI.glob("*.py"):
+    for module in UI.rglob("*.py"):
         for node in ast.walk(ast.parse(module.read_text("utf-8"))):
             if isinstance(node, ast.JoinedStr):
                 for call in ast.walk(node):

@@ -431,7 +431,7 @@ def test_a_planted_circle_is_found(tmp_path: Path, line: str, pages: bool, circl
     assert bool(circles(tmp_path / "amp_studio")) == circle
 
 
-LOOPS = {"amp_studio.ui.modal": {"dialog.exec"}, "amp_studio.ui.task": {"loop.exec"}}
+LOOPS = {"amp_studio.ui.base.modal": {"dialog.exec"}, "amp_studio.ui.base.task": {"loop.exec"}}
 """Module -> where an event loop may run inside another one; each checks that who waited still exists."""
 
 
@@ -476,4 +476,4 @@ def test_the_window_loads_the_simulator_by_its_loader_alone(checkout: Path) -> N
                 and not any(line < node.lineno for line in loaded)
             ]
     assert beside == []
-    assert "amp_studio.ui.step_answer" in brings
+    assert "amp_studio.ui.motion.step_answer" in brings

@@ -57,7 +57,7 @@ FORBIDDEN = {
 ALLOWED: dict[tuple[str, str], str] = {
     ("e-201-status", "unset"): "as the control's screen has it",
     ("resolution.encoder_type", "unset"): "as the control's screen has it",
-    ("amp_studio/ui/steps_panel.py", "held"): "findings are held back",
+    ("amp_studio/ui/page/steps_panel.py", "held"): "findings are held back",
     ("tests/validate/test_builder_rules.py", "advice"): "the key of a rule in a file",
 }
 """(file or id of a fact, word) -> why it may stay there."""

@@ -67,11 +67,11 @@ def _in_window(merge: Merge, options: argparse.Namespace) -> int:
     """Have a person merge in the window; 1 where the window was closed without a result."""
     if options.dry_run or options.json:
         raise UsageError("--window goes with neither --dry-run nor --json")
-    from amp_studio.ui.display import MISSING, has_display
+    from amp_studio.ui.base.display import MISSING, has_display
 
     if not has_display():
         raise UsageError(MISSING)
-    from amp_studio.ui.merge_program import merge_in_window
+    from amp_studio.ui.merge.program import merge_in_window
 
     is_written = merge_in_window(merge, options.ours, options.output, lambda result: _write(result, options))
     print(f"{options.output}: {'written' if is_written else 'not written'}")

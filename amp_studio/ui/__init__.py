@@ -12,7 +12,7 @@ from pathlib import Path
 from types import TracebackType
 from typing import TYPE_CHECKING
 
-from .display import MISSING, has_display
+from .base.display import MISSING, has_display
 
 if TYPE_CHECKING:
     from .main_window import MainWindow
@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 __all__ = ["main"]
 
 if has_display():
-    from .guard import guard_overrides
+    from .base.guard import guard_overrides
 
     guard_overrides()  # before the first class of this room is made
 
@@ -33,10 +33,10 @@ def main(arguments: Sequence[str] | None = None, emulate: bool = False) -> int:
     from PySide6.QtCore import QTimer
     from PySide6.QtWidgets import QApplication
 
+    from .base.task import Task
+    from .base.translated import speak
     from .main_window import MainWindow
-    from .settings import UserSettings
-    from .task import Task
-    from .translated import speak
+    from .window.settings import UserSettings
 
     arguments = sys.argv[1:] if arguments is None else arguments
     application = QApplication.instance() or QApplication(["amp-studio", *arguments])
@@ -74,8 +74,8 @@ def _hook(window: MainWindow):  # type: ignore[no-untyped-def]  # the type of sy
     def show_internal_error(
         kind: type[BaseException], error: BaseException, trace: TracebackType | None
     ) -> None:
-        from .modal import AskerGoneError
-        from .questions import show_message
+        from .base.modal import AskerGoneError
+        from .base.questions import show_message
 
         if kind is AskerGoneError:
             return

@@ -12,35 +12,35 @@ from amp_studio.files import ENDING, axis_instances
 from amp_studio.schema import Address
 from amp_studio.validate import Finding
 
-from .axis_actions import AxisActions
-from .control_actions import ControlActions
-from .disk_watch import DiskWatch
-from .edit_actions import EditActions
-from .file_actions import FileActions
-from .file_page import FilePage
-from .filter_actions import FilterActions
-from .find_actions import FindActions
-from .garbage import collect_by_timer, set_apart
-from .guide_actions import GuideActions
-from .language_actions import LanguageActions
-from .left_panel import as_side
-from .picture_actions import PictureActions
-from .preview_actions import PreviewActions
-from .program_icon import program_icon
-from .project_actions import ProjectActions
-from .project_files import ProjectFiles
-from .project_tree import ProjectTree
-from .questions import show_message
-from .status_line import StatusLine
-from .studio_window import StudioWindow
-from .tab_corner import TabCorner
-from .task import Task
-from .theme import wear
-from .theme_actions import ThemeActions
-from .tool_bar import MainToolBar
-from .view_actions import ViewActions
-from .welcome import WelcomePage
-from .workspace import Workspace
+from .actions.axis import AxisActions
+from .actions.control import ControlActions
+from .actions.edit import EditActions
+from .actions.file import FileActions
+from .actions.filter import FilterActions
+from .actions.find import FindActions
+from .actions.guide import GuideActions
+from .actions.language import LanguageActions
+from .actions.picture import PictureActions
+from .actions.preview import PreviewActions
+from .actions.project import ProjectActions
+from .actions.theme import ThemeActions
+from .actions.view import ViewActions
+from .base.garbage import collect_by_timer, set_apart
+from .base.program_icon import program_icon
+from .base.questions import show_message
+from .base.task import Task
+from .base.theme import wear
+from .base.workspace import Workspace
+from .page.file_page import FilePage
+from .page.left_panel import as_side
+from .project.files import ProjectFiles
+from .project.tree import ProjectTree
+from .welcome.page import WelcomePage
+from .window.disk_watch import DiskWatch
+from .window.status_line import StatusLine
+from .window.studio_window import StudioWindow
+from .window.tab_corner import TabCorner
+from .window.tool_bar import MainToolBar
 
 
 class MainWindow(StudioWindow):

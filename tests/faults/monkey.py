@@ -246,7 +246,7 @@ class Monkey:
     # -- what is there -------------------------------------------------------------------
 
     def _commands(self) -> dict[str, Any]:
-        from amp_studio.ui.menu_commands import commands
+        from amp_studio.ui.base.menu_commands import commands
 
         found = dict(commands(self.window.menuBar()))
         return {n: a for n, a in found.items() if not any(word in n.casefold() for word in _LEFT_ALONE)}

@@ -262,7 +262,7 @@ def fuzz_settings(folder: Path, seed: int, count: int) -> list[str]:
     from PySide6.QtCore import QSettings, Qt, qInstallMessageHandler
     from PySide6.QtWidgets import QApplication, QDockWidget, QMainWindow
 
-    from amp_studio.ui.settings import UserSettings, is_there, is_usable
+    from amp_studio.ui.window.settings import UserSettings, is_there, is_usable
 
     application = QApplication.instance() or QApplication([])
     window = QMainWindow()
@@ -272,7 +272,7 @@ def fuzz_settings(folder: Path, seed: int, count: int) -> list[str]:
         path.write_bytes(text.encode("utf-8", "surrogatepass"))
         place = path if is_usable(path) else path / "none"
         stored = QSettings(str(place), QSettings.Format.IniFormat)
-        with mock.patch("amp_studio.ui.settings.stored_in", return_value=stored):
+        with mock.patch("amp_studio.ui.window.settings.stored_in", return_value=stored):
             settings = UserSettings()
         assert isinstance(settings.control(), str)
         for recent in settings.recent():

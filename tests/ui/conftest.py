@@ -23,11 +23,11 @@ from PySide6.QtWidgets import (
 from pytestqt.qtbot import QtBot
 
 from amp_studio.files import Document, ParameterFile, content_of, new_file, open_file
+from amp_studio.ui.base.menu_commands import commands
+from amp_studio.ui.base.task import ProgressDialog, Task
+from amp_studio.ui.base.translated import speak
+from amp_studio.ui.base.workspace import Workspace
 from amp_studio.ui.main_window import MainWindow
-from amp_studio.ui.menu_commands import commands
-from amp_studio.ui.task import ProgressDialog, Task
-from amp_studio.ui.translated import speak
-from amp_studio.ui.workspace import Workspace
 
 from .alt_letters import doubled, texts_of
 
@@ -37,7 +37,7 @@ WAIT_MS = 20_000
 
 @pytest.hookimpl(wrapper=True)
 def pytest_runtest_protocol(item: pytest.Item) -> Iterator[None]:
-    """Let nothing be collected while Qt is at work (``amp_studio.ui.garbage``), and other folders as always."""
+    """Let nothing be collected while Qt is at work (``amp_studio.ui.base.garbage``), and other folders as always."""
     if Path(__file__).parent in item.path.parents:
         gc.disable()
     try:

@@ -12,21 +12,21 @@ from PySide6.QtWidgets import QApplication, QHeaderView, QWidget
 
 from amp_studio.files import compare
 from amp_studio.schema import Value
-from amp_studio.ui.calculator_dialog import CalculatorDialog
-from amp_studio.ui.download_preview import DownloadPreview
-from amp_studio.ui.exchanges_dialog import ExchangesDialog
-from amp_studio.ui.file_dialogs import ReportDialog
-from amp_studio.ui.machines_dialog import MachinesDialog
+from amp_studio.ui.control.download_preview import DownloadPreview
+from amp_studio.ui.control.exchanges_dialog import ExchangesDialog
+from amp_studio.ui.dialogs.calculator_dialog import CalculatorDialog
+from amp_studio.ui.dialogs.file_dialogs import ReportDialog
+from amp_studio.ui.dialogs.new_file_dialog import NewFileDialog
+from amp_studio.ui.dialogs.note_dialog import NoteDialog
+from amp_studio.ui.dialogs.tables_dialog import TablesDialog
 from amp_studio.ui.main_window import MainWindow
-from amp_studio.ui.merge_window import MergeWindow
-from amp_studio.ui.motion_view import MotionView
-from amp_studio.ui.new_file_dialog import NewFileDialog
-from amp_studio.ui.note_dialog import NoteDialog
-from amp_studio.ui.project_check import ProjectCheckDialog, check_files
-from amp_studio.ui.quick_edit import QuickEdit
-from amp_studio.ui.step_list import StepList
-from amp_studio.ui.tables_dialog import TablesDialog
-from amp_studio.ui.tuning_window import TuningWindow
+from amp_studio.ui.merge.machines_dialog import MachinesDialog
+from amp_studio.ui.merge.window import MergeWindow
+from amp_studio.ui.motion.tuning_window import TuningWindow
+from amp_studio.ui.motion.view import MotionView
+from amp_studio.ui.page.step_list import StepList
+from amp_studio.ui.project.check import ProjectCheckDialog, check_files
+from amp_studio.ui.table.quick_edit import QuickEdit
 
 from .conftest import action
 

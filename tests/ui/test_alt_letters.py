@@ -66,8 +66,8 @@ def test_a_message_about_the_disk_has_letters_that_no_menu_has(window: MainWindo
 def dialogs() -> list[type[QDialog]]:
     """Return every dialog of the program."""
     modules = [
-        importlib.import_module(f"amp_studio.ui.{m.name}")
-        for m in pkgutil.iter_modules(amp_studio.ui.__path__)
+        importlib.import_module(m.name)
+        for m in pkgutil.walk_packages(amp_studio.ui.__path__, "amp_studio.ui.")
     ]
     kinds = {kind for module in modules for kind in vars(module).values() if isinstance(kind, type)}
     own = [
@@ -130,7 +130,7 @@ def called(node: ast.Call) -> str:
 
 def sources(checkout: Path) -> Iterator[tuple[str, ast.FunctionDef]]:
     """Yield every function of the window's room."""
-    for path in sorted((checkout / "amp_studio" / "ui").glob("*.py")):
+    for path in sorted((checkout / "amp_studio" / "ui").rglob("*.py")):
         for node in ast.walk(ast.parse(path.read_text("utf-8"))):
             if isinstance(node, ast.FunctionDef):
                 yield f"{path.name}: {node.name}", node

@@ -8,7 +8,7 @@ from PySide6.QtTest import QTest
 
 from amp_studio.files import ParameterFile, fitted_axes
 from amp_studio.schema import Value
-from amp_studio.ui.axis_dialogs import AxisDialog
+from amp_studio.ui.dialogs.axis_dialogs import AxisDialog
 from amp_studio.ui.main_window import MainWindow
 
 from .conftest import Person, action

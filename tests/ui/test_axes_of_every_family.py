@@ -10,11 +10,11 @@ from PySide6.QtWidgets import QComboBox
 
 from amp_studio.files import Document, fitted_axes, new_file
 from amp_studio.schema import Value
-from amp_studio.ui.axis_comparison import AxisComparison
-from amp_studio.ui.axis_dialogs import AddAxisDialog, AxisDialog
+from amp_studio.ui.base.workspace import Workspace
+from amp_studio.ui.dialogs.axis_dialogs import AddAxisDialog, AxisDialog
 from amp_studio.ui.main_window import MainWindow
-from amp_studio.ui.parameter_table import CONTROL
-from amp_studio.ui.workspace import Workspace
+from amp_studio.ui.merge.axis_comparison import AxisComparison
+from amp_studio.ui.table.parameter_table import CONTROL
 
 from .conftest import action
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from amp_studio.schema import Value
-from amp_studio.ui.calculator_dialog import CalculatorDialog
+from amp_studio.ui.dialogs.calculator_dialog import CalculatorDialog
 from amp_studio.ui.main_window import MainWindow
 
 from .conftest import Person, action

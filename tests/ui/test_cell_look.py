@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 from amp_studio.schema import family_ids, load_schema
-from amp_studio.ui.cell_look import grouped, short_labels
+from amp_studio.ui.table.cell_look import grouped, short_labels
 
 
 @pytest.mark.parametrize(

@@ -9,8 +9,8 @@ from PySide6.QtGui import QAction
 from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QDockWidget, QMenu, QWidgetAction
 
+from amp_studio.ui.base.menu_commands import commands
 from amp_studio.ui.main_window import MainWindow
-from amp_studio.ui.menu_commands import commands
 
 from .conftest import action
 

@@ -13,15 +13,15 @@ from pytestqt.qtbot import QtBot
 
 from amp_studio.files.examples import examples
 from amp_studio.schema import Value
-from amp_studio.ui.block_preview import BlockPreview
-from amp_studio.ui.download_preview import DownloadPreview
-from amp_studio.ui.file_dialogs import ReportDialog
+from amp_studio.ui.control.download_preview import DownloadPreview
+from amp_studio.ui.dialogs.file_dialogs import ReportDialog
+from amp_studio.ui.dialogs.new_file_dialog import NewFileDialog
+from amp_studio.ui.dialogs.note_dialog import NoteDialog
 from amp_studio.ui.main_window import MainWindow
-from amp_studio.ui.merge_model import B
-from amp_studio.ui.merge_window import MergeWindow
-from amp_studio.ui.new_file_dialog import NewFileDialog
-from amp_studio.ui.note_dialog import NoteDialog
-from amp_studio.ui.tuning_window import TuningWindow
+from amp_studio.ui.merge.model import B
+from amp_studio.ui.merge.window import MergeWindow
+from amp_studio.ui.motion.tuning_window import TuningWindow
+from amp_studio.ui.table.block_preview import BlockPreview
 
 from .conftest import WAIT_MS, Control, Person, action, editor, on_disk
 

@@ -13,11 +13,11 @@ from pytestqt.qtbot import QtBot
 from amp_studio.files import content_of, new_file, open_file
 from amp_studio.schema import Value
 from amp_studio.transfer.client import parameters
-from amp_studio.ui.download_preview import DownloadPreview
+from amp_studio.ui.base.task import ProgressDialog
+from amp_studio.ui.control.download_preview import DownloadPreview
 from amp_studio.ui.main_window import MainWindow
-from amp_studio.ui.merge_model import BASE, B
-from amp_studio.ui.merge_window import MergeWindow
-from amp_studio.ui.task import ProgressDialog
+from amp_studio.ui.merge.model import BASE, B
+from amp_studio.ui.merge.window import MergeWindow
 
 from .conftest import WAIT_MS, Control, Person, action, during, on_disk
 

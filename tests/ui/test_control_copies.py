@@ -5,7 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 
 from amp_studio.transfer.client import parameters
-from amp_studio.ui.download_preview import DownloadPreview
+from amp_studio.ui.control.download_preview import DownloadPreview
 from amp_studio.ui.main_window import MainWindow
 
 from .conftest import Person, action

@@ -10,8 +10,8 @@ from amp_studio.families.grblhal.described import schema_of
 from amp_studio.families.grblhal.settings import compiled_in
 from amp_studio.files import Document, Header, ParameterFile, open_file
 from amp_studio.schema import Value
+from amp_studio.ui.base.workspace import Workspace
 from amp_studio.ui.main_window import MainWindow
-from amp_studio.ui.workspace import Workspace
 from tests.families.grblhal.recorded import HELP, with_lines
 
 ARC = "[SETTINGGROUP:20|0|Plasma]", "[SETTING:350|20|Arc voltage|V|6|##0.00|10|300|0|0]"

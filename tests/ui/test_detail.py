@@ -7,8 +7,8 @@ from pathlib import Path
 from PySide6.QtCore import QUrl
 
 from amp_studio.schema import Value
+from amp_studio.ui.base.theme import colour
 from amp_studio.ui.main_window import MainWindow
-from amp_studio.ui.theme import colour
 
 from .conftest import WAIT_MS
 

@@ -9,8 +9,8 @@ from PySide6.QtGui import QGuiApplication
 
 from amp_studio.files import ParameterFile, RangeError, copy_axis, delete_axis, retype_axis
 from amp_studio.schema import Value
+from amp_studio.ui.base.workspace import Workspace
 from amp_studio.ui.main_window import MainWindow
-from amp_studio.ui.workspace import Workspace
 from amp_studio.validate import Validator
 
 CALIBRATION = ("home.calibration", "1")

@@ -13,10 +13,10 @@ from PySide6.QtWidgets import QFileDialog
 from amp_studio.files import Document, backup_path, content_of, open_file
 from amp_studio.files.examples import examples
 from amp_studio.schema import Value
-from amp_studio.ui import file_dialogs
+from amp_studio.ui.dialogs import file_dialogs
+from amp_studio.ui.dialogs.new_file_dialog import NewFileDialog
 from amp_studio.ui.main_window import MainWindow
-from amp_studio.ui.merge_window import MergeWindow
-from amp_studio.ui.new_file_dialog import NewFileDialog
+from amp_studio.ui.merge.window import MergeWindow
 
 from .conftest import WAIT_MS, Person, action, on_disk
 

@@ -10,9 +10,9 @@ import pytest
 from amp_studio.schema import Address, Value
 from amp_studio.transfer.client.record import add_exchange, changes_of, exchange_now
 from amp_studio.transfer.image import encode_image
-from amp_studio.ui.filter_bar import FilterBar
+from amp_studio.ui.base.workspace import Workspace
 from amp_studio.ui.main_window import MainWindow
-from amp_studio.ui.workspace import Workspace
+from amp_studio.ui.table.filter_bar import FilterBar
 
 from .conftest import WAIT_MS, action
 

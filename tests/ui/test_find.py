@@ -7,10 +7,10 @@ from PySide6.QtCore import Qt, QUrl
 from PySide6.QtTest import QTest
 
 from amp_studio.schema import Value
-from amp_studio.ui.find_box import FindBox
+from amp_studio.ui.actions.find_box import FindBox
+from amp_studio.ui.base.workspace import Workspace
 from amp_studio.ui.main_window import MainWindow
-from amp_studio.ui.message_page import MessageWindow
-from amp_studio.ui.workspace import Workspace
+from amp_studio.ui.page.message_page import MessageWindow
 
 from .conftest import WAIT_MS, action
 

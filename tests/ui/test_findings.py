@@ -12,10 +12,10 @@ from PySide6.QtWidgets import QApplication, QDialogButtonBox
 
 from amp_studio.files import content_of, new_file
 from amp_studio.schema import Value
-from amp_studio.ui.finding_dialogs import FixSeveralDialog, SuppressDialog, WhyDialog
-from amp_studio.ui.findings_panel import FindingsPanel
+from amp_studio.ui.base.workspace import Workspace
+from amp_studio.ui.findings.dialogs import FixSeveralDialog, SuppressDialog, WhyDialog
+from amp_studio.ui.findings.panel import FindingsPanel
 from amp_studio.ui.main_window import MainWindow
-from amp_studio.ui.workspace import Workspace
 
 from .conftest import action
 

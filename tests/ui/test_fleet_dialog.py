@@ -6,8 +6,8 @@ from pathlib import Path
 
 import pytest
 
-from amp_studio.ui.exchanges_dialog import ExchangesDialog
-from amp_studio.ui.fleet_dialog import FleetDialog
+from amp_studio.ui.control.exchanges_dialog import ExchangesDialog
+from amp_studio.ui.control.fleet_dialog import FleetDialog
 from amp_studio.ui.main_window import MainWindow
 
 from .conftest import Person, action

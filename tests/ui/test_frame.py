@@ -10,9 +10,9 @@ from PySide6.QtWidgets import QApplication, QDockWidget
 from pytestqt.qtbot import QtBot
 
 from amp_studio.files import content_of, new_file
+from amp_studio.ui.forms.segment import Segment
 from amp_studio.ui.main_window import MainWindow
-from amp_studio.ui.segment import Segment
-from amp_studio.ui.tab_end import TabEnd
+from amp_studio.ui.window.tab_end import TabEnd
 
 from .conftest import WAIT_MS, action
 

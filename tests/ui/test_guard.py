@@ -13,7 +13,7 @@ from types import FunctionType
 import pytest
 
 import amp_studio.ui
-from amp_studio.ui.guard import is_override
+from amp_studio.ui.base.guard import is_override
 
 RAISING = {
     "by C": "int('x')",

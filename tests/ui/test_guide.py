@@ -14,10 +14,10 @@ from pytestqt.qtbot import QtBot
 from amp_studio.files import Document, new_file
 from amp_studio.guide import SetupStep
 from amp_studio.schema import Value
+from amp_studio.ui.base.workspace import Workspace
+from amp_studio.ui.forms.place_tree import COUNTS, KEY, PICTURE, RIGHT
 from amp_studio.ui.main_window import MainWindow
-from amp_studio.ui.place_tree import COUNTS, KEY, PICTURE, RIGHT
-from amp_studio.ui.steps_panel import StepsPanel
-from amp_studio.ui.workspace import Workspace
+from amp_studio.ui.page.steps_panel import StepsPanel
 
 from .conftest import WAIT_MS, action
 
@@ -203,7 +203,7 @@ def test_the_defaults_of_a_step_are_kept_in_one_step_of_undo(fresh: MainWindow) 
 def test_the_check_list_is_written_where_the_person_wants_it(
     fresh: MainWindow, person, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr("amp_studio.ui.check_list_dialog.QDesktopServices.openUrl", lambda _: True)
+    monkeypatch.setattr("amp_studio.ui.dialogs.check_list_dialog.QDesktopServices.openUrl", lambda _: True)
     person.chooses(tmp_path / "list.html")
     fresh.page.left.steps.print.click()
     assert "Axis Integrand Name" in (tmp_path / "list.html").read_text("utf-8")

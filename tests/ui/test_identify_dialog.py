@@ -11,8 +11,8 @@ from pytestqt.qtbot import QtBot
 
 from amp_studio.files import open_file
 from amp_studio.sim import SimulationError, read_machine
-from amp_studio.ui.identify_dialog import IdentifyDialog
-from amp_studio.ui.machine_page import MachinePage
+from amp_studio.ui.motion.identify_dialog import IdentifyDialog
+from amp_studio.ui.motion.machine_page import MachinePage
 
 from .alt_letters import doubled, texts_of
 

@@ -10,9 +10,15 @@ from PySide6.QtCore import Qt
 from PySide6.QtTest import QTest
 
 from amp_studio.transfer.errors import TransferError
-from amp_studio.ui.known_controls import MOST, KnownControl, read_controls, stored_controls, with_exchange
-from amp_studio.ui.settings import UserSettings
-from amp_studio.ui.welcome_list import ROW
+from amp_studio.ui.base.known_controls import (
+    MOST,
+    KnownControl,
+    read_controls,
+    stored_controls,
+    with_exchange,
+)
+from amp_studio.ui.welcome.list import ROW
+from amp_studio.ui.window.settings import UserSettings
 
 NOW = datetime(2026, 3, 12, 8, 45, tzinfo=UTC)
 PLACE = "tcp://192.168.0.10:9600"

@@ -8,7 +8,7 @@ from pathlib import Path
 
 import pytest
 
-from amp_studio.ui import loading
+from amp_studio.ui.base import loading
 
 
 def test_a_thread_begins_to_load_when_the_other_has_loaded(
@@ -40,10 +40,10 @@ def test_a_thread_begins_to_load_when_the_other_has_loaded(
 
 
 def test_the_window_loads_in_threads_by_that_loader_alone() -> None:
-    folder = Path(loading.__file__).parent
+    folder = Path(loading.__file__).parents[1]
     others = [
         path.name
-        for path in folder.glob("*.py")
+        for path in folder.rglob("*.py")
         if "target=import_module" in path.read_text(encoding="utf-8")
     ]
     assert others == []

@@ -12,8 +12,8 @@ from PySide6.QtWidgets import QFileDialog
 
 from amp_studio.files import Project, ProjectInfo, new_file, open_file, save_file
 from amp_studio.schema import Value
-from amp_studio.ui.machines_dialog import MachinesDialog
 from amp_studio.ui.main_window import MainWindow
+from amp_studio.ui.merge.machines_dialog import MachinesDialog
 
 from .alt_letters import doubled, texts_of
 from .conftest import Person, action

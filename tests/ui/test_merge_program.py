@@ -10,11 +10,11 @@ from pytestqt.qtbot import QtBot
 from amp_studio import cli
 from amp_studio.files import Document, Merge, ParameterFile, SaveError, new_file, open_file
 from amp_studio.schema import Value
-from amp_studio.ui import merge_program
-from amp_studio.ui.merge_model import BASE
-from amp_studio.ui.merge_program import tool_window
-from amp_studio.ui.merge_window import MergeWindow
-from amp_studio.ui.workspace import Workspace
+from amp_studio.ui.base.workspace import Workspace
+from amp_studio.ui.merge import program as merge_program
+from amp_studio.ui.merge.model import BASE
+from amp_studio.ui.merge.program import tool_window
+from amp_studio.ui.merge.window import MergeWindow
 
 from .conftest import WAIT_MS
 

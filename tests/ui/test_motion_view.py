@@ -14,11 +14,11 @@ from amp_studio.files import ParameterFile
 from amp_studio.schema import Value
 from amp_studio.sim import SCENARIOS, Recommendation, Trace, simulate
 from amp_studio.sim.picture import picture_of
-from amp_studio.ui import motion_view
+from amp_studio.ui.base.task import Task
 from amp_studio.ui.main_window import MainWindow
-from amp_studio.ui.motion_plot import MotionPlot
-from amp_studio.ui.motion_view import MotionView
-from amp_studio.ui.task import Task
+from amp_studio.ui.motion import view as motion_view
+from amp_studio.ui.motion.plot import MotionPlot
+from amp_studio.ui.motion.view import MotionView
 from tests.sim.tiny import tiny
 
 from .conftest import WAIT_MS, action

@@ -11,9 +11,9 @@ from pytestqt.qtbot import QtBot
 
 from amp_studio.files import Document, Header, ParameterFile, new_file
 from amp_studio.schema import Schema, Value
+from amp_studio.ui.base.workspace import Workspace
 from amp_studio.ui.main_window import MainWindow
-from amp_studio.ui.motion_view import MotionView
-from amp_studio.ui.workspace import Workspace
+from amp_studio.ui.motion.view import MotionView
 
 from .conftest import Person, action
 

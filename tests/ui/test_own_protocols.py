@@ -10,9 +10,9 @@ from amp_studio.schema import Value
 from amp_studio.transfer.emulated.line_device import DeviceSetup
 from amp_studio.transfer.emulated.memory import Memory
 from amp_studio.transfer.waiting import PERSON
-from amp_studio.ui.download_preview import DownloadPreview
+from amp_studio.ui.base.task import ProgressDialog
+from amp_studio.ui.control.download_preview import DownloadPreview
 from amp_studio.ui.main_window import MainWindow
-from amp_studio.ui.task import ProgressDialog
 from tests.transfer.device_line import served
 
 from .conftest import Person, action

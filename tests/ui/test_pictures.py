@@ -12,7 +12,7 @@ from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QLabel
 
 from amp_studio.schema import Value
-from amp_studio.ui.pictures_page import PicturesPage
+from amp_studio.ui.pictures.page import PicturesPage
 
 from .conftest import WAIT_MS, action
 
@@ -318,7 +318,7 @@ def test_pictures_open_at_the_handle_of_the_selected_value_and_the_parameter_pan
 
 
 def test_a_family_without_pictures_says_so(qtbot, workspace, monkeypatch):
-    monkeypatch.setattr("amp_studio.ui.pictures_page.pictures_of", lambda _: ())
+    monkeypatch.setattr("amp_studio.ui.pictures.page.pictures_of", lambda _: ())
     page = PicturesPage(workspace)
     qtbot.addWidget(page)
     page.show()

@@ -10,9 +10,9 @@ from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QApplication
 
 from amp_studio.pictures import pictures_of
-from amp_studio.ui.handle_footer import HandleFooter
-from amp_studio.ui.picture_card import PictureCard
-from amp_studio.ui.picture_split import PictureLayout
+from amp_studio.ui.forms.handle_footer import HandleFooter
+from amp_studio.ui.pictures.card import PictureCard
+from amp_studio.ui.pictures.split import PictureLayout
 
 from .conftest import WAIT_MS, action
 

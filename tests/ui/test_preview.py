@@ -15,12 +15,12 @@ from pytestqt.qtbot import QtBot
 from amp_studio.files.examples import examples
 from amp_studio.report import Contents, PrintedFigure
 from amp_studio.schema import Address
-from amp_studio.ui import preview_panel
-from amp_studio.ui.file_dialogs import ReportDialog
+from amp_studio.ui.dialogs.file_dialogs import ReportDialog
 from amp_studio.ui.main_window import MainWindow
-from amp_studio.ui.preview_panel import PreviewPanel
-from amp_studio.ui.report_options import ReportChoice
-from amp_studio.ui.settings import UserSettings
+from amp_studio.ui.paper import preview_panel
+from amp_studio.ui.paper.preview_panel import PreviewPanel
+from amp_studio.ui.window.report_options import ReportChoice
+from amp_studio.ui.window.settings import UserSettings
 
 from .conftest import WAIT_MS, Person, action
 
@@ -245,7 +245,7 @@ def test_what_is_seen_is_exported_and_printed(
         return 1
 
     monkeypatch.setattr(QPrintDialog, "exec", prints)
-    monkeypatch.setattr("amp_studio.ui.printing.PPI", 24)
+    monkeypatch.setattr("amp_studio.ui.paper.printing.PPI", 24)
     window.preview.print()
     assert (tmp_path / "printed.pdf").read_bytes().startswith(b"%PDF")
 

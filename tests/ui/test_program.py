@@ -17,9 +17,9 @@ from PySide6.QtWidgets import QApplication, QDockWidget, QWidget
 from pytestqt.qtbot import QtBot
 
 from amp_studio.schema import Value
-from amp_studio.ui import garbage
+from amp_studio.ui.base import garbage
+from amp_studio.ui.base.task import ProgressDialog, Task
 from amp_studio.ui.main_window import MainWindow
-from amp_studio.ui.task import ProgressDialog, Task
 
 from .conftest import WAIT_MS, Person, during, on_disk
 

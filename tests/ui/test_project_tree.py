@@ -15,10 +15,10 @@ from pytestqt.qtbot import QtBot
 from amp_studio.files import Project, ProjectInfo, content_of, new_file
 from amp_studio.schema import Value
 from amp_studio.transfer.client.record import add_exchange, exchange_now
+from amp_studio.ui.forms.place_tree import COUNTS, KEY, PICTURE, RIGHT
 from amp_studio.ui.main_window import MainWindow
-from amp_studio.ui.merge_window import MergeWindow
-from amp_studio.ui.place_tree import COUNTS, KEY, PICTURE, RIGHT
-from amp_studio.ui.project_tree import ProjectTree
+from amp_studio.ui.merge.window import MergeWindow
+from amp_studio.ui.project.tree import ProjectTree
 
 from .alt_letters import doubled
 from .conftest import WAIT_MS, Person

@@ -8,10 +8,10 @@ import pytest
 
 from amp_studio.files import Document, Project, ProjectInfo
 from amp_studio.schema import Value
-from amp_studio.ui import file_dialogs
+from amp_studio.ui.dialogs import file_dialogs
+from amp_studio.ui.dialogs.new_file_dialog import NewFileDialog
 from amp_studio.ui.main_window import MainWindow
-from amp_studio.ui.new_file_dialog import NewFileDialog
-from amp_studio.ui.project_check import ProjectCheckDialog
+from amp_studio.ui.project.check import ProjectCheckDialog
 
 from .conftest import Person, action, on_disk
 

@@ -8,9 +8,9 @@ from PySide6.QtTest import QTest
 
 from amp_studio.files import ParameterFile
 from amp_studio.schema import Value
-from amp_studio.ui.choice_box import ChoiceBox
+from amp_studio.ui.forms.choice_box import ChoiceBox
 from amp_studio.ui.main_window import MainWindow
-from amp_studio.ui.quick_edit import QuickEdit
+from amp_studio.ui.table.quick_edit import QuickEdit
 
 from .conftest import WAIT_MS
 

@@ -10,9 +10,9 @@ from PySide6.QtTest import QTest
 from amp_studio.files import ParameterFile
 from amp_studio.files.notes import set_value_note, value_note
 from amp_studio.schema import Value
-from amp_studio.ui.block_preview import BlockPreview
+from amp_studio.ui.dialogs.note_dialog import NoteDialog
 from amp_studio.ui.main_window import MainWindow
-from amp_studio.ui.note_dialog import NoteDialog
+from amp_studio.ui.table.block_preview import BlockPreview
 
 from .conftest import action, editor
 
@@ -293,7 +293,7 @@ def test_the_list_of_steps_is_in_words_and_leads_back(window: MainWindow, file: 
     window.edits.commit((EXCESS, "1"), "9 mm")
     window.edits.commit((EXCESS, "1"), "=Y*2")
     window.edits.steps()
-    from amp_studio.ui.step_list import StepList
+    from amp_studio.ui.page.step_list import StepList
 
     steps = window.findChild(StepList)
     stack = window.workspace.undo_stack
@@ -308,7 +308,7 @@ def test_the_list_of_steps_is_in_words_and_leads_back(window: MainWindow, file: 
 
 @pytest.mark.parametrize("key", ["Ctrl+D", "Ctrl+R", "Ctrl+Backspace"])
 def test_each_key_belongs_to_one_command(window: MainWindow, key: str) -> None:
-    from amp_studio.ui.menu_commands import commands
+    from amp_studio.ui.base.menu_commands import commands
 
     found = [name for name, act in commands(window.menuBar()) if act.shortcut().toString() == key]
     assert len(found) == 1

@@ -8,7 +8,7 @@ import pytest
 from PySide6.QtGui import QDesktopServices
 from PySide6.QtPrintSupport import QPrinter, QPrintPreviewDialog
 
-from amp_studio.ui.file_dialogs import ReportDialog
+from amp_studio.ui.dialogs.file_dialogs import ReportDialog
 from amp_studio.ui.main_window import MainWindow
 
 from .conftest import Person, action
@@ -99,7 +99,7 @@ def test_a_report_is_shown_as_pages_and_goes_to_a_printer(
         return 1
 
     monkeypatch.setattr(QPrintPreviewDialog, "exec", printed)
-    monkeypatch.setattr("amp_studio.ui.printing.PPI", 40)
+    monkeypatch.setattr("amp_studio.ui.paper.printing.PPI", 40)
     accept(ReportDialog, lambda d: (d.options.changed.setChecked(True), setattr(d, "to_printer", True)))
     action(window, "Report").trigger()
     assert shown == ["Report"]

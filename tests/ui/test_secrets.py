@@ -11,11 +11,11 @@ from PySide6.QtWidgets import QLineEdit
 
 from amp_studio.files import open_file
 from amp_studio.schema import MASKED, Value
-from amp_studio.ui.file_dialogs import ReportDialog
+from amp_studio.ui.dialogs.file_dialogs import ReportDialog
 from amp_studio.ui.main_window import MainWindow
-from amp_studio.ui.merge_model import A, B
-from amp_studio.ui.merge_sources import MergeSource
-from amp_studio.ui.quick_edit import QuickEdit
+from amp_studio.ui.merge.model import A, B
+from amp_studio.ui.merge.sources import MergeSource
+from amp_studio.ui.table.quick_edit import QuickEdit
 
 from .conftest import Person, action
 

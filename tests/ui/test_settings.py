@@ -12,7 +12,7 @@ from PySide6.QtCore import QByteArray, QRect, QSettings, Qt
 from PySide6.QtWidgets import QDockWidget
 
 from amp_studio.ui.main_window import MainWindow
-from amp_studio.ui.settings import UserSettings, is_there, on_screen, stored_in
+from amp_studio.ui.window.settings import UserSettings, is_there, on_screen, stored_in
 
 from .conftest import WAIT_MS
 

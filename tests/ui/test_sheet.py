@@ -9,8 +9,8 @@ import pytest
 from PySide6.QtCore import Qt
 
 from amp_studio.files import content_of, open_file
+from amp_studio.ui.control.sheet_dialog import SheetDialog
 from amp_studio.ui.main_window import MainWindow
-from amp_studio.ui.sheet_dialog import SheetDialog
 
 from .conftest import WAIT_MS, Person, action
 

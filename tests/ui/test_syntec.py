@@ -8,9 +8,9 @@ import pytest
 
 from amp_studio.files import Document, ParameterFile, fitted_axes, new_file
 from amp_studio.schema import Value
-from amp_studio.ui.axis_dialogs import AxisDialog
+from amp_studio.ui.base.workspace import Workspace
+from amp_studio.ui.dialogs.axis_dialogs import AxisDialog
 from amp_studio.ui.main_window import MainWindow
-from amp_studio.ui.workspace import Workspace
 
 from .conftest import action
 

@@ -7,10 +7,10 @@ from PySide6.QtCore import Qt
 
 from amp_studio.files import ParameterFile
 from amp_studio.schema import Value
-from amp_studio.ui.cell_look import CellLook
+from amp_studio.ui.base.workspace import Workspace
 from amp_studio.ui.main_window import MainWindow
-from amp_studio.ui.parameter_table import AddressRole, ParameterTable
-from amp_studio.ui.workspace import Workspace
+from amp_studio.ui.table.cell_look import CellLook
+from amp_studio.ui.table.parameter_table import AddressRole, ParameterTable
 
 EXCESS = ("servo.excess_error", "1")
 

@@ -10,7 +10,7 @@ from PySide6.QtWidgets import QApplication, QLineEdit
 
 from amp_studio.files import ParameterFile
 from amp_studio.schema import Value
-from amp_studio.ui.choice_box import ChoiceBox, folded
+from amp_studio.ui.forms.choice_box import ChoiceBox, folded
 from amp_studio.ui.main_window import MainWindow
 
 from .conftest import WAIT_MS, action, editor, on_disk

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from PySide6.QtCore import QUrl
 
+from amp_studio.ui.dialogs.tables_dialog import TablesDialog
 from amp_studio.ui.main_window import MainWindow
-from amp_studio.ui.tables_dialog import TablesDialog
 
 from .conftest import action
 

@@ -12,9 +12,9 @@ from pytestqt.qtbot import QtBot
 
 from amp_studio.files import Document, content_of, new_file
 from amp_studio.schema import Value
-from amp_studio.ui.calculator_dialog import CalculatorDialog
+from amp_studio.ui.dialogs.calculator_dialog import CalculatorDialog
 from amp_studio.ui.main_window import MainWindow
-from amp_studio.ui.quick_edit import QuickEdit
+from amp_studio.ui.table.quick_edit import QuickEdit
 
 from .conftest import WAIT_MS, Person, action, on_disk
 

@@ -18,11 +18,11 @@ from PySide6.QtWidgets import QWidget
 from pytestqt.qtbot import QtBot
 
 from amp_studio.schema import Parameter
-from amp_studio.ui import theme
-from amp_studio.ui.cell_editor import Refusal, RefusalFrame
-from amp_studio.ui.mask_list import MaskList
-from amp_studio.ui.style_sheet import style_sheet
-from amp_studio.ui.theme import COLOURS, Token, scheme
+from amp_studio.ui.base import theme
+from amp_studio.ui.base.style_sheet import style_sheet
+from amp_studio.ui.base.theme import COLOURS, Token, scheme
+from amp_studio.ui.forms.mask_list import MaskList
+from amp_studio.ui.table.cell_editor import Refusal, RefusalFrame
 
 GROUNDS: tuple[Token, ...] = ("window", "panel", "base", "raised", "hover", "selbg", "selidle")
 READ: list[tuple[Token, Token]] = [
@@ -84,9 +84,9 @@ import json, sys
 from PySide6.QtGui import QGuiApplication
 from PySide6.QtWidgets import QApplication
 application = QApplication([])
-from amp_studio.ui import theme
+from amp_studio.ui.base import theme
 from amp_studio.ui.main_window import MainWindow
-from amp_studio.ui.settings import UserSettings
+from amp_studio.ui.window.settings import UserSettings
 window, told = MainWindow(), []
 theme.scheme().changed.connect(lambda: told.append(theme.colour("base").name()))
 def inks(icon):

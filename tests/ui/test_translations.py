@@ -15,8 +15,7 @@ from PySide6.QtWidgets import QMenu
 from amp_studio.files import open_file
 from amp_studio.guide import steps_of
 from amp_studio.pictures import pictures_of, scene_in_words
-from amp_studio.ui.main_window import MainWindow
-from amp_studio.ui.translated import (
+from amp_studio.ui.base.translated import (
     FOLDER,
     LANGUAGES,
     FileTranslator,
@@ -26,6 +25,7 @@ from amp_studio.ui.translated import (
     tr,
     worded,
 )
+from amp_studio.ui.main_window import MainWindow
 
 ROOT = Path(__file__).parents[2]
 FILES = [FOLDER / f"amp_studio_{code}.ts" for code in LANGUAGES if code != "en"]

@@ -14,12 +14,12 @@ from pytestqt.qtbot import QtBot
 
 from amp_studio.files import Document, new_file
 from amp_studio.schema import Value
-from amp_studio.ui.calibration_page import CalibrationPage
+from amp_studio.ui.base.workspace import Workspace
 from amp_studio.ui.main_window import MainWindow
-from amp_studio.ui.measured_dialog import MeasuredDialog
-from amp_studio.ui.tuning_values import ValuesPage
-from amp_studio.ui.tuning_window import TuningWindow
-from amp_studio.ui.workspace import Workspace
+from amp_studio.ui.motion.calibration_page import CalibrationPage
+from amp_studio.ui.motion.measured_dialog import MeasuredDialog
+from amp_studio.ui.motion.tuning_values import ValuesPage
+from amp_studio.ui.motion.tuning_window import TuningWindow
 from tests.ui.conftest import WAIT_MS, Person, action
 
 REVERSAL, TABLE = ("servo.reversal_error", "1"), ("calibration.table", "1")

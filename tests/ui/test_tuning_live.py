@@ -12,8 +12,8 @@ from pytestqt.qtbot import QtBot
 from amp_studio.files import Document, new_file, open_file
 from amp_studio.schema import Value
 from amp_studio.transfer.client.live import LiveTuning
-from amp_studio.ui.tuning_window import TuningWindow
-from amp_studio.ui.workspace import Workspace
+from amp_studio.ui.base.workspace import Workspace
+from amp_studio.ui.motion.tuning_window import TuningWindow
 from tests.families.grblhal.bench import Bench, sent
 from tests.ui.conftest import Person
 

@@ -7,9 +7,9 @@ from PySide6.QtCore import Qt
 from PySide6.QtTest import QTest
 
 from amp_studio.schema import Value
+from amp_studio.ui.base.workspace import Workspace
 from amp_studio.ui.main_window import MainWindow
-from amp_studio.ui.parameter_table import ParameterTable
-from amp_studio.ui.workspace import Workspace
+from amp_studio.ui.table.parameter_table import ParameterTable
 
 from .conftest import editor
 

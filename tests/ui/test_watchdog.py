@@ -12,10 +12,10 @@ from pytestqt.qtbot import QtBot
 from amp_studio.files.examples import examples
 from amp_studio.report import CHAPTERS, Contents
 from amp_studio.transfer.client.parameters import download_file
+from amp_studio.ui.base.task import Task
 from amp_studio.ui.main_window import MainWindow
-from amp_studio.ui.motion_view import MotionView
-from amp_studio.ui.project_check import check_files
-from amp_studio.ui.task import Task
+from amp_studio.ui.motion.view import MotionView
+from amp_studio.ui.project.check import check_files
 
 from .conftest import WAIT_MS, Control, action
 from .watchdog import Watchdog

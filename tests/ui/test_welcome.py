@@ -15,12 +15,12 @@ from pytestqt.qtbot import QtBot
 from amp_studio.files import content_of
 from amp_studio.files.examples import examples
 from amp_studio.schema import Value
+from amp_studio.ui.base.time_words import in_words
+from amp_studio.ui.dialogs.new_file_dialog import NewFileDialog
 from amp_studio.ui.main_window import MainWindow
-from amp_studio.ui.new_file_dialog import NewFileDialog
-from amp_studio.ui.settings import UserSettings
-from amp_studio.ui.time_words import in_words
-from amp_studio.ui.welcome import WelcomePage
-from amp_studio.ui.welcome_list import KEY, ROW, WelcomeList, WelcomeRow, inner, star_place
+from amp_studio.ui.welcome.list import KEY, ROW, WelcomeList, WelcomeRow, inner, star_place
+from amp_studio.ui.welcome.page import WelcomePage
+from amp_studio.ui.window.settings import UserSettings
 
 from .conftest import WAIT_MS, Person, on_disk
 

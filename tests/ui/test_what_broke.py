@@ -18,15 +18,15 @@ from amp_studio.files.examples import examples
 from amp_studio.pictures import pictures_of
 from amp_studio.schema import Value
 from amp_studio.ui import _hook
-from amp_studio.ui.axis_comparison import AxisComparison
-from amp_studio.ui.axis_dialogs import AxisDialog
-from amp_studio.ui.choice_box import ChoiceBox
+from amp_studio.ui.base.modal import AskerGoneError, is_alive, run_dialog
+from amp_studio.ui.base.task import ProgressDialog, Task
+from amp_studio.ui.dialogs.axis_dialogs import AxisDialog
+from amp_studio.ui.forms.choice_box import ChoiceBox
+from amp_studio.ui.forms.message_bar import MessageBar
 from amp_studio.ui.main_window import MainWindow
-from amp_studio.ui.merge_report import save_merge_report
-from amp_studio.ui.message_bar import MessageBar
-from amp_studio.ui.modal import AskerGoneError, is_alive, run_dialog
-from amp_studio.ui.project_files import to_trash
-from amp_studio.ui.task import ProgressDialog, Task
+from amp_studio.ui.merge.axis_comparison import AxisComparison
+from amp_studio.ui.merge.report import save_merge_report
+from amp_studio.ui.project.files import to_trash
 
 from .conftest import WAIT_MS, Person, action, editor
 
@@ -232,7 +232,7 @@ def test_a_report_of_a_comparison_outlives_its_window(
         bar.deleteLater()
         QApplication.sendPostedEvents(None, QEvent.Type.DeferredDelete)
 
-    monkeypatch.setattr("amp_studio.ui.merge_report.in_background", work_and_close)
+    monkeypatch.setattr("amp_studio.ui.merge.report.in_background", work_and_close)
     person.chooses(tmp_path / "c.pdf")
     file = window.workspace.file
     save_merge_report(window, Merge(file, file, None), {}, tmp_path / "a.amp", bar)

@@ -6,9 +6,9 @@ import pytest
 
 from amp_studio.schema import Value
 from amp_studio.ui.main_window import MainWindow
-from amp_studio.ui.merge_model import BASE, A, B
-from amp_studio.ui.merge_sources import MergeSource
-from amp_studio.ui.merge_window import MergeWindow
+from amp_studio.ui.merge.model import BASE, A, B
+from amp_studio.ui.merge.sources import MergeSource
+from amp_studio.ui.merge.window import MergeWindow
 
 from .steps import CALIBRATION, EXCESS, RAPID
 

@@ -10,7 +10,7 @@ from PySide6.QtWidgets import QMenu
 from pytestqt.qtbot import QtBot
 
 from amp_studio.schema import Address, Value
-from amp_studio.ui.merge_window import MergeWindow
+from amp_studio.ui.merge.window import MergeWindow
 from tests.ui.conftest import WAIT_MS
 
 EXCESS = ("servo.excess_error", "1")

@@ -10,9 +10,9 @@ from PySide6.QtTest import QTest
 from amp_studio.files import content_of, open_file
 from amp_studio.schema import Value
 from amp_studio.ui.main_window import MainWindow
-from amp_studio.ui.merge_model import BASE, NAME, RESULT, A, B
-from amp_studio.ui.merge_sources import MergeSource
-from amp_studio.ui.merge_window import MergeWindow
+from amp_studio.ui.merge.model import BASE, NAME, RESULT, A, B
+from amp_studio.ui.merge.sources import MergeSource
+from amp_studio.ui.merge.window import MergeWindow
 from tests.ui.conftest import WAIT_MS, Person, on_disk
 
 from .steps import CALIBRATION, EXCESS, RAPID, merge, press, result, show
@@ -76,7 +76,7 @@ def test_a_result_that_cannot_be_checked_is_not_merged(shown: MergeWindow, monke
     def fail(*_: object) -> None:
         raise ValueError("no such rule")
 
-    monkeypatch.setattr("amp_studio.ui.merge_check.ResultCheck", fail)
+    monkeypatch.setattr("amp_studio.ui.merge.check.ResultCheck", fail)
     other = shown.merge.a.copy()
     other.set(EXCESS, Value(12.0, "mm"))
     shown.use(B, MergeSource("other.amp", "", other))

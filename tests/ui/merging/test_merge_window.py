@@ -11,9 +11,9 @@ from PySide6.QtWidgets import QLineEdit
 from amp_studio.files import new_file
 from amp_studio.schema import Value
 from amp_studio.ui.main_window import MainWindow
-from amp_studio.ui.merge_model import AXIS, NAME, RESULT, A, B
-from amp_studio.ui.merge_sources import MergeSource
-from amp_studio.ui.merge_window import MergeWindow
+from amp_studio.ui.merge.model import AXIS, NAME, RESULT, A, B
+from amp_studio.ui.merge.sources import MergeSource
+from amp_studio.ui.merge.window import MergeWindow
 from tests.ui.conftest import WAIT_MS
 from tests.ui.test_accessible import nameless
 

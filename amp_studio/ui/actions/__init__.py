@@ -1,0 +1,1 @@
+"""The commands of the menus, each file one menu or one subject."""

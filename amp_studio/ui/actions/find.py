@@ -1,0 +1,262 @@
+"""Finding: the box of the tool bar, what it knows of the file in front, and where each hit leads."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from functools import partial
+
+from PySide6.QtCore import QTimer
+from PySide6.QtGui import QAction, QKeySequence
+
+from amp_studio.find import Entry, Finder, Hit, index_of
+from amp_studio.find.index import Index
+from amp_studio.schema import family_ids, load_schema
+from amp_studio.ui.base.menu_commands import commands
+from amp_studio.ui.base.modal import is_alive
+from amp_studio.ui.base.task import Task
+from amp_studio.ui.base.translated import Translated
+from amp_studio.ui.page.file_page import FilePage
+from amp_studio.ui.page.message_page import MessageWindow
+from amp_studio.ui.window.studio_window import StudioWindow
+from amp_studio.validate import Validator
+
+from .find_box import COMMANDS, FindBox
+from .find_rows import FindRow, rows_of
+
+_SOON_MS = 1_000
+"""Milliseconds after a file was opened until its family is indexed, so that it is painted first."""
+_VALUE_LENGTH = 40
+"""Characters of a value beside its parameter."""
+_MOST = 30
+"""Hits in the file that are worth showing."""
+_COMMAND = 0.8
+"""What a command is worth among parameters whose words match as well."""
+
+
+class FindActions(Translated):
+    """Builds the box; the words of a family are indexed in a thread when its first file is opened."""
+
+    def __init__(self, window: StudioWindow) -> None:
+        self.window = window
+        self.box = FindBox(self.rows, window)
+        self.box.chosen.connect(self._go)
+        self.box.left.connect(self._leave)
+        self._finders: dict[FilePage, Finder] = {}
+        self._indexed: set[tuple[int, str]] = set()
+        self._indexing: set[tuple[int, str]] = set()
+        self._soon = QTimer(window)
+        """Indexes a family while nothing else is to do; who comes to the box before has it at once."""
+        self._soon.setSingleShot(True)
+        self._soon.setInterval(_SOON_MS)
+        self._soon.timeout.connect(self._index)
+        self.box.entered.connect(self._index)
+        self._commands: dict[str, QAction] = {}
+        self._menu = Index(())
+        self._families: tuple[Finder, ...] | None = None
+        """The families without a file, once somebody has asked for a message without one."""
+        self._is_read = False
+        """Whether the commands are those of the present menus; they are read at the first key, as Qt gives the focus at odd moments."""
+        self.box.entered.connect(self._forget_menus)
+        act = window.action
+        self.actions = [
+            act(self.tr("&Find…"), self.box.begin, "Ctrl+F", ""),
+            act(self.tr("&Go to Number…"), self.box.begin, "Ctrl+G", "file"),
+        ]
+        self.commands_action = act(
+            self.tr("&Commands…"), partial(self.box.begin, COMMANDS), "Ctrl+Shift+P", ""
+        )
+        self.actions[0].setShortcuts([QKeySequence("Ctrl+F"), QKeySequence("Ctrl+K")])
+
+    # -- the files ---------------------------------------------------------------------
+
+    def add(self, page: FilePage) -> None:
+        """Know the values of a file, and the words of its family soon."""
+        file = page.workspace.file
+        self._finders[page] = Finder(file.schema, file.machine, file)
+        page.workspace.changed.connect(lambda *_: self._changed(page))
+        page.destroyed.connect(lambda: self._finders.pop(page, None))
+        page.detail.message_wanted.connect(lambda message: self._show_message(page, message))
+        self._soon.start()
+
+    def _changed(self, page: FilePage) -> None:
+        file, finder = page.workspace.file, self._finders[page]
+        if finder.machine != file.machine:
+            self._finders[page] = Finder(file.schema, file.machine, file)
+            self._soon.start()
+        else:
+            finder.forget_values()
+
+    def _index(self) -> None:
+        """Index the words of the families of the open files in threads; a question that waits for one is asked again.
+
+        What the first edit of a machine type needs is worked out there too.
+        """
+        for page, finder in self._finders.items():
+            key = (id(finder.schema), finder.machine)
+            if key not in self._indexed | self._indexing:
+                self._indexing.add(key)
+                task = Task(partial(_make_ready, finder, page.workspace.validator))
+                task.done.connect(partial(self._take_index, key))
+                task.begin()
+
+    def _take_index(self, key: tuple[int, str], _: object) -> None:
+        self._indexed.add(key)
+        if self.box.is_open:
+            self.box.search()
+
+    # -- asking --------------------------------------------------------------------------
+
+    def rows(self, query: str) -> list[FindRow]:
+        """Return what a question finds: in the file in front and among the commands, or among these alone."""
+        self._read_menus()
+        own = query.removeprefix(COMMANDS).strip()
+        if query.startswith(COMMANDS):
+            every = [self._hit(entry, 1.0) for entry in self._menu.entries]
+            hits = self._among(own) if own else every
+            return rows_of(hits, self._commands) or self._nothing("")
+        if self.window.page is None:
+            found = self._messages(own) + self._among(own)
+            return rows_of(sorted(found, key=lambda hit: -hit.score), self._commands) or self._nothing("")
+        finder = self._finder()
+        hits = finder.find(own, _MOST) if finder is not None else []
+        found = [self._with_value(hit, self.window.page) for hit in hits]
+        found = sorted(found + self._among(own), key=lambda hit: -hit.score)
+        if found:
+            return rows_of(found, self._commands) + self._every(found)
+        return self._nothing(finder.nearest(own) if finder is not None else "")
+
+    def _finder(self) -> Finder | None:
+        """Return the finder of the file in front once its family is indexed."""
+        finder = self._finders.get(self.window.page) if self.window.page is not None else None
+        is_ready = finder is not None and (id(finder.schema), finder.machine) in self._indexed
+        return finder if is_ready else None
+
+    @staticmethod
+    def _with_value(hit: Hit, page: FilePage) -> Hit:
+        """Return a parameter that was found with its value, in the current axis where it has one there."""
+        if hit.kind != "parameter":
+            return hit
+        file, here = page.workspace.file, page.table_view.address()
+        instances = file.machine_schema.instances(file.schema.parameters[hit.key])
+        instance = here[1] if here is not None and here[1] in instances else instances[0]
+        address = hit.address or (hit.key, instance)
+        value = " ".join(page.table.values.text(address, file.get(address)).split())
+        value = f"{value[:_VALUE_LENGTH]}…" if len(value) > _VALUE_LENGTH else value
+        return replace(hit, detail=f"{value}   {hit.detail}")
+
+    def _messages(self, query: str) -> list[Hit]:
+        """Return messages of the controls of every family, for who has no file open; loaded in a thread at the first question."""
+        if self._families is None:
+            self._families = ()
+            task = Task(lambda *_: _every_family())
+            task.done.connect(self._take_families)
+            task.begin()
+        found = []
+        for finder in self._families:
+            family = finder.schema.family
+            for hit in finder.find(query, _MOST):
+                if hit.kind == "message":
+                    detail = f"{family.name}, {hit.detail}"
+                    found.append(replace(hit, key=f"{family.family}:{hit.key}", detail=detail))
+        return found
+
+    def _take_families(self, finders: tuple[Finder, ...]) -> None:
+        self._families = finders
+        if self.box.is_open:
+            self.box.search()
+
+    def _forget_menus(self) -> None:
+        self._is_read = False
+
+    def _read_menus(self) -> None:
+        """Learn which commands can be used now, again if a menu was filled again meanwhile: its old commands are deleted."""
+        if self._is_read and all(is_alive(action) for action in self._commands.values()):
+            return
+        self._is_read = True
+        able = [(name, action) for name, action in commands(self.window.menuBar()) if action.isEnabled()]
+        self._commands = {str(n): action for n, (_, action) in enumerate(able)}
+        self._menu = Index(
+            Entry("command", name, str(n), (("name", name),)) for n, (name, _) in enumerate(able)
+        )
+
+    def _among(self, query: str) -> list[Hit]:
+        return [self._hit(match.entry, match.score * _COMMAND) for match in self._menu.search(query, 12)]
+
+    @staticmethod
+    def _hit(entry: Entry, score: float) -> Hit:
+        return Hit("command", entry.title, "", "name", entry.key, score)
+
+    def _every(self, hits: list[Hit]) -> list[FindRow]:
+        """Return the row that shows in the table all parameters that were found, where there are several."""
+        ids = tuple(
+            dict.fromkeys(hit.key for hit in hits if hit.kind in ("parameter", "value", "choice", "note"))
+        )
+        if len(ids) < 2:
+            return []
+        text = self.box.tr("Show %n parameters in the table", "", len(ids))
+        return [FindRow(text, icon="table", every=ids)]
+
+    def _nothing(self, nearest: str) -> list[FindRow]:
+        nothing = FindRow(self.box.tr("Nothing found"))
+        if not nearest:
+            return [nothing]
+        text = self.box.tr("Did you mean “{words}”?").format(words=nearest)
+        return [nothing, FindRow(text, icon="magnifying-glass", instead=nearest)]
+
+    # -- going there -----------------------------------------------------------------------
+
+    def _go(self, row: FindRow) -> None:
+        if row.action is not None and not is_alive(row.action):
+            self.box.search()  # its menu was filled again
+            return
+        if row.action is not None:
+            self.box.clear()
+            self._leave()
+            row.action.trigger()
+        elif row.hit is not None and self.window.page is None:
+            family, _, message = row.hit.key.partition(":")
+            MessageWindow(self.window, load_schema(family), message).show()
+        elif row.every and self.window.page is not None:
+            self.window.guarded(
+                partial(self.window.page.show_found, self.box.text().strip(), row.every), self.tr("Find")
+            )
+        elif row.hit is not None and self.window.page is not None:
+            self.window.guarded(partial(self._follow, row.hit, self.window.page), self.tr("Find"))
+
+    def _follow(self, hit: Hit, page: FilePage) -> None:
+        if hit.kind == "message":
+            self._show_message(page, hit.key)
+            return
+        if hit.kind == "group":
+            group = next(g for g in page.workspace.file.schema.groups if g.key == hit.key)
+            page.left.show_side("groups")
+            page.groups.choose_group_of(group.parameters[0].id)
+        elif hit.address is not None:
+            page.go_to(hit.address)
+        else:
+            page.follow(hit.key)
+        page.table_view.setFocus()
+
+    def _show_message(self, page: FilePage, message: str) -> None:
+        MessageWindow(self.window, page.workspace.file.schema, message, page).show()
+
+    def _leave(self) -> None:
+        if self.window.table_view is not None:
+            self.window.table_view.setFocus()
+        else:
+            self.box.clearFocus()
+
+
+def _every_family() -> tuple[Finder, ...]:
+    """Return a finder of each family, with its words indexed."""
+    finders = []
+    for name in family_ids():
+        schema = load_schema(name)
+        index_of(schema, schema.family.default_machine)
+        finders.append(Finder(schema, schema.family.default_machine))
+    return tuple(finders)
+
+
+def _make_ready(finder: Finder, validator: Validator, *_: object) -> None:
+    index_of(finder.schema, finder.machine)
+    validator.prepare_edits()

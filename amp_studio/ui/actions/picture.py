@@ -1,0 +1,153 @@
+"""The pictures of the file in front, beside its table or in its place; saving one as a drawing."""
+
+from __future__ import annotations
+
+import sys
+from dataclasses import replace
+from functools import partial
+from pathlib import Path
+
+from PySide6.QtCore import QObject, QTimer
+from PySide6.QtWidgets import QFileDialog
+
+from amp_studio.files import check_output, write_atomic
+from amp_studio.pictures import scene_svg
+from amp_studio.schema import Address
+from amp_studio.ui.base.loading import load, load_beside
+from amp_studio.ui.page.file_page import FilePage
+from amp_studio.ui.pictures.page import PicturesPage
+from amp_studio.ui.pictures.split import Arrangement, PictureLayout
+from amp_studio.ui.window.studio_window import StudioWindow
+
+KEY = "F12"
+RAMPS = "amp_studio.pictures.ramps"
+LOAD_MS = 1500
+"""Milliseconds after a file came to the front until what ramps need is loaded, beside the window."""
+
+
+class PictureActions(QObject):
+    """Shows and hides the pictures of each file, beside its table or in its place."""
+
+    def __init__(self, window: StudioWindow) -> None:
+        super().__init__(window)
+        self.window = window
+        name = self.tr("&Pictures")
+        self.action = window.action(name, self._toggle, KEY, "file", "frame-corners", self.tr("Pictures"))
+        self.action.setCheckable(True)
+        self._early = QTimer(self)
+        self._early.setSingleShot(True)
+        self._early.setInterval(LOAD_MS)
+        self._early.timeout.connect(self._prepare)
+        window.tabs.current_changed.connect(lambda _: self._early.start())
+        self.save = window.action(self.tr("Save P&icture As SVG…"), self._save)
+
+    def _prepare(self) -> None:
+        """Load what pictures need; then show them for a file that comes to the front as for the files before it."""
+        page, layout = self.window.page, self.window.settings.pictures()
+        if page is None:
+            return
+        load_beside("amp_studio.sim", RAMPS)  # the simulator's pieces take a fifth of a second
+        wants = layout.is_shown and page.pictures is None
+        page.middle.arrange(layout)
+        if wants and page.middle.arrangement != "instead":
+            if RAMPS in sys.modules:
+                self.show(page, True)
+            else:
+                self._early.start()
+
+    def pages(self, page: FilePage) -> PicturesPage:
+        """Return the pictures of a file, made when they are first asked for."""
+        if page.pictures is None:
+            load("amp_studio.sim", RAMPS)
+            pictures = PicturesPage(page.workspace)
+            pictures.parameter_wanted.connect(lambda address: self._to_parameter(page, address))
+            pictures.left.connect(lambda: self._leave(page))
+            pictures.closed.connect(lambda: self._close(page))
+            pictures.told.connect(page.noted)
+            pictures.parameter_chosen.connect(lambda address: _select(page, address))
+            pictures.head.place_wanted.connect(lambda place: self._place(page, place))
+            page.table_view.selected.connect(pictures.show_selected)
+            page.take_pictures(pictures)
+            page.middle.arranged.connect(self._keep)
+            page.middle.rearranged.connect(lambda: pictures.head.show_place(page.middle.arrangement))
+            return pictures
+        assert isinstance(page.pictures, PicturesPage)
+        return page.pictures
+
+    def show(self, page: FilePage, wanted: bool) -> None:
+        """Show the pictures of a file, or its table alone."""
+        if wanted:
+            self.pages(page)
+            page.middle.arrange(self.window.settings.pictures())
+        page.show_pictures(wanted)
+        if not wanted:
+            page.table_view.setFocus()
+        self.check(self.window.page)
+
+    def check(self, page: FilePage | None) -> None:
+        """Press the button where the file in front shows its pictures."""
+        self.action.setChecked(page is not None and page.shows_pictures)
+
+    def _toggle(self) -> None:
+        page = self.window.page
+        assert page is not None
+        if page.shows_pictures:
+            self._close(page)
+            return
+        self._keep(replace(self.window.settings.pictures(), is_shown=True))
+        self.show(page, True)
+        if (
+            address := page.table_view.address()
+        ) is not None:  # once the pictures are painted: to look through all takes a while
+            choose = partial(self.pages(page).show_handle_of, address, focus=page.middle.covers)
+            QTimer.singleShot(0, page, choose)
+
+    def _close(self, page: FilePage) -> None:
+        self._keep(replace(self.window.settings.pictures(), is_shown=False))
+        self.show(page, False)
+
+    def _leave(self, page: FilePage) -> None:
+        """Go back to the table, which is seen already where the pictures are beside it."""
+        if page.middle.covers:
+            self._close(page)
+        page.table_view.setFocus()
+
+    def _keep(self, layout: PictureLayout) -> None:
+        self.window.settings.keep_pictures(layout)
+
+    def _place(self, page: FilePage, place: Arrangement) -> None:
+        """Put the pictures into a place, or name in the status bar that the window is too small for it."""
+        layout = replace(self.window.settings.pictures(), choice=place)
+        self._keep(layout)
+        page.middle.arrange(layout)
+        if page.middle.arrangement != place:
+            page.noted.emit(
+                self.tr("The window is too small for that; the pictures are there once it is larger")
+            )
+
+    def _to_parameter(self, page: FilePage, address: Address) -> None:
+        page.go_to(address)
+        page.table_view.setFocus()
+        self.check(self.window.page)
+
+    def _save(self) -> None:
+        page = self.window.page
+        assert page is not None
+        self.show(page, True)
+        card = self.pages(page).chosen_card
+        if card is None:
+            return
+        own = page.workspace.path
+        name = own.with_name(f"{own.stem}-{card.picture.name}.svg")
+        text, _ = QFileDialog.getSaveFileName(self.window, self.tr("Save Picture"), str(name), "SVG (*.svg)")
+        if text:
+            path = Path(text if text.lower().endswith(".svg") else f"{text}.svg")
+            check_output(path, own)
+            write_atomic(path, scene_svg(card.canvas.scene).encode(), keep_backup=False)
+            self.window.show_status(self.tr("{path} written").format(path=path))
+
+
+def _select(page: FilePage, address: Address) -> None:
+    """Select the value of a handle in the table; what is selected there already stays."""
+    if page.table_view.address() != address:
+        page.select(address)

@@ -1,0 +1,285 @@
+"""What the edit menu does with the selected cells: copy, paste, fill, set to default, clear. One step to undo each."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from itertools import pairwise
+
+from PySide6.QtCore import QMimeData, Qt
+from PySide6.QtGui import QAction, QGuiApplication, QKeySequence
+
+from amp_studio.files import alike_axes, axis_instances, describe, fitted_axes
+from amp_studio.files.block_entry import BlockEntry, plan_entry, plan_values
+from amp_studio.formats.spreadsheet_block import (
+    BlockCell,
+    block_html,
+    block_text,
+    read_block,
+    two_ways,
+)
+from amp_studio.schema import Address, InvalidValueError, Value, write_value
+from amp_studio.schema.quoting import quoted
+from amp_studio.ui.base.modal import run_dialog
+from amp_studio.ui.base.translated import Translated, tr
+from amp_studio.ui.page.file_page import FilePage
+from amp_studio.ui.table.block_preview import BlockPreview
+from amp_studio.ui.window.studio_window import StudioWindow
+
+AddressBlock = Sequence[Sequence[Address | None]]
+_LISTED = 4
+"""Refusals that a message lists."""
+
+
+class RangeActions(Translated):
+    """The actions on the selected cells of the table in front."""
+
+    def __init__(self, window: StudioWindow) -> None:
+        self.window = window
+        act, keys = window.action, QKeySequence.StandardKey
+        copy = act(tr("&Copy"), self.copy, keys.Copy, "file")
+        named = act(tr("Copy with Na&mes"), self.copy_with_names, "Ctrl+Shift+C", "file")
+        paste = act(tr("&Paste…"), self.paste, keys.Paste, "edit")
+        down = act(tr("Fill &Down"), self.fill_down, "Ctrl+D", "edit")
+        across = act(tr("Fill &Across Axes"), self.fill_across, "Ctrl+R", "edit")
+        default = act(tr("&Back to Default"), self.to_default, "Ctrl+Backspace", "edit")
+        clear = act(tr("Clear (&Not Set)"), self.clear, keys.Delete, "edit")
+        every = act(tr("Copy to All A&xes of the Type"), self.to_all_axes, "Ctrl+Shift+A", "axes")
+        self.actions: list[QAction] = [copy, named, paste, down, across, default, clear, every]
+        for action in (copy, named, paste, down, across, default, clear):  # a text field has its own
+            action.setShortcutContext(Qt.ShortcutContext.WidgetShortcut)
+
+    def _page(self) -> FilePage:
+        page = self.window.page
+        assert page is not None
+        return page
+
+    def _selected(self) -> list[Address]:
+        found = self._page().table_view.cells.addresses()
+        if not found:
+            raise ValueError(tr("Select a value in the table first."))
+        return found
+
+    # -- copy --------------------------------------------------------------------
+
+    def copy(self) -> None:
+        """Copy the selected values, exact and with their units."""
+        self._put(self._page().table_view.cells.block(), [])
+
+    def copy_with_names(self) -> None:
+        """Copy the selected values with the numbers and names of parameters and the heads of the axes."""
+        page = self._page()
+        table, view = page.table, page.table_view
+        block = view.cells.block()
+        places = [table.index_of(next(a for a in row if a)) for row in block if any(row)]
+        if not places:
+            raise ValueError(tr("Select a value in the table first."))
+        first = min(table.index_of(a).column() for row in block for a in row if a)
+        block = [row for row in block if any(row)]
+        left = min(n for row in block for n, a in enumerate(row) if a)
+        columns = range(first - left, first - left + len(block[0]))
+        heads = [tr("No."), tr("Parameter"), *(" ".join(filter(None, table.column_head(c))) for c in columns)]
+        names = [[table.number(i.row()), table.row_name(i.row())] for i in places]
+        self._put(block, [heads, *names])
+
+    def _put(self, block: AddressBlock, names: list[list[str]]) -> None:
+        """Put a block into the clipboard; a secret alone is refused, among others it is left out."""
+        chosen = [address for row in block for address in row if address is not None]
+        masked = [address for address in chosen if self._page().workspace.is_masked(address)]
+        if masked and len(chosen) == 1:
+            name = describe(self._page().workspace.file, masked[0])
+            raise ValueError(
+                tr("{name} is secret. To copy it, first switch on Show Secrets.").format(name=name)
+            )
+        if masked:
+            self.window.show_status(tr("Secrets are left out; Show Secrets takes them along."))
+        cells = [[self._cell(address) for address in row] for row in block]
+        if names:
+            heads = [[BlockCell(text) for text in names[0]]]
+            cells = heads + [
+                [*map(BlockCell, name), *row] for name, row in zip(names[1:], cells, strict=True)
+            ]
+        data = QMimeData()
+        is_one = len(cells) == 1 and len(cells[0]) == 1
+        data.setText(cells[0][0].text if is_one else block_text(cells))
+        if not is_one:
+            data.setHtml(block_html(cells, heads=bool(names)))
+        QGuiApplication.clipboard().setMimeData(data)
+
+    def _cell(self, address: Address | None) -> BlockCell:
+        page = self._page()
+        workspace = page.workspace
+        if address is None or workspace.is_masked(address):
+            return BlockCell("")
+        value = page.table.values.in_units(address, workspace.file.get(address))
+        if value is None:
+            return BlockCell("not set")
+        text = page.table.typed_value(address)
+        is_number = not isinstance(value.value, (str, bool)) and not text.startswith("0x")
+        return BlockCell(text, value.value if is_number else None, value.unit)  # type: ignore[arg-type]  # a number
+
+    # -- paste -------------------------------------------------------------------
+
+    def paste(self) -> None:
+        """Set values from the clipboard; a block is shown first, with what would change and what is refused."""
+        data = QGuiApplication.clipboard().mimeData()
+        # A clipboard that nothing was ever copied into has no content at all.
+        rows = read_block(data.text(), data.html() if data.hasHtml() else "") if data else []
+        rows = [row for row in rows if any(cell.strip() for cell in row)] if len(rows) == 1 else rows
+        if not any(cell.strip() for row in rows for cell in row):
+            raise ValueError(tr("There is no text to paste."))
+        self._selected()
+        texts, left_out = self._targets(rows)
+        doubtful = two_ways(rows)
+        entry = self._planned(texts, doubtful)
+        if len(entry.cells) == 1 and not left_out:
+            self._take(entry)
+        elif run_dialog(BlockPreview(self._page().workspace, entry, left_out, self.window)):
+            self._page().workspace.take(entry)
+
+    def _planned(self, texts: Mapping[Address, str], doubtful: set[str]) -> BlockEntry:
+        page = self._page()
+        workspace = page.workspace
+
+        def read(address: Address, text: str) -> Value | None:
+            if text in doubtful:
+                raise InvalidValueError(
+                    f"{quoted(text)} can be read two ways, as other cells have a decimal comma: write it without groups"
+                )
+            if text == page.table.typed_value(address):
+                return workspace.file.get(address)  # in another unit what is shown is rounded to nine digits
+            return workspace.read_plain(address, text)
+
+        return plan_entry(workspace.file, texts, read)
+
+    def _targets(self, rows: list[list[str]]) -> tuple[dict[Address, str], list[str]]:
+        """Return the text for each address, and what of the block has no place in the table."""
+        view = self._page().table_view
+        if [cell.strip() for cell in rows[0][:2]] == [tr("No."), tr("Parameter")] and len(rows[0]) > 2:
+            return self._by_name(rows)
+        chosen = view.cells.block()
+        height, width = len(rows), len(rows[0])
+        if len(chosen) % height == 0 and len(chosen[0]) % width == 0 and chosen:
+            block: AddressBlock = chosen  # the range is filled with the block, as often as it fits
+        else:
+            block = view.cells.block_from(height, width)
+        found: dict[Address, str] = {}
+        for r, row in enumerate(block):
+            for c, address in enumerate(row):
+                text = rows[r % height][c % width].strip()
+                if address is not None and text:
+                    found[address] = text
+        beyond = max(0, height - len(block)) * width + max(0, width - max(map(len, block), default=0)) * len(
+            block
+        )
+        some = (
+            tr("1 cell is beyond the table.")
+            if beyond == 1
+            else tr("%n cells are beyond the table.", "", beyond)
+        )
+        return found, [some] if beyond else []
+
+    def _by_name(self, rows: list[list[str]]) -> tuple[dict[Address, str], list[str]]:
+        """Return the text for each address of a block that has numbers and heads, wherever its rows are now."""
+        table = self._page().table
+        heads = [table.column_head(c) for c in range(len(table.columns))]
+        columns = {
+            letter: c for c, (letter, _) in enumerate(heads) if letter
+        }  # another file may have X as axis 2
+        columns |= {" ".join(filter(None, head)): c for c, head in enumerate(heads)}
+        numbers: dict[tuple[str, str], int] = {}
+        for n, row in enumerate(table.rows):
+            if not row.section:
+                numbers[table.number(n), table.row_name(n)] = n
+        found, left_out = {}, []
+        for row_texts in rows[1:]:
+            number, name = row_texts[0].strip(), row_texts[1].strip()
+            place = numbers.get((number, name))
+            if place is None:
+                left_out.append(tr("{name} is not in this list.").format(name=f"{number} {name}".strip()))
+                continue
+            for head, text in zip(rows[0][2:], row_texts[2:], strict=False):
+                column = _column(columns, head)
+                address = table.address_at(place, column) if column is not None else None
+                if text.strip() and address is not None:
+                    found[address] = text.strip()
+        unknown = [h.strip() for h in rows[0][2:] if h.strip() and _column(columns, h) is None]
+        return found, left_out + [tr("There is no column {head}.").format(head=head) for head in unknown]
+
+    # -- fill --------------------------------------------------------------------
+
+    def fill_down(self) -> None:
+        """Give every selected cell the value of the top one; a single row gets that of the row above."""
+        self._fill_lines(self._page().table_view.cells.block_to_fill(down=True))
+
+    def fill_across(self) -> None:
+        """Give every selected cell the value of the leftmost one; a single column gets that of the axis before it."""
+        block = self._page().table_view.cells.block_to_fill(down=False)
+        self._fill_lines([list(column) for column in zip(*block, strict=True)])
+
+    def _fill_lines(self, lines: AddressBlock) -> None:
+        pairs: dict[Address, Address] = {}
+        for before, line in pairwise(lines):
+            for source, target in zip(before, line, strict=True):
+                if source is not None and target is not None:
+                    pairs[target] = pairs.get(source, source)
+        if not pairs:
+            raise ValueError(tr("Select the cell with the value and those to fill."))
+        self.fill_from(pairs)
+
+    def fill_from(self, pairs: Mapping[Address, Address]) -> None:
+        """Give each target the value of its source, all or none: what is refused is listed, and nothing is changed."""
+        workspace = self._page().workspace
+        file, texts = workspace.file, {}
+        for target, source in pairs.items():
+            parameter = file.schema.parameters[source[0]]
+            if parameter.secret and source[0] != target[0]:
+                raise ValueError(tr("{name} is secret.").format(name=describe(file, source)))
+            texts[target] = write_value(parameter, file.get(source)) or "not set"
+        self._take(self._planned(texts, set()))
+
+    def _take(self, entry: BlockEntry) -> None:
+        """Make a planned change where nothing of it is refused; else list what is."""
+        page = self._page()
+        if not entry.refused:
+            page.workspace.take(entry)
+            return
+        listed = [f"{page.workspace.name_of(c.address)}: {c.problem}" for c in entry.refused[:_LISTED]]
+        more = len(entry.refused) - _LISTED
+        lines = [*listed, tr("and %n more", "", more)] if more > 0 else listed
+        page.bar.say(tr("Nothing was changed. {reasons}.").format(reasons="; ".join(lines)), "error")
+
+    # -- default, not set, other axes ----------------------------------------------
+
+    def to_default(self) -> None:
+        """Set the selected values to their printed defaults; those without one stay as they are."""
+        workspace, chosen = self._page().workspace, self._selected()
+        wanted = {a: d for a in chosen if (d := workspace.file.default(a)) is not None}
+        if not wanted:
+            name = describe(workspace.file, chosen[0])
+            raise ValueError(
+                tr("No default is printed for {name}. Press Delete to clear the value.").format(name=name)
+            )
+        self._take(plan_values(workspace.file, wanted))
+        if missing := len(chosen) - len(wanted):
+            self.window.show_status(tr("%n values have no printed default and are as before.", "", missing))
+
+    def clear(self) -> None:
+        """Clear the selected values: they are not set, and the control keeps its own."""
+        workspace = self._page().workspace
+        self._take(plan_values(workspace.file, dict.fromkeys(self._selected())))
+
+    def to_all_axes(self) -> None:
+        """Copy the selected value to every fitted axis of the same type."""
+        page = self._page()
+        workspace, address = page.workspace, page.table_view.address()
+        file = workspace.file
+        fitted = fitted_axes(file) or axis_instances(file)
+        if address is None or file.evaluation.scope(address) != "axis" or address[1] not in fitted:
+            raise ValueError(tr("Select a value of a fitted axis first."))
+        same = [a for a in alike_axes(file, address[1]) if a != address[1]]
+        self.fill_from({(address[0], axis): address for axis in same})
+
+
+def _column(columns: Mapping[str, int], head: str) -> int | None:
+    """Return the column of a head as it was copied: the same, or that of the same letter."""
+    return columns.get(head.strip(), columns.get(head.strip().partition(" ")[0]))

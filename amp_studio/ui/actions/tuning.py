@@ -1,0 +1,40 @@
+"""Opens the Tuning window on the file in front, and connects it to a control."""
+
+from __future__ import annotations
+
+from functools import partial
+from typing import TYPE_CHECKING
+
+from amp_studio.ui.control.exchange import ControlExchange
+from amp_studio.ui.window.studio_window import StudioWindow
+
+if TYPE_CHECKING:
+    from amp_studio.transfer.client.live import LiveTuning
+    from amp_studio.ui.base.workspace import Workspace
+
+
+def tune(window: StudioWindow, exchanges: ControlExchange) -> None:
+    """Show the pages of the file in front; raises ValueError for a family that has nothing to tune."""
+    from amp_studio.calibration import compensation_of
+    from amp_studio.ui.motion.tuning_window import TuningWindow
+
+    workspace = window.workspace
+    assert workspace is not None
+    offered = compensation_of(workspace.file.schema.family.family)
+    if not offered.pages and not offered.reversal:
+        raise ValueError(
+            f"The manual of {workspace.file.schema.family.name} names nothing that is tuned on line."
+        )
+    TuningWindow(workspace, partial(_connect, workspace, exchanges), window).show()
+
+
+def _connect(workspace: Workspace, exchanges: ControlExchange) -> LiveTuning | None:
+    address = exchanges.ask_address("Tuning")
+    if address is None:
+        return None
+    from amp_studio.transfer.client.drivers import open_driver
+    from amp_studio.transfer.client.live import LiveTuning
+
+    path = workspace.path
+    driver = open_driver(address, workspace.file.schema.family.family)
+    return LiveTuning(driver, path.parent, path.stem, address=address, record=path)

@@ -1,0 +1,120 @@
+"""Texts in the language of the window.
+
+The words are in ``translations/amp_studio_LANGUAGE.ts``, which Qt Linguist edits and ``make translations`` keeps up to date;
+the English file has the forms of numbers alone. What is made below the window has its words in the languages of reports.
+The file is read as it is: nothing has to be compiled, and one word has one translation wherever it is written.
+"""
+
+from __future__ import annotations
+
+from functools import lru_cache
+from pathlib import Path
+from typing import Final
+from xml.etree import ElementTree as ET
+
+from PySide6.QtCore import QCoreApplication, QLibraryInfo, QLocale, QTranslator
+
+from amp_studio.report.language import language_of
+from amp_studio.report.wording import counted as english_count
+
+FOLDER = Path(__file__).parents[1] / "translations"
+LANGUAGES: Final = {"en": "English", "de": "Deutsch"}
+"""Code -> name in the language itself."""
+
+
+def tr(text: str, disambiguation: str = "", n: int = -1) -> str:
+    """Return a text in the language of the window; ``%n`` is ``n`` in its proper form."""
+    return QCoreApplication.translate("", text, disambiguation, n)
+
+
+def worded(text: str) -> str:
+    """Return a text that was made below the window (the title of a step or a picture, a severity, ``page 7-20``) in its language.
+
+    The words are those of reports in that language. Facts (names, help, rules) have none and stay as they are.
+    """
+    return text if _spoken == "en" else _worded(_spoken, text)
+
+
+@lru_cache(maxsize=4096)
+def _worded(code: str, text: str) -> str:
+    return language_of(code).title(text)
+
+
+def counted(number: int, noun: str, none: str = "0") -> str:
+    """Return ``1 error``, ``2 files`` in the language of the window; ``none`` replaces the number 0."""
+    if _spoken == "en":
+        return english_count(number, noun, none)
+    language = language_of(_spoken)
+    text = language.counted(number, noun)
+    return text if number or none == "0" else f"{language.title(none)} {text.partition(' ')[2]}"
+
+
+class Translated:
+    """Gives a class that is no QObject the ``tr`` of one."""
+
+    def tr(self, text: str, disambiguation: str = "", n: int = -1) -> str:
+        """Return a text in the language of the window; ``%n`` is ``n`` in its proper form."""
+        return tr(text, disambiguation, n)
+
+
+class FileTranslator(QTranslator):
+    """Translates by one file of Qt's format, whatever the context."""
+
+    def __init__(self, path: Path) -> None:
+        super().__init__()
+        self.words: dict[str, str] = {}
+        self.plurals: dict[str, tuple[str, ...]] = {}
+        for message in ET.parse(path).iter("message"):  # noqa: S314  # a file of the program itself
+            source, translation = message.findtext("source") or "", message.find("translation")
+            if translation is None or translation.get("type") is not None:
+                continue
+            if message.get("numerus") == "yes":
+                self.plurals[source] = tuple(form.text or "" for form in translation.findall("numerusform"))
+            elif translation.text:
+                self.words[source] = translation.text
+
+    def isEmpty(self) -> bool:
+        """Return whether it has no words and no forms."""
+        return not (self.words or self.plurals)
+
+    def translate(
+        self, context: str | None, source_text: str, disambiguation: str | None = None, n: int = -1
+    ) -> str | None:
+        """Return the translation; None where there is none."""
+        if n >= 0 and source_text in self.plurals:
+            forms = self.plurals[source_text]
+            return forms[0 if n == 1 else -1]
+        return self.words.get(source_text)
+
+
+_installed: list[QTranslator] = []
+_spoken = "en"
+
+
+def language_in_use(choice: str) -> str:
+    """Return the code of the language of a choice; that of the system where it is not one of them."""
+    if choice in LANGUAGES:
+        return choice
+    system = QLocale.system().name()[:2]
+    return system if system in LANGUAGES else "en"
+
+
+def speak(choice: str) -> str:
+    """Give the program a language (``system`` or a code), before its first window; returns the code."""
+    application = QCoreApplication.instance()
+    code = language_in_use(choice)
+    if application is None:
+        return code
+    for translator in _installed:
+        application.removeTranslator(translator)
+    _installed.clear()
+    global _spoken  # noqa: PLW0603  # the program has one language, as its translators have
+    _spoken = code
+    own_of_qt = QTranslator()
+    folder = QLibraryInfo.path(QLibraryInfo.LibraryPath.TranslationsPath)
+    if code != "en" and own_of_qt.load(f"qtbase_{code}", folder):
+        _installed.append(own_of_qt)
+    _installed.append(FileTranslator(FOLDER / f"amp_studio_{code}.ts"))
+    for translator in _installed:
+        application.installTranslator(translator)
+    return code

@@ -1,0 +1,1 @@
+"""Exchanges with a control: download, upload, verify, restore, the sheet by hand."""

@@ -1,0 +1,287 @@
+"""The sheet of values to key in at a control as a list on the screen: tick each value, type in what the control shows."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+
+from PySide6.QtCore import QModelIndex, QPersistentModelIndex, Qt
+from PySide6.QtGui import QBrush, QFont
+from PySide6.QtWidgets import (
+    QDialog,
+    QFileDialog,
+    QHBoxLayout,
+    QLabel,
+    QPushButton,
+    QStyledItemDelegate,
+    QStyleOptionViewItem,
+    QTabWidget,
+    QTextBrowser,
+    QTreeWidget,
+    QTreeWidgetItem,
+    QVBoxLayout,
+    QWidget,
+)
+
+from amp_studio.sheet import STATES, Instruction, Sheet, SheetEntry, Ticks, judged
+from amp_studio.ui.base.questions import show_message
+from amp_studio.ui.base.task import in_background
+from amp_studio.ui.base.theme import Token, colour, severity_icon
+from amp_studio.ui.base.translated import tr
+from amp_studio.ui.base.workspace import Workspace
+
+_STEP, _NUMBER, _KEY_IN, _UNIT, _NOW, _NAME, _READ, _RESULT = range(8)
+_WIDTHS = (120, 90, 110, 60, 100, 270, 110, 130)
+_ENTRY = Qt.ItemDataRole.UserRole
+_FILTERS = "PDF (*.pdf);;Web page (*.html);;Text (*.txt);;Table with a column to fill in (*.csv)"
+_INKS: dict[str, Token] = {"same": "text", "old": "error", "other": "error"}
+
+
+class _ReadBackOnly(QStyledItemDelegate):
+    """Lets a person type in the column of what the screen shows, and nowhere else."""
+
+    def createEditor(  # type: ignore[override]  # Qt's name; Qt takes no editor too
+        self, parent: QWidget, option: QStyleOptionViewItem, index: QModelIndex | QPersistentModelIndex
+    ) -> QWidget | None:
+        """Return the editor of a cell; None where nothing is typed in."""
+        return super().createEditor(parent, option, index) if index.column() == _READ else None
+
+
+class SheetDialog(QDialog):
+    """One sheet with its ticks, which are on the disk as soon as they are made. Stays open beside the table."""
+
+    def __init__(
+        self, workspace: Workspace, make: Callable[[], tuple[Sheet, Ticks]], parent: QWidget | None = None
+    ) -> None:
+        """Show the sheet that ``make`` returns; it is made again on request. Raises what ``make`` raises."""
+        super().__init__(parent)
+        self.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
+        self.resize(1050, 640)
+        self._workspace, self._make = workspace, make
+        self.sheet, self.ticks = make()
+        self.setWindowTitle(self.sheet.title)
+        self.text, self.details = QLabel(), QLabel()
+        for label in (self.text, self.details):
+            label.setWordWrap(True)
+            label.setTextFormat(Qt.TextFormat.PlainText)
+        self.details.setMinimumHeight(54)
+        self.details.setAlignment(Qt.AlignmentFlag.AlignTop)
+        self.list = _list()
+        self.around, self.left_out = QTextBrowser(), QTextBrowser()
+        self.tabs = QTabWidget()
+        for title, page in (
+            (self.tr("&Values"), self.list),
+            (self.tr("&Before and After"), self.around),
+            (self.tr("&Not on This Sheet"), self.left_out),
+        ):
+            self.tabs.addTab(page, title)
+        self.update_button, self.save_button = (
+            QPushButton(self.tr("&Update")),
+            QPushButton(self.tr("&Save or Print…")),
+        )
+        layout = QVBoxLayout(self)
+        for widget in (self.text, self.tabs, self.details):
+            layout.addWidget(widget)
+        layout.addLayout(self._buttons())
+        self.list.itemChanged.connect(self._edited)
+        self.list.currentItemChanged.connect(self._explain)
+        self.list.itemActivated.connect(self._type)
+        workspace.changed.connect(self._stale)
+        workspace.closed.connect(self.close)
+        self._fill()
+
+    def _buttons(self) -> QHBoxLayout:
+        close = QPushButton(self.tr("&Close"))
+        buttons = QHBoxLayout()
+        for button, act in (
+            (self.update_button, self.refresh),
+            (self.save_button, self.save),
+            (close, self.close),
+        ):
+            button.setAutoDefault(False)
+            button.clicked.connect(act)
+            buttons.addWidget(button)
+        buttons.insertStretch(2)
+        return buttons
+
+    # -- what is shown -----------------------------------------------------------
+
+    def items(self) -> list[QTreeWidgetItem]:
+        """Return the rows of the entries, in the order of the steps."""
+        stages = (self.list.topLevelItem(n) for n in range(self.list.topLevelItemCount()))
+        rows = (stage.child(n) for stage in stages if stage is not None for n in range(stage.childCount()))
+        return [row for row in rows if row is not None]
+
+    def refresh(self) -> None:
+        """Make the sheet again: the file has changed."""
+        self.sheet, self.ticks = self._make()
+        self._fill()
+
+    def _fill(self) -> None:
+        from amp_studio.report.sheet import PrintedSheet
+
+        self.update_button.setEnabled(False)
+        self.list.blockSignals(True)
+        self.list.clear()
+        for stage, steps in PrintedSheet(self.sheet).parts():
+            head = QTreeWidgetItem([stage.title or self.tr("Values")])
+            head.setToolTip(0, stage.why)
+            head.setFirstColumnSpanned(True)
+            self.list.addTopLevelItem(head)
+            head.setFirstColumnSpanned(True)
+            bold = QFont(self.list.font())
+            bold.setBold(True)
+            head.setFont(0, bold)
+            head.setFlags(Qt.ItemFlag.ItemIsEnabled)
+            for step in steps:
+                head.addChild(self._row(step.at, step.entry, bold))
+        self.list.expandAll()
+        self.list.blockSignals(False)
+        self.around.setPlainText(
+            _instructions(self.tr("Before"), self.sheet.before)
+            + _instructions(self.tr("After"), self.sheet.after)
+        )
+        self.left_out.setPlainText(
+            "\n".join(f"{left.number}  {left.name}: {left.why}." for left in self.sheet.left_out)
+        )
+        self.tabs.setTabVisible(2, bool(self.sheet.left_out))
+        self._count()
+
+    def _row(self, at: int, entry: SheetEntry, bold: QFont) -> QTreeWidgetItem:
+        item = QTreeWidgetItem([
+            str(at), entry.number, entry.new, entry.unit, entry.old or "?",
+            entry.name + (f" = {entry.meaning}" if entry.meaning else ""), self.ticks.shown.get(entry.number, ""), "",
+        ])  # fmt: skip
+        item.setData(_STEP, _ENTRY, entry)
+        item.setFlags(item.flags() | Qt.ItemFlag.ItemIsEditable | Qt.ItemFlag.ItemIsUserCheckable)
+        item.setCheckState(_STEP, Qt.CheckState.Checked if entry in self.ticks else Qt.CheckState.Unchecked)
+        item.setFont(_KEY_IN, bold)
+        for column in (_KEY_IN, _NOW):
+            item.setTextAlignment(column, Qt.AlignmentFlag.AlignRight | Qt.AlignmentFlag.AlignVCenter)
+        if entry.order or entry.until:
+            item.setIcon(_NAME, severity_icon("warning"))
+        self._judge(item)
+        return item
+
+    def _judge(self, item: QTreeWidgetItem) -> None:
+        found = judged(item.data(_STEP, _ENTRY), item.text(_READ))
+        item.setText(_RESULT, "" if found.state == "not read" else STATES[found.state])
+        if found.state in _INKS:
+            item.setForeground(_RESULT, QBrush(colour(_INKS[found.state])))
+
+    def _count(self) -> None:
+        total, items = len(self.sheet.entries), self.items()
+        states = [judged(item.data(_STEP, _ENTRY), item.text(_READ)).state for item in items]
+        parts = [
+            self.tr("{done} of {total} keyed in").format(done=self.ticks.done, total=total),
+            self.tr("{count} read back as they should be").format(count=states.count("same")),
+        ]
+        if wrong := states.count("old") + states.count("other"):
+            parts.append(self.tr("{wrong} not as keyed in").format(wrong=wrong))
+        if self.ticks.forgotten:
+            parts.append(
+                self.tr("{forgotten} ticks left out, whose values have changed since").format(
+                    forgotten=self.ticks.forgotten
+                )
+            )
+        lines = [
+            ", ".join(parts) + self.tr(". Compared with {present}.").format(present=self.sheet.present),
+            *self.sheet.warnings,
+        ]
+        self.text.setText("\n".join(lines))
+
+    def _explain(self, item: QTreeWidgetItem | None, *_: object) -> None:
+        entry = item.data(_STEP, _ENTRY) if item is not None else None
+        if isinstance(entry, SheetEntry):
+            stage = self.sheet.stages[entry.stage]
+            why = (
+                self.tr("{why} (page {page})").format(why=stage.why, page=stage.page)
+                if stage.page
+                else stage.why
+            )
+            self.details.setText(
+                "\n".join(
+                    filter(None, (f"{entry.name}, page {entry.page}. {why}", entry.order, *entry.until))
+                )
+            )
+        else:
+            self.details.clear()
+
+    # -- what a person does --------------------------------------------------------
+
+    def _type(self, item: QTreeWidgetItem) -> None:
+        if isinstance(item.data(_STEP, _ENTRY), SheetEntry):
+            self.list.editItem(item, _READ)
+
+    def _edited(self, item: QTreeWidgetItem, column: int) -> None:
+        """Keep a tick, or what was typed in, beside the file."""
+        entry = item.data(_STEP, _ENTRY)
+        if not isinstance(entry, SheetEntry) or column not in (_STEP, _READ):
+            return
+        try:
+            if column == _STEP:
+                self.ticks.tick([entry], item.checkState(_STEP) == Qt.CheckState.Checked)
+            else:
+                self.ticks.read_back(entry, item.text(_READ))
+        except OSError as error:
+            show_message(
+                self, self.sheet.title, self.tr("The tick is not kept: {error}.").format(error=error)
+            )
+        self.list.blockSignals(True)
+        self._judge(item)
+        self.list.blockSignals(False)
+        self._count()
+
+    def _stale(self, *_: object) -> None:
+        self.update_button.setEnabled(True)
+        self.text.setText(self.tr("The file has changed: update the sheet before you go on."))
+
+    def save(self) -> None:
+        """Ask for a name and write the sheet; the ending sets the format."""
+        from amp_studio.report.sheet import PrintedSheet, write_sheet
+
+        near = self._workspace.path.with_name(f"{self._workspace.path.stem}-sheet.pdf")
+        text, _ = QFileDialog.getSaveFileName(self, self.sheet.title, str(near), _FILTERS)
+        if not text:
+            return
+        printed = PrintedSheet(
+            self.sheet,
+            {e.number for e in self.sheet.entries if e in self.ticks},
+            tuple(self.ticks.shown.items()),
+        )
+        try:
+            in_background(self, self.tr("Printing"), lambda: write_sheet(printed, Path(text)))
+        except (OSError, ValueError) as error:
+            show_message(self, self.sheet.title, str(error))
+
+
+def _list() -> QTreeWidget:
+    found = QTreeWidget()
+    found.setHeaderLabels(
+        [
+            tr("Step"),
+            tr("Number"),
+            tr("Key In"),
+            tr("Unit"),
+            tr("Now"),
+            tr("Parameter"),
+            tr("Screen Shows"),
+            tr("Result"),
+        ]
+    )
+    found.setUniformRowHeights(True)
+    found.setAlternatingRowColors(True)
+    found.setItemDelegate(_ReadBackOnly(found))
+    found.setAllColumnsShowFocus(True)
+    for column, width in enumerate(_WIDTHS):
+        found.setColumnWidth(column, width)
+    return found
+
+
+def _instructions(title: str, steps: tuple[Instruction, ...]) -> str:
+    if not steps:
+        return ""
+    lines = (
+        f"{n}. {each.text}" + (f" (page {each.page})" if each.page else "") for n, each in enumerate(steps, 1)
+    )
+    return f"{title}\n\n" + "\n".join(lines) + "\n\n"

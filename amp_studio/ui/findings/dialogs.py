@@ -1,0 +1,164 @@
+"""Dialogs about one finding: its explanation, and its suppression."""
+
+from __future__ import annotations
+
+import html
+from collections.abc import Callable, Iterable
+
+from PySide6.QtCore import Qt, QUrl
+from PySide6.QtWidgets import (
+    QCheckBox,
+    QDialog,
+    QDialogButtonBox,
+    QFormLayout,
+    QLabel,
+    QLineEdit,
+    QTextBrowser,
+    QTreeWidget,
+    QTreeWidgetItem,
+    QVBoxLayout,
+    QWidget,
+)
+
+from amp_studio.report import FindingGroup, finding_groups, fix_lines, why_parts
+from amp_studio.report.wording import severity_name
+from amp_studio.schema import Address, written
+from amp_studio.ui.base.theme import severity_html, severity_icon
+from amp_studio.ui.base.translated import worded
+from amp_studio.ui.base.workspace import Workspace
+from amp_studio.validate import Finding, explain
+
+
+class WhyDialog(QDialog):
+    """Shows the rule of a finding with its values; parameters are links. Stays open beside the table."""
+
+    def __init__(
+        self, workspace: Workspace, finding: Finding, go_to: Callable[[Address], object], parent: QWidget
+    ) -> None:
+        super().__init__(parent)
+        self.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
+        self.setWindowTitle(self.tr("Why"))
+        self.resize(640, 460)
+        self._go_to, self._linked = go_to, list[Address]()
+        self.page = QTextBrowser()
+        self.page.setOpenLinks(False)
+        self.page.anchorClicked.connect(self._follow)
+        self.page.setHtml(self._written(workspace, finding))
+        buttons = QDialogButtonBox(QDialogButtonBox.StandardButton.Close)
+        buttons.rejected.connect(self.reject)
+        layout = QVBoxLayout(self)
+        layout.addWidget(self.page)
+        layout.addWidget(buttons)
+
+    def _written(self, workspace: Workspace, finding: Finding) -> str:
+        file, why = workspace.file, explain(workspace.validator, finding)
+        mark = f"{severity_html(finding.severity)} <b>{worded(severity_name(finding.severity)).capitalize()}:</b>"
+        lines, before = [f"<p>{mark} {html.escape(finding.message)}</p><table cellpadding=3>"], ""
+        for title, text, address in why_parts(file, finding, why):
+            cell = html.escape(text)
+            if title in (
+                self.tr("Applies where"),
+                self.tr("Demands"),
+                self.tr("With the values"),
+                self.tr("Comes to"),
+            ):
+                cell = f"<code>{cell}</code>"
+            if address is not None:
+                cell = f'<a href="seen:{len(self._linked)}">{cell}</a>'
+                self._linked.append(address)
+            lines.append(f"<tr><td><b>{'' if title == before else title}</b>&nbsp;</td><td>{cell}</td></tr>")
+            before = title
+        return "".join(lines) + "</table>"
+
+    def _follow(self, url: QUrl) -> None:
+        self._go_to(self._linked[int(url.toString().removeprefix("seen:"))])
+
+
+class SuppressDialog(QDialog):
+    """Asks who suppresses a finding, and why."""
+
+    def __init__(self, finding: Finding, who: str, parent: QWidget) -> None:
+        super().__init__(parent)
+        self.setWindowTitle(self.tr("Suppress a Finding"))
+        self.setMinimumWidth(520)
+        self._finding = finding
+        effect = QLabel(f"<b>{html.escape(finding.message)}</b><br>The finding is no longer listed, but reports print it "
+                      "with the reason and the name. The suppression is saved in rules.yaml beside the file.")  # fmt: skip
+        effect.setWordWrap(True)
+        self.reason, self.name = QLineEdit(), QLineEdit(who)
+        self.everywhere = QCheckBox(self.tr("Also suppress the same finding of other parameters"))
+        self.everywhere.setEnabled(bool(finding.addresses))
+        buttons = QDialogButtonBox(
+            QDialogButtonBox.StandardButton.Ok | QDialogButtonBox.StandardButton.Cancel
+        )
+        self._ok = buttons.button(QDialogButtonBox.StandardButton.Ok)
+        self._ok.setText(self.tr("&Suppress"))
+        buttons.accepted.connect(self.accept)
+        buttons.rejected.connect(self.reject)
+        form = QFormLayout(self)
+        form.addRow(effect)
+        form.addRow(self.tr("&Reason"), self.reason)
+        form.addRow(self.tr("&Name"), self.name)
+        form.addRow(self.everywhere)
+        form.addRow(buttons)
+        for field in (self.reason, self.name):
+            field.textChanged.connect(self._look)
+        self._look()
+
+    def _look(self) -> None:
+        self._ok.setEnabled(bool(self.reason.text().strip() and self.name.text().strip()))
+
+    def params(self) -> tuple[str, ...]:
+        """Return the parameters of the suppression; empty for all instances."""
+        return () if self.everywhere.isChecked() else tuple(map(written, self._finding.addresses))
+
+
+class FixSeveralDialog(QDialog):
+    """Lists every suggested fix with a check; those that cannot change motion are checked."""
+
+    def __init__(self, workspace: Workspace, findings: Iterable[Finding], parent: QWidget) -> None:
+        super().__init__(parent)
+        self.setWindowTitle(self.tr("Fix Several"))
+        self.resize(760, 480)
+        self._leaves: list[tuple[QTreeWidgetItem, Finding]] = []
+        self.list = QTreeWidget(self)  # rows are measured by the rules of a dialog
+        self.list.setHeaderHidden(True)
+        self.list.setAccessibleName(self.tr("Suggested fixes"))
+        self.list.setWordWrap(True)
+        for group in finding_groups(workspace.validator, findings):
+            if group.fixable:
+                self._add(workspace, group)
+        self.list.itemChanged.connect(self._count)
+        note = QLabel(
+            self.tr("Checked at first: fixes that cannot change motion. All of them are one step of Undo.")
+        )
+        note.setWordWrap(True)
+        buttons = QDialogButtonBox(QDialogButtonBox.StandardButton.Cancel)
+        self.ok = buttons.addButton("", QDialogButtonBox.ButtonRole.AcceptRole)
+        self.ok.setDefault(True)
+        buttons.accepted.connect(self.accept)
+        buttons.rejected.connect(self.reject)
+        layout = QVBoxLayout(self)
+        for widget in (note, self.list, buttons):
+            layout.addWidget(widget)
+        self._count()
+
+    def _add(self, workspace: Workspace, group: FindingGroup) -> None:
+        top = QTreeWidgetItem(self.list, [group.message])
+        top.setIcon(0, severity_icon(group.severity))
+        top.setFlags(top.flags() | Qt.ItemFlag.ItemIsUserCheckable | Qt.ItemFlag.ItemIsAutoTristate)
+        for finding in group.fixable:
+            leaf = QTreeWidgetItem(top, ["; ".join(fix_lines(workspace.file, finding))])
+            leaf.setFlags(leaf.flags() | Qt.ItemFlag.ItemIsUserCheckable)
+            leaf.setCheckState(0, Qt.CheckState.Checked if finding.safe else Qt.CheckState.Unchecked)
+            self._leaves.append((leaf, finding))
+        top.setExpanded(True)
+
+    def chosen(self) -> tuple[Finding, ...]:
+        """Return the findings whose fixes are checked."""
+        return tuple(finding for leaf, finding in self._leaves if leaf.checkState(0) == Qt.CheckState.Checked)
+
+    def _count(self, *_: object) -> None:
+        number = len(self.chosen())
+        self.ok.setText(self.tr("Apply {number} &Fixes").format(number=number))
+        self.ok.setEnabled(number > 0)

@@ -1,0 +1,374 @@
+"""The findings below the table: one row for each rule, what is wrong, on which axes, and the suggested fix."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import replace
+
+from PySide6.QtCore import QModelIndex, QPersistentModelIndex, QPoint, QRect, Qt, Signal
+from PySide6.QtGui import QContextMenuEvent, QKeyEvent, QPainter, QPalette, QResizeEvent
+from PySide6.QtWidgets import (
+    QAbstractItemView,
+    QHBoxLayout,
+    QLabel,
+    QMenu,
+    QPushButton,
+    QStackedWidget,
+    QStyleOptionViewItem,
+    QToolButton,
+    QTreeView,
+    QVBoxLayout,
+    QWidget,
+)
+
+from amp_studio.report import finding_axes
+from amp_studio.ui.base.modal import pop_up
+from amp_studio.ui.base.theme import FINDING_ROW, GAP2, GAP3, colour, font, icon, paint_icon, severity_icon
+from amp_studio.ui.base.translated import counted
+from amp_studio.ui.base.workspace import Workspace
+from amp_studio.ui.forms.segment import Segment, chip
+from amp_studio.validate import SEVERITIES, Finding, not_set
+
+from .delegate import FindingsDelegate, Part
+from .model import FindingsModel
+
+Index = QModelIndex | QPersistentModelIndex
+
+
+class _View(QTreeView):
+    """The list: Enter shows the finding, and the row height fits the text."""
+
+    entered_on = Signal()
+    menu_wanted = Signal(QPoint)
+
+    def __init__(self) -> None:
+        super().__init__()
+        self.setHeaderHidden(True)
+        self.setMouseTracking(True)
+        self.setExpandsOnDoubleClick(False)
+        self.setIndentation(22)
+        self.setVerticalScrollMode(QAbstractItemView.ScrollMode.ScrollPerPixel)
+        self.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
+        self.setTabKeyNavigation(False)
+
+    def drawRow(self, painter: QPainter, option: QStyleOptionViewItem, index: Index) -> None:
+        if index == self.currentIndex():
+            painter.fillRect(option.rect, colour("selbg" if self.hasFocus() else "selidle"))
+        if not index.internalId() and index.row():
+            painter.setPen(colour("line"))
+            painter.drawLine(option.rect.topLeft(), option.rect.topRight())
+        super().drawRow(painter, option, index)
+
+    def drawBranches(self, painter: QPainter, rect: QRect, index: QModelIndex) -> None:  # type: ignore[override]  # Qt gives no other index here
+        if not index.internalId():
+            place = QRect(0, self.visualRect(index).top(), self.indentation(), FINDING_ROW)
+            name = "caret-down" if self.isExpanded(index) else "caret-right"
+            paint_icon(painter, place.adjusted(5, 9, -5, -9), name, colour("dim"))
+
+    def resizeEvent(self, event: QResizeEvent) -> None:
+        super().resizeEvent(event)
+        self.scheduleDelayedItemsLayout()
+
+    def contextMenuEvent(self, event: QContextMenuEvent) -> None:
+        self.menu_wanted.emit(event.globalPos())
+
+    def keyPressEvent(self, event: QKeyEvent) -> None:
+        if event.key() in (Qt.Key.Key_Return, Qt.Key.Key_Enter):
+            self.entered_on.emit()
+        else:
+            super().keyPressEvent(event)
+
+
+class FindingsPanel(QWidget):
+    """The list of findings, with its filters in the head of its dock."""
+
+    activated = Signal(object)
+    """A finding was double-clicked, or Enter was pressed."""
+    fix_requested = Signal(object)
+    """The suggested fixes of some findings, a tuple, are to be applied."""
+    several_requested = Signal()
+    """A list of fixes is wanted, to choose several."""
+    explanation_requested = Signal(object)
+    """A finding is to be explained."""
+    suppression_requested = Signal(object)
+    """A finding is to be suppressed."""
+    not_set_requested = Signal()
+    """The values that are not set are to be shown."""
+    current_changed = Signal(object)
+    """The selected finding, or None."""
+
+    def __init__(self, workspace: Workspace) -> None:
+        super().__init__()
+        self._workspace = workspace
+        self._shown_ids: frozenset[str] = frozenset()
+        self._axis = ""
+        self._held_back: Callable[[Finding], bool] = lambda _: False
+        self.shown_name = self.tr("Group")
+        """What the table shows one of."""
+        self.model = FindingsModel(workspace)
+        self.view = _View()
+        self.view.setModel(self.model)
+        self.view.setAccessibleName(self.tr("Findings"))
+        self._delegate = FindingsDelegate(self.view, self.model, self._act)
+        self.view.setItemDelegate(self._delegate)
+        self.view.doubleClicked.connect(self._activate)
+        self.view.entered_on.connect(self._activate)
+        self.view.menu_wanted.connect(self._menu)
+        self.view.selectionModel().currentChanged.connect(
+            lambda *_: self.current_changed.emit(self.current())
+        )
+        self.empty = QLabel()
+        self.empty.setAutoFillBackground(True)
+        self.empty.setBackgroundRole(QPalette.ColorRole.Base)
+        self.empty.setAlignment(Qt.AlignmentFlag.AlignCenter)
+        self.empty.linkActivated.connect(self._follow)
+        self.empty.setTextInteractionFlags(
+            Qt.TextInteractionFlag.LinksAccessibleByMouse | Qt.TextInteractionFlag.LinksAccessibleByKeyboard
+        )
+        self.empty.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
+        self._pages = QStackedWidget()
+        self._pages.addWidget(self.view)
+        self._pages.addWidget(self.empty)
+        layout = QVBoxLayout(self)
+        layout.setContentsMargins(0, 0, 0, 0)
+        layout.addWidget(self._pages)
+        self.head = self._make_head()
+        workspace.changed.connect(self._refresh)
+        self._refresh()
+
+    def _make_head(self) -> QWidget:
+        head = QWidget()
+        title = QLabel(self.tr("Findings"))
+        title.setObjectName("title")
+        title.setFont(font("text", own=True))
+        self.chips: dict[str, QToolButton] = {}
+        for severity in SEVERITIES:
+            self.chips[severity] = made = chip("0")
+            made.setIcon(severity_icon(severity))
+            made.setChecked(True)
+            made.clicked.connect(self._refresh)
+        self.scope = Segment(self.tr("Findings of"))
+        self.scope.chosen.connect(self._refresh)
+        self._offer_scopes()
+        self.scope.show_choice("file")
+        self.suppressed = chip("")
+        self.suppressed.clicked.connect(self._refresh)
+        self.note = QLabel()
+        self.note.setFont(font("small"))
+        self.note.setForegroundRole(self.note.palette().ColorRole.PlaceholderText)
+        self.note.linkActivated.connect(self._follow)
+        self.several = QPushButton(self.tr("Fi&x Several…"))
+        self.several.setIcon(icon("magic-wand"))
+        self.several.clicked.connect(self.several_requested)
+        row = QHBoxLayout(head)
+        row.setContentsMargins(GAP3, 0, GAP2, 0)
+        row.setSpacing(GAP2)
+        for widget in (title, *self.chips.values(), self.scope, self.suppressed, self.note):
+            row.addWidget(widget)
+        row.addStretch(1)
+        row.addWidget(self.several)
+        return head
+
+    # -- which findings are listed ---------------------------------------------------
+
+    def _offer_scopes(self) -> None:
+        axis = self.tr("Axis {letter}").format(letter=self._axis) if self._axis else self.tr("Axis")
+        kept = self.scope.choice
+        self.scope.offer([("file", self.tr("File"), ""), ("shown", self.shown_name, ""), ("axis", axis, "")])
+        self.scope.buttons["shown"].setToolTip(self.tr("Findings of the parameters that the table shows"))
+        self.scope.buttons["axis"].setEnabled(bool(self._axis))
+        self.scope.show_choice(kept)
+
+    def follow(self, shown_ids: frozenset[str], axis: str, name: str = "") -> None:
+        """Take what the table shows, and the letter of the axis of its current cell, as what the filters mean.
+
+        ``name`` is what the table shows one of: a step, or a group.
+        """
+        name = name or self.shown_name
+        if (shown_ids, axis, name) == (self._shown_ids, self._axis, self.shown_name):
+            return
+        self.shown_name = name
+        self._shown_ids, self._axis = shown_ids, axis or self._axis
+        self._offer_scopes()
+        if self.scope.choice != "file":
+            self._refresh()
+
+    def hold_back(self, is_early: Callable[[Finding], bool]) -> None:
+        """Leave out the findings of which ``is_early`` is true, such as those of steps not yet reached; they are counted."""
+        self._held_back = is_early
+        self._refresh()
+
+    def _is_listed(self, finding: Finding) -> bool:
+        if not self.chips[finding.severity].isChecked():
+            return False
+        if self.scope.choice == "shown":
+            return any(address[0] in self._shown_ids for address in finding.addresses)
+        if self.scope.choice == "axis":
+            return self._axis in finding_axes(self._workspace.file, finding)
+        return True
+
+    def _refresh(self, *_: object) -> None:
+        """List the findings that there are now; the same row stays selected and open, or the one that took its place."""
+        workspace = self._workspace
+        waiting = [finding for finding in workspace.findings if self._held_back(finding)]
+        reached = [finding for finding in workspace.findings if not self._held_back(finding)]
+        suppressed = workspace.validator.suppressed
+        listed = [finding for finding in reached if self._is_listed(finding)]
+        if self.suppressed.isChecked():
+            listed += [replace(s.finding, fix=(), message=self.tr("{message} Suppressed by {name}: {reason}").format(
+                message=s.finding.message, name=s.suppression.by, reason=s.suppression.reason)) for s in suppressed]  # fmt: skip
+        self._count(reached, len(waiting), len(suppressed))
+        self._delegate.may_edit = workspace.may_edit
+        opened = {
+            g.key for n, g in enumerate(self.model.groups) if self.view.isExpanded(self.model.index(n, 0))
+        }
+        current = self.view.currentIndex()
+        group = self.model.group(current).key if current.isValid() else ""
+        finding = self.model.finding(current) if current.isValid() else None
+        row = (current.parent() if current.parent().isValid() else current).row()
+        scrolled = self.view.verticalScrollBar().value()
+        if self.model.show_findings(listed):
+            self._restore(opened, group, finding, row, current.row())
+            self.view.verticalScrollBar().setValue(scrolled)
+        self._pages.setCurrentIndex(0 if self.model.groups else 1)
+        self.setFocusProxy(self.view if self.model.groups else self.empty)
+        if not self.model.groups:
+            self._say_why_empty(len(reached))
+
+    def _restore(self, opened: set[str], group: str, finding: Finding | None, row: int, place: int) -> None:
+        """Open and select the same rows again; a finding that has ended leaves its place to the next one."""
+        for n, each in enumerate(self.model.groups):
+            if each.key in opened:
+                self.view.setExpanded(self.model.index(n, 0), True)
+        if not self.model.groups:
+            return
+        found = next((n for n, each in enumerate(self.model.groups) if each.key == group), None)
+        index = self.model.index(min(max(row, 0), len(self.model.groups) - 1) if found is None else found, 0)
+        if found is not None and finding is not None:
+            keys = [each.key for each in self.model.groups[found].findings]
+            child = keys.index(finding.key) if finding.key in keys else min(place, len(keys) - 1)
+            index = self.model.index(child, 0, index)
+        self.view.setCurrentIndex(index)
+
+    def _count(self, reached: list[Finding], waiting: int, suppressed: int) -> None:
+        for severity, made in self.chips.items():
+            number = sum(f.severity == severity for f in reached) - (
+                severity == "advice" and bool(not_set(reached))
+            )
+            made.setText(str(number))
+            made.setVisible(number > 0)
+            text = counted(number, severity, none="no")
+            made.setAccessibleName(text)
+            made.setToolTip(self.tr("{count}; press to leave them out or list them again").format(count=text))
+        self.suppressed.setText(self.tr("{number} suppressed").format(number=suppressed))
+        self.suppressed.setVisible(suppressed > 0)
+        self.note.setText(
+            self.tr("{number} of later steps left out").format(number=waiting) if waiting else ""
+        )
+        self.several.setEnabled(self._workspace.may_edit and any(finding.fix for finding in reached))
+
+    def _say_why_empty(self, number: int) -> None:
+        ink, link = colour("dim").name(), colour("sel").name()
+        count = len(not_set(self._workspace.findings))
+        if number > (1 if count else 0):
+            text = self.tr("No findings with these filters.")
+            text += f' <a style="color:{link}" href="all">{self.tr("Show all")}</a>'
+        else:
+            text = self.tr("No findings.")
+            if count:
+                more = self.tr("{number} active parameters are not set.").format(number=count)
+                text += f' <span style="color:{ink}">{more}</span>'
+                text += f' <a style="color:{link}" href="unset">{self.tr("Show them")}</a>'
+        self.empty.setText(text)
+
+    def _follow(self, link: str) -> None:
+        if link == "unset":
+            self.not_set_requested.emit()
+            return
+        self.show_all()
+
+    def show_all(self) -> None:
+        """List the findings of the whole file, of every severity."""
+        for made in self.chips.values():
+            made.setChecked(True)
+        self.scope.show_choice("file")
+        self._refresh()
+
+    # -- the selected row --------------------------------------------------------------
+
+    def current(self) -> Finding | None:
+        """Return the selected finding; the first one of a selected rule."""
+        found = self.current_findings()
+        return found[0] if found else None
+
+    def current_findings(self) -> tuple[Finding, ...]:
+        """Return the selected finding, or all of the selected rule."""
+        index = self.view.currentIndex()
+        return self.model.findings_of(index) if index.isValid() else ()
+
+    def select(self, finding: Finding) -> None:
+        """Select the row of a finding, if it is listed."""
+        for n, group in enumerate(self.model.groups):
+            if finding in group.findings:
+                rule = self.model.index(n, 0)
+                own = self.model.index(group.findings.index(finding), 0, rule)
+                self.view.setCurrentIndex(own if len(group.findings) > 1 else rule)
+
+    def step(self, by: int) -> None:
+        """Go to the next rule that is not met, or to the one before, and to the value that causes it."""
+        current = self.view.currentIndex()
+        row = (current.parent() if current.parent().isValid() else current).row()
+        if self.model.groups:
+            self.view.setCurrentIndex(self.model.index((row + by) % len(self.model.groups), 0))
+            self._activate()
+
+    def fix(self) -> None:
+        """Ask to apply the suggested fixes of the selected row."""
+        able = tuple(finding for finding in self.current_findings() if finding.fix)
+        if able and self._workspace.may_edit:
+            self.fix_requested.emit(able)
+
+    def explain(self) -> None:
+        """Ask for the explanation of the selected finding."""
+        if (finding := self.current()) is not None:
+            self.explanation_requested.emit(finding)
+
+    def suppress(self) -> None:
+        """Ask to suppress the selected finding."""
+        if (finding := self.current()) is not None and self._may_suppress(finding):
+            self.suppression_requested.emit(finding)
+
+    def _may_suppress(self, finding: Finding) -> bool:
+        return finding in self._workspace.findings and not finding.rule.startswith("rules.")
+
+    def _activate(self, *_: object) -> None:
+        if (finding := self.current()) is not None:
+            self.activated.emit(finding)
+
+    def _act(self, part: Part, index: QModelIndex) -> None:
+        """Do what was clicked in a row, which is the selected one then."""
+        self.view.setCurrentIndex(index)
+        {"fix": self.fix, "why": self.explain, "go": self._activate, "more": self._menu_below}[part]()
+
+    def _menu_below(self) -> None:
+        place = self.view.visualRect(self.view.currentIndex()).bottomRight()
+        self._menu(self.view.viewport().mapToGlobal(place))
+
+    def menu(self) -> QMenu:
+        """Return what can be done with the selected row."""
+        menu, finding = QMenu(self), self.current()
+        able = bool(finding and self._workspace.may_edit and any(f.fix for f in self.current_findings()))
+        for text, act, keys, can in (
+            (self.tr("&Go to"), self._activate, self.tr("Enter"), bool(finding and finding.addresses)),
+            (self.tr("&Why"), self.explain, "Shift+F1", finding is not None),
+            (self.tr("Fi&x"), self.fix, "F8", able),
+            (self.tr("&Suppress…"), self.suppress, "", bool(finding and self._may_suppress(finding))),
+        ):
+            action = menu.addAction(f"{text}\t{keys}" if keys else text, act)
+            action.setEnabled(can)
+        return menu
+
+    def _menu(self, place: QPoint) -> None:
+        if self.current() is not None:
+            menu = self.menu()
+            pop_up(menu, place)

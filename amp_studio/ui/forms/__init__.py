@@ -1,0 +1,1 @@
+"""Small controls that dialogs and panels are made of."""

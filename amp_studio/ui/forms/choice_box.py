@@ -1,0 +1,161 @@
+"""The list of a parameter's choices: by the beginning of a name, or by letter, as the old editor had it."""
+
+from __future__ import annotations
+
+import re
+import unicodedata
+
+from PySide6.QtCore import QElapsedTimer, QEvent, QObject, QPoint, Qt, Signal
+from PySide6.QtGui import QKeyEvent
+from PySide6.QtWidgets import QComboBox, QListView, QToolTip, QWidget
+
+from amp_studio.schema import Address
+from amp_studio.ui.base.workspace import Workspace
+
+_CODE = Qt.ItemDataRole.UserRole + 1
+_WORDS = re.compile(r"[\W_]+")
+PAUSE_MS = 1_000
+"""Milliseconds after which a typed letter begins a new word."""
+
+
+def folded(text: str) -> str:
+    """Return a text without case and accents."""
+    parts = unicodedata.normalize("NFKD", text.casefold())
+    return "".join(letter for letter in parts if not unicodedata.combining(letter))
+
+
+class ChoiceBox(QComboBox):
+    """The choices of one address with their letters; ``currentData`` is the label.
+
+    Typing selects and leaves in the open list only what fits. Letters add up, in the open list until Backspace takes them away; the
+    same letter again goes to the next one that fits. A text that nothing fits leaves the value as it is.
+    """
+
+    tabbed = Signal(bool)
+    """Tab was pressed in the open list (Shift+Tab: False): the choice is kept."""
+    left = Signal()
+    """The open list was closed, with or without a choice."""
+
+    def __init__(self, workspace: Workspace, address: Address, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        choices = workspace.file.schema.parameters[address[0]].choices or ()
+        for choice in choices:
+            self.addItem(f"({choice.code})  {choice.label}" if choice.code else choice.label, choice.label)
+            self.setItemData(self.count() - 1, choice.code or "", _CODE)
+            if choice.note:
+                self.setItemData(self.count() - 1, choice.note, Qt.ItemDataRole.ToolTipRole)
+        value = workspace.file.get(address)
+        current = None if value is None else value.value
+        key = (
+            ""
+            if current is None
+            else "yes"
+            if current is True
+            else "no"
+            if current is False
+            else str(current)
+        )
+        keys = [c.key for c in choices]
+        self.setPlaceholderText(key or self.tr("not set"))
+        self._own = keys.index(key) if key in keys else -1
+        """The row of the value."""
+        self.setCurrentIndex(self._own)
+        self.setMaxVisibleItems(20)
+        self._typed, self._since = "", QElapsedTimer()
+        self.view().installEventFilter(self)
+
+    def rows_of(self, typed: str) -> list[int]:
+        """Return the rows that fit a typed text, best first: beginning of a label, of a word in it, letter, part of a label."""
+        typed, rows = folded(typed), range(self.count())
+        labels = [folded(str(self.itemData(n))) for n in rows]
+        ranks = (
+            [n for n in rows if labels[n].startswith(typed)],
+            [n for n in rows if any(word.startswith(typed) for word in _WORDS.split(labels[n]))],
+            [n for n in rows if folded(str(self.itemData(n, _CODE))) == typed],
+            [n for n in rows if typed in labels[n]] if len(typed) > 1 else [],
+        )
+        return list(dict.fromkeys(n for rank in ranks for n in rank))
+
+    def _type(self, letter: str) -> None:
+        is_open = self.view().isVisible()
+        again = bool(self._typed) and (is_open or self._since.elapsed() < PAUSE_MS)
+        typed = self._typed + letter if again else letter
+        found = self.rows_of(typed)
+        if not found and again and set(folded(typed)) == {folded(letter)}:  # asked for the next one
+            typed, found = letter, self.rows_of(letter)
+            later = [n for n in found if n > self.currentIndex()]
+            found = later + [n for n in found if n not in later]
+        self._typed = typed
+        self._since.start()
+        self.setCurrentIndex(found[0] if found else self._own)  # a typing error never chooses another one
+        self._show_only(set(found) if found else None)
+        if self.view().isVisible():
+            QToolTip.showText(
+                self.mapToGlobal(QPoint(0, -30)),
+                typed if found else self.tr("{typed}: no choice").format(typed=typed),
+                self,
+            )
+
+    def _show_only(self, rows: set[int] | None) -> None:
+        """Leave these rows in the open list; None for all."""
+        view = self.view()
+        if isinstance(view, QListView):
+            for n in range(self.count()):
+                view.setRowHidden(n, rows is not None and n not in rows)
+        view.setCurrentIndex(self.model().index(self.currentIndex(), 0))
+        frame = view.parentWidget()
+        if frame is not None and view.isVisible():  # the list is as high as what is left in it
+            count = self.count() if rows is None else len(rows)
+            height = max(1, min(count, self.maxVisibleItems())) * view.sizeHintForRow(
+                max(0, self.currentIndex())
+            )
+            frame.setFixedHeight(height + 2 * view.frameWidth() + frame.height() - view.height())
+
+    def _select(self, event: QEvent) -> bool:
+        if not isinstance(event, QKeyEvent):
+            return False
+        if event.key() == Qt.Key.Key_Backspace and self._typed:
+            typed, self._typed = self._typed[:-1], ""
+            self._since.invalidate()
+            self.setCurrentIndex(self._own)
+            self._show_only(None)
+            for letter in typed:
+                self._type(letter)
+            return True
+        if not event.text().isprintable() or not event.text() or (event.text() == " " and not self._typed):
+            return False
+        self._type(event.text())
+        return True
+
+    def _leave_by_tab(self, event: QEvent) -> bool:
+        """Take the choice of the open list by Tab, and go on as Tab does."""
+        tabs = {Qt.Key.Key_Tab: True, Qt.Key.Key_Backtab: False}
+        if not isinstance(event, QKeyEvent) or event.key() not in tabs:
+            return False
+        chosen = self.view().currentIndex()
+        if chosen.isValid() and not self.view().isRowHidden(chosen.row()):  # type: ignore[attr-defined]  # a list
+            self.setCurrentIndex(chosen.row())
+        self.hidePopup()
+        self.tabbed.emit(tabs[Qt.Key(event.key())])
+        return True
+
+    def showPopup(self) -> None:
+        """Open the list with what fits the letters that were typed just now."""
+        super().showPopup()
+        if self._typed and self._since.isValid() and self._since.elapsed() < PAUSE_MS:
+            self._show_only(set(self.rows_of(self._typed)) or None)
+
+    def keyPressEvent(self, event: QKeyEvent) -> None:
+        """Select by letter; Enter is left to the form."""
+        if event.key() in (Qt.Key.Key_Return, Qt.Key.Key_Enter):
+            event.ignore()
+        elif not self._select(event):
+            super().keyPressEvent(event)
+
+    def eventFilter(self, watched: QObject, event: QEvent) -> bool:
+        """Select by letter in the open list too, and notice when it closes, as not every way calls ``hidePopup``."""
+        if event.type() == QEvent.Type.KeyPress and (self._leave_by_tab(event) or self._select(event)):
+            return True
+        if event.type() == QEvent.Type.Hide:
+            self.left.emit()
+        return super().eventFilter(watched, event)

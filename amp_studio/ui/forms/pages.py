@@ -1,0 +1,28 @@
+"""Parts of the pages that are shown as HTML: links to parameters, printed tables."""
+
+from __future__ import annotations
+
+import html
+
+from amp_studio.report import cells_of
+from amp_studio.schema import Schema
+from amp_studio.schema.model import Table
+from amp_studio.ui.base.translated import worded
+
+LINK = "param:"
+
+
+def link(schema: Schema, parameter_id: str) -> str:
+    """Return a link to a parameter, by its name."""
+    return f'<a href="{LINK}{parameter_id}">{html.escape(schema.parameters[parameter_id].name)}</a>'
+
+
+def drawn(table: Table) -> str:
+    """Return a printed table as HTML."""
+    head, *rows = [[html.escape(cell) for cell in row] for row in cells_of(table)]
+    lines = ["<tr>" + "".join(f"<th align=left>{cell}</th>" for cell in head) + "</tr>"]
+    lines += ["<tr>" + "".join(f"<td>{cell}</td>" for cell in row) + "</tr>" for row in rows]
+    title = f"<h4>{html.escape(table.title)} ({worded(f'page {table.page}')})</h4>"
+    return (
+        f"{title}<table cellpadding=3>{''.join(lines)}</table><p><small>{html.escape(table.note)}</small></p>"
+    )

@@ -1,0 +1,175 @@
+"""Opens the comparison: of the open file with anything, with a control, or with the file on disk that another program changed."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from functools import partial
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from PySide6.QtCore import QObject
+from PySide6.QtWidgets import QFileDialog
+
+from amp_studio.files import (
+    ENDING,
+    Document,
+    backup_path,
+    check_output,
+    is_there,
+    open_file,
+    text_of_name,
+    write_atomic,
+)
+from amp_studio.files.reading import file_content
+from amp_studio.files.storage import readable_content
+from amp_studio.ui.base.task import in_background
+from amp_studio.ui.window.studio_window import StudioWindow
+
+from .model import BASE, B
+from .sources import MergeSources, ReadSource
+
+if TYPE_CHECKING:
+    from amp_studio.files import ParameterFile
+    from amp_studio.ui.base.workspace import Workspace
+    from amp_studio.ui.page.file_page import FilePage
+
+    from .window import MergeWindow
+
+FILTER = "Parameter files (*.amp);;All files (*)"
+COPIES = "Copies of a control (*.img *.before-*.amp);;All files (*)"
+AskPath = Callable[[str, Path], Path | None]
+WriteNew = Callable[[Path, Callable[[], Document]], None]
+
+
+class CompareActions(QObject):
+    """One window for every comparison."""
+
+    def __init__(self, window: StudioWindow, ask_path: AskPath, write_new: WriteNew) -> None:
+        super().__init__(window)
+        self.window, self._ask_path, self._write_new = window, ask_path, write_new
+        self.ask_address: Callable[[str], str | None] = lambda _title: None
+        """Asks for the address of a control; set by who knows the controls."""
+        self.action = window.action(
+            self.tr("Compare and Merge &With…"),
+            self.compare,
+            "Ctrl+Shift+M",
+            "file",
+            "git-diff",
+            self.tr("Compare"),
+        )
+
+    # -- what opens it ---------------------------------------------------------------
+
+    def compare(self) -> None:
+        """Compare the file in front: with what is saved where there is unsaved work, else with its backup, else its defaults."""
+        page = self._page()
+        workspace = page.workspace
+        shown = self.open(page)
+        if workspace.is_dirty:
+            shown.use(B, shown.sources.as_saved())
+        elif backup_path(workspace.path).is_file():
+            shown.start(B, shown.sources.backup)
+        else:
+            shown.start(B, shown.sources.defaults)
+
+    def with_disk(self, page: FilePage) -> None:
+        """Merge with the file on disk, which another program has changed, from what was saved before; a save may then replace it."""
+        self.window.guarded(partial(self._with_disk, page), self.tr("Compare"))
+
+    def _with_disk(self, page: FilePage) -> None:
+        workspace = page.workspace
+        on_disk = in_background(self.window, self.tr("Opening"), lambda: open_file(workspace.path))
+        shown = self.open(page)
+        try:
+            base, disk = shown.sources.as_saved(), shown.sources.on_disk(on_disk.file)
+        except ValueError:
+            shown.close()
+            raise
+        workspace.acknowledge(on_disk)
+        chosen = {**shown.chosen, B: disk}
+        shown.show_merge({**chosen, BASE: base} if workspace.is_dirty else chosen)
+
+    def with_path(self, page: FilePage, path: Path) -> None:
+        """Compare with another file, or with a backup or a copy of what a control contained."""
+        shown = self.open(page)
+        make = shown.sources.other_file if path.suffix.lower() == ENDING else shown.sources.kept_copy
+        shown.start(B, lambda: shown.sources.from_copy(make, path))
+
+    def with_control(self, page: FilePage, image: bytes, address: str) -> None:
+        """Compare with what was just read from a control; raises ImageError, ValueError."""
+        shown = self.open(page)
+        shown.use(B, shown.sources.of_content(page.workspace.file.copy(), image, address))
+
+    def open(self, page: FilePage) -> MergeWindow:
+        """Open the window on a file, which is both of its sources at first."""
+        from .window import MergeWindow
+
+        sources = MergeSources(page.workspace)
+        others = partial(self._others, page)
+        shown = MergeWindow(
+            page.workspace,
+            sources,
+            lambda: sources.offers(
+                others(),
+                partial(self._ask_file, sources),
+                partial(self._ask_control, sources),
+                partial(self._ask_copy, sources),
+            ),
+            partial(self._save_result, page),
+            self.window,
+        )
+        shown.went_to.connect(page.go_to)
+        shown.merged.connect(partial(self._merged, page))
+        shown.show()
+        return shown
+
+    def _page(self) -> FilePage:
+        page = self.window.page
+        assert page is not None
+        return page
+
+    def _others(self, page: FilePage) -> list[Workspace]:
+        return [each.workspace for each in self.window.tabs.pages() if each is not page]
+
+    # -- what is asked for -------------------------------------------------------------
+
+    def _ask_file(self, sources: MergeSources) -> ReadSource | None:
+        path = self._asked_path(sources, self.tr("Compare with"), FILTER)
+        return None if path is None else sources.from_copy(sources.other_file, path)
+
+    def _ask_copy(self, sources: MergeSources) -> ReadSource | None:
+        path = self._asked_path(sources, self.tr("Compare with a copy"), COPIES)
+        return None if path is None else sources.from_copy(sources.kept_copy, path)
+
+    def _asked_path(self, sources: MergeSources, title: str, kinds: str) -> Path | None:
+        text, _ = QFileDialog.getOpenFileName(self.window, title, str(sources.folder), kinds)
+        return Path(text) if text else None
+
+    def _ask_control(self, sources: MergeSources) -> ReadSource | None:
+        address = self.ask_address(self.tr("Compare"))
+        return None if address is None else sources.control_now(address)
+
+    # -- what becomes of it ------------------------------------------------------------
+
+    def _merged(self, page: FilePage, other: str, changed: int) -> None:
+        text = self.tr("Merged with {source}. Values changed: %n.", "", changed).format(source=other)
+        undo = (self.tr("&Undo"), page.workspace.undo_stack.undo)
+        page.bar.say(text, "information", undo)
+
+    def _save_result(self, page: FilePage, file: ParameterFile) -> None:
+        self.window.guarded(partial(self._save, page, file), self.tr("Save result as"))
+
+    def _save(self, page: FilePage, file: ParameterFile) -> None:
+        path = self._ask_path(self.tr("Save result as"), Path("merged"))
+        if path is not None:
+            file.header.name = text_of_name(path.stem)
+            self._write_new(path, lambda: _written(file, path, page.workspace.path))
+
+
+def _written(file: ParameterFile, path: Path, like: Path) -> Document:
+    """Write a new file with the remarks and the order of another one, as far as that is on disk; returns it opened."""
+    check_output(path)
+    file.header.signature = file.schema.signature
+    previous = file_content(like) if is_there(like) else None
+    write_atomic(path, readable_content(file, path, previous), None, keep_backup=False)
+    return Document.open(path)

@@ -1,0 +1,347 @@
+"""Several machines side by side: which files, what differs between them, the way to a value, and the table as a paper."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from functools import partial
+from pathlib import Path
+
+from PySide6.QtCore import QEvent, QModelIndex, Qt
+from PySide6.QtWidgets import (
+    QCheckBox,
+    QDialog,
+    QFileDialog,
+    QHBoxLayout,
+    QHeaderView,
+    QLabel,
+    QLineEdit,
+    QListWidget,
+    QListWidgetItem,
+    QPushButton,
+    QSplitter,
+    QStackedWidget,
+    QTableView,
+    QVBoxLayout,
+    QWidget,
+)
+
+from amp_studio.files import ParameterFile, check_output, open_file, same_file
+from amp_studio.files.axis_match import matched_by_letter
+from amp_studio.report.differences import (
+    MachineLine,
+    machine_lines,
+    machine_names,
+    machines_paper,
+)
+from amp_studio.report.paper import write_paper
+from amp_studio.schema import Address
+from amp_studio.ui.base.task import in_background
+from amp_studio.ui.base.theme import GAP2, GAP3, ROW
+from amp_studio.ui.base.workspace import Workspace
+from amp_studio.ui.dialogs.file_dialogs import PAPER_KINDS, path_of_kind
+from amp_studio.ui.forms.message_bar import MessageBar
+
+from .compare_actions import FILTER
+from .machines_model import MachinesFilter, MachinesModel
+
+_ROW_HEAD, _COLUMN = 290, 130
+"""Width of the names of values, and the least width of a machine."""
+
+
+@dataclass
+class _Machine:
+    """One file that can be compared."""
+
+    path: Path
+    workspace: Workspace | None
+    """Where it is open: what is compared is as in the window, with unsaved changes."""
+    file: ParameterFile | None = None
+    fault: str = ""
+
+    def read(self) -> None:
+        """Read it again where it is open, and once where it is on disk."""
+        if self.workspace is not None:
+            self.file = self.workspace.file.copy()
+        elif self.file is None and not self.fault:
+            try:
+                self.file = open_file(self.path).file
+            except (OSError, ValueError) as error:
+                self.fault = str(error)
+
+
+class MachinesDialog(QDialog):
+    """Stays open beside the table; a double click or Enter leads to a value of a machine."""
+
+    def __init__(
+        self,
+        opened: Sequence[Workspace],
+        paths: Sequence[Path],
+        show: Callable[[Path, Address | None], None],
+        parent: QWidget | None = None,
+        language: str = "en",
+    ) -> None:
+        """``language`` is that of the paper that is exported."""
+        super().__init__(parent)
+        self.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
+        self.setWindowTitle(self.tr("Compare Machines"))
+        self.resize(min(1120, parent.width() - 2 * GAP3) if parent is not None else 1120, 640)
+        self._show, self._language = show, language
+        self._machines = [_Machine(each.path, each) for each in opened]
+        self._machines += [
+            _Machine(path, None) for path in paths if not any(same_file(path, m.path) for m in self._machines)
+        ]
+        self._compared: list[_Machine] = []
+        self._files: list[ParameterFile] = []
+        self._is_stale = False
+        for each in opened:
+            each.changed.connect(self._note_change)
+        self.bar = MessageBar()
+        self.list = QListWidget()
+        self.list.setAccessibleName(self.tr("Machines"))
+        self.add_button = QPushButton(self.tr("&Add Files…"))
+        self.add_button.clicked.connect(self.add)
+        self.filter = QLineEdit()
+        self.filter.setPlaceholderText(self.tr("Filter by number, name, axis or value"))
+        self.filter.setAccessibleName(self.tr("Filter"))
+        self.filter.setClearButtonEnabled(True)
+        self.everything = QCheckBox(self.tr("Also what is the &same"))
+        self.by_letter = QCheckBox(self.tr("Axes by &letter"))
+        self.by_letter.setToolTip(self.tr("Compare the axes that have the same letter, not the same number"))
+        self.model, self.rows = MachinesModel(self), MachinesFilter(self)
+        self.rows.setSourceModel(self.model)
+        self.table = self._make_table()
+        self.empty, self.count = QLabel(), QLabel()
+        self.empty.setAlignment(Qt.AlignmentFlag.AlignCenter)
+        self.shown = QStackedWidget()
+        self.shown.addWidget(self.empty)
+        self.shown.addWidget(self.table)
+        self.export_button, close = QPushButton(self.tr("&Export…")), QPushButton(self.tr("&Close"))
+        self.export_button.clicked.connect(self.export)
+        close.clicked.connect(self.close)
+        for button in (self.add_button, self.export_button, close):
+            button.setAutoDefault(False)
+        self._arrange(close)
+        self.filter.textChanged.connect(self._look_for)
+        self.everything.toggled.connect(self.compare)
+        self.by_letter.toggled.connect(self.compare)
+        self.list.itemChanged.connect(self.compare)
+
+    def _make_table(self) -> QTableView:
+        table = QTableView()
+        table.setModel(self.rows)
+        table.setAccessibleName(self.tr("Values of the machines"))
+        table.setShowGrid(True)
+        table.setWordWrap(False)
+        head, rows = table.horizontalHeader(), table.verticalHeader()
+        head.setDefaultSectionSize(_COLUMN)
+        head.setStyleSheet("QHeaderView::section { padding: 4px 3px; }")  # names begin where the values do
+        head.setDefaultAlignment(Qt.AlignmentFlag.AlignLeft | Qt.AlignmentFlag.AlignVCenter)
+        rows.setDefaultSectionSize(ROW)
+        rows.setSectionResizeMode(QHeaderView.ResizeMode.Fixed)
+        rows.setFixedWidth(_ROW_HEAD)
+        table.activated.connect(self._go_to)
+        table.doubleClicked.connect(self._go_to)
+        return table
+
+    def _arrange(self, close: QPushButton) -> None:
+        left, right = QWidget(), QWidget()
+        column = QVBoxLayout(left)
+        column.setContentsMargins(0, 0, GAP2, 0)
+        column.addWidget(self.list)
+        column.addWidget(self.add_button)
+        above = QHBoxLayout()
+        above.setSpacing(GAP3)
+        for widget in (self.filter, self.everything, self.by_letter):
+            above.addWidget(widget)
+        column = QVBoxLayout(right)
+        column.setContentsMargins(GAP2, 0, 0, 0)
+        column.addLayout(above)
+        column.addWidget(self.shown)
+        parts = QSplitter()
+        parts.addWidget(left)
+        parts.addWidget(right)
+        parts.setStretchFactor(1, 1)
+        parts.setSizes([200, 820])
+        parts.setChildrenCollapsible(False)
+        below = QHBoxLayout()
+        below.addWidget(self.count, 1)
+        below.addWidget(self.export_button)
+        below.addWidget(close)
+        layout = QVBoxLayout(self)
+        layout.addWidget(self.bar)
+        layout.addWidget(parts, 1)
+        layout.addLayout(below)
+
+    # -- which machines ----------------------------------------------------------------------
+
+    def begin(self) -> None:
+        """Read the files, and compare those of the family of the first."""
+        in_background(self, self.tr("Reading the files"), partial(_read, self._machines))
+        first = next((m.file for m in self._machines if m.file is not None), None)
+        family = first.schema.family.family if first is not None else ""
+        for machine in self._machines:
+            self._list(
+                machine, chosen=machine.file is not None and machine.file.schema.family.family == family
+            )
+        self.compare()
+
+    def _list(self, machine: _Machine, *, chosen: bool) -> None:
+        item = QListWidgetItem(machine.path.stem)
+        item.setToolTip(machine.fault or str(machine.path))
+        item.setFlags(
+            Qt.ItemFlag.ItemIsEnabled | Qt.ItemFlag.ItemIsSelectable | Qt.ItemFlag.ItemIsUserCheckable
+        )
+        item.setCheckState(Qt.CheckState.Checked if chosen else Qt.CheckState.Unchecked)
+        if machine.file is None:
+            item.setText(self.tr("{name} (cannot be read)").format(name=machine.path.stem))
+            item.setFlags(Qt.ItemFlag.ItemIsSelectable)
+        elif not chosen:
+            family = machine.file.schema.family
+            item.setText(f"{machine.path.stem} ({family.short or family.name})")
+        self.list.blockSignals(True)
+        self.list.addItem(item)
+        self.list.blockSignals(False)
+
+    def add(self) -> None:
+        """Ask for other files and compare them too."""
+        near = str(self._machines[0].path.parent) if self._machines else ""
+        texts, _ = QFileDialog.getOpenFileNames(self, self.tr("Add files"), near, FILTER)
+        added = [
+            _Machine(Path(text), None)
+            for text in texts
+            if not any(same_file(Path(text), m.path) for m in self._machines)
+        ]
+        in_background(self, self.tr("Reading the files"), partial(_read, added))
+        for machine in added:
+            self._machines.append(machine)
+            self._list(machine, chosen=machine.file is not None)
+        if faults := [machine.fault for machine in added if machine.fault]:
+            self.bar.say("\n".join(faults), "error")
+        self.compare()
+
+    def _chosen(self) -> list[_Machine]:
+        return [
+            machine
+            for n, machine in enumerate(
+                self._machines[: self.list.count()]
+            )  # while one is added it has no line yet
+            if machine.file is not None and self.list.item(n).checkState() == Qt.CheckState.Checked
+        ]
+
+    # -- what differs ------------------------------------------------------------------------
+
+    def compare(self, *_: object) -> None:
+        """Compare the chosen machines as they are now."""
+        self._is_stale = False
+        chosen, everything, by_letter = (
+            self._chosen(),
+            self.everything.isChecked(),
+            self.by_letter.isChecked(),
+        )
+        self.export_button.setEnabled(False)
+        if len(chosen) < 2:
+            self._show_nothing(self.tr("Choose two machines or more."))
+            return
+        try:
+            lines, same, self._files, notes = in_background(
+                self, self.tr("Comparing"), partial(_compared, chosen, everything, by_letter)
+            )
+        except ValueError as error:
+            self._show_nothing("")
+            self.bar.say(str(error), "error")
+            return
+        self._compared = chosen
+        if notes:
+            self.bar.say("\n".join(notes))
+        else:
+            self.bar.hide()
+        self.model.show_lines(lines, self._names(), [machine.path for machine in chosen])
+        self._same = same
+        room = self.shown.width() - _ROW_HEAD - GAP3
+        head, mode = self.table.horizontalHeader(), QHeaderView.ResizeMode
+        head.setSectionResizeMode(mode.Stretch if room >= _COLUMN * len(chosen) else mode.Interactive)
+        self.empty.setText(self.tr("Nothing differs."))
+        self.shown.setCurrentWidget(self.table if lines else self.empty)
+        self.export_button.setEnabled(True)
+        self._tell()
+
+    def _show_nothing(self, why: str) -> None:
+        self.model.show_lines((), (), ())
+        self.count.clear()
+        self.empty.setText(why)
+        self.shown.setCurrentWidget(self.empty)
+
+    def _names(self) -> list[str]:
+        return machine_names([machine.path.stem for machine in self._compared])
+
+    def _look_for(self, text: str) -> None:
+        self.rows.look_for(text)
+        self._tell()
+
+    def _tell(self) -> None:
+        if not self.export_button.isEnabled():
+            return
+        differ = sum(line.differs for line in self.model.lines)
+        text = self.tr("Different: {differ}; the same: {same}").format(differ=differ, same=self._same)
+        if self.filter.text():
+            text += self.tr("; shown: {count}").format(count=self.rows.rowCount())
+        self.count.setText(text)
+        self.table.setAccessibleDescription(text)
+
+    def _note_change(self, *_: object) -> None:
+        self._is_stale = True
+
+    def changeEvent(self, event: QEvent) -> None:
+        """Compare again when one comes back from an edit."""
+        super().changeEvent(event)
+        if event.type() == QEvent.Type.ActivationChange and self.isActiveWindow() and self._is_stale:
+            self.compare()
+
+    # -- ways out ----------------------------------------------------------------------------
+
+    def _go_to(self, index: QModelIndex) -> None:
+        row = self.rows.mapToSource(index).row()
+        self._show(self._compared[index.column()].path, self.model.lines[row].address)
+
+    def export(self) -> None:
+        """Ask for a file and write the table of these machines, not only the rows that the filter leaves."""
+        near = str(self._compared[0].path.with_name("machines.pdf"))
+        text, kind = QFileDialog.getSaveFileName(self, self.tr("Export"), near, PAPER_KINDS)
+        if not text:
+            return
+        path, everything = path_of_kind(text, kind), self.everything.isChecked()
+        try:
+            for machine in self._machines:
+                check_output(path, machine.path)
+            paper = partial(
+                machines_paper, self._files, self._names(), everything=everything, language=self._language
+            )
+            in_background(self, self.tr("Export"), lambda: write_paper(paper(), path))
+        except (OSError, ValueError) as error:
+            self.bar.say(str(error), "error")
+            return
+        self.bar.say(self.tr("{path} written").format(path=path))
+
+
+def _read(machines: Sequence[_Machine]) -> None:
+    for machine in machines:
+        machine.read()
+
+
+def _compared(
+    chosen: Sequence[_Machine], everything: bool, by_letter: bool
+) -> tuple[list[MachineLine], int, list[ParameterFile], list[str]]:
+    """Return the rows, how many values are the same, the files as they were compared, and notes; raises ValueError."""
+    _read(chosen)
+    files = [machine.file for machine in chosen if machine.file is not None]
+    notes: list[str] = []
+    if by_letter:
+        for n, machine in enumerate(chosen[1:], 1):
+            matched = matched_by_letter(files[n], files[0])
+            files[n] = matched.file
+            name = machine.path.stem
+            notes += [f"{name}: axis {letter} is axis {number}; it is compared as axis {place}" for letter, number, place in matched.moved]  # fmt: skip
+            notes += [f"{name}: axis {letter} is not compared" for letter in matched.left_out]
+    lines, same = machine_lines(files, everything=everything)
+    return lines, same, files, notes

@@ -1,0 +1,55 @@
+"""Asks where the paper of a comparison goes, and writes it in a thread."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from pathlib import Path
+
+from PySide6.QtWidgets import QFileDialog, QWidget
+
+from amp_studio.files import Merge, check_output
+from amp_studio.files.merging import Side
+from amp_studio.ui.base.modal import is_alive
+from amp_studio.ui.base.task import in_background
+from amp_studio.ui.base.translated import tr
+from amp_studio.ui.dialogs.file_dialogs import PAPER_KINDS, path_of_kind
+from amp_studio.ui.forms.message_bar import MessageBar
+
+from .model import SIDES
+from .sources import MergeSource
+
+
+def save_merge_report(
+    window: QWidget, merge: Merge, chosen: Mapping[int, MergeSource], beside: Path, bar: MessageBar
+) -> None:
+    """Write a comparison as a paper; shows where it is, or the error. ``beside`` is the file that is compared."""
+    title = tr("Report of the comparison")
+    near = beside.with_name(f"{beside.stem}-comparison.pdf")
+    text, kind = QFileDialog.getSaveFileName(window, title, str(near), PAPER_KINDS)
+    if not text:
+        return
+    path = path_of_kind(text, kind)
+    names: dict[Side, str] = {
+        SIDES[column]: f"{source.title}, {source.note}" if source.note else source.title
+        for column, source in sorted(chosen.items())
+    }
+    try:
+        check_output(path, beside)
+        in_background(window, title, lambda: _write(merge, names, path))
+    except (OSError, ValueError) as error:
+        fault = str(error)
+    else:
+        fault = ""
+    if not is_alive(bar):  # the window was closed meanwhile
+        return
+    if fault:
+        bar.say(fault, "error")
+    else:
+        bar.say(tr("{file} written.").format(file=path.name))
+
+
+def _write(merge: Merge, names: Mapping[Side, str], path: Path) -> None:
+    from amp_studio.report.merge_paper import merge_paper
+    from amp_studio.report.paper import write_paper
+
+    write_paper(merge_paper(merge, names), path)

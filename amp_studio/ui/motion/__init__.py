@@ -1,0 +1,1 @@
+"""Simulated motion, tuning, the measured machine and calibration."""

@@ -1,0 +1,143 @@
+"""The machine of an axis out of the record of its drive: the fit as a picture, the figures, and where they go."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from PySide6.QtCore import Qt
+from PySide6.QtWidgets import (
+    QDialog,
+    QFileDialog,
+    QFormLayout,
+    QHBoxLayout,
+    QLabel,
+    QLineEdit,
+    QPushButton,
+    QVBoxLayout,
+    QWidget,
+)
+
+from amp_studio.files import ParameterFile, SaveError
+from amp_studio.sim import SimulationError, Trace, identify, write_machine
+from amp_studio.sim.identify import figure_text
+from amp_studio.sim.picture import picture_of
+from amp_studio.sim.rounding import shown
+from amp_studio.ui.base.task import in_background
+from amp_studio.ui.base.theme import GAP2, GAP3
+from amp_studio.ui.base.translated import worded
+
+from .plot import MotionPlot
+
+
+class IdentifyDialog(QDialog):
+    """Shows the machine that a record of an axis is of; ``trace`` is the fit, None while there is none."""
+
+    def __init__(self, file: ParameterFile, axis: str, path: Path, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self._file, self._axis, self._path = file, axis, path
+        self.trace: Trace | None = None
+        self.setWindowTitle(self.tr("Machine from a Record — {name}").format(name=path.name))
+        self.resize(980, 640)
+        self.plot = MotionPlot()
+        self.plot.setAccessibleName(self.tr("Measured and predicted torque"))
+        self.scale = QLineEdit()
+        self.scale.setPlaceholderText(self.tr("only for A, Nm or N: 0.056 A"))
+        self.scale.setToolTip(self.tr("Torque of the record for 1 % of rated torque, or for 1 V of output"))
+        self.scale.editingFinished.connect(self.refresh)
+        self.message = QLabel()
+        self.message.setWordWrap(True)
+        self.message.setTextFormat(Qt.TextFormat.PlainText)
+        self.figures = QFormLayout()
+        self.use, self.save, cancel = (
+            QPushButton(self.tr("&Use in Simulation")),
+            QPushButton(self.tr("&Save Machine…")),
+            QPushButton(self.tr("Cancel")),
+        )
+        self.use.setDefault(True)
+        self.use.clicked.connect(self.accept)
+        self.save.clicked.connect(self.save_machine)
+        cancel.clicked.connect(self.reject)
+        self._arrange(cancel)
+        self.refresh()
+
+    def _arrange(self, cancel: QPushButton) -> None:
+        left = QVBoxLayout()
+        given = QFormLayout()
+        given.addRow(self.tr("S&cale"), self.scale)
+        left.addLayout(given)
+        left.addSpacing(GAP2)
+        left.addLayout(self.figures)
+        left.addWidget(self.message)
+        left.addStretch(1)
+        columns = QHBoxLayout()
+        columns.setSpacing(GAP3)
+        columns.addLayout(left, 2)
+        columns.addWidget(self.plot, 3)
+        buttons = QHBoxLayout()
+        buttons.addWidget(self.save)
+        buttons.addStretch(1)
+        buttons.addWidget(self.use)
+        buttons.addWidget(cancel)
+        layout = QVBoxLayout(self)
+        layout.addLayout(columns, 1)
+        layout.addLayout(buttons)
+
+    def refresh(self) -> None:
+        """Fit the record again with the scale that is given."""
+        scale = self.scale.text().strip() or None
+        try:
+            self.trace = in_background(
+                self,
+                self.tr("Reading the Record"),
+                lambda: identify(self._file, self._path, self._axis, scale),
+            )
+        except (SimulationError, OSError) as error:
+            self.trace = None
+            self.plot.clear_picture()
+            self.message.setText(str(error))
+        else:
+            self.plot.draw(picture_of(self.trace))
+            self.message.setText("\n".join((*self.trace.doubts, *map(worded, self.trace.assumptions))))
+        self._show_figures()
+        for button in (self.use, self.save):
+            button.setEnabled(self.trace is not None)
+
+    def _show_figures(self) -> None:
+        while self.figures.rowCount():
+            self.figures.removeRow(0)
+        if self.trace is None:
+            return
+        result = dict(self.trace.result)
+        names = {
+            "acceleration_per_output": self.tr("Acceleration for one unit of torque"),
+            "viscous_friction": self.tr("Viscous friction at 1000 mm/min"),
+            "coulomb_friction": self.tr("Coulomb friction"),
+            "gravity": self.tr("Gravity"),
+        }
+        for name, words in names.items():
+            self.figures.addRow(words, QLabel(figure_text(result, name)))
+        self.figures.addRow("r²", QLabel(shown(result["r_squared"][0] or 0.0, digits=5)))
+        used = self.tr("{used} of {all}").format(
+            used=int(result["rows_used"][0] or 0), all=int(result["rows"][0] or 0)
+        )
+        self.figures.addRow(self.tr("Rows"), QLabel(used))
+
+    def save_machine(self) -> None:
+        """Write the machine for ``simulate --machine``."""
+        if self.trace is None:
+            return
+        text, _ = QFileDialog.getSaveFileName(
+            self,
+            self.tr("Save Machine"),
+            str(self._path.with_name(f"machine-{self.trace.letter or self.trace.axis}.yaml")),
+            self.tr("Machine (*.yaml)"),
+        )
+        if text:
+            path = Path(text)
+            path = path if path.suffix else path.with_suffix(".yaml")
+            try:
+                write_machine(self.trace, self._file.schema.family.family, path)
+            except (SaveError, OSError) as error:
+                self.message.setText(str(error))
+            else:
+                self.message.setText(self.tr("{path} written").format(path=path))

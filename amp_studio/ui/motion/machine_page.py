@@ -1,0 +1,110 @@
+"""What the control does not know of its machine: a field for each figure, filled by hand, from a file or from a record."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from pathlib import Path
+
+from PySide6.QtWidgets import (
+    QDialog,
+    QFileDialog,
+    QHBoxLayout,
+    QLabel,
+    QLineEdit,
+    QPushButton,
+    QVBoxLayout,
+    QWidget,
+)
+
+from amp_studio.files import ParameterFile
+from amp_studio.sim import SimulationError, machine_for, machine_settings, read_machine
+from amp_studio.ui.base.modal import run_dialog
+
+from .identify_dialog import IdentifyDialog
+from .settings import SettingsForm, scrolled
+
+
+class MachinePage(QWidget):
+    """The figures of one axis' machine; an empty field takes what is assumed or given by parameters."""
+
+    def __init__(
+        self,
+        run: Callable[[], None],
+        present: Callable[[], tuple[ParameterFile, str]],
+        fail: Callable[[Exception], None],
+    ) -> None:
+        """``present`` returns the file and the axis that is moved, ``fail`` shows an error."""
+        super().__init__()
+        self._run, self._present, self._fail = run, present, fail
+        self.form = SettingsForm(run)
+        self._taken: tuple[str, dict[str, str]] = "", {}
+        """Axis of the machine that was taken from a record or a file, and its figures."""
+        note = QLabel(
+            self.tr(
+                "What the control does not know. An empty field takes what is assumed or given by parameters."
+            )
+        )
+        note.setWordWrap(True)
+        self.record, self.open = (
+            QPushButton(self.tr("From a Recor&d…")),
+            QPushButton(self.tr("&Open Machine…")),
+        )
+        self.record.setToolTip(self.tr("Find inertia, friction and weight in a record of the drive (CSV)"))
+        self.open.setToolTip(self.tr("Take the figures of a machine file (YAML)"))
+        self.record.clicked.connect(self.take_record)
+        self.open.clicked.connect(self.take_file)
+        buttons = QHBoxLayout()
+        buttons.addWidget(self.record)
+        buttons.addWidget(self.open)
+        buttons.addStretch()
+        column = QVBoxLayout(self)
+        column.addWidget(note)
+        column.addLayout(buttons)
+        column.addWidget(scrolled(self.form))
+
+    def take_record(self) -> None:
+        """Ask for a record, show its fit, and take its figures when they are accepted."""
+        file, axis = self._present()
+        text, _ = QFileDialog.getOpenFileName(
+            self, self.tr("Record of a Drive"), "", self.tr("Records (*.csv *.txt);;All files (*)")
+        )
+        if not text:
+            return
+        dialog = IdentifyDialog(file, axis, Path(text), self)
+        if run_dialog(dialog) == QDialog.DialogCode.Accepted and dialog.trace is not None:
+            self._take(machine_settings(dialog.trace))
+
+    def take_file(self) -> None:
+        """Ask for the file of a machine and take its figures."""
+        file, axis = self._present()
+        text, _ = QFileDialog.getOpenFileName(self, self.tr("Machine"), "", self.tr("Machine (*.yaml)"))
+        if not text:
+            return
+        try:
+            _, settings = machine_for(file, read_machine(Path(text)), axis)
+        except (SimulationError, OSError) as error:
+            self._fail(error)
+        else:
+            self._take(settings)
+
+    def _take(self, settings: Mapping[str, str]) -> None:
+        """Fill the fields of a machine and simulate with it."""
+        self._taken = self._present()[1], dict(settings)
+        for name, text in settings.items():
+            field = self.form.fields.get(name)
+            if not isinstance(field, QLineEdit):
+                self._fail(SimulationError(f"{name} is not used in the simulation of this axis", name))
+                return
+            field.setText(text)
+        self._run()
+
+    def leave_axis(self, axis: str) -> None:
+        """Empty the fields that have the machine of another axis than ``axis``, unless somebody has changed them."""
+        of, settings = self._taken
+        if of == axis:
+            return
+        for name, text in settings.items():
+            field = self.form.fields.get(name)
+            if isinstance(field, QLineEdit) and field.text() == text:
+                field.clear()
+        self._taken = axis, {}

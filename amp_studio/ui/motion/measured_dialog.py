@@ -1,0 +1,300 @@
+"""Measured points of an axis: what the file does not name is asked, and what would be set is shown before anything is."""
+
+from __future__ import annotations
+
+from functools import partial
+from pathlib import Path
+
+from PySide6.QtCore import Qt
+from PySide6.QtWidgets import (
+    QCheckBox,
+    QComboBox,
+    QDialog,
+    QFormLayout,
+    QHBoxLayout,
+    QLabel,
+    QPlainTextEdit,
+    QPushButton,
+    QVBoxLayout,
+    QWidget,
+)
+
+from amp_studio.calibration import (
+    DECIMALS,
+    ERROR_UNITS,
+    POSITION_UNITS,
+    CalibrationError,
+    Measurement,
+    MeasurementAnswers,
+    Proposal,
+    Wish,
+    base_unit,
+    compensation_of,
+    lost_motion,
+    present_table,
+    propose,
+    read_measured_file,
+)
+from amp_studio.files import ParameterFile
+from amp_studio.schema import show_value, shown
+from amp_studio.ui.base.task import in_background
+from amp_studio.ui.base.theme import GAP2, GAP3, colour
+
+from .error_plot import ErrorPlot, ErrorTrace
+
+_ASK = "?"
+"""Data of a choice that nobody has made."""
+
+
+class MeasuredDialog(QDialog):
+    """Shows what points make of an axis; ``proposal`` is what to set when it is accepted."""
+
+    def __init__(self, file: ParameterFile, axis: str, path: Path, parent: QWidget | None = None) -> None:
+        """Read the points; raises MeasurementError for a file that no answer makes readable, and OSError."""
+        super().__init__(parent)
+        self._file, self._axis, self._path = file, axis, path
+        self.proposal: Proposal | None = None
+        self._is_circle = False
+        self.setWindowTitle(self.tr("Measured Points — {name}").format(name=path.name))
+        self.resize(920, 620)
+        self._offered = compensation_of(file.schema.family.family)
+        self._make_fields()
+        self.summary, self.missing = QLabel(), QLabel()
+        for label in (self.summary, self.missing):
+            label.setWordWrap(True)
+            label.setTextFormat(Qt.TextFormat.PlainText)
+        self.notes = QPlainTextEdit()
+        self.notes.setReadOnly(True)
+        self.notes.setTabChangesFocus(True)
+        self.notes.setAccessibleName(self.tr("Notes"))
+        self.plot = ErrorPlot(self.tr("Mean errors as measured and as expected"))
+        self.set_button, cancel = QPushButton(self.tr("&Set Values")), QPushButton(self.tr("Cancel"))
+        self.set_button.setDefault(True)
+        self.set_button.clicked.connect(self.accept)
+        cancel.clicked.connect(self.reject)
+        buttons = QHBoxLayout()
+        buttons.addWidget(self.missing, 1)
+        buttons.addWidget(self.set_button)
+        buttons.addWidget(cancel)
+        left, right = QVBoxLayout(), QVBoxLayout()
+        left.addLayout(self._form())
+        left.addWidget(self.summary)
+        left.addStretch(1)
+        right.addWidget(self.plot, 3)
+        right.addWidget(self.notes, 1)
+        columns = QHBoxLayout()
+        columns.setSpacing(GAP3)
+        columns.addLayout(left, 2)
+        columns.addLayout(right, 3)
+        layout = QVBoxLayout(self)
+        layout.setSpacing(GAP2)
+        layout.addLayout(columns, 1)
+        layout.addLayout(buttons)
+        self.refresh()
+
+    def _make_fields(self) -> None:
+        as_named = (self.tr("as the file names it"), "")
+        self.unit = _choice(as_named, *((shown(u), u) for u in POSITION_UNITS))
+        self.error_unit = _choice(as_named, *((shown(u), u) for u in ERROR_UNITS))
+        self.sign = _choice(
+            as_named,
+            (self.tr("measured less target (ISO 230-2)"), "measured-target"),
+            (self.tr("target less measured (correction)"), "target-measured"),
+        )
+        self.decimal = _choice((self.tr("point"), DECIMALS[0]), (self.tr("comma"), DECIMALS[1]))
+        self.was_on = _choice(
+            (self.tr("choose…"), _ASK),
+            (self.tr("off"), "off"),
+            (self.tr("on: points are what is left over"), "on"),
+        )
+        self.circle = _choice(
+            (self.tr("choose…"), ""),
+            (self.tr("the first one: it turns round at 0° and 180°"), "first"),
+            (self.tr("the second one: at 90° and 270°"), "second"),
+        )
+        form = self._offered.table
+        names = {"deviation": self.tr("deviation"), "measurement": self.tr("measured position")}
+        self.input = _choice(*((names[key], key) for key in reversed(form.inputs if form else ())))
+        ends = {"-": self.tr("most negative position"), "+": self.tr("most positive position")}
+        self.start = _choice(*((ends[key], key) for key in reversed(form.starts if form else ())))
+        self.table, self.reversal = (
+            QCheckBox(self.tr("Calibration &table")),
+            QCheckBox(self.tr("&Reversal error")),
+        )
+        for box in (self.table, self.reversal):
+            box.setChecked(True)
+            box.toggled.connect(lambda *_: self.refresh())
+        self.table.setEnabled(form is not None)
+        self.reversal.setEnabled(bool(self._offered.reversal))
+        for each in (
+            self.unit,
+            self.error_unit,
+            self.sign,
+            self.decimal,
+            self.was_on,
+            self.circle,
+            self.input,
+            self.start,
+        ):
+            each.currentIndexChanged.connect(lambda *_: self.refresh())
+
+    def _form(self) -> QFormLayout:
+        form = QFormLayout()
+        rows: tuple[tuple[str, QComboBox], ...] = (
+            (self.tr("&Positions in"), self.unit),
+            (self.tr("&Errors in"), self.error_unit),
+            (self.tr("An error &is"), self.sign),
+            (self.tr("&Decimal sign"), self.decimal),
+            (self.tr("&Compensation was"), self.was_on),
+            (self.tr("A&xis of the circle"), self.circle),
+            (self.tr("&Figures are"), self.input),
+            (self.tr("Table starts &at the"), self.start),
+        )
+        for label, box in rows:
+            box.setAccessibleName(label.replace("&", ""))
+            form.addRow(label, box)
+        form.setRowVisible(self.was_on, self._is_compensated())
+        form.setRowVisible(self.circle, False)
+        self._rows = form
+        for box in (self.input, self.start):
+            form.setRowVisible(box, box.count() > 0)
+        form.addRow(self.tr("Set"), self.table)
+        form.addRow("", self.reversal)
+        return form
+
+    def _is_compensated(self) -> bool:
+        try:
+            return present_table(self._file, self._offered, self._axis) is not None or bool(
+                lost_motion(self._file, self._offered, self._axis)
+            )
+        except CalibrationError:
+            return True
+
+    # -- what is shown -----------------------------------------------------------
+
+    def refresh(self) -> None:
+        """Read the points again with the present answers, and show what they come to."""
+        answers = MeasurementAnswers(
+            self.unit.currentData(),
+            self.error_unit.currentData(),
+            self.sign.currentData(),
+            self.decimal.currentData(),
+        )
+        was_on = self.was_on.currentData()
+        wish = Wish(
+            None if was_on == _ASK else was_on == "on",
+            self.input.currentData() or "",
+            self.start.currentData() or "",
+            table=self.table.isChecked() and self.table.isEnabled(),
+            reversal=self.reversal.isChecked(),
+            circle=self.circle.currentData(),
+        )
+        try:
+            measurement, self.proposal = in_background(
+                self, self.tr("Working out"), partial(self._work, answers, wish)
+            )
+        except (CalibrationError, OSError) as error:
+            self.proposal = None
+            self._show_nothing(str(error))
+        else:
+            self._show(measurement, self.proposal)
+        self._rows.setRowVisible(self.circle, self._is_circle)
+
+    def _work(self, answers: MeasurementAnswers, wish: Wish) -> tuple[Measurement, Proposal]:
+        unit = base_unit(self._file, self._offered, self._axis)
+        measurement = read_measured_file(self._path, answers, unit)
+        self._is_circle = measurement.is_circle
+        return measurement, propose(self._file, self._axis, measurement, wish)
+
+    def _show_nothing(self, why: str) -> None:
+        self.summary.clear()
+        self.notes.clear()
+        self.plot.draw((), "mm")
+        self._demand(why)
+
+    def _demand(self, text: str) -> None:
+        self.missing.setText(text)
+        self.missing.setStyleSheet(f"color: {colour('error' if text else 'text').name()}")
+        self.set_button.setEnabled(not text and self.proposal is not None and bool(self.proposal.settings))
+
+    def _show(self, measurement: Measurement, proposal: Proposal) -> None:
+        questions = {
+            "unit": self.tr("the unit of the positions"),
+            "error_unit": self.tr("the unit of the errors"),
+            "sign": self.tr("what an error is"),
+        }
+        asked = ", ".join(questions[name] for name in measurement.assumed)
+        self._demand(self.tr("The file does not name {what}: choose it.").format(what=asked) if asked else "")
+        self.summary.setText("\n".join(self._lines(measurement, proposal)))
+        self.notes.setPlainText("\n".join(f"• {note}" for note in proposal.notes))
+        sides = ((True, self.tr("rising")), (False, self.tr("falling")))
+        before = [
+            ErrorTrace(self.tr("{side} as measured").format(side=name), proposal.before[side], "edge" if side else "warn", True)
+            for side, name in sides if side in proposal.before
+        ]  # fmt: skip
+        after = [
+            ErrorTrace(self.tr("{side} expected").format(side=name), proposal.after[side], "sel" if side else "rec")
+            for side, name in sides if side in proposal.after
+        ]  # fmt: skip
+        self.plot.draw((*before, *after), proposal.unit)
+
+    def _lines(self, measurement: Measurement, proposal: Proposal) -> list[str]:
+        """Return what was read, the figures of ISO 230-2, and what would be set."""
+        figures, unit = proposal.figures, shown(proposal.unit)
+        used = measurement.answers
+        if measurement.is_circle:
+            return [
+                self.tr("Circles of a ball-bar: %n", "", len(measurement.runs)),
+                self.tr("Read as {error_unit}, {sign}").format(
+                    error_unit=shown(used.error_unit), sign=used.sign
+                ),
+                "",
+                *self._set_lines(proposal),
+            ]
+        lines = [
+            self.tr("{count} targets, {up} runs rising, {down} falling").format(
+                count=len(measurement.targets), up=figures.runs_rising, down=figures.runs_falling
+            ),
+            self.tr("Read as {unit} and {error_unit}, {sign}").format(
+                unit=shown(used.unit), error_unit=shown(used.error_unit), sign=used.sign
+            ),
+            "",
+        ]
+        for name, figure in (
+            (self.tr("Accuracy A"), figures.accuracy),
+            (self.tr("Repeatability R"), figures.repeatability),
+            (self.tr("Reversal value B"), figures.reversal),
+            (self.tr("Systematic deviation E"), figures.systematic),
+            (self.tr("Range of mean errors M"), figures.mean_range),
+        ):
+            lines.append(f"{name}: {figure:.5f} {unit}" if figure is not None else f"{name}: –")
+        lines += [
+            "",
+            self.tr("Error {before:.5f} {unit} measured, {after:.5f} {unit} expected").format(
+                before=float(proposal.span_before), after=float(proposal.span_after), unit=unit
+            ),
+            "",
+        ]
+        return lines + self._set_lines(proposal)
+
+    def _set_lines(self, proposal: Proposal) -> list[str]:
+        """Return what would be set."""
+        lines = []
+        for address, value in proposal.settings.items():
+            parameter = self._file.schema.parameters[address[0]]
+            if parameter.type == "text" and proposal.table is not None:
+                new = self.tr("{count} points").format(count=len(proposal.table.points))
+            else:
+                old = show_value(parameter, self._file.get(address))
+                new = f"{old} → {show_value(parameter, value)}"
+            lines.append(f"{parameter.name}: {new}")
+        if not proposal.settings:
+            lines.append(self.tr("Nothing would be set."))
+        return lines
+
+
+def _choice(*options: tuple[str, str]) -> QComboBox:
+    box = QComboBox()
+    for text, data in options:
+        box.addItem(text, data)
+    return box

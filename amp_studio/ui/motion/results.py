@@ -1,0 +1,165 @@
+"""The result of a simulation in words: figures, recommendations that can be applied, assumptions."""
+
+from __future__ import annotations
+
+import html
+from collections.abc import Callable, Sequence
+
+from PySide6.QtCore import Qt, QUrl
+from PySide6.QtWidgets import (
+    QFrame,
+    QHBoxLayout,
+    QLabel,
+    QPushButton,
+    QScrollArea,
+    QSizePolicy,
+    QTextBrowser,
+    QVBoxLayout,
+    QWidget,
+)
+
+from amp_studio.schema import Schema, shown
+from amp_studio.sim import Recommendation, Trace
+from amp_studio.sim.rounding import shown as shown_number
+from amp_studio.ui.base.theme import severity_ink, state_colour
+from amp_studio.ui.base.translated import worded
+from amp_studio.ui.forms.pages import LINK
+
+PREDICTED, SWEPT = "predicted_", "swept_"
+
+
+def name_of(schema: Schema, parameter: str) -> str:
+    """Return the name of a parameter, or the id of what is none."""
+    found = schema.parameters.get(parameter)
+    return found.name if found else parameter
+
+
+class FiguresPage(QTextBrowser):
+    """Alarms and figures; what a figure was predicted or swept as is beside it."""
+
+    def __init__(self, follow: Callable[[QUrl], None]) -> None:
+        super().__init__()
+        self.setFrameShape(QFrame.Shape.NoFrame)
+        self.setOpenLinks(False)
+        self.anchorClicked.connect(follow)
+
+    def show_trace(self, trace: Trace, before: Trace | None) -> None:
+        """Show the figures of a trace, with those of the trace before a change."""
+        ink = severity_ink("error").name()
+        alarms = "".join(
+            f'<p style="color:{ink}"><b>{html.escape(a.code)}</b> at {a.time_s:.4g} s: {html.escape(a.message)}</p>'
+            for a in trace.alarms
+        )
+        warn = severity_ink("warning").name()
+        doubts = "".join(f'<p style="color:{warn}">{html.escape(text)}</p>' for text in trace.doubts)
+        self.setHtml(
+            f"{alarms}{doubts}<table cellspacing=0 cellpadding=2 width=100%>{''.join(_rows(trace, before))}</table>"
+        )
+
+
+def _rows(trace: Trace, before: Trace | None) -> list[str]:
+    dim = state_colour().name()
+    others = [kind for kind in (PREDICTED, SWEPT) if any(name.startswith(kind) for name in trace.result)]
+    heads = [
+        worded(head) for head in (*(kind.rstrip("_") for kind in others), *(["before"] if before else []))
+    ]
+    head = "".join(f'<td align=right style="color:{dim}">{words}</td>' for words in heads)
+    rows = [f"<tr><td></td><td></td>{head}</tr>"] if heads else []
+    for name, (value, unit) in trace.result.items():
+        base = next((name.removeprefix(kind) for kind in others if name.startswith(kind)), "")
+        if base in trace.result:
+            continue
+        cells = [trace.result.get(f"{kind}{name}", (None, ""))[0] for kind in others]
+        if before:
+            cells.append(before.result.get(name, (None, ""))[0])
+        beside = "".join(
+            f'<td align=right style="color:{dim}">{_number(cell) if cell is not None else ""}</td>'
+            for cell in cells
+        )
+        words = worded(name.replace("_", " "))
+        rows.append(
+            f"<tr><td>{words}</td><td align=right><b>{_number(value)}</b>&nbsp;{shown(unit)}</td>{beside}</tr>"
+        )
+    return rows
+
+
+def _number(value: float | None) -> str:
+    return "–" if value is None else shown_number(value, digits=5).replace("-", "−")
+
+
+class RecommendationsPage(QScrollArea):
+    """One frame for each recommendation: parameter and value, reason, price, and a button that applies it."""
+
+    def __init__(
+        self, apply: Callable[[Sequence[Recommendation]], None], follow: Callable[[QUrl], None]
+    ) -> None:
+        super().__init__()
+        self.setFrameShape(QFrame.Shape.NoFrame)
+        self.setWidgetResizable(True)
+        self.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
+        self._apply, self._follow = apply, follow
+        self.buttons: list[QPushButton] = []
+
+    def show_all(
+        self, schema: Schema, found: Sequence[Recommendation], may_apply: Callable[[str], bool]
+    ) -> None:
+        """Show the recommendations; ``may_apply`` returns whether a parameter can be changed."""
+        inside = QWidget()
+        column = QVBoxLayout(inside)
+        column.setContentsMargins(4, 8, 4, 8)
+        column.setSpacing(12)
+        self.buttons = []
+        for each in found:
+            column.addWidget(self._frame(schema, each, may_apply(each.parameter)))
+        usable = [each for each in found if may_apply(each.parameter)]
+        if len(usable) > 1:
+            together = self._button(self.tr("Apply All {count}").format(count=len(usable)), usable)
+            column.addWidget(together, alignment=Qt.AlignmentFlag.AlignRight)
+        if not found:
+            column.addWidget(QLabel(self.tr("No recommendations.")))
+        column.addStretch()
+        self.setWidget(inside)
+
+    def _frame(self, schema: Schema, each: Recommendation, usable: bool) -> QWidget:
+        frame = QWidget()
+        frame.setSizePolicy(QSizePolicy.Policy.Preferred, QSizePolicy.Policy.Maximum)
+        column = QVBoxLayout(frame)
+        column.setContentsMargins(0, 0, 0, 0)
+        column.setSpacing(2)
+        head, ink = QHBoxLayout(), severity_ink("advice").name()
+        name = html.escape(name_of(schema, each.parameter))
+        value = html.escape(shown_number(each.value, shown(each.unit), 9))
+        title = QLabel(f'<a href="{LINK}{each.parameter}" style="color:{ink}">{name}</a> = <b>{value}</b>')
+        title.setWordWrap(True)
+        title.linkActivated.connect(lambda url: self._follow(QUrl(url)))
+        head.addWidget(title, 1)
+        if usable:
+            head.addWidget(self._button(self.tr("Apply"), [each]), alignment=Qt.AlignmentFlag.AlignTop)
+        column.addLayout(head)
+        for text in (each.why, self.tr("Price: {price}").format(price=each.price) if each.price else ""):
+            if text:
+                label = QLabel(html.escape(text))
+                label.setWordWrap(True)
+                label.setTextInteractionFlags(Qt.TextInteractionFlag.TextSelectableByMouse)
+                column.addWidget(label)
+        return frame
+
+    def _button(self, text: str, found: Sequence[Recommendation]) -> QPushButton:
+        button = QPushButton(text)
+        button.setAccessibleName(f"{text}: {', '.join(each.parameter for each in found)}")
+        button.clicked.connect(lambda: self._apply(found))
+        self.buttons.append(button)
+        return button
+
+
+class AssumptionsPage(QTextBrowser):
+    """What is assumed, the figures of the machine first."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        self.setFrameShape(QFrame.Shape.NoFrame)
+
+    def show_trace(self, trace: Trace) -> None:
+        """Show the assumptions of a trace."""
+        ordered = sorted(trace.assumptions, key=lambda text: not text.startswith("ASSUMED"))
+        self.setHtml("".join(f"<p>{html.escape(text)}</p>" for text in ordered))

@@ -1,0 +1,163 @@
+"""The simulated answer of an axis to a step, with the values that are tuned and with those from before."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+from PySide6.QtCore import Qt, QTimer
+from PySide6.QtWidgets import QComboBox, QHBoxLayout, QLabel, QPushButton, QVBoxLayout, QWidget
+
+from amp_studio.files import ParameterFile
+from amp_studio.schema import axis_name
+from amp_studio.sim import SimulationError, Trace, simulate, simulated_axes
+from amp_studio.sim.picture import picture_of
+from amp_studio.ui.base.task import Task
+
+from .plot import MotionPlot
+from .tuning_target import TuningTarget
+
+_SHOWN = slice(1, 3)
+"""Of the panels of a step those below the position: following error and velocity. Each takes its time to draw."""
+SETTLE_MS = 150
+"""Milliseconds without a further change before it is simulated again."""
+
+
+class StepAnswer(QWidget):
+    """A step of one axis; the first answer stays under the present one."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        self._target: TuningTarget | None = None
+        self._task: Task | None = None
+        self._again = False
+        self.trace: Trace | None = None
+        self.before: Trace | None = None
+        self.axis, self.plot, self.text = QComboBox(), MotionPlot(), QLabel()
+        self.axis.setAccessibleName(self.tr("Simulated axis"))
+        self.plot.setAccessibleName(self.tr("Simulated answer to a step"))
+        self.text.setWordWrap(True)
+        self.text.setTextFormat(Qt.TextFormat.PlainText)
+        self.keep = QPushButton(self.tr("&Keep as Before"))
+        self.keep.setAutoDefault(False)
+        self.keep.clicked.connect(self._keep)
+        label = QLabel(self.tr("Simulated ste&p of axis"))
+        label.setBuddy(self.axis)
+        row = QHBoxLayout()
+        for widget in (label, self.axis, self.keep):
+            row.addWidget(widget)
+        row.addStretch()
+        layout = QVBoxLayout(self)
+        layout.setContentsMargins(0, 0, 0, 0)
+        layout.addLayout(row)
+        layout.addWidget(self.plot, 1)
+        layout.addWidget(self.text)
+        self._timer = QTimer(self)
+        self._timer.setSingleShot(True)
+        self._timer.setInterval(SETTLE_MS)
+        self._timer.timeout.connect(self.run)
+        self.axis.currentIndexChanged.connect(lambda *_: self._start_over())
+
+    def show_target(self, target: TuningTarget) -> None:
+        """Simulate a file, or what a control contains."""
+        if self._target is not None:
+            self._target.changed.disconnect(self._changed)
+        self._target = target
+        target.changed.connect(self._changed)
+        file = target.file
+        self.axis.blockSignals(True)
+        self.axis.clear()
+        for axis in simulated_axes(file):
+            letter = axis_name(file.evaluation, axis)
+            self.axis.addItem(f"{axis} {letter}" if letter and letter != axis else axis, axis)
+        self.axis.blockSignals(False)
+        self._start_over()
+
+    def choose(self, axis: str) -> None:
+        """Simulate another axis, where it can be."""
+        at = self.axis.findData(axis)
+        if at >= 0:
+            self.axis.setCurrentIndex(at)
+
+    def _changed(self, *_: object) -> None:
+        self._timer.start()
+
+    def _start_over(self) -> None:
+        self.before = None
+        self.run()
+
+    def _keep(self) -> None:
+        self.before = self.trace
+        self._draw()
+
+    def run(self) -> None:
+        """Simulate in the background; once more where something changed meanwhile."""
+        if self._target is None or not self.isVisible():
+            return
+        if self._task is not None:
+            self._again = True
+            return
+        file, axis = self._target.file.copy(), self.axis.currentData()
+        if axis is None:
+            self.text.setText(self.tr("No axis of this file can be simulated."))
+            return
+        self._task = Task(lambda *_: _simulated(file, axis), None)
+        self._task.done.connect(self._done)
+        self._task.failed.connect(self._failed)
+        self._task.finished.connect(self._finished)
+        self._task.begin()
+
+    def showEvent(self, event: object) -> None:
+        """Simulate once it is seen."""
+        super().showEvent(event)  # type: ignore[arg-type]
+        self._timer.start()
+
+    def _done(self, trace: Trace) -> None:
+        if self.before is None or self.before.units != trace.units:
+            self.before = trace
+        self.trace = trace
+        self._draw()
+
+    def _draw(self) -> None:
+        if self.trace is None:
+            return
+        picture = picture_of(self.trace, self.before if self.before is not self.trace else None)
+        self.plot.draw(replace(picture, panels=picture.panels[_SHOWN]))
+        self.text.setText(self._figures())
+
+    def _figures(self) -> str:
+        """Return the figures of the step, with those from before where they differ."""
+        assert self.trace is not None
+        names = {
+            "overshoot": self.tr("Overshoot"),
+            "settle_time": self.tr("Settling time"),
+            "peak_following_error": self.tr("Peak following error"),
+        }
+        parts = []
+        for key, name in names.items():
+            now, unit = self.trace.result.get(key, (None, ""))
+            old = self.before.result.get(key, (None, ""))[0] if self.before is not None else None
+            if now is None:
+                continue
+            text = f"{name} {now:.4g} {unit}"
+            if old is not None and f"{old:.4g}" != f"{now:.4g}":
+                text += self.tr(" (before {value:.4g})").format(value=old)
+            parts.append(text)
+        return "; ".join(parts)
+
+    def _failed(self, error: Exception) -> None:
+        self.plot.clear_picture()
+        self.trace = None
+        self.text.setText(str(error))
+
+    def _finished(self) -> None:
+        self._task = None
+        if self._again:
+            self._again = False
+            self.run()
+
+
+def _simulated(file: ParameterFile, axis: str) -> Trace:
+    try:
+        return simulate(file, "step", axis, {}, file.header.units)
+    except SimulationError as error:
+        raise ValueError(str(error)) from None

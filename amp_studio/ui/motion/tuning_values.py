@@ -1,0 +1,321 @@
+"""A page of values that are tuned at the machine: increased and decreased in steps, replaced, or added to."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from fractions import Fraction
+
+from PySide6.QtCore import QEvent, QObject, Qt, Signal
+from PySide6.QtGui import QAction, QKeyEvent, QKeySequence
+from PySide6.QtWidgets import (
+    QAbstractItemView,
+    QComboBox,
+    QHBoxLayout,
+    QHeaderView,
+    QInputDialog,
+    QLabel,
+    QPushButton,
+    QTableWidget,
+    QTableWidgetItem,
+    QVBoxLayout,
+    QWidget,
+)
+
+from amp_studio.calibration import CalibrationError, TuningPage
+from amp_studio.calibration.steps import stepped, steps_of
+from amp_studio.files import ParameterFile
+from amp_studio.schema import Address, Value, axis_name, limits, show_value, shown, write_number
+from amp_studio.schema.values import read_exact
+from amp_studio.ui.base.theme import GAP2, ROW, colour
+from amp_studio.ui.base.translated import worded
+
+from .tuning_target import TuningTarget, effect_words
+
+_INSTANCE, _NAME, _VALUE, _ALLOWED, _EFFECT = range(5)
+_ADDRESS = Qt.ItemDataRole.UserRole
+_PART = 100
+"""The step that is offered first is at most this part of the value."""
+
+
+class ValuesPage(QWidget):
+    """The parameters of one page, a row for each axis or spindle that has them."""
+
+    axis_chosen = Signal(str)
+    """The axis under the cursor."""
+
+    def __init__(
+        self,
+        page: TuningPage,
+        guarded: Callable[[Callable[[], object]], object],
+        measured: Callable[[str], object] | None = None,
+    ) -> None:
+        """``guarded`` runs what may fail and shows the error; ``measured`` asks for measured points of an axis."""
+        super().__init__()
+        self.page, self._guarded = page, guarded
+        self.target: TuningTarget | None = None
+        self._filling = False
+        self.note = QLabel()
+        self.note.setWordWrap(True)
+        self.table = QTableWidget(0, 5)
+        self.table.setAccessibleName(self.tr("Values to tune: {page}").format(page=worded(page.title)))
+        self.table.setHorizontalHeaderLabels(
+            [
+                self.tr("Axis"),
+                self.tr("Parameter"),
+                self.tr("Value"),
+                self.tr("Allowed"),
+                self.tr("Takes Effect"),
+            ]
+        )
+        self.table.verticalHeader().hide()
+        self.table.verticalHeader().setDefaultSectionSize(ROW + 2)
+        self.table.setSelectionMode(QAbstractItemView.SelectionMode.SingleSelection)
+        self.table.setSelectionBehavior(QAbstractItemView.SelectionBehavior.SelectRows)
+        self.table.setTabKeyNavigation(False)
+        self.table.setWordWrap(False)
+        self.table.setStyleSheet("QTableWidget::item { padding: 0 6px; }")
+        head = self.table.horizontalHeader()
+        head.setDefaultAlignment(Qt.AlignmentFlag.AlignLeft | Qt.AlignmentFlag.AlignVCenter)
+        head.setSectionResizeMode(_NAME, QHeaderView.ResizeMode.Stretch)
+        for column, width in ((_INSTANCE, 110), (_VALUE, 120), (_ALLOWED, 210), (_EFFECT, 150)):
+            self.table.setColumnWidth(column, width)
+        self.table.itemChanged.connect(self._typed)
+        self.table.currentCellChanged.connect(lambda *_: self._moved())
+        self.table.installEventFilter(self)
+        self.step = QComboBox()
+        self.step.setAccessibleName(self.tr("Step"))
+        self.decrease = self._button(self.tr("&Decrease"), lambda: self._change(-1))
+        self.increase = self._button(self.tr("&Increase"), lambda: self._change(1))
+        self.replace = self._button(self.tr("&Replace"), self._replace)
+        self.add = self._button(self.tr("&Add to Value…"), self._add)
+        for button in (self.decrease, self.increase):
+            button.setAutoRepeat(True)
+        self.decrease.setToolTip(self.tr("One step less (the key −; with Ctrl ten steps)"))
+        self.increase.setToolTip(self.tr("One step more (the key +; with Ctrl ten steps)"))
+        self.replace.setToolTip(self.tr("Type another value (F2)"))
+        self.add.setToolTip(self.tr("Add a number to the value (A)"))
+        step_label = QLabel(self.tr("&Step"))
+        step_label.setBuddy(self.step)
+        row = QHBoxLayout()
+        for widget in (self.decrease, self.increase, step_label, self.step, self.replace, self.add):
+            row.addWidget(widget)
+        row.addStretch()
+        self.read: QPushButton | None = None
+        if measured is not None:
+            self.read = self._button(
+                self.tr("Read &Measured Points…"), lambda: measured(self.address[1]) if self.address else None
+            )
+            row.addWidget(self.read)
+        layout = QVBoxLayout(self)
+        layout.setSpacing(GAP2)
+        layout.addWidget(self.note)
+        layout.addWidget(self.table, 1)
+        layout.addLayout(row)
+
+    def _button(self, text: str, act: Callable[[], object]) -> QPushButton:
+        button = QPushButton(text)
+        button.setAutoDefault(False)
+        button.clicked.connect(lambda *_: self._guarded(act))
+        return button
+
+    # -- what is shown -----------------------------------------------------------
+
+    def show_target(self, target: TuningTarget) -> None:
+        """Show the values of a file or a control."""
+        if self.target is not None:
+            self.target.changed.disconnect(self._refresh)
+        self.target = target
+        target.changed.connect(self._refresh)
+        self._refresh([])
+
+    def addresses(self) -> list[Address]:
+        """Return what can be tuned here, one axis after the other."""
+        assert self.target is not None
+        file = self.target.file
+        found = [
+            (name, instance)
+            for name in self.page.params
+            for instance in file.machine_schema.instances(file.schema.parameters[name])
+            if self._is_of_use(file, (name, instance))
+        ]
+        order = list(dict.fromkeys(instance for _, instance in found))
+        return sorted(found, key=lambda address: order.index(address[1]))  # one axis after the other
+
+    @staticmethod
+    def _is_of_use(file: ParameterFile, address: Address) -> bool:
+        """Whether a value is shown: active, or inactive and set."""
+        state = file.evaluation.state(address)
+        return state.is_active or (state.state != "hidden" and file.get(address) is not None)
+
+    @property
+    def address(self) -> Address | None:
+        """The value under the cursor."""
+        item = self.table.item(self.table.currentRow(), _NAME)
+        return item.data(_ADDRESS) if item is not None else None
+
+    def _refresh(self, _: list[Address]) -> None:
+        assert self.target is not None
+        self._filling = True
+        row, addresses = self.table.currentRow(), self.addresses()
+        self.table.setRowCount(len(addresses))
+        for n, address in enumerate(addresses):
+            self._fill_row(n, address)
+        self.table.setCurrentCell(max(0, min(row, len(addresses) - 1)), _VALUE)
+        self._filling = False
+        page = self.tr("Page {page}.").format(page=self.page.page)
+        none = self.tr("No axis of this file has any of these values.") if not addresses else ""
+        self.note.setText(" ".join(filter(None, (none, worded(self.page.note), page))))
+        may = self.target.may_edit and bool(addresses)
+        for widget in (self.decrease, self.increase, self.replace, self.add, self.step, self.read):
+            if widget is not None:
+                widget.setEnabled(may)
+        self._offer_steps()
+
+    def _fill_row(self, row: int, address: Address) -> None:
+        assert self.target is not None
+        file = self.target.file
+        parameter = file.schema.parameters[address[0]]
+        state = file.evaluation.state(address)
+        unit = file.evaluation.unit(address, file.header.units)
+        allowed = limits(file.evaluation, address, unit)
+        texts = (
+            self._instance(address),
+            file.machine_schema.label(address),
+            show_value(parameter, file.get(address)),
+            worded(allowed.text()) if allowed else "",
+            effect_words(file.schema, address),
+        )
+        may = self.target.may_edit and state.is_active
+        for column, text in enumerate(texts):
+            item = self.table.item(row, column)
+            if item is None:
+                item = QTableWidgetItem()
+                self.table.setItem(row, column, item)
+            flags = Qt.ItemFlag.ItemIsSelectable | Qt.ItemFlag.ItemIsEnabled
+            item.setFlags(flags | Qt.ItemFlag.ItemIsEditable if column == _VALUE and may else flags)
+            item.setText(text)
+            item.setToolTip(text if state.is_active else state.why)
+            item.setForeground(colour("text" if state.is_active and column != _ALLOWED else "dim"))
+            if column == _VALUE:
+                item.setTextAlignment(Qt.AlignmentFlag.AlignRight | Qt.AlignmentFlag.AlignVCenter)
+            if column == _NAME:
+                item.setData(_ADDRESS, address)
+
+    def _instance(self, address: Address) -> str:
+        """Return which axis, spindle or gear it is, an axis with its letter."""
+        assert self.target is not None
+        file = self.target.file
+        label = worded(file.machine_schema.instance_label(address)) or self.tr("Control")
+        letter = (
+            axis_name(file.evaluation, address[1]) if file.machine_schema.scopes[address[0]] == "axis" else ""
+        )
+        return f"{label} {letter}" if letter and letter not in label.split() else label
+
+    def _moved(self) -> None:
+        self._offer_steps()
+        if self.address is not None and not self._filling:
+            self.axis_chosen.emit(self.address[1])
+
+    def _offer_steps(self) -> None:
+        address = self.address
+        if self.target is None or address is None or self._filling:
+            return
+        file = self.target.file
+        steps, unit = steps_of(file, address), file.evaluation.unit(address, file.header.units)
+        texts = [f"{write_number(float(step))} {shown(unit)}".strip() for step in steps]
+        if texts != [self.step.itemText(n) for n in range(self.step.count())]:
+            self.step.clear()
+            for text, step in zip(texts, steps, strict=True):
+                self.step.addItem(text, step)
+            self.step.setCurrentIndex(_usual(steps, file.get(address)))
+
+    # -- changing ----------------------------------------------------------------
+
+    def eventFilter(self, watched: QObject, event: QEvent) -> bool:
+        """Take the keys + and - for steps and A for an addition, which the table would take for a search."""
+        if watched is self.table and isinstance(event, QKeyEvent) and event.type() == QEvent.Type.KeyPress:
+            ten = event.modifiers() & Qt.KeyboardModifier.ControlModifier
+            if event.text() in ("+", "-") or event.key() in (Qt.Key.Key_Plus, Qt.Key.Key_Minus):
+                sign = 1 if event.text() == "+" or event.key() == Qt.Key.Key_Plus else -1
+                self._guarded(lambda: self._change(sign * (10 if ten else 1)))
+                return True
+            if event.key() == Qt.Key.Key_A and not event.modifiers():
+                self._guarded(self._add)
+                return True
+        return super().eventFilter(watched, event)
+
+    def _change(self, times: int) -> None:
+        address, step = self.address, self.step.currentData()
+        if address is None or step is None or self.target is None:
+            return
+        self._set(address, stepped(self.target.file, address, Fraction(step) * times), self.tr("Tune"))
+
+    def _replace(self) -> None:
+        item = self.table.item(self.table.currentRow(), _VALUE)
+        if item is not None:
+            self.table.setFocus()
+            self.table.editItem(item)
+
+    def _add(self) -> None:
+        address = self.address
+        if address is None or self.target is None:
+            return
+        file = self.target.file
+        unit = shown(file.evaluation.unit(address, file.header.units))
+        question = self.tr("Add to {name}, now {value} ({unit}):").format(
+            name=file.machine_schema.label(address),
+            value=show_value(file.schema.parameters[address[0]], file.get(address)),
+            unit=unit or self.tr("a number"),
+        )
+        text, accepted = QInputDialog.getText(self, self.tr("Add to Value"), question)
+        if not accepted or not text.strip():
+            return
+        number, rest = read_exact(text)
+        if rest.strip():
+            raise CalibrationError(
+                self.tr("{text} is no bare number: it is added in {unit}.").format(text=text, unit=unit)
+            )
+        value = stepped(file, address, number)
+        self._set(address, value, self.tr("Add to Value"))
+
+    def _typed(self, item: QTableWidgetItem) -> None:
+        if self._filling or item.column() != _VALUE or self.target is None:
+            return
+        address = self.table.item(item.row(), _NAME).data(_ADDRESS)
+        text = item.text()
+        target = self.target
+
+        def act() -> None:
+            try:
+                self._set(address, target.file.read(address, text), self.tr("Tune"))
+            finally:
+                self._refresh([])
+
+        self._guarded(act)
+
+    def _set(self, address: Address, value: Value, what: str) -> None:
+        assert self.target is not None
+        state = self.target.file.evaluation.state(address)
+        if not state.is_active:
+            label = self.target.file.machine_schema.label(address)
+            raise CalibrationError(self.tr("{name} is not used: {why}.").format(name=label, why=state.why))
+        self.target.set(f"{what} {self.target.file.machine_schema.label(address)}", {address: value})
+
+
+def _usual(steps: tuple[Fraction, ...], value: Value | None) -> int:
+    """Return which step is offered first: some hundredth of the value; the third one, a micrometre mostly, where it is 0."""
+    if value is None or isinstance(value.value, (str, bool)) or not value.value:
+        return min(2, len(steps) - 1)
+    return max((n for n, step in enumerate(steps) if step * _PART <= abs(value.value)), default=0)
+
+
+def undo_actions(window: QWidget, undo: Callable[[], object], redo: Callable[[], object]) -> list[QAction]:
+    """Return the actions that take a step back and do it again, with the usual keys, in a window."""
+    actions = []
+    for keys, act in ((QKeySequence.StandardKey.Undo, undo), (QKeySequence.StandardKey.Redo, redo)):
+        action = QAction(window)
+        action.setShortcut(QKeySequence(keys))
+        action.triggered.connect(lambda *_, act=act: act())
+        window.addAction(action)
+        actions.append(action)
+    return actions

@@ -1,0 +1,365 @@
+"""The Tuning window: what is tuned at the machine as pages, on the open file or in the control that is connected."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from functools import partial
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from PySide6.QtCore import QSize, Qt
+from PySide6.QtGui import QCloseEvent, QKeySequence, QShortcut
+from PySide6.QtWidgets import (
+    QFileDialog,
+    QHBoxLayout,
+    QLabel,
+    QListWidget,
+    QPushButton,
+    QSplitter,
+    QStackedWidget,
+    QVBoxLayout,
+    QWidget,
+)
+
+from amp_studio.calibration import compensation_of
+from amp_studio.files import RangeError
+from amp_studio.schema.registration import registration_of
+from amp_studio.ui.base.loading import load
+from amp_studio.ui.base.modal import run_dialog
+from amp_studio.ui.base.questions import ask
+from amp_studio.ui.base.task import ProgressDialog, Task
+from amp_studio.ui.base.theme import CONTROL, GAP2, icon
+from amp_studio.ui.base.translated import worded
+from amp_studio.ui.base.workspace import Workspace
+from amp_studio.ui.forms.message_bar import MessageBar
+from amp_studio.ui.forms.segment import Segment
+
+from .tuning_target import ControlTarget, ControlWork, FileTarget, TuningTarget
+from .tuning_values import ValuesPage, undo_actions
+
+if TYPE_CHECKING:
+    from amp_studio.transfer.client.live import LiveTuning
+
+    from .calibration_page import CalibrationPage
+    from .step_answer import StepAnswer
+
+Connect = Callable[[], "LiveTuning | None"]
+"""Asks for a control and returns it, not yet read; None where nobody names one."""
+CALIBRATION = "calibration"
+_LIST_WIDTH = 190
+_FILES = "Measured points (*.csv *.txt *.rtl *.pos *.dat);;All files (*)"
+
+
+class TuningWindow(QWidget):
+    """Pages at the left; above them what is tuned, and what the control contains."""
+
+    def __init__(self, workspace: Workspace, connect: Connect, parent: QWidget | None = None) -> None:
+        super().__init__(parent, Qt.WindowType.Window)
+        self.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
+        self.setWindowTitle(self.tr("Tuning — {name}").format(name=workspace.path.name))
+        self.resize(1120, 680)
+        self._workspace, self._connect = workspace, connect
+        self.file_target = FileTarget(workspace)
+        self.control: ControlTarget | None = None
+        self.target: TuningTarget = self.file_target
+        self.message = MessageBar()
+        self.state = QLabel()
+        self.state.setTextFormat(Qt.TextFormat.PlainText)
+        self.switch = Segment(
+            self.tr("What is tuned"),
+            (("file", self.tr("File"), "floppy-disk"), ("control", self.tr("Control"), "cpu")),
+        )
+        self.switch.chosen.connect(lambda key: self.guarded(lambda: self._choose(key)))
+        self.send = self._button(self.tr("Do&wnload Values"), self._send, "arrow-line-down")
+        self.look = self._button(self.tr("Read A&gain"), self._look, "arrow-line-up")
+        self.put_back = self._button(self.tr("Put Old Values &Back"), self._put_back, "arrow-u-up-left")
+        self.take = self._button(self.tr("Take Into Fil&e"), self._take, "floppy-disk")
+        self.pages, self.stack = QListWidget(), QStackedWidget()
+        self.pages.setAccessibleName(self.tr("Pages"))
+        self.answer: StepAnswer | None = None
+        self.values: list[ValuesPage] = []
+        self._later: dict[QWidget, Callable[[], None]] = {}
+        self.calibration: CalibrationPage | None = None
+        self._make_pages()
+        self._arrange()
+        self.pages.currentRowChanged.connect(self._bring)
+        self.undo_action, self.redo_action = undo_actions(
+            self, lambda: self.guarded(self._undo), lambda: self.guarded(self._redo)
+        )
+        QShortcut(Qt.Key.Key_Escape, self, self._escape)
+        for n in range(self.pages.count()):
+            QShortcut(QKeySequence(f"Ctrl+{n + 1}"), self, lambda n=n: self.pages.setCurrentRow(n))
+        self._file_is_closed = False
+        workspace.closed.connect(self._follow_file)
+        self._show(self.file_target)
+        self.pages.setCurrentRow(0)
+
+    def _button(self, text: str, act: Callable[[], object], icon_name: str) -> QPushButton:
+        button = QPushButton(icon(icon_name), text)
+        button.setAutoDefault(False)
+        button.clicked.connect(lambda *_: self.guarded(act))
+        return button
+
+    def _make_pages(self) -> None:
+        """Make the pages of values; those with a plot are made when they are first shown, because plots take long to load."""
+        family = self._workspace.file.schema.family.family
+        offered = compensation_of(family)
+        titles: list[tuple[str, QWidget]] = []
+        for page in offered.pages:
+            is_reversal = page.params == (offered.reversal,)
+            values = ValuesPage(page, self.guarded, self.read_measured if is_reversal else None)
+            self.values.append(values)
+            widget: QWidget = values
+            if page.key == "servo" and registration_of(family).law:
+                widget = QSplitter(Qt.Orientation.Vertical)
+                widget.addWidget(values)
+                widget.setChildrenCollapsible(False)
+                self._later[widget] = partial(self._make_answer, widget, values)
+            titles.append((worded(page.title), widget))
+        if offered.table is not None:
+            holder = QWidget()
+            QVBoxLayout(holder).setContentsMargins(0, 0, 0, 0)
+            self._later[holder] = partial(self._make_calibration, holder)
+            keys = [page.key for page in offered.pages]
+            at = next((n for n, key in enumerate(keys) if key in ("servo", "filters", "steps")), len(titles))
+            titles.insert(at, (self.tr("Axis Calibration"), holder))
+        for n, (title, widget) in enumerate(titles):
+            self.pages.addItem(title)
+            item = self.pages.item(n)
+            item.setToolTip(f"{title} (Ctrl+{n + 1})")
+            item.setSizeHint(QSize(0, CONTROL + 4))
+            self.stack.addWidget(widget)
+        Task(lambda *_: _load_plots()).begin()
+
+    def _make_answer(self, holder: QSplitter, values: ValuesPage) -> None:
+        _load_plots()
+        from .step_answer import StepAnswer
+
+        self.answer = StepAnswer()
+        values.axis_chosen.connect(self.answer.choose)
+        holder.addWidget(self.answer)
+        self.answer.show_target(self.target)
+
+    def _make_calibration(self, holder: QWidget) -> None:
+        _load_plots()
+        from .calibration_page import CalibrationPage
+
+        self.calibration = CalibrationPage(self.guarded, self.read_measured)
+        layout = holder.layout()
+        assert layout is not None
+        layout.addWidget(self.calibration)
+        self.calibration.show_target(self.target)
+        self.calibration.show()
+
+    def _bring(self, row: int) -> None:
+        """Show a page, and make what it has not yet."""
+        self.stack.setCurrentIndex(row)
+        page = self.stack.currentWidget()
+        if page in self._later:
+            self._later.pop(page)()
+
+    def _arrange(self) -> None:
+        bar = QHBoxLayout()
+        bar.setContentsMargins(GAP2, GAP2, GAP2, 0)
+        self.state.setWordWrap(True)
+        bar.addWidget(self.switch)
+        bar.addWidget(self.state, 1)
+        for button in (self.send, self.look, self.put_back, self.take):
+            bar.addWidget(button)
+        self.pages.setFixedWidth(_LIST_WIDTH)
+        self.pages.setStyleSheet("QListWidget::item { padding-left: 8px; }")
+        below = QHBoxLayout()
+        below.addWidget(self.pages)
+        below.addWidget(self.stack, 1)
+        layout = QVBoxLayout(self)
+        layout.setContentsMargins(0, 0, 0, 0)
+        layout.addLayout(bar)
+        layout.addWidget(self.message)
+        layout.addLayout(below, 1)
+
+    # -- what is tuned -------------------------------------------------------------
+
+    def _show(self, target: TuningTarget) -> None:
+        self.target = target
+        for page in (*self.values, self.calibration, self.answer):
+            if page is not None:
+                page.show_target(target)
+        self.switch.show_choice("file" if target is self.file_target else "control")
+        self._update()
+
+    def _update(self, *_: object) -> None:
+        control = self.control if self.target is self.control else None
+        for button in (self.send, self.look, self.put_back, self.take):
+            button.setVisible(control is not None)
+        if control is None:
+            self.state.setText(
+                self.tr("Changes go into the open file; Ctrl+Z takes each back.")
+                if self.file_target.may_edit
+                else self.tr("The file is read-only.")
+            )
+            return
+        known, changed = control.may_edit, control.differences()
+        self.send.setVisible(not control.live.is_live)
+        self.send.setEnabled(known and control.waiting > 0)
+        one, several = self.tr("Do&wnload 1 Value"), self.tr("Do&wnload {count} Values")
+        self.send.setText(one if control.waiting == 1 else several.format(count=control.waiting))
+        self.look.setVisible(not known)
+        self.put_back.setEnabled(known and (changed > 0 or control.waiting > 0))
+        self.take.setEnabled(known and changed > 0 and self.file_target.may_edit)
+        if not known:
+            text = self.tr("It is not known what the control contains.")
+        elif control.live.is_live:
+            text = self.tr(
+                "Each change goes into the control at once. Changed: %n. The file stays.", "", changed
+            )
+        else:
+            text = self.tr(
+                "This control takes all values together, in E-stop. Changed: %n. The file stays.", "", changed
+            )
+        self.state.setText(text)
+
+    def _choose(self, key: str) -> None:
+        if key == "file":
+            self._show(self.file_target)
+            return
+        if self.control is None:
+            self.switch.show_choice("file")
+            live = self._connect()
+            if live is None:
+                return
+            try:
+                self.run_exchange(self.tr("Read Control"), live.look)
+                self._demand_family(live)
+            except BaseException:
+                live.close()
+                raise
+            self.control = ControlTarget(live, self.run_exchange)
+            self.control.told.connect(self._exchanged)
+            self.control.changed.connect(self._update)
+        self._show(self.control)
+
+    def _exchanged(self, text: str) -> None:
+        self.message.say(text)
+
+    def _demand_family(self, live: LiveTuning) -> None:
+        family = self._workspace.file.schema.family
+        assert live.file is not None
+        if live.file.schema.family.family != family.family:
+            raise ValueError(
+                self.tr("The control contains parameters for {found}, and the file is for {family}.").format(
+                    found=live.file.schema.family.name, family=family.name
+                )
+            )
+
+    # -- actions -------------------------------------------------------------------
+
+    def guarded(self, act: Callable[[], object]) -> object:
+        """Run what may fail; the error is shown in the bar, and what is known of the control beside the pages."""
+        try:
+            return act()
+        except RangeError as error:
+            self.message.say(f"{error}.", "warning")
+        except (ValueError, OSError) as error:
+            self.message.say(
+                f"{str(error).rstrip('.')}.", "error" if isinstance(error, OSError) else "warning"
+            )
+        finally:
+            self._update()
+        return None
+
+    def run_exchange(self, title: str, exchange: ControlWork) -> object:
+        """Run an exchange with the control with progress and cancel; raises its error."""
+        from amp_studio.ui.control.exchange import stages
+
+        return ProgressDialog(title, exchange, self, f"{title} …", stages()).run(300)
+
+    def read_measured(self, axis: str) -> None:
+        """Ask for a file of measured points and set what they make of an axis, as one step."""
+        from .measured_dialog import MeasuredDialog
+
+        folder = str(self._workspace.path.parent)
+        text, _ = QFileDialog.getOpenFileName(self, self.tr("Measured Points"), folder, _FILES)
+        if not text:
+            return
+        dialog = MeasuredDialog(self.target.file, axis, Path(text), self)
+        if run_dialog(dialog) and dialog.proposal is not None:
+            self.target.set(self.tr("Calibrate axis {axis}").format(axis=axis), dialog.proposal.settings)
+
+    def _undo(self) -> None:
+        self.target.undo()
+
+    def _redo(self) -> None:
+        self.target.redo()
+
+    def _send(self) -> None:
+        assert self.control is not None
+        self.control.send()
+
+    def _look(self) -> None:
+        assert self.control is not None
+        self.control.look()
+
+    def _put_back(self) -> None:
+        assert self.control is not None
+        self.control.put_back()
+
+    def _take(self) -> None:
+        """Take what differs in the control from the first look into the file, as one step of its undo."""
+        assert self.control is not None
+        changes = self.control.live.changes().differences
+        known = self.file_target.file.schema.parameters
+        values = {d.address: d.b for d in changes if d.address[0] in known}
+        self._workspace.edit(self.tr("Take from control"), values)
+        self.message.say(self.tr("Values taken into the file, which is not saved yet: %n.", "", len(values)))
+
+    def _escape(self) -> None:
+        if self.message.isVisible():
+            self.message.hide()
+        else:
+            self.close()
+
+    def _follow_file(self) -> None:
+        """Close with the file: nobody can stay on it."""
+        self._file_is_closed = True
+        self.close()
+
+    # -- the end -------------------------------------------------------------------
+
+    def closeEvent(self, event: QCloseEvent) -> None:
+        """Offer the old values back before the control is left with others."""
+        if self.control is not None and not self._may_leave(self.control) and not self._file_is_closed:
+            event.ignore()
+            return
+        if self.control is not None:
+            self.control.live.close()
+            self.control = None
+        event.accept()
+
+    def _may_leave(self, control: ControlTarget) -> bool:
+        if not control.may_edit:
+            text = self.tr("It is not known what the control contains. Verify it before the machine is used.")
+            leave = self.tr("&Leave")
+            return ask(self, self.tr("Tuning"), text, leave, self.tr("Cancel"), default=1) == leave
+        changed, waiting = control.differences(), control.waiting
+        if not changed and not waiting:
+            return True
+        kept = self.tr("Values of the control that differ from when it was connected: %n. The file has them only if you took them.",
+                       "", changed)  # fmt: skip
+        lost = self.tr("Values that were not downloaded and will be forgotten: %n.", "", waiting)
+        text = "\n".join(part for part, count in ((kept, changed), (lost, waiting)) if count)
+        back, keep = self.tr("Put the Old Values &Back"), self.tr("&Keep Them in the Control")
+        if not changed:
+            keep = self.tr("&Forget Them")
+            answer = ask(self, self.tr("Tuning"), text, keep, self.tr("Cancel"), default=1)
+            return answer == keep
+        answer = ask(self, self.tr("Tuning"), text, back, keep, self.tr("Cancel"))
+        if answer == back:
+            self.guarded(control.put_back)
+            return control.may_edit and not control.differences()
+        return answer == keep
+
+
+def _load_plots() -> None:
+    """Load what draws and simulates: first in a thread, so that a page seldom waits for it."""
+    parts = ("calibration_page", "measured_dialog", "step_answer")
+    load("amp_studio.sim", *(f"{__package__}.{part}" for part in parts))

@@ -1,0 +1,431 @@
+"""The motion window: a scenario on one axis with the values of the file, before and after a change."""
+
+from __future__ import annotations
+
+import html
+import re
+import threading
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+from PySide6.QtCore import Qt, QUrl
+from PySide6.QtGui import QCloseEvent, QShortcut
+from PySide6.QtWidgets import (
+    QCheckBox,
+    QComboBox,
+    QFileDialog,
+    QFormLayout,
+    QHBoxLayout,
+    QLabel,
+    QPushButton,
+    QSplitter,
+    QTabWidget,
+    QVBoxLayout,
+    QWidget,
+)
+
+from amp_studio.files import ParameterFile, RangeError, axis_title
+from amp_studio.schema import Address, Value, angular
+from amp_studio.sim import (
+    Recommendation,
+    SimulationError,
+    Trace,
+    address_of,
+    law_of,
+    listing,
+    simulate,
+    write_trace,
+)
+from amp_studio.sim.listing import SimulationListing
+from amp_studio.sim.picture import picture_of, settling_span
+from amp_studio.ui.base.task import Task, TaskProgress
+from amp_studio.ui.base.theme import severity_ink
+from amp_studio.ui.base.translated import worded
+from amp_studio.ui.base.workspace import Workspace
+from amp_studio.ui.forms.pages import LINK
+
+from .machine_page import MachinePage
+from .plot import MotionPlot
+from .results import AssumptionsPage, FiguresPage, RecommendationsPage, name_of
+from .settings import SettingsForm, refill, scrolled
+
+MOST_HEIGHT = 148
+"""Pixels of the settings of a scenario; more of them are scrolled."""
+_ASSUMED = re.compile(r"ASSUMED: (model\.\w+) = (.+?)\. ")
+_ENDINGS = "SVG (*.svg);;PNG (*.png);;CSV (*.csv)"
+
+
+@dataclass(frozen=True, eq=False)
+class _Ran:
+    """What a run brought: the trace, the values that it was made of, those it is compared with and their trace of the same move."""
+
+    trace: Trace
+    file: ParameterFile
+    file_before: ParameterFile | None
+    before: Trace | None
+
+
+def _same_move(
+    trace: Trace,
+    settings: Mapping[str, float | str],
+    before: Trace | None,
+    file_before: ParameterFile | None,
+) -> Trace | None:
+    """Return the trace of the values before with the move of ``trace``; None where they cannot make it."""
+    if file_before is None or (before is not None and before.move == trace.move):
+        return before
+    try:
+        return simulate(file_before, trace.scenario, trace.axis, settings, like=trace)
+    except SimulationError:
+        return None
+
+
+class MotionView(QWidget):
+    """Simulates with the present values, and again after every edit; the trace that was first lies under the new one."""
+
+    def __init__(
+        self,
+        workspace: Workspace,
+        address: Address | None,
+        show: Callable[[Address], None],
+        parent: QWidget | None = None,
+    ) -> None:
+        super().__init__(parent, Qt.WindowType.Window)
+        self.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
+        self.setWindowTitle(self.tr("Motion — {name}").format(name=workspace.path.name))
+        self.resize(1220, 800)
+        QShortcut(Qt.Key.Key_Escape, self, self.close)
+        self._workspace, self._show_parameter = workspace, show
+        self._task: Task | None = None
+        self._again = False
+        self._asked: tuple[object, ...] = ()
+        self._impossible: SimulationError | None = None
+        self._counts = False  # whether the axis moves in counts, not in a length or an angle
+        self.trace: Trace | None = None
+        self.before: Trace | None = None
+        # The values of both traces; None until there is one.
+        self._file_ran: ParameterFile | None = None
+        self._file_before: ParameterFile | None = None
+        self._make_widgets()
+        self._arrange()
+        self._fill(address[1] if address else "")
+        self._connect()
+        self.run()
+
+    def _make_widgets(self) -> None:
+        self.scenario, self.axis = QComboBox(), QComboBox()
+        for box in (self.scenario, self.axis):
+            box.setSizeAdjustPolicy(QComboBox.SizeAdjustPolicy.AdjustToMinimumContentsLengthWithIcon)
+        self.settings = SettingsForm(self.run)
+        self.machine_page = MachinePage(
+            self.run, lambda: (self._workspace.file, str(self.axis.currentData())), self._fail
+        )
+        self.machine = self.machine_page.form
+        self.run_button, self.save_button = QPushButton(self.tr("&Run")), QPushButton(self.tr("&Save…"))
+        self.settling, self.all_of_it = (
+            QPushButton(self.tr("&Zoom to Settling")),
+            QPushButton(self.tr("Show &All")),
+        )
+        self.compare, self.keep = QCheckBox(self.tr("&Before")), QPushButton(self.tr("&Keep as Before"))
+        self.compare.setChecked(True)
+        self.compare.setToolTip(self.tr("Draw the trace from before the changes under the present one"))
+        self.keep.setToolTip(self.tr("Compare with the present trace from now on"))
+        self.summary, self.values = QLabel(), QLabel()
+        self.summary.setWordWrap(True)
+        self.summary.setTextInteractionFlags(Qt.TextInteractionFlag.TextBrowserInteraction)
+        self.values.setTextFormat(Qt.TextFormat.RichText)
+        self.values.setAlignment(Qt.AlignmentFlag.AlignTop)
+        self.plot = MotionPlot()
+        self.figures, self.assumptions = FiguresPage(self._follow), AssumptionsPage()
+        self.plot.setAccessibleName(self.tr("Simulated motion"))
+        self.figures.setAccessibleName(self.tr("Figures of the motion"))
+        self.recommendations = RecommendationsPage(self.apply, self._follow)
+        for button in (self.save_button, self.settling, self.all_of_it, self.keep):
+            button.setEnabled(False)
+
+    def _arrange(self) -> None:
+        form = QFormLayout()
+        form.setFieldGrowthPolicy(QFormLayout.FieldGrowthPolicy.AllNonFixedFieldsGrow)
+        form.addRow(self.tr("S&cenario"), self.scenario)
+        form.addRow(self.tr("A&xis"), self.axis)
+        tools = QHBoxLayout()
+        for widget in (self.settling, self.all_of_it, self.compare, self.keep):
+            tools.addWidget(widget)
+        tools.addStretch()
+        tools.addWidget(self.run_button)
+        tools.addWidget(self.save_button)
+        self.tabs = QTabWidget()
+        self.tabs.setDocumentMode(True)
+        pages = (
+            (self.figures, self.tr("Figures")),
+            (self.recommendations, self.tr("Recommended")),
+            (self.assumptions, self.tr("Assumed")),
+        )
+        for page, title in (
+            *pages,
+            (self.machine_page, self.tr("Machine")),
+            (self.values, self.tr("Cursors")),
+        ):
+            self.tabs.addTab(page, title)
+        side = QWidget()
+        right = QVBoxLayout(side)
+        right.setContentsMargins(0, 0, 0, 0)
+        right.addLayout(form)
+        self._above = scrolled(self.settings)
+        right.addWidget(self._above)
+        right.addWidget(self.tabs, 1)
+        left = QWidget()
+        picture = QVBoxLayout(left)
+        picture.setContentsMargins(0, 0, 0, 0)
+        picture.addLayout(tools)
+        picture.addWidget(self.plot, 1)
+        middle = QSplitter()
+        middle.addWidget(left)
+        middle.addWidget(side)
+        middle.setStretchFactor(0, 1)
+        middle.setSizes([790, 430])
+        outer = QVBoxLayout(self)
+        outer.addWidget(self.summary)
+        outer.addWidget(middle, 1)
+
+    def _connect(self) -> None:
+        self.scenario.currentIndexChanged.connect(self._choose)
+        self.axis.currentIndexChanged.connect(self._choose)
+        self.run_button.clicked.connect(self.run)
+        self.save_button.clicked.connect(self.save)
+        self.settling.clicked.connect(self._zoom_to_settling)
+        self.all_of_it.clicked.connect(lambda: self.plot.zoom(None))
+        self.compare.toggled.connect(self._redraw)
+        self.keep.clicked.connect(self._keep_before)
+        self.plot.read.connect(self.values.setText)
+        self.summary.linkActivated.connect(lambda url: self._follow(QUrl(url)))
+        self._workspace.changed.connect(self._after_edit)
+        self._workspace.closed.connect(self.close)
+
+    # -- what can be chosen --------------------------------------------------------
+
+    def _fill(self, wanted: str) -> None:
+        """Fill the scenarios and axes of the file; keep the axis ``wanted`` where it is there."""
+        file = self._workspace.file
+        found, self._impossible = _possible(file)
+        titles = [(axis, axis_title(file, axis)) for axis in found.axes]
+        refill(
+            self.scenario,
+            [(each.name, worded(each.name.capitalize())) for each in found.scenarios],
+            str(self.scenario.currentData() or "step"),
+        )
+        refill(self.axis, titles, wanted)
+        chosen = next((each for each in found.scenarios if each.name == self.scenario.currentData()), None)
+        others = [each for each in titles if each[0] != self.axis.currentData()]
+        self.scenario.setToolTip(chosen.title if chosen else "")
+        self.settings.offer(chosen.settings if chosen else {}, self._units(), others)
+        self.machine.offer(found.model, ("", ""))
+        self._above.setFixedHeight(min(MOST_HEIGHT, self.settings.sizeHint().height()))
+
+    def _units(self) -> tuple[str, str]:
+        """Return the units of distance and feedrate for the chosen axis."""
+        if self._counts:
+            return "", ""
+        file, axis = self._workspace.file, self.axis.currentData()
+        family = file.schema.family
+        system = family.units.get(file.header.units, {})
+        length, velocity = system.get("length", "mm"), system.get("velocity", "mm/min")
+        turns = family.axes is not None and axis and file.evaluation.turns((family.axes.type, str(axis)))
+        return (angular(length), angular(velocity)) if turns else (length, velocity)
+
+    def _choose(self, *_: object) -> None:
+        """Take another scenario or axis; what was before belongs to the old one."""
+        self.before = self._file_before = None
+        self._fill(str(self.axis.currentData()))
+        self.machine_page.leave_axis(str(self.axis.currentData()))
+        self.run()
+
+    def _after_edit(self, _: list[Address]) -> None:
+        """Update the choices and simulate again."""
+        self._fill(str(self.axis.currentData()))
+        self.run()
+
+    # -- running -------------------------------------------------------------------
+
+    def run(self, *_: object) -> None:
+        """Simulate in a separate thread; a run requested meanwhile follows."""
+        if self._task is not None:
+            self._again = True
+            return
+        if self._impossible is not None:
+            self._stop(self._impossible)
+            return
+        try:
+            settings = {**self.settings.values(), **self.machine.values()}
+        except ValueError as error:
+            self._fail(error)
+            return
+        file, axis = self._workspace.file.copy(), self.axis.currentData()
+        scenario = str(self.scenario.currentData() or "step")
+        asked = (scenario, axis, tuple(settings.items()))
+        if asked != self._asked:
+            self.before = self._file_before = None
+            self._asked = asked
+
+        before, file_before = self.before, self._file_before
+
+        def work(_: TaskProgress, __: threading.Event) -> _Ran:
+            trace = simulate(file, scenario, str(axis) if axis else None, settings)
+            return _Ran(trace, file, file_before, _same_move(trace, settings, before, file_before))
+
+        self.summary.setText(self.tr("Simulating …"))
+        self._task = Task(work)
+        self._task.done.connect(self._show_result)
+        self._task.failed.connect(self._stop)
+        self._task.finished.connect(self._ended)
+        self._task.begin()
+
+    def _ended(self) -> None:
+        self._task = None
+        if self._again:
+            self._again = False
+            self.run()
+
+    def _stop(self, error: Exception) -> None:
+        """Show why there is no trace, and no old one that is not true any more."""
+        self.trace = None
+        self.plot.clear_picture()
+        self.figures.clear()
+        self.assumptions.clear()
+        self.recommendations.show_all(self._workspace.file.schema, (), self._may_apply)
+        self.tabs.setTabText(1, self.tr("Recommended"))
+        for button in (self.save_button, self.settling, self.all_of_it, self.keep):
+            button.setEnabled(False)
+        self._fail(error)
+
+    def _fail(self, error: Exception) -> None:
+        """Show what is true, with a way to the parameter that has to be set."""
+        text = html.escape(str(error))
+        parameter = getattr(error, "parameter", "")
+        schema = self._workspace.file.schema
+        if parameter in schema.parameters:
+            text += f' <a href="{LINK}{parameter}">Go to {html.escape(name_of(schema, parameter))}</a>'
+        self.summary.setText(f'<span style="color:{severity_ink("error").name()}">{text}</span>')
+
+    def _show_result(self, ran: _Ran) -> None:
+        trace = ran.trace
+        self.trace, self._file_ran = trace, ran.file
+        if ran.file_before is self._file_before:
+            self.before = ran.before
+        if self._file_before is None or (self.before and self.before.units != trace.units):
+            self.before, self._file_before = (
+                trace,
+                ran.file,
+            )  # the first one, or the file is in other units now
+        counts = trace.units.get("position") == "counts"
+        if counts != self._counts:
+            self._counts = counts
+            self._fill(str(self.axis.currentData()))
+        for button in (self.save_button, self.all_of_it, self.keep):
+            button.setEnabled(True)
+        self.settling.setEnabled(settling_span(trace) is not None)
+        assumed = sum(text.startswith("ASSUMED") for text in trace.assumptions)
+        text = self.tr("Figures of the machine that are assumed: <b>%n</b>, see Assumed.", "", assumed)
+        self.summary.setText(f"{html.escape(trace.model)}. {text if assumed else ''}")
+        self.recommendations.show_all(self._workspace.file.schema, trace.recommendations, self._may_apply)
+        count = len(trace.recommendations)
+        self.tabs.setTabText(
+            1, self.tr("Recommended ({count})").format(count=count) if count else self.tr("Recommended")
+        )
+        self.assumptions.show_trace(trace)
+        taken = (_ASSUMED.match(text) for text in trace.assumptions)
+        self.machine.show_defaults(
+            {found[1]: self.tr("{what}, assumed").format(what=found[2]) for found in taken if found}
+        )
+        self._redraw()
+
+    def _other(self) -> Trace | None:
+        """Return the trace to compare with, if it is another one and wanted."""
+        return self.before if self.compare.isChecked() and self.before is not self.trace else None
+
+    def _redraw(self, *_: object) -> None:
+        if self.trace is not None:
+            self.plot.draw(picture_of(self.trace, self._other()))
+            self.figures.show_trace(self.trace, self._other())
+
+    def _zoom_to_settling(self) -> None:
+        self.plot.zoom(settling_span(self.trace) if self.trace else None)
+
+    def _keep_before(self) -> None:
+        self.before, self._file_before = self.trace, self._file_ran
+        self._redraw()
+
+    # -- recommendations -------------------------------------------------------------
+
+    def _address(self, parameter: str) -> Address | None:
+        axis = self.trace.axis if self.trace else ""
+        return address_of(self._workspace.file, parameter, axis)
+
+    def _may_apply(self, parameter: str) -> bool:
+        return self._workspace.may_edit and self._address(parameter) is not None
+
+    def apply(self, found: Sequence[Recommendation]) -> None:
+        """Set recommended values as one undoable step; the run after it follows from the change."""
+        wanted: dict[Address, Value | None] = {}
+        for each in found:
+            address = self._address(each.parameter)
+            if address is None:
+                continue
+            old = self._workspace.file.get(address)
+            whole = old is not None and isinstance(old.value, int) and each.value.is_integer()
+            wanted[address] = Value(int(each.value) if whole else each.value, each.unit)
+        try:
+            self._workspace.edit(self.tr("Apply Recommendation"), wanted)
+        except RangeError as error:
+            self._fail(error)
+
+    def _follow(self, url: QUrl) -> None:
+        address = self._address(url.toString().removeprefix(LINK))
+        if address is None:
+            parameter = url.toString().removeprefix(LINK)
+            instances = self._workspace.file.machine_schema.instances(
+                self._workspace.file.schema.parameters[parameter]
+            )
+            axis = str(self.axis.currentData())
+            address = (parameter, axis if axis in instances else instances[0])
+        self._show_parameter(address)
+
+    # -- files -----------------------------------------------------------------------
+
+    def save(self) -> None:
+        """Write the trace as CSV, or its picture as SVG or PNG."""
+        if self.trace is None:
+            return
+        name = f"{self._workspace.path.stem}-{self.trace.scenario}-{self.trace.axis}.svg"
+        text, chosen = QFileDialog.getSaveFileName(
+            self, self.tr("Save"), str(self._workspace.path.with_name(name)), _ENDINGS
+        )
+        if not text:
+            return
+        path = Path(text)
+        path = path if path.suffix else path.with_suffix(chosen[chosen.index("*") + 1 : -1])
+        notes: list[str] = []
+        try:
+            write_trace(self.trace, path, notes.append, before=self._other())
+        except (OSError, ValueError) as error:
+            self._fail(error)
+        else:
+            self.summary.setText(html.escape("; ".join([f"{path} written", *notes])))
+
+    def closeEvent(self, event: QCloseEvent) -> None:
+        """Ignore the result of a run that has not finished."""
+        if self._task is not None:
+            self._task.done.disconnect(self._show_result)
+            self._task.failed.disconnect(self._stop)
+            self._task.finished.disconnect(self._ended)
+        super().closeEvent(event)
+
+
+def _possible(file: ParameterFile) -> tuple[SimulationListing, SimulationError | None]:
+    """Return what can be simulated with a file, and why nothing can, if so."""
+    try:
+        found = listing(file)
+    except SimulationError as error:
+        return SimulationListing((), (), (), {}), error
+    return found, None if found.axes else SimulationError(law_of(file.schema.family.family).without_axes)

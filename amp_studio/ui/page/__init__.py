@@ -1,0 +1,1 @@
+"""The page of one file: group list, steps, table, findings and detail panel together."""

@@ -1,0 +1,171 @@
+"""The parameter groups beside the table: areas, groups and their sections."""
+
+from __future__ import annotations
+
+from collections import Counter
+
+from PySide6.QtCore import Qt, Signal
+from PySide6.QtWidgets import QHeaderView, QTreeWidgetItem, QVBoxLayout, QWidget
+
+from amp_studio.schema import Group, Parameter
+from amp_studio.ui.base.translated import counted
+from amp_studio.ui.base.workspace import Workspace
+from amp_studio.ui.forms.place_tree import COUNTS, INK, RIGHT, PlaceTree
+from amp_studio.validate import NOT_SET, SEVERITIES
+
+_KEYS = Qt.ItemDataRole.UserRole
+_ALL = "*"
+
+
+class GroupList(QWidget):
+    """Chooses which parameters the table shows."""
+
+    chosen = Signal(str, list)
+    """Title and parameters."""
+
+    def __init__(self, workspace: Workspace) -> None:
+        super().__init__()
+        self._workspace = workspace
+        self.tree = PlaceTree()
+        self.tree.setColumnCount(3)
+        self.tree.setAccessibleName(self.tr("Parameter groups"))
+        layout = QVBoxLayout(self)
+        layout.setContentsMargins(0, 0, 0, 0)
+        layout.setSpacing(0)
+        layout.addWidget(self.tree)
+        self.setFocusProxy(self.tree)
+        self._items: list[QTreeWidgetItem] = []
+        self._machine = workspace.file.machine
+        self._fill()
+        self.tree.currentItemChanged.connect(self.choose)
+        self.tree.itemClicked.connect(self.choose)
+        self._follows = True
+        workspace.changed.connect(self._follow)
+
+    def follow_edits(self, follows: bool) -> None:
+        """Keep the counts up to date, or leave them until somebody sees them."""
+        if follows and not self._follows:
+            self.update_counts()
+        self._follows = follows
+
+    def _fill(self) -> None:
+        schema = self._workspace.file.schema
+        self._add(None, self.tr("All parameters"), [_ALL])
+        areas = [(area.name, area.groups) for area in schema.family.areas]
+        by_key = {group.key: group for group in schema.groups}
+        for name, keys in areas or [("", tuple(by_key))]:
+            head = self._add_head(name) if name else None
+            self._add_groups(head, [by_key[key] for key in keys if key in by_key])
+        self.tree.expandAll()
+        header = self.tree.header()
+        header.setStretchLastSection(False)
+        header.setMinimumSectionSize(8)
+        header.setSectionResizeMode(0, QHeaderView.ResizeMode.Stretch)
+        for column in (1, 2):  # for who reads the tree without seeing it
+            header.hideSection(column)
+        self.update_counts()
+        self._hide_empty()
+        self.tree.setCurrentItem(next(i for i in self._items[1:] if not i.isHidden() and i.data(0, _KEYS)))
+
+    def _add_head(self, name: str) -> QTreeWidgetItem:
+        """Add an area: a head over its groups, no page."""
+        head = self._add(None, name, [])
+        head.setFlags(Qt.ItemFlag.ItemIsEnabled)
+        head.setData(0, INK, "dim")
+        return head
+
+    def _add_groups(self, head: QTreeWidgetItem | None, groups: list[Group]) -> None:
+        """Add groups under an area, those of one name as one with its sections below it."""
+        by_name: dict[str, list[Group]] = {}
+        for group in groups:
+            by_name.setdefault(group.name, []).append(group)
+        for name, alike in by_name.items():
+            item = self._add(head, name, [group.key for group in alike])
+            for group in alike if len(alike) > 1 else ():
+                self._add(item, group.section, [group.key])
+
+    def _hide_empty(self) -> None:
+        """Hide the groups of which this machine type, or this control, has no parameter."""
+        schema, here = self._workspace.file.schema, self._workspace.file.machine_schema
+        present = {schema.group_of[p].key for p, scope in here.scopes.items() if scope is not None}
+        groups = {group.key for group in schema.groups}
+        for item in self._items:
+            keys = set(item.data(0, _KEYS))
+            item.setHidden(bool(keys) and keys <= groups and keys.isdisjoint(present))
+        for item in self._items:
+            if not item.data(0, _KEYS):
+                item.setHidden(all(item.child(n).isHidden() for n in range(item.childCount())))
+
+    def _add(self, parent: QTreeWidgetItem | None, text: str, keys: list[str]) -> QTreeWidgetItem:
+        item = QTreeWidgetItem([text.removesuffix(" Parameters"), "", ""])
+        item.setData(0, _KEYS, keys)
+        self._items.append(item)
+        item.setToolTip(0, text)
+        if parent is None:
+            self.tree.addTopLevelItem(item)
+        else:
+            parent.addChild(item)
+        return item
+
+    def update_counts(self) -> None:
+        """Show how many findings and open values each group has."""
+        schema = self._workspace.file.schema
+        found = [
+            (finding.severity, {schema.group_of[a[0]].key for a in finding.causes})
+            for finding in self._workspace.listed
+            if finding.rule != NOT_SET
+        ]
+        not_set = Counter(
+            schema.group_of[a[0]].key for each in self._workspace.progress.steps for a in each.open
+        )
+        for item in self._items:
+            keys = set(item.data(0, _KEYS))
+            if keys == {_ALL}:
+                keys = {group.key for group in schema.groups}
+            counts = {
+                s: sum(own == s and not keys.isdisjoint(places) for own, places in found) for s in SEVERITIES
+            }
+            for column, severity in enumerate(SEVERITIES[:2], 1):
+                item.setText(column, str(counts[severity] or ""))
+            missing = sum(not_set[key] for key in keys)
+            item.setData(0, COUNTS, tuple((s, n) for s, n in counts.items() if n))
+            item.setData(0, RIGHT, str(missing) if missing else "")
+            parts = [item.text(0), *(counted(n, s) for s, n in counts.items() if n)]
+            parts += [self.tr("%n values not set", "", missing)] if missing else []
+            item.setData(0, Qt.ItemDataRole.AccessibleTextRole, ", ".join(parts))
+
+    def _follow(self, *_: object) -> None:
+        """Update the counts after the present edit."""
+        if self._workspace.file.machine != self._machine:  # another machine type has other groups
+            self._machine = self._workspace.file.machine
+            self._hide_empty()
+        if self._follows:
+            self.update_counts()
+
+    # -- choosing --------------------------------------------------------------
+
+    def choose(self, *_: object) -> None:
+        """Emit the present choice again."""
+        item = self.tree.currentItem()
+        if item is not None and item.data(0, _KEYS):
+            item.setSelected(True)
+            self.chosen.emit(item.toolTip(0), self._parameters(item.data(0, _KEYS)))
+
+    def show_none(self) -> None:
+        """Mark no group, while the table shows something else."""
+        self.tree.clearSelection()
+
+    def _parameters(self, keys: list[str]) -> list[Parameter]:
+        schema = self._workspace.file.schema
+        if keys == [_ALL]:
+            return list(schema.parameters.values())
+        return [p for g in schema.groups if g.key in keys for p in g.parameters]
+
+    def choose_group_of(self, parameter_id: str) -> None:
+        """Select the group of a parameter."""
+        wanted = self._workspace.file.schema.group_of[parameter_id].key
+        for item in self._items:
+            if item.data(0, _KEYS) == [wanted]:
+                self.tree.setCurrentItem(item)
+                self.choose()
+                return

@@ -1,0 +1,28 @@
+"""The steps that were made since the file was opened, in words; a click goes back to one, or forward again."""
+
+from __future__ import annotations
+
+from PySide6.QtWidgets import QDialog, QLabel, QUndoView, QVBoxLayout, QWidget
+
+from amp_studio.ui.base.theme import GAP2, GAP3, icon
+from amp_studio.ui.base.workspace import Workspace
+
+
+class StepList(QDialog):
+    """The undo stack of a file; it closes with the file."""
+
+    def __init__(self, workspace: Workspace, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self.setWindowTitle(self.tr("Steps: {name}").format(name=workspace.path.name))
+        self.resize(460, 420)
+        self.view = QUndoView(workspace.undo_stack)
+        self.view.setEmptyLabel(self.tr("As opened"))
+        self.view.setCleanIcon(icon("floppy-disk"))
+        self.view.setAccessibleName(self.tr("Steps"))
+        self.view.setEnabled(workspace.may_edit)
+        layout = QVBoxLayout(self)
+        layout.setContentsMargins(GAP3, GAP3, GAP3, GAP3)
+        layout.setSpacing(GAP2)
+        layout.addWidget(QLabel(self.tr("Select a step to go back to it, or forward again.")))
+        layout.addWidget(self.view)
+        workspace.closed.connect(self.close)

@@ -1,0 +1,322 @@
+"""The page of pictures of one file: all at once, or one large; under it the value of the chosen handle."""
+
+from __future__ import annotations
+
+from functools import partial
+
+from PySide6.QtCore import QSize, Qt, QTimer, Signal
+from PySide6.QtGui import QFocusEvent, QResizeEvent
+from PySide6.QtWidgets import QGridLayout, QLabel, QVBoxLayout, QWidget
+
+from amp_studio.files import RangeError
+from amp_studio.pictures import Handle, drawn_in, pictures_of
+from amp_studio.schema import (
+    Address,
+    InvalidValueError,
+)
+from amp_studio.ui.base.theme import GAP2, HEAD
+from amp_studio.ui.base.translated import worded
+from amp_studio.ui.base.workspace import Workspace
+from amp_studio.ui.forms.handle_footer import HandleFooter
+
+from .card import PictureCard
+from .head import PicturesHead
+
+ALL = "all"
+TWO_COLUMNS = 760
+"""Width from which pictures are side by side."""
+LOW = 420
+"""Height below which they are in one row."""
+LEAST_CARD = 370, 230
+"""Width and height from which a picture has its place in a row or in a column."""
+AROUND = 2 * HEAD + 24
+"""Height of head and footer, about."""
+TELL_MS = 200
+"""Milliseconds until the other views show the parameter of a handle; passing by on the way to another one costs nothing."""
+MARK_MS = 60
+"""Milliseconds until the handle of a value that was selected elsewhere is shown; likewise."""
+SIDE = 3
+"""Pictures beside the first one."""
+
+
+class PicturesPage(QWidget):
+    """Every picture of a file; it follows the file while it is seen."""
+
+    parameter_wanted = Signal(object)
+    left = Signal()
+    """Esc: back to the table."""
+    closed = Signal()
+    told = Signal(str)
+    parameter_chosen = Signal(object)
+    """The address of a handle that has had the focus for a moment and is not dragged."""
+
+    def __init__(self, workspace: Workspace) -> None:
+        super().__init__()
+        self.workspace = workspace
+        self.setAccessibleName(self.tr("Pictures"))
+        self.setFocusPolicy(Qt.FocusPolicy.ClickFocus)
+        self._pictures = {picture.name: picture for picture in pictures_of(workspace.file)}
+        self.cards: dict[str, PictureCard] = {}
+        """Those that were seen already."""
+        self._active: PictureCard | None = None
+        self._placed = (0, False)
+        self._stale = False
+        self._tell = QTimer(self)
+        self._tell.setSingleShot(True)
+        self._tell.setInterval(TELL_MS)
+        self._tell.timeout.connect(self._tell_parameter)
+        self._seen: list[PictureCard] = []
+        self._selected: Address | None = None
+        """The value that is selected elsewhere."""
+        self._front = ""
+        """The picture that must be seen among all: the one of the selected value."""
+        self._mark = QTimer(self)
+        self._mark.setSingleShot(True)
+        self._mark.setInterval(MARK_MS)
+        self._mark.timeout.connect(self._mark_selected)
+        self.head = PicturesHead()
+        self.head.chosen.connect(self.show_picture)
+        self.head.closed.connect(self.closed)
+        self._shown = ALL
+        self.grid = QGridLayout()
+        self.grid.setContentsMargins(GAP2, 0, GAP2, GAP2)
+        self.grid.setSpacing(GAP2)
+        self._nothing = QLabel(self.tr("This family has no pictures."))
+        self._nothing.setAlignment(Qt.AlignmentFlag.AlignCenter)
+        self.grid.addWidget(self._nothing, 0, 0)
+        layout = QVBoxLayout(self)
+        layout.setContentsMargins(0, 0, 0, 0)
+        layout.setSpacing(0)
+        layout.addWidget(self.head)
+        layout.addLayout(self.grid, 1)
+        self.footer = HandleFooter(workspace)
+        layout.addWidget(self.footer)
+        self.footer.entered.connect(self._enter)
+        self.footer.left.connect(self._to_handle)
+        self._build()
+        workspace.changed.connect(self._follow)
+
+    # -- which pictures --------------------------------------------------------------
+
+    def _build(self) -> None:
+        options = [(name, worded(picture.title), "") for name, picture in self._pictures.items()]
+        self.head.offer([(ALL, self.tr("All"), ""), *options])
+        self._nothing.setVisible(not self._pictures)
+        self.show_picture(self._shown if self._shown in self._pictures else ALL)
+
+    def card(self, name: str) -> PictureCard:
+        """Return the card of a picture, made when it is first seen."""
+        if name not in self.cards:
+            card = self.cards[name] = PictureCard(self.workspace, self._pictures[name])
+            card.parameter_wanted.connect(self.parameter_wanted)
+            card.enlarged.connect(self.show_picture)
+            card.canvas.handle_chosen.connect(partial(self._choose, card))
+            card.canvas.typed.connect(self.footer.type)
+            card.canvas.left.connect(self.left)
+            card.canvas.told.connect(self.told)
+        return self.cards[name]
+
+    @property
+    def chosen_card(self) -> PictureCard | None:
+        """The picture of the chosen handle, or the first one that is seen; None where the family has none."""
+        return self._active if self._active in self._seen else next(iter(self._seen), None)
+
+    @property
+    def shown(self) -> str:
+        """The name of the picture that is shown, or ``all``."""
+        return self._shown
+
+    def show_picture(self, name: str) -> None:
+        """Show one picture large, or all of them."""
+        self._shown = name
+        self.head.show_choice(name)
+        self._arrange()
+
+    def _shape(self) -> tuple[int, bool]:
+        """Return how many pictures there is room for, and whether the first one is larger than the others."""
+        if self._shown != ALL:
+            return 1, False
+        if self.width() >= TWO_COLUMNS and self.height() >= LOW:
+            return 1 + SIDE, True
+        across, down = self.width() // LEAST_CARD[0], (self.height() - AROUND) // LEAST_CARD[1]
+        return min(max(across if self.height() < LOW else down, 1), 1 + SIDE), False
+
+    def _wanted(self, count: int) -> list[str]:
+        """Return the pictures for so many places, that of the selected value among them."""
+        names = list(self._pictures)
+        if self._shown in names:
+            return [self._shown]
+        first = names[:count]
+        return first if self._front in ("", *first) else [*first[:-1], self._front]
+
+    def _arrange(self) -> None:
+        """Put the cards into the grid: the first one large and others beside it, in a row or a column, or one alone."""
+        self._placed = count, is_large = self._shape()
+        wanted = self._wanted(count)
+        several = len(wanted) > 1
+        hidden = [card for card in self.cards.values() if card not in self._seen]
+        seen = [self.card(each) for each in wanted]
+        for card in seen:
+            if card in hidden:  # it did not follow the file meanwhile
+                card.follow(self._pictures[card.picture.name])
+        for card in self.cards.values():
+            self.grid.removeWidget(card)
+        is_row = self.height() < LOW
+        for n, card in enumerate(seen):
+            card.small = several
+            if is_large:
+                place = (0, 0, max(len(seen) - 1, 1), 1) if n == 0 else (n - 1, 1, 1, 1)
+            else:
+                place = (0, n, 1, 1) if is_row else (n, 0, 1, 1)
+            self.grid.addWidget(card, *place)
+            card.show_notes()
+        for column in range(1 + SIDE):
+            used = column < len(seen)
+            self.grid.setColumnStretch(column, int(used if is_row else column == 0))
+            self.grid.setRowStretch(column, int(used and not is_row))
+        if is_large:
+            self.grid.setColumnStretch(0, 6)
+            self.grid.setColumnStretch(1, 5 if several else 0)
+        for card in self.cards.values():
+            card.setVisible(card in seen)
+        self._seen = seen
+
+    def minimumSizeHint(self) -> QSize:
+        """Return room for one picture: more of them go where there is no room."""
+        return QSize(240, 200)
+
+    def resizeEvent(self, event: QResizeEvent) -> None:
+        super().resizeEvent(event)
+        if self._shape() != self._placed:
+            QTimer.singleShot(0, self, self._arrange)  # not while the layout is at work
+
+    # -- following the file ------------------------------------------------------------
+
+    def _follow(self, addresses: list[Address]) -> None:
+        if not self.isVisible():
+            self._stale = True
+            return
+        if any(card.canvas.is_dragging for card in self._seen):  # the rest follows when the handle is dropped
+            for card in self._seen:
+                if card.canvas.is_dragging:
+                    card.canvas.mark_findings()
+                elif set(addresses) & set(card.canvas.scene.drawn_from):
+                    card.canvas.draw_again()
+            return
+        names = list(self._pictures)
+        self._pictures = {picture.name: picture for picture in pictures_of(self.workspace.file)}
+        if names != list(self._pictures):  # axes came or went
+            self._drop_cards()
+            self._build()
+        for card in self._seen:
+            card.follow(self._pictures[card.picture.name])
+        self.footer.show_handle(self._active.canvas.handle if self._active else None)
+
+    def _drop_cards(self) -> None:
+        """Remove the cards of pictures that there are no longer."""
+        self._front = self._front if self._front in self._pictures else ""
+        for name in [name for name in self.cards if name not in self._pictures]:
+            card = self.cards.pop(name)
+            self.grid.removeWidget(card)
+            card.hide()
+            card.deleteLater()
+            self._seen = [each for each in self._seen if each is not card]
+            self._active = None if self._active is card else self._active
+
+    def showEvent(self, event: object) -> None:
+        super().showEvent(event)  # type: ignore[arg-type]
+        if self._stale:
+            self._follow([])
+            self._stale = False
+
+    def focusInEvent(self, event: QFocusEvent) -> None:
+        """Give the focus to the first handle."""
+        super().focusInEvent(event)
+        if self._seen:
+            self._seen[0].canvas.setFocus()
+
+    # -- the chosen handle ---------------------------------------------------------------
+
+    def show_handle_of(self, address: Address, *, focus: bool = True) -> None:
+        """Choose the handle of a value, in its picture; nothing where no picture has one."""
+        inner = sorted(self._pictures.values(), key=lambda each: each.name not in self._seen_names())
+        found = drawn_in(inner, address)
+        if found is None:
+            self._choose_alone(None)
+            return
+        name, part = found
+        self._front = name
+        if self.card(name) not in self._seen:
+            self._arrange() if self._shown == ALL and not focus else self.show_picture(name)
+        card = self.card(name)
+        if card.part != part:
+            card.show_part(part)
+        handles = card.canvas.scene.handles
+        own = [n for n, h in enumerate(handles) if [drag.address for drag in h.drags] == [address]]
+        if own:
+            self._choose_alone(card)
+            card.canvas.choose(own[0])
+            if focus:
+                card.canvas.focus_handle()
+            else:
+                self._tell.stop()  # who selected the value knows it
+
+    def _seen_names(self) -> set[str]:
+        return {card.picture.name for card in self._seen}
+
+    def _choose_alone(self, card: PictureCard | None) -> None:
+        """Let one card have the chosen handle."""
+        for each in self.cards.values():
+            if each is not card:
+                each.canvas.choose(None)
+
+    def show_selected(self, address: Address | None) -> None:
+        """Mark the handle of a value that was selected elsewhere, without taking the focus."""
+        self._selected = address
+        if self.isVisible():
+            self._mark.start()
+
+    def _mark_selected(self) -> None:
+        handle = self._active.canvas.handle if self._active in self._seen and self._active else None
+        known = () if handle is None else [drag.address for drag in handle.drags]
+        is_dragging = any(card.canvas.is_dragging for card in self._seen)
+        if self._selected is not None and self._selected not in known and not is_dragging:
+            self.show_handle_of(self._selected, focus=False)
+
+    def _tell_parameter(self) -> None:
+        handle = self._active.canvas.handle if self._active else None
+        if handle is not None and self._active is not None:
+            if self._active.canvas.is_dragging:
+                self._tell.start()
+            else:
+                self.parameter_chosen.emit(handle.drags[0].address)
+
+    def _choose(self, card: PictureCard, handle: Handle | None) -> None:
+        self._active = card if handle is not None else self._active
+        if card is self._active:
+            self.footer.show_handle(handle)
+        if handle is not None and not card.canvas.is_dragging:
+            self._mark.stop()  # what was selected before is of the past
+            self._tell.start()
+
+    def _enter(self, text: str) -> None:
+        """Set the value that was typed for the chosen handle."""
+        card = self._active
+        if card is None or card.canvas.handle is None:
+            return
+        address = card.canvas.handle.drags[0].address
+        try:
+            value = self.workspace.read(address, text)
+            if value is not None:
+                self.workspace.edit(
+                    self.tr("Set {name}").format(name=card.canvas.handle.label), {address: value}
+                )
+        except (RangeError, InvalidValueError) as error:
+            self.footer.refuse(str(error))
+            return
+        self._to_handle()
+
+    def _to_handle(self) -> None:
+        if self._active is not None:
+            self.footer.show_handle(self._active.canvas.handle)
+            self._active.canvas.focus_handle()

@@ -1,0 +1,1 @@
+"""The project: its tree, its files and their check."""

@@ -1,0 +1,114 @@
+"""Checks all files of a project and lists the findings of each."""
+
+from __future__ import annotations
+
+import threading
+from collections.abc import Callable
+from dataclasses import dataclass
+from pathlib import Path
+
+from PySide6.QtCore import Qt
+from PySide6.QtGui import QBrush
+from PySide6.QtWidgets import QDialog, QHeaderView, QLabel, QTreeWidget, QTreeWidgetItem, QVBoxLayout, QWidget
+
+from amp_studio.files import ParameterFileError, open_file
+from amp_studio.schema import Address
+from amp_studio.ui.base.task import TaskProgress
+from amp_studio.ui.base.theme import severity_icon, severity_ink
+from amp_studio.ui.base.translated import counted, worded
+from amp_studio.validate import SEVERITIES, Finding, Validator, rules_beside
+
+_GOES_TO = Qt.ItemDataRole.UserRole
+
+
+@dataclass(frozen=True)
+class CheckedFile:
+    """The findings of one file as it is on disk."""
+
+    path: Path
+    findings: tuple[Finding, ...] = ()
+    labels: tuple[str, ...] = ()
+    """The name of the parameter of each finding."""
+    fault: str = ""
+    """Why the file cannot be read; empty when it was read."""
+
+    def count(self, severity: str) -> int:
+        """Return how many findings of a severity there are."""
+        return sum(finding.severity == severity for finding in self.findings)
+
+
+def check_files(paths: list[Path], progress: TaskProgress, cancelled: threading.Event) -> list[CheckedFile]:
+    """Return the findings of files, with the rules beside them; after a cancel only those of the files checked so far."""
+    checked = []
+    for n, path in enumerate(paths):
+        if cancelled.is_set():
+            break
+        progress(path.name, n, len(paths))
+        checked.append(_checked(path))
+    return checked
+
+
+def _checked(path: Path) -> CheckedFile:
+    try:
+        file = open_file(path).file
+    except ParameterFileError as fault:
+        return CheckedFile(path, fault=str(fault))
+    findings = Validator(file, rules_beside(path, file.schema)).run()
+    labels = tuple(file.machine_schema.label(f.addresses[0]) if f.addresses else "" for f in findings)
+    return CheckedFile(path, findings, labels)
+
+
+class ProjectCheckDialog(QDialog):
+    """Lists the findings; a double click or Enter opens the file at the finding. Stays open beside the table."""
+
+    def __init__(
+        self, checked: list[CheckedFile], show: Callable[[Path, Address | None], None], parent: QWidget | None
+    ) -> None:
+        super().__init__(parent)
+        self.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
+        self.setWindowTitle(self.tr("Check All Files"))
+        self.resize(900, 500)
+        totals = [counted(sum(c.count(s) for c in checked), s, none="no") for s in SEVERITIES]
+        unread = sum(bool(c.fault) for c in checked)
+        self.text = QLabel(
+            self.tr("{count} as saved on disk: {list}").format(
+                count=counted(len(checked), "file"), list=", ".join(totals)
+            )
+            + (self.tr("; {unread} cannot be read").format(unread=unread) if unread else "")
+        )
+        self.tree = QTreeWidget()
+        self.tree.setHeaderLabels(
+            [
+                self.tr("File"),
+                self.tr("Errors"),
+                self.tr("Warnings"),
+                self.tr("Recommendations"),
+                self.tr("Finding"),
+            ]
+        )
+        self.tree.setAccessibleName(self.tr("Findings of each file"))
+        self.tree.setUniformRowHeights(True)
+        self.tree.addTopLevelItems([_branch(c) for c in checked])
+        for column in range(4):
+            self.tree.header().setSectionResizeMode(column, QHeaderView.ResizeMode.ResizeToContents)
+        self.tree.itemActivated.connect(lambda item: show(*item.data(0, _GOES_TO)))
+        layout = QVBoxLayout(self)
+        layout.addWidget(self.text)
+        layout.addWidget(self.tree)
+
+
+def _branch(checked: CheckedFile) -> QTreeWidgetItem:
+    worst = next((s for s in SEVERITIES if checked.count(s)), None)
+    first = checked.fault or (checked.findings[0].message if checked.findings else worded("no findings"))
+    item = QTreeWidgetItem([checked.path.name, *("" if checked.fault else str(checked.count(s)) for s in SEVERITIES), first])  # fmt: skip
+    if checked.fault or worst:
+        item.setIcon(0, severity_icon("error" if checked.fault else str(worst)))
+    item.setData(0, _GOES_TO, (checked.path, None))
+    for finding, label in zip(checked.findings, checked.labels, strict=True):
+        leaf = QTreeWidgetItem([label, "", "", "", finding.message])
+        leaf.setIcon(0, severity_icon(finding.severity))
+        leaf.setForeground(0, QBrush(severity_ink(finding.severity)))
+        leaf.setToolTip(4, finding.message)
+        leaf.setData(0, _GOES_TO, (checked.path, finding.addresses[0] if finding.addresses else None))
+        item.addChild(leaf)
+    return item

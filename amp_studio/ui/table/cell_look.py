@@ -1,0 +1,212 @@
+"""What a cell of the table looks like: its text, its unit and its state, worked out once until something changes."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Collection
+from dataclasses import dataclass
+from functools import lru_cache
+from typing import Literal
+
+from amp_studio.files import unlike_axes
+from amp_studio.files.local_time import with_days_and_times
+from amp_studio.files.notes import value_note
+from amp_studio.report.wording import state_name
+from amp_studio.schema import Address, UnitError, Value, convert, show_value, shown, write_value
+from amp_studio.schema.bit_fields import labels_of_word
+from amp_studio.ui.base.translated import Translated, tr, worded
+from amp_studio.ui.base.workspace import Workspace
+from amp_studio.validate import NOT_SET
+
+CellKind = Literal["value", "not set", "absent"]
+THIN = "\u202f"
+"""A narrow space that no line breaks at, between groups of three digits on the screen."""
+_BRACKETS = re.compile(r"\s*\([^()]*\)")
+_WHOLE = re.compile(r"(-?)([0-9]{5,})(.*)")
+
+
+@dataclass(slots=True)
+class CellLook:
+    """How one cell is painted; the delegate asks nothing else."""
+
+    kind: CellKind
+    text: str = ""
+    unit: str = ""
+    """What is painted in the slot of units: the unit of a number, the number of a mask."""
+    short: str = ""
+    """A shorter text that no other choice of the parameter has, for where the whole one has no room."""
+    is_number: bool = False
+    is_own: bool = False
+    """Not the printed default."""
+    is_changed: bool = False
+    """Not what is on disk."""
+    is_unlike: bool = False
+    """Unlike the same parameter of most other axes."""
+    is_inactive: bool = False
+    is_locked: bool = False
+    severity: str = ""
+    """Of the worst finding that it causes."""
+    has_note: bool = False
+
+
+@lru_cache(maxsize=2_000)
+def short_labels(labels: tuple[str, ...]) -> dict[str, str]:
+    """Return shorter texts for the choices of a parameter, each of which no other one has.
+
+    What is in brackets is left out, and so are the words that several begin with, where a code is what remains: ``Feedback
+    Connector J1`` is ``J1`` where all but one begin so, else ``… J1``.
+    """
+    short = {label: _BRACKETS.sub("", label).strip() or label for label in labels}
+    if len({text.casefold() for text in short.values()}) < len(short):
+        short = {label: label for label in labels}
+    families: dict[str, list[str]] = {}
+    for label, text in short.items():
+        families.setdefault(text.split()[0].casefold(), []).append(label)
+    cut = dict(short)
+    for alike in families.values():
+        words = [short[label].split() for label in alike]
+        length = _common(words)
+        rests = [" ".join(found[length:]) for found in words]
+        if len(alike) > 1 and length and all(any(c.isdigit() for c in rest) for rest in rests):
+            mark = "" if len(alike) >= len(labels) - 1 else "… "
+            cut |= {label: mark + rest for label, rest in zip(alike, rests, strict=True)}
+    return cut if len({text.casefold() for text in cut.values()}) == len(cut) else short
+
+
+def _common(texts: list[list[str]]) -> int:
+    """Return how many words all texts begin with, so that each has one left."""
+    most = min(map(len, texts)) - 1
+    alike = (len({text[n].casefold() for text in texts}) == 1 for n in range(most))
+    return next((n for n, same in enumerate(alike) if not same), most)
+
+
+def grouped(figure: str) -> str:
+    """Return a number with its digits in groups of three from five digits on: ``2 097 152``."""
+    found = _WHOLE.fullmatch(figure)
+    if found is None:
+        return figure
+    sign, whole, rest = found.groups()
+    head = len(whole) % 3
+    groups = [whole[:head]] * bool(head) + [whole[n : n + 3] for n in range(head, len(whole), 3)]
+    return sign + THIN.join(groups) + rest
+
+
+class ShownValues(Translated):
+    """The values of a file as the table shows them, in the unit in which they are typed."""
+
+    def __init__(self, workspace: Workspace) -> None:
+        self.workspace = workspace
+        self.hidden_too = False
+        """Whether hidden parameters are shown too."""
+        self.worst: dict[Address, str] = {}
+        self.effective: dict[Address, Value] = {}
+
+    def find_findings(self) -> None:
+        """Take the severities and effective values of the present findings."""
+        worst: dict[Address, str] = {}
+        for finding in self.workspace.findings:  # errors come first
+            if finding.rule != NOT_SET:
+                for address in finding.causes:
+                    worst.setdefault(address, finding.severity)
+        self.worst, self.effective = worst, self.workspace.effective()
+
+    def exists(self, address: Address) -> bool:
+        """Return whether an address has a cell: it is not hidden, or hidden ones are shown too."""
+        return self.hidden_too or self.workspace.file.evaluation.state(address).state != "hidden"
+
+    def in_units(self, address: Address, value: Value | None) -> Value | None:
+        """Return a value in the unit in which it is shown; a value in this unit is returned unchanged."""
+        if value is None or isinstance(value.value, (str, bool)) or not value.unit:
+            return value
+        unit = self.workspace.typed_unit(address)
+        if unit == value.unit:
+            return value
+        try:
+            return Value(float(f"{convert(float(value.value), value.unit, unit):.9g}"), unit)
+        except UnitError:
+            return value
+
+    def text(self, address: Address, value: Value | None) -> str:
+        """Return a value in words, with its unit."""
+        parameter = self.workspace.file.schema.parameters[address[0]]
+        return show_value(parameter, self.in_units(address, value), secrets=self.workspace.secrets)
+
+    def typed(self, address: Address) -> str:
+        """Return a value as text for editing, plain and exact; empty for a masked one."""
+        if self.workspace.is_masked(address):
+            return ""
+        parameter = self.workspace.file.schema.parameters[address[0]]
+        return write_value(parameter, self.in_units(address, self.workspace.file.get(address)))
+
+    def tip(self, address: Address) -> str:
+        """Return what a cell means beyond its value: findings, why it is inactive, what the control uses instead."""
+        file = self.workspace.file
+        if not self.exists(address):
+            return tr("Does not exist here: {why}").format(why=file.evaluation.state(address).why)
+        state = file.evaluation.state(address)
+        lines = [self.text(address, file.get(address))]
+        lines += [f.message for f in self.workspace.findings_of(address) if f.rule != NOT_SET]
+        if not state.is_active:
+            page = self.tr(" (page {page})").format(page=state.page) if state.page else ""
+            lines.append(f"{worded(state_name(state.state)).capitalize()}: {state.why}{page}")
+        if address in self.effective:
+            used = self.text(address, self.effective[address])
+            lines.append(tr("Effective value in the control: {value}").format(value=used))
+        if address in file.forced:
+            lines.append(tr("Forced {when}").format(when=with_days_and_times(file.forced[address])))
+        if note := value_note(file, address):
+            lines.append(tr("Note: {text}").format(text=note))
+        value, saved = file.get(address), self.workspace.document.saved.get(address)
+        if value != saved:
+            lines.append(tr("Saved: {value}").format(value=self.text(address, saved)))
+        if value is not None and self.in_units(address, value) != value:
+            entered = show_value(file.schema.parameters[address[0]], value, secrets=self.workspace.secrets)
+            lines.append(tr("Entered as {value}").format(value=entered))
+        return "\n".join(lines)
+
+    # -- looks -----------------------------------------------------------------
+
+    def row_looks(self, addresses: Collection[Address]) -> dict[Address, CellLook]:
+        """Return the looks of the cells of one parameter."""
+        file = self.workspace.file
+        there = [a for a in addresses if self.exists(a)]
+        active = [a for a in there if file.get(a) is not None and file.evaluation.state(a).is_active]
+        unlike = unlike_axes(file, active) if len(active) > 1 else set()
+        absent = CellLook("absent")
+        looks = dict.fromkeys(addresses, absent)
+        looks |= {a: self._look(a, a in unlike) for a in there}
+        return looks
+
+    def _look(self, address: Address, is_unlike: bool) -> CellLook:
+        file = self.workspace.file
+        parameter, value = file.schema.parameters[address[0]], file.get(address)
+        look = CellLook("not set" if value is None else "value")
+        look.is_changed = value != self.workspace.document.saved.get(address)
+        look.is_inactive = not file.evaluation.state(address).is_active
+        look.is_locked = parameter.access == "read"
+        look.severity = self.worst.get(address, "")
+        look.is_unlike = is_unlike
+        look.has_note = bool(value_note(file, address))
+        if value is None:
+            return look
+        look.is_own = not file.is_default(address)
+        look.is_number = parameter.type in ("real", "integer", "format") and not parameter.choices
+        if parameter.secret and not self.workspace.secrets:
+            look.text = self.text(address, value)
+        elif parameter.bits and isinstance(value.value, int):
+            look.text = labels_of_word(parameter, value.value)
+            look.unit = f"0x{value.value:X}" if value.value >= 0 else str(value.value)
+            short = short_labels(tuple(bit.label for bit in parameter.bits))
+            look.short = ", ".join(short.get(name, name) for name in look.text.split(", "))
+        else:
+            here = self.in_units(address, value)
+            assert here is not None
+            plain = show_value(parameter, Value(here.value, ""), secrets=True)
+            look.text = grouped(plain) if look.is_number else plain.replace("\n", " ⏎ ")
+            look.unit = shown(here.unit)
+            if parameter.choices:
+                look.short = short_labels(tuple(c.label for c in parameter.choices)).get(plain, "")
+        used = self.effective.get(address)
+        if used is not None:
+            look.text += f" → {self.text(address, used)}"
+        return look

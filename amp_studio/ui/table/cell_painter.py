@@ -1,0 +1,195 @@
+"""Paints a cell of the table. Nothing is asked of the file here: a frame of a scrolling table has 16 ms for all cells."""
+
+from __future__ import annotations
+
+from PySide6.QtCore import QPoint, QRect, QRectF, Qt
+from PySide6.QtGui import QBrush, QColor, QFont, QFontMetricsF, QPainter, QPen
+
+from amp_studio.ui.base.theme import SMALL_ICON, Token, colour, font, is_dark, paint_icon
+
+from .cell_look import CellLook
+
+_SEVERITIES: dict[str, tuple[Token, Token, str]] = {
+    "error": ("error", "errorbg", "x-circle-fill"),
+    "warning": ("warn", "warnbg", "warning-fill"),
+    "advice": ("rec", "recbg", "lightbulb-fill"),
+}
+_INKS: tuple[Token, ...] = (
+    "grid", "panel", "hover", "selbg", "selidle", "sel", "edge", "text", "dim", "line", "line2", "chg",
+    "error", "errorbg", "warn", "warnbg", "rec", "recbg",
+)  # fmt: skip
+_ASIDE = 8
+"""Room at both ends of a cell."""
+_RIGHT, _LEFT = (
+    Qt.AlignmentFlag.AlignRight | Qt.AlignmentFlag.AlignVCenter,
+    Qt.AlignmentFlag.AlignLeft | Qt.AlignmentFlag.AlignVCenter,
+)
+_NAMES = 44
+"""Room that the names of a mask have at least, or its number is left out."""
+_MOST_REMEMBERED = 20_000
+
+
+class CellPainter:
+    """Fonts, colours and measured texts of one table."""
+
+    def __init__(self) -> None:
+        self.unit_slot = 0
+        """Width of the slot of units: that of the widest unit of the view."""
+        self.is_active = True
+        """Whether the table has the focus."""
+        self._own, self._plain, self._small = font("text", own=True), font("text"), font("small")
+        self._italic = QFont(self._plain)
+        self._italic.setItalic(True)
+        self._metrics = {id(f): QFontMetricsF(f) for f in (self._own, self._plain, self._small, self._italic)}
+        self._widths: dict[tuple[int, str], float] = {}
+        self._inks: dict[Token, QColor] = {}
+        self._is_dark: bool | None = None
+        self.take_colours()
+
+    def take_colours(self) -> None:
+        """Take the colours of the present theme, where it is another one; asked before each frame."""
+        if self._is_dark == is_dark():
+            return
+        self._is_dark = is_dark()
+        self._inks = {token: colour(token) for token in _INKS}
+        self._hatch = QBrush(self._inks["line2"], Qt.BrushStyle.BDiagPattern)
+        self._dots = QPen(self._inks["dim"], 1, Qt.PenStyle.DotLine)
+
+    def unit_width(self, unit: str) -> float:
+        """Return the width of a unit."""
+        return self._width(self._small, unit)
+
+    def _width(self, letters: QFont, text: str) -> float:
+        key = (id(letters), text)
+        found = self._widths.get(key)
+        if found is None:
+            if len(self._widths) > _MOST_REMEMBERED:
+                self._widths.clear()
+            found = self._widths[key] = self._metrics[id(letters)].horizontalAdvance(text)
+        return found
+
+    # -- one cell ----------------------------------------------------------------
+
+    def ground(self, painter: QPainter, place: QRect, ink: Token) -> None:
+        """Paint a cell that has no value: of another kind of instance, or the head of a section."""
+        painter.fillRect(place, self._inks[ink])
+
+    def grid(self, painter: QPainter, place: QRect, *, is_section: bool = False) -> None:
+        """Paint the lines below and right of a cell."""
+        line = self._inks["grid"]
+        painter.fillRect(place.left(), place.bottom(), place.width(), 1, line)
+        if not is_section:
+            painter.fillRect(place.right(), place.top(), 1, place.height(), line)
+
+    def paint(
+        self, painter: QPainter, place: QRect, look: CellLook, *, is_selected: bool, is_hovered: bool
+    ) -> None:
+        """Paint a cell: ground, tint, hatch, bar, icon, marks, value, unit."""
+        inks = self._inks
+        if look.kind == "absent":
+            painter.fillRect(place, inks["panel"])
+            return
+        severity = _SEVERITIES.get(look.severity)
+        if is_selected:
+            painter.fillRect(place, inks["selbg" if self.is_active else "selidle"])
+        elif severity:
+            painter.fillRect(place, inks[severity[1]])
+        elif is_hovered:
+            painter.fillRect(place, inks["hover"])
+        if look.is_inactive:
+            painter.setBrushOrigin(place.topLeft())
+            painter.fillRect(place, self._hatch)
+        if look.is_changed:
+            painter.fillRect(place.left(), place.top(), 3, place.height() - 1, inks["chg"])
+        inner = place.adjusted(_ASIDE, 0, -_ASIDE, -1)
+        if severity:
+            self._icon(painter, inner, severity[2], severity[0])
+        if look.is_locked:
+            self._icon(painter, inner, "lock-simple-fill", "dim")
+        if look.has_note:
+            self._icon(painter, inner, "note-fill", "dim")
+        if look.kind == "not set":
+            painter.setFont(self._italic)
+            painter.setPen(inks["dim"])
+            painter.drawText(inner, _RIGHT, self.not_set)
+        elif look.is_number:
+            self._number(painter, inner, look)
+        else:
+            self._words(painter, inner, look)
+
+    not_set = "not set"
+    """What is painted where there is no value, in the language of the window."""
+
+    def _icon(self, painter: QPainter, inner: QRect, name: str, ink: Token) -> None:
+        top = inner.center().y() - SMALL_ICON // 2 + 1
+        paint_icon(painter, QRect(inner.left(), top, SMALL_ICON, SMALL_ICON), name, self._inks[ink])
+        inner.setLeft(inner.left() + SMALL_ICON + 3)
+
+    def _number(self, painter: QPainter, inner: QRect, look: CellLook) -> None:
+        slot, letters = float(self.unit_slot), self._own if look.is_own else self._plain
+        room = inner.width() - (slot + 4 if slot else 0)
+        text, width = look.text, self._width(letters, look.text)
+        if width > room:  # digits are worth more than units that are in line
+            slot = self._width(self._small, look.unit)
+            room = inner.width() - (slot + 4 if slot else 0)
+        if width > room and width <= inner.width():
+            slot, room = 0, inner.width()
+        elif width > room:
+            text = self._metrics[id(letters)].elidedText(text, Qt.TextElideMode.ElideMiddle, room)
+            width = self._width(letters, text)
+        if look.unit and slot:
+            painter.setFont(self._small)
+            painter.setPen(self._inks["dim"])
+            left = round(inner.right() + 1 - slot)
+            painter.drawText(QRect(left, inner.top(), round(slot) + _ASIDE, inner.height()), _LEFT, look.unit)
+        painter.setFont(letters)
+        painter.setPen(self._inks["text" if look.is_own else "dim"])
+        painter.drawText(QRect(inner.left(), inner.top(), round(room), inner.height()), _RIGHT, text)
+        if look.is_unlike:
+            self._underline(painter, inner.left() + room - width, width, inner)
+
+    def _words(self, painter: QPainter, inner: QRect, look: CellLook) -> None:
+        letters = self._own if look.is_own else self._plain
+        room = float(inner.width())
+        number = self._width(self._small, look.unit) + 8 if look.unit else 0.0
+        if number and room - number >= min(_NAMES, self._width(letters, look.short or look.text)):
+            room -= number  # a mask: names, and its number where both have room
+            painter.setFont(self._small)
+            painter.setPen(self._inks["dim"])
+            painter.drawText(inner, _RIGHT, look.unit)
+        text, width = look.text, self._width(letters, look.text)
+        if width > room and look.short:
+            text, width = look.short, self._width(letters, look.short)
+        if width > room:
+            text = self._metrics[id(letters)].elidedText(text, Qt.TextElideMode.ElideMiddle, room)
+            width = self._width(letters, text)
+        painter.setFont(letters)
+        painter.setPen(self._inks["text" if look.is_own else "dim"])
+        painter.drawText(inner, _LEFT, text)
+        if look.is_unlike:
+            self._underline(painter, inner.left(), width, inner)
+
+    def _underline(self, painter: QPainter, left: float, width: float, inner: QRect) -> None:
+        painter.setPen(self._dots)
+        y = inner.center().y() + 8
+        painter.drawLine(QPoint(round(left), y), QPoint(round(left + width), y))
+
+    # -- over the cells ------------------------------------------------------------
+
+    def outline(self, painter: QPainter, place: QRect, severity: str) -> None:
+        """Paint the outline of a cell that is part of the selected finding."""
+        painter.setPen(QPen(self._inks[_SEVERITIES[severity][0] if severity in _SEVERITIES else "edge"], 1))
+        painter.drawRect(QRectF(place).adjusted(0.5, 0.5, -1.5, -1.5))
+
+    def current(self, painter: QPainter, place: QRect) -> None:
+        """Paint the border of the current cell."""
+        painter.setPen(QPen(self._inks["sel" if self.is_active else "edge"], 2))
+        painter.drawRect(QRectF(place).adjusted(1, 1, -2, -2))
+
+    def range_edge(self, painter: QPainter, place: QRect, handle: QRect) -> None:
+        """Paint the edge of the selected range, and its fill handle."""
+        painter.setPen(QPen(self._inks["sel" if self.is_active else "edge"], 1))
+        painter.drawRect(place.adjusted(0, 0, -1, -1))
+        if not handle.isNull():
+            painter.fillRect(handle.adjusted(-1, -1, 1, 1), self._inks["panel"])
+            painter.fillRect(handle, self._inks["sel"])

@@ -1,0 +1,287 @@
+"""The sections of the parameter panel as one page of HTML: Calculated, Rules, Help, Where else, History, Facts."""
+
+from __future__ import annotations
+
+import html
+from collections.abc import Callable, Iterable, Iterator
+
+from amp_studio.files import axis_letter
+from amp_studio.files.local_time import day_and_time, with_days_and_times
+from amp_studio.files.notes import group_note, value_note
+from amp_studio.files.storage_text import storage_text
+from amp_studio.report import GRADES, facts, help_parts, tables_of
+from amp_studio.report.wording import severity_name, state_name
+from amp_studio.schema import Address, Value, limits, real_value, same_value, show_value, shown
+from amp_studio.schema.bit_fields import labels_of_word
+from amp_studio.ui.base.hazard import hazard_html
+from amp_studio.ui.base.theme import colour, icon_html, severity_html
+from amp_studio.ui.base.translated import Translated, worded
+from amp_studio.ui.base.workspace import Workspace
+from amp_studio.ui.forms.pages import drawn, link
+from amp_studio.validate import NOT_SET, Finding, calculators, rule_title
+
+USE, FOLD, DOWNLOAD, CALCULATE, MESSAGE = "use:", "fold:", "download:", "calculate:", "message:"
+"""What a link begins with that is no parameter: take a calculated value, open a section, read the last download, calculate,
+show a message of the control."""
+
+
+_RULES = 4
+"""Rules that are met and shown before somebody asks for all."""
+
+
+def hex_text(word: int) -> str:
+    """Return a word as the table has it beside the names of its bits."""
+    return f"0x{word:X}" if word >= 0 else str(word)
+
+
+class DetailPage(Translated):
+    """Writes the page of one address; what it needs besides the file is set by the panel."""
+
+    def __init__(self, workspace: Workspace) -> None:
+        self._workspace = workspace
+        self.others: Callable[[], Iterable[Workspace]] = tuple
+        """The other open files."""
+        self.opened: set[str] = set()
+        """Sections that are unfolded."""
+        self.last_download: tuple[str, Value | None] | None = None
+        """When the last download was, and the value it had; None while nobody has asked."""
+        self.may_have_download = False
+
+    def write(self, address: Address) -> str:
+        """Return the page of an address."""
+        dim, line = colour("dim").name(), colour("line").name()
+        parts = [self._value(address)]
+        for title, text in self._sections(address):
+            head = (
+                f'<p style="color:{dim}; margin-top:4px; margin-bottom:3px"><b><small>{title}</small></b></p>'
+            )
+            rule = f'<p style="font-size:4px; margin:0">&nbsp;</p><table width="100%" cellspacing="0" cellpadding="0"><tr><td style="background-color:{line}; font-size:1px">&nbsp;</td></tr></table>'
+            parts.append(f"{rule}{head}{text}")
+        return f"<html><style>a {{ color: {colour('sel').name()}; }} p {{ margin-top:0; margin-bottom:6px; }}</style>{''.join(parts)}</html>"
+
+    def _sections(self, address: Address) -> Iterator[tuple[str, str]]:
+        if notes := self._notes(address):
+            yield self.tr("Notes"), notes
+        if calculated := self._calculated(address):
+            yield self.tr("Calculated"), calculated
+        yield self._rules(address)
+        yield self.tr("Help"), self._help(address)
+        yield self.tr("Where else"), self._where_else(address)
+        yield self.tr("History"), self._history(address)
+        yield self._facts(address)
+
+    # -- the value -------------------------------------------------------------
+
+    def shown(self, address: Address, value: Value | None, workspace: Workspace | None = None) -> str:
+        """Return a value; one in units whose size another parameter sets with its length or angle: 1000 BLU = 1 mm."""
+        file = (workspace or self._workspace).file
+        parameter = file.schema.parameters[address[0]]
+        if parameter.bits and value is not None and isinstance(value.value, int) and not parameter.secret:
+            return html.escape(f"{labels_of_word(parameter, value.value)} ({hex_text(value.value)})")
+        text = (
+            self.tr("not set")
+            if value is None
+            else show_value(parameter, value, secrets=self._workspace.secrets)
+        )
+        real = None if parameter.secret else real_value(file.evaluation, address, value)
+        return html.escape(f"{text} = {show_value(parameter, real)}" if real else text)
+
+    def _value(self, address: Address) -> str:
+        file, lines = self._workspace.file, []
+        if (used := self._workspace.effective().get(address)) is not None:
+            lines.append(
+                f"<b>{self.shown(address, used)}</b> <small>{self.tr('effective value in the control')}</small>"
+            )
+        if stored := storage_text(file, address):
+            lines.append(f"{html.escape(stored)} <small>{self.tr('as stored in the control')}</small>")
+        state = file.evaluation.state(address)
+        if not state.is_active:
+            page = self.tr(" (page {page})").format(page=state.page) if state.page else ""
+            lines.append(
+                f"<i>{worded(state_name(state.state)).capitalize()}: {html.escape(state.why)}{page}.</i>"
+            )
+        if allowed := self._allowed(address):
+            lines.append(f"{self.tr('Allowed here:')} <b>{html.escape(allowed)}</b>")
+        return f"<p>{'<br>'.join(lines)}</p>" if lines else ""
+
+    def _allowed(self, address: Address) -> str:
+        file = self._workspace.file
+        if file.schema.parameters[address[0]].choices:
+            return ""
+        unit = self._workspace.typed_unit(address)
+        found = limits(file.evaluation, address, unit)
+        if found is None:
+            return self.tr("no bounds printed, in {shown}").format(shown=shown(unit)) if unit else ""
+        sources = [s for s in (found.low_from, found.high_from) if s]
+        text = worded(found.text()) + "".join(
+            self.tr(" (set by {name})").format(name=file.machine_schema.label(s)) for s in sources
+        )
+        return text + (
+            self.tr(" — no range in degrees is printed; the metric numbers are used")
+            if found.borrowed
+            else ""
+        )
+
+    # -- sections --------------------------------------------------------------
+
+    def findings(self, address: Address) -> list[Finding]:
+        """Return what is wrong with an address."""
+        return [f for f in self._workspace.findings_of(address) if f.rule != NOT_SET]
+
+    def _notes(self, address: Address) -> str:
+        """Return what people noted about a value and about its group."""
+        file = self._workspace.file
+        group = file.schema.group_of[address[0]]
+        found = (("", value_note(file, address)), (group.section or group.name, group_note(file, group.key)))
+        return "".join(
+            f"<p>{html.escape(text).replace(chr(10), '<br>')}{f' <small>{html.escape(about)}</small>' if about else ''}</p>"
+            for about, text in found
+            if text
+        )
+
+    def _calculated(self, address: Address) -> str:
+        """Return the values that the suggested fixes give this parameter, and the way to its formulas."""
+        file, lines = self._workspace.file, []
+        for n, finding in enumerate(self.findings(address)):
+            for setting in finding.fix:
+                if setting.address == address:
+                    use = f' <a href="{USE}{n}">{self.tr("Use")}</a>' if self._workspace.may_edit else ""
+                    title = html.escape(rule_title(self._workspace.validator, finding))
+                    lines.append(
+                        f"<p><b>{self.shown(address, setting.value)}</b> <small>{title}</small>{use}</p>"
+                    )
+        if file.schema.parameters[address[0]].formulas:
+            lines.append(f'<p><a href="{CALCULATE}">{self.tr("Calculate…")}</a></p>')
+        return "".join(lines)
+
+    def _rules(self, address: Address) -> tuple[str, str]:
+        """Return the title and the rules: those that are not met with what is wrong, then those that are."""
+        workspace, lines = self._workspace, []
+        dim = colour("dim").name()
+        broken = self.findings(address)
+        for finding in broken:
+            cited = (
+                f' <span style="color:{dim}">{html.escape(worded(finding.cited))}</span>'
+                if finding.cited
+                else ""
+            )
+            mark = f"{severity_html(finding.severity)} <b>{worded(severity_name(finding.severity)).capitalize()}:</b>"
+            lines.append(f"<p>{mark} {html.escape(finding.message)}{cited}</p>")
+        rules = workspace.validator.rules_of(address)
+        unmet = {finding.rule for finding in broken}
+        met = [rule for rule in rules if rule.id not in unmet]
+        shown_rules = met if "rules" in self.opened or len(met) <= _RULES else met[:_RULES]
+        for rule in shown_rules:
+            page = f'<span style="color:{dim}">{html.escape(worded(rule.cited))}</span>'
+            lines.append(f"<p>{icon_html('check', 'text')} {html.escape(rule.title)} {page}</p>")
+        if len(shown_rules) < len(met):
+            more = self.tr("{number} more are met").format(number=len(met) - len(shown_rules))
+            lines.append(f'<p><a href="{FOLD}rules">{more}</a></p>')
+        title = self.tr("Rules")
+        if rules or broken:
+            count = self.tr("{unmet} of {number} not met").format(
+                unmet=len(unmet), number=len({r.id for r in rules} | unmet)
+            )
+            title += f" &nbsp; {count}"
+        return title, "".join(lines) or f"<p>{self.tr('No rule uses this parameter.')}</p>"
+
+    def _help(self, address: Address) -> str:
+        schema = self._workspace.file.schema
+        parameter = schema.parameters[address[0]]
+        lines = []
+        for title, text in help_parts(schema, parameter):
+            if title in GRADES:
+                lines.append(hazard_html(GRADES[title], text))
+                continue
+            related = [link(schema, r) for r in parameter.help.related if r in schema.parameters]
+            body = ", ".join(related) if title == "Related" else html.escape(text)
+            lines.append(f"<p><b>{worded(title)}</b><br>{body}</p>")
+        if messages := schema.messages_of(parameter.id):
+            names = (f'<a href="{MESSAGE}{m.id}">{html.escape(m.name)}</a>' for m in messages)
+            lines.append(f"<p><b>{self.tr('Messages of the control')}</b><br>{'<br>'.join(names)}</p>")
+        if parameter.formulas:
+            known = calculators(schema.family.family)
+            formulas = (
+                f"{known[f].title}: {known[f].description.partition(chr(10))[0]}" for f in parameter.formulas
+            )
+            lines.append(
+                f"<p><b>{self.tr('Formulas')}</b></p>" + "".join(f"<p>{html.escape(t)}</p>" for t in formulas)
+            )
+        lines += [drawn(table) for table in tables_of(schema, parameter)]
+        lines.append(
+            f"<p><small>{html.escape(schema.family.title)}, {worded(f'page {schema.page(address)}')}</small></p>"
+        )
+        return "".join(lines)
+
+    def _where_else(self, address: Address) -> str:
+        """Return the value on disk, in the control, at the last download and in the other open files."""
+        workspace, value = self._workspace, self._workspace.file.get(address)
+        rows: list[tuple[str, Value | None]] = [(self.tr("Saved"), workspace.document.saved.get(address))]
+        if workspace.control is not None:
+            values, when = workspace.control
+            rows.append(
+                (
+                    self.tr("In the control, {time}").format(time=with_days_and_times(when)),
+                    values.get(address),
+                )
+            )
+        if self.last_download is not None:
+            rows.append(
+                (self.tr("Last download, {time}").format(time=self.last_download[0]), self.last_download[1])
+            )
+        cells = [(name, self._compared(address, each, value)) for name, each in rows]
+        if self.may_have_download and self.last_download is None:
+            cells.append((self.tr("Last download"), f'<a href="{DOWNLOAD}">{self.tr("Show")}</a>'))
+        found = ((html.escape(other.path.stem), self._in_other(other, address)) for other in self.others())
+        cells += [(name, text) for name, text in found if text]
+        dim = colour("dim").name()
+        return "<table cellpadding=2>" + "".join(
+            f'<tr><td style="color:{dim}">{name}&nbsp;&nbsp;</td><td>{text}</td></tr>' for name, text in cells
+        ) + "</table><p></p>"  # fmt: skip
+
+    def _compared(self, address: Address, found: Value | None, value: Value | None) -> str:
+        text = self.shown(address, found)
+        return f"<b>{text}</b>" if not same_value(found, value) else text
+
+    def _in_other(self, other: Workspace, address: Address) -> str:
+        """Return the values of this parameter in another open file of the family, with the letters of its axes."""
+        parameter = other.file.schema.parameters.get(address[0])
+        if parameter is None or other.file.schema.family.family != self._workspace.file.schema.family.family:
+            return ""
+        found = [
+            (a, v)
+            for a in other.file.machine_schema.instances(parameter)[:8]
+            if (v := other.file.get((address[0], a)))
+        ]
+        texts = (
+            f"{axis_letter(other.file, a) or a} {self.shown((address[0], a), v, other)}".strip()
+            for a, v in found
+        )
+        return ", ".join(texts)
+
+    def _history(self, address: Address) -> str:
+        lines = [
+            f"<p><small>{day_and_time(entry.when)}, {html.escape(entry.who)}, {html.escape(entry.how)}</small>"
+            f"<br>{html.escape(entry.old or self.tr('not set'))} → {html.escape(entry.new or self.tr('not set'))}</p>"
+            for entry in self._workspace.document.history(address)
+        ]
+        label = html.escape(self._workspace.file.machine_schema.label(address))
+        return "".join(lines) or f"<p>{self.tr('No saved changes of {name} yet.').format(name=label)}</p>"
+
+    def _facts(self, address: Address) -> tuple[str, str]:
+        schema, machine = self._workspace.file.schema, self._workspace.file.machine
+        found = facts(schema, schema.parameters[address[0]], machine)
+        is_open = "facts" in self.opened
+        ink = colour("dim").name()
+        arrow = icon_html("caret-down" if is_open else "caret-right", "dim")
+        title = (
+            f'<a href="{FOLD}facts" style="color:{ink}; text-decoration:none">{arrow} {self.tr("Facts")}</a>'
+        )
+        if not is_open:
+            brief = ", ".join(worded(text) for name, text in found if name in ("Takes effect", "Access"))
+            return title, f'<p style="color:{ink}">{html.escape(brief)}</p>'
+        rows = "".join(
+            f'<tr><td style="color:{ink}">{html.escape(worded(k))}&nbsp;&nbsp;</td><td>{html.escape(v)}</td></tr>'
+            for k, v in found
+        )
+        return title, f"<table cellpadding=2>{rows}</table>"

@@ -1,0 +1,272 @@
+"""The right side: the selected parameter with its value in its range, rules, help, where else it has a value, and facts."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable
+
+from PySide6.QtCore import Qt, QTimer, QUrl, Signal
+from PySide6.QtGui import QResizeEvent, QShowEvent
+from PySide6.QtWidgets import QBoxLayout, QHBoxLayout, QLabel, QTextBrowser, QVBoxLayout, QWidget
+
+from amp_studio.files import axis_letter, real_path, shown_axes
+from amp_studio.schema import Address, Value, convert, limits
+from amp_studio.ui.base.task import Task
+from amp_studio.ui.base.theme import GAP2, GAP3, font, scheme
+from amp_studio.ui.base.workspace import Workspace
+from amp_studio.ui.forms.pages import LINK
+from amp_studio.ui.forms.segment import Segment
+from amp_studio.validate import NOT_SET, SEVERITIES
+
+from .detail_page import CALCULATE, DOWNLOAD, FOLD, MESSAGE, USE, DetailPage, hex_text
+from .range_bar import RangeBar, ValueInRange
+from .word_panel import WordPanel
+
+_MOST_AXES = 8
+"""Axes that the segment has room for; the others are chosen in the table."""
+_TWO_COLUMNS, _SIDE_WIDTH = 600, 340
+"""Width from which the value is beside its page, below the table of a narrow window, and its width there."""
+_REST_MS = 150
+"""Milliseconds that a selection must rest before the rules are asked which values they allow."""
+
+
+class DetailPanel(QWidget):
+    """Shows one address; links lead to other parameters."""
+
+    linked = Signal(str)
+    """A parameter id that was clicked."""
+    axis_wanted = Signal(object)
+    """The same parameter of another axis is to be selected."""
+    message_wanted = Signal(str)
+    """The id of a message of the control that was clicked."""
+    calculator_wanted = Signal()
+    """The formulas of the parameter are to be opened."""
+
+    def __init__(self, workspace: Workspace, commit: Callable[[Address, str], bool]) -> None:
+        super().__init__()
+        self._workspace = workspace
+        self._address: Address | None = None
+        self._is_stale = False
+        self._writer = DetailPage(workspace)
+        self.head = self._make_head()
+        self.axes = Segment(self.tr("Axis"))
+        self.axes.chosen.connect(self._choose_axis)
+        self.value = QLabel()
+        self.value.setFont(font("title"))
+        self.value.setAccessibleName(self.tr("Value"))
+        self.value.setTextInteractionFlags(Qt.TextInteractionFlag.TextSelectableByMouse)
+        self.bar = RangeBar()
+        self.page = QTextBrowser()
+        self.page.setOpenLinks(False)
+        self.page.setAccessibleName(self.tr("Parameter"))
+        self.page.document().setDocumentMargin(GAP3)
+        self.page.anchorClicked.connect(self._follow)
+        self.word = WordPanel(workspace, commit)
+        top = QHBoxLayout()
+        top.setContentsMargins(GAP3, GAP2, GAP3, 0)
+        top.addWidget(self.axes)
+        top.addStretch(1)
+        top.addWidget(self.value)
+        side = QVBoxLayout()
+        side.addLayout(top)
+        side.addWidget(self.bar)
+        side.addWidget(self.word)
+        side.addStretch()
+        self._side = QWidget()
+        side.setContentsMargins(0, 0, 0, 0)
+        self._side.setLayout(side)
+        self._rows = QBoxLayout(QBoxLayout.Direction.TopToBottom, self)
+        self._rows.setContentsMargins(0, 0, 0, 0)
+        self._rows.setSpacing(GAP2)
+        self._rows.addWidget(self._side)
+        self._rows.addWidget(self.page, 1)
+        self.setFocusProxy(self.page)
+        self._rest = QTimer(self)
+        self._rest.setSingleShot(True)
+        self._rest.setInterval(_REST_MS)
+        self._rest.timeout.connect(self._ask_rules)
+        workspace.changed.connect(self._show)
+        workspace.changed.connect(lambda _: self.word.refresh())
+        workspace.saved.connect(self._show)
+        scheme().changed.connect(self._show)
+        self._show()
+
+    def _make_head(self) -> QWidget:
+        head = QWidget()
+        self.number, self.name = QLabel(), QLabel()
+        self.number.setForegroundRole(self.number.palette().ColorRole.PlaceholderText)
+        self.name.setFont(font("text", own=True))
+        self.tools = QHBoxLayout()
+        row = QHBoxLayout(head)
+        row.setContentsMargins(GAP3, 0, GAP2, 0)
+        row.setSpacing(GAP2)
+        row.addWidget(self.number)
+        row.addWidget(self.name, 1)
+        row.addLayout(self.tools)
+        return head
+
+    def take_others(self, others: Callable[[], Iterable[Workspace]]) -> None:
+        """Show the values of these open files too."""
+        self._writer.others = others
+
+    def show_address(self, address: Address | None) -> None:
+        """Show an address, or nothing."""
+        if address != self._address:
+            self._writer.last_download = None
+        self._address = address
+        self.word.show_address(address)
+        self._show()
+
+    def resizeEvent(self, event: QResizeEvent) -> None:
+        super().resizeEvent(event)
+        is_wide = event.size().width() >= _TWO_COLUMNS
+        self._rows.setDirection(
+            QBoxLayout.Direction.LeftToRight if is_wide else QBoxLayout.Direction.TopToBottom
+        )
+        self._side.setMaximumWidth(_SIDE_WIDTH if is_wide else 16_777_215)
+
+    def showEvent(self, event: QShowEvent) -> None:
+        super().showEvent(event)
+        if self._is_stale:
+            self._show()
+
+    def _show(self, *_: object) -> None:
+        self._is_stale = not self.isVisible()
+        if self._is_stale:  # written when somebody can see it
+            return
+        address, file = self._address, self._workspace.file
+        self._rest.stop()
+        if address is None:
+            self.number.clear()
+            self.name.setText(self.tr("Parameter"))
+            self.value.clear()
+            self.axes.hide()
+            self.bar.show_range(None)
+            self.page.clear()
+            self.page.setProperty("written", "")
+            return
+        number = file.machine_schema.number(address)
+        self.number.setText(number or "")
+        self.number.setVisible(bool(number))
+        self.name.setText(file.schema.parameters[address[0]].name)
+        self.name.setToolTip(file.machine_schema.label(address))
+        value, has_boxes = file.get(address), bool(file.schema.parameters[address[0]].bits)
+        word = value.value if has_boxes and value is not None else None
+        # The names of the bits are on the check boxes below.
+        self.value.setText(hex_text(word) if isinstance(word, int) else self._writer.shown(address, value))
+        self._show_axes(address)
+        self.bar.show_range(self._in_range(address))
+        if self.bar.isVisibleTo(self):
+            self._rest.start()
+        self._writer.may_have_download = real_path(self._workspace.path).with_name("exchanges.jsonl").exists()
+        text = self._writer.write(address)
+        if self.page.property("written") != text:  # a page that did not change stays where it was scrolled to
+            self.page.setProperty("written", text)
+            self.page.setHtml(text)
+
+    def _show_axes(self, address: Address) -> None:
+        file = self._workspace.file
+        axes = shown_axes(file) if file.evaluation.scope(address) == "axis" else ()
+        self.axes.setVisible(1 < len(axes) <= _MOST_AXES)
+        if 1 < len(axes) <= _MOST_AXES:
+            self.axes.offer([(axis, axis_letter(file, axis) or axis, "") for axis in axes])
+            self.axes.show_choice(address[1])
+
+    def _choose_axis(self, axis: str) -> None:
+        if self._address is not None:
+            self.axis_wanted.emit((self._address[0], axis))
+
+    # -- the bar -----------------------------------------------------------------
+
+    def _in_range(self, address: Address) -> ValueInRange | None:
+        """Return the value in its range; None where there is no range with two ends, and for choices, words and secrets."""
+        file = self._workspace.file
+        parameter = file.schema.parameters[address[0]]
+        if parameter.choices or parameter.secret or parameter.type not in ("integer", "real"):
+            return None
+        unit = self._workspace.typed_unit(address)
+        found = limits(file.evaluation, address, unit)
+        if found is None or found.low is None or found.high is None or found.low >= found.high:
+            return None
+        severities = {
+            f.severity
+            for f in self._workspace.findings_of(address)
+            if f.rule != NOT_SET and address in f.causes
+        }
+        worst = next((severity for severity in SEVERITIES if severity in severities), "")
+        value, default = (_number(v, unit) for v in (file.get(address), file.default(address)))
+        return ValueInRange(found.low, found.high, unit, value, default, worst)
+
+    def _ask_rules(self) -> None:
+        """Ask in the background which values the rules allow; an answer for what is no longer shown is not used."""
+        address = self._address
+        found = self._in_range(address) if address else None
+        if address is None or found is None:
+            return
+        search = self._workspace.validator.allowed(address, found.unit)
+        near = [x for x in (found.value, found.default) if x is not None]
+        task = Task(lambda *_: (address, found, search.around(found.low, found.high, near)))
+        task.done.connect(self._take_allowed)
+        task.begin()
+
+    def _take_allowed(self, answer: tuple[Address, ValueInRange, tuple[float, float] | None]) -> None:
+        address, found, allowed = answer
+        if self._address == address and self._in_range(address) == found:
+            self.bar.show_allowed(allowed)
+
+    # -- links -------------------------------------------------------------------
+
+    def _follow(self, url: QUrl) -> None:
+        text, address = url.toString(), self._address
+        if text.startswith(FOLD):
+            self._writer.opened ^= {text.removeprefix(FOLD)}
+            self._show()
+        elif text.startswith(CALCULATE):
+            self.calculator_wanted.emit()
+        elif text.startswith(MESSAGE):
+            self.message_wanted.emit(text.removeprefix(MESSAGE))
+        elif text.startswith(USE) and address is not None:
+            self._use(address, int(text.removeprefix(USE)))
+        elif text.startswith(DOWNLOAD) and address is not None:
+            self._read_download(address)
+        else:
+            self.linked.emit(text.removeprefix(LINK))
+
+    def _use(self, address: Address, place: int) -> None:
+        """Take the value that a fix gives this parameter, and only that one."""
+        finding = self._writer.findings(address)[place]
+        wanted = {setting.address: setting.value for setting in finding.fix if setting.address == address}
+        self._workspace.edit(self.tr("Use the calculated value"), wanted)
+
+    def _read_download(self, address: Address) -> None:
+        from amp_studio.files.local_time import day_and_time
+        from amp_studio.transfer.client.last_download import NoDownloadError, last_download
+
+        file, path = self._workspace.file.copy(), self._workspace.path
+
+        not_known = self.tr("not known")
+
+        def work(*_: object) -> tuple[Address, str, Value | None]:
+            try:
+                last = last_download(file, path)
+            except (NoDownloadError, OSError):
+                return address, not_known, None
+            return address, day_and_time(last.when), last.file.get(address)
+
+        task = Task(work)
+        task.done.connect(self._take_download)
+        task.begin()
+
+    def _take_download(self, answer: tuple[Address, str, Value | None]) -> None:
+        if self._address == answer[0]:
+            self._writer.last_download = answer[1:]
+            self._show()
+
+
+def _number(value: Value | None, unit: str) -> float | None:
+    """Return the number of a value in a unit; None for anything that is no number there."""
+    if value is None or isinstance(value.value, str | bool):
+        return None
+    try:
+        return convert(value.value, value.unit, unit) if unit and value.unit else float(value.value)
+    except (ValueError, KeyError):
+        return None

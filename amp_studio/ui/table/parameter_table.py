@@ -1,0 +1,398 @@
+"""The model of the parameter table: one row for each parameter, one column for each axis.
+
+A parameter with several instances that are not axes (gears, macro calls, processes) has one row for each, and so have the
+points of a table of an axis. Where several groups are shown each begins with a row that has its name and no values.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Any
+
+from PySide6.QtCore import QAbstractTableModel, QModelIndex, QPersistentModelIndex, Qt
+
+from amp_studio.files import axis_head, shown_axes
+from amp_studio.schema import Address, Parameter
+from amp_studio.schema.address import whole_of
+from amp_studio.ui.base.translated import worded
+from amp_studio.ui.base.workspace import Workspace
+
+from .cell_look import CellLook, ShownValues
+
+Index = QModelIndex | QPersistentModelIndex
+AddressRole = Qt.ItemDataRole.UserRole + 1
+CONTROL = ""
+"""The column of values that belong to no axis; every other column is an axis."""
+_LEFT = Qt.AlignmentFlag.AlignLeft | Qt.AlignmentFlag.AlignVCenter
+_RIGHT = Qt.AlignmentFlag.AlignRight | Qt.AlignmentFlag.AlignVCenter
+_READABLE = Qt.ItemFlag.ItemIsEnabled | Qt.ItemFlag.ItemIsSelectable
+_EDITABLE = _READABLE | Qt.ItemFlag.ItemIsEditable
+_FEWEST_A_SECTION = 2
+"""Rows that a section has at least on average; a search that finds one here and one there has none."""
+
+
+@dataclass(frozen=True, slots=True)
+class TableRow:
+    """One row: a parameter (or one part of it) with its axes, or one instance that belongs to no axis."""
+
+    parameter: Parameter
+    cells: dict[str, Address]
+    """Column -> address; empty for the head of a section."""
+    instance: str = ""
+    """The instance or part; empty where the columns show it and where there is only one."""
+    section: str = ""
+    """What the rows below are, for the head of a section, which has no values."""
+
+
+RowFilter = Callable[[TableRow, list[Address]], bool]
+"""Whether a row is shown, given it and its cells in the columns that are shown."""
+
+
+class ParameterTable(QAbstractTableModel):
+    """The parameters of one group or search with the values of the open file. Numbers and names are the row heads."""
+
+    def __init__(self, workspace: Workspace) -> None:
+        super().__init__()
+        self.workspace = workspace
+        self.rows: list[TableRow] = []
+        self.columns: list[str] = []
+        self.all_axes = False
+        self.hidden_rows = 0
+        self.asked: list[Parameter] = []
+        self.outlined: frozenset[Address] = frozenset()
+        """Cells of the selected finding that are not at fault."""
+        self.outline_severity = ""
+        self.values = ShownValues(workspace)
+        self._filter: RowFilter | None = None
+        self._unfiltered: list[list[Address]] | None = None
+        """What ``unfiltered`` returns, until rows or columns may be others."""
+        self._shows_commands = False
+        self._axis_heads: dict[str, tuple[str, str]] = {}
+        """Column -> its head, until a value changes."""
+        self._heads: dict[int, str] = {}
+        """TableRow -> its head, for the rows that are shown."""
+        self._numbers: dict[int, str] = {}
+        self._machine = ""
+        self._layouts: dict[str, list[TableRow]] = {}
+        self._needed: dict[str, None] | None = None
+        """The columns of the asked parameters, fitted or not."""
+        self._looks: dict[Address, CellLook] = {}
+        workspace.changed.connect(self._refresh)
+        workspace.saved.connect(self._forget_looks)
+        self.values.find_findings()
+
+    @property
+    def hidden_too(self) -> bool:
+        """Whether hidden parameters are shown too."""
+        return self.values.hidden_too
+
+    @hidden_too.setter
+    def hidden_too(self, hidden_too: bool) -> None:
+        self.values.hidden_too = hidden_too
+
+    # -- what is shown ---------------------------------------------------------
+
+    def show_parameters(self, parameters: list[Parameter]) -> None:
+        """Show these parameters, with the columns they need."""
+        self.asked, self._needed = parameters, None
+        self._lay_out(self._columns())
+
+    def show_again(self) -> None:
+        """Show the same parameters again after an option has changed."""
+        self._lay_out(self._columns())
+
+    def filter_rows(self, wanted: RowFilter | None) -> None:
+        """Show only the rows that pass; None shows all of them again."""
+        self._filter = wanted
+        self.show_again()
+
+    def unfiltered(self) -> list[list[Address]]:
+        """Return the values of each row that the list has without the filter, in the columns that are shown."""
+        if self._unfiltered is None:
+            here, exists = set(self.columns), self.values.exists
+            rows = (row for p in self.asked for row in self._layout(p))
+            cells = ([a for c, a in row.cells.items() if c in here and exists(a)] for row in rows)
+            self._unfiltered = [addresses for addresses in cells if addresses]
+        return self._unfiltered
+
+    def outline(self, addresses: frozenset[Address], severity: str) -> None:
+        """Outline the cells of the selected finding, in the colour of its severity."""
+        if (addresses, severity) != (self.outlined, self.outline_severity):
+            self.outlined, self.outline_severity = addresses, severity
+            self._repaint()
+
+    @property
+    def count(self) -> int:
+        """How many rows have values."""
+        return sum(not row.section for row in self.rows)
+
+    def _lay_out(self, columns: list[str], rows: list[TableRow] | None = None) -> None:
+        self.beginResetModel()
+        self.columns = columns
+        self.rows = self._rows(columns) if rows is None else rows
+        family = self.workspace.file.schema.family
+        effects = {id(e): e for row in self.rows for e in [row.parameter.effect or family.effect]}
+        self._shows_commands = any(e.level == "command" for e in effects.values())
+        self._forget_heads()
+        self._axis_heads.clear()
+        self._looks.clear()
+        self.endResetModel()
+
+    def _layout(self, parameter: Parameter) -> list[TableRow]:
+        """Return the rows of a parameter on this machine type."""
+        found = self._layouts.get(parameter.id)
+        if found is None:
+            here = self.workspace.file.machine_schema
+            layout, instances = here.layout(parameter), here.instances(parameter)
+            if layout and here.kin(layout.scope, "axis"):
+                parts: dict[str, dict[str, Address]] = {}
+                for i in instances:
+                    parts.setdefault(i.partition(".")[2], {})[whole_of(i)] = (parameter.id, i)
+                found = [TableRow(parameter, cells, part) for part, cells in parts.items()]
+            else:
+                found = [TableRow(parameter, {CONTROL: (parameter.id, i)}, i) for i in instances]
+            self._layouts[parameter.id] = found
+        return found
+
+    def _columns(self) -> list[str]:
+        file = self.workspace.file
+        if file.machine != self._machine:
+            self._machine, self._layouts, self._needed = file.machine, {}, None
+        if self._needed is None:
+            self._needed = dict.fromkeys(c for p in self.asked for row in self._layout(p) for c in row.cells)
+        columns = list(self._needed)
+        if not self.all_axes and file.schema.family.fits_axes:
+            shown = set(shown_axes(file))
+            columns = [c for c in columns if c == CONTROL or c in shown]
+        return sorted(columns, key=lambda column: column != CONTROL)
+
+    def _rows(self, columns: list[str]) -> list[TableRow]:
+        """Return the rows with at least one value that is not hidden, each group under its name."""
+        self._unfiltered = None
+        known = [row for p in self.asked for row in self._layout(p)]
+        exists, here = self.values.exists, set(columns)
+        shown = known
+        if not self.hidden_too:
+            shown = [row for row in known if any(c in here and exists(a) for c, a in row.cells.items())]
+        self.hidden_rows = len(known) - len(shown)
+        if self._filter is not None:
+            wanted = self._filter
+            shown = [row for row in shown if wanted(row, [a for c, a in row.cells.items() if c in here])]
+        return self._with_sections(shown)
+
+    def _with_sections(self, rows: list[TableRow]) -> list[TableRow]:
+        groups = self.workspace.file.schema.group_of
+        found: list[TableRow] = []
+        last, sections = None, 0
+        for row in rows:
+            group = groups[row.parameter.id]
+            if group is not last:
+                found.append(TableRow(row.parameter, {}, "", group.section or group.name))
+                last, sections = group, sections + 1
+            found.append(row)
+        return found if 1 < sections <= len(rows) / _FEWEST_A_SECTION else rows
+
+    @property
+    def shows_commands(self) -> bool:
+        """Whether the last column shows the command that makes the control read a value."""
+        return bool(self.columns) and self._shows_commands
+
+    def command(self, row: int) -> str:
+        """Return the command that makes the control read the values of a row."""
+        shown = self.rows[row]
+        effect = shown.parameter.effect or self.workspace.file.schema.family.effect
+        return effect.command or "" if effect.level == "command" and not shown.section else ""
+
+    def address_at(self, row: int, column: int) -> Address | None:
+        """Return the address a cell shows; None where the parameter has no such instance."""
+        if column >= len(self.columns):
+            return None
+        return self.rows[row].cells.get(self.columns[column])
+
+    def index_of(self, address: Address) -> QModelIndex:
+        """Return the cell of an address, invalid when it is not shown."""
+        for n, row in enumerate(self.rows):
+            if row.cells and row.parameter.id == address[0]:
+                for column, shown in row.cells.items():
+                    if shown == address and column in self.columns:
+                        return self.index(n, self.columns.index(column))
+        return QModelIndex()
+
+    def first_of(self, row: int) -> QModelIndex:
+        """Return the first cell of a row whose value exists, invalid when none does."""
+        for column in range(len(self.columns)):
+            address = self.address_at(row, column)
+            if address is not None and self.values.exists(address):
+                return self.index(row, column)
+        return QModelIndex()
+
+    # -- values as they are shown ----------------------------------------------
+
+    def look(self, row: int, column: int) -> CellLook | None:
+        """Return how a cell is painted; None where the parameter has no such instance."""
+        address = self.address_at(row, column)
+        if address is None:
+            return None
+        found = self._looks.get(address)
+        if found is None:
+            here = set(self.columns)
+            self._looks |= self.values.row_looks([a for c, a in self.rows[row].cells.items() if c in here])
+            found = self._looks[address]
+        return found
+
+    def cell_text(self, address: Address) -> str:
+        """Return the text of a cell for a person who does not see it: ``11 mm``, ``not set``, nothing where it does not exist."""
+        if not self.values.exists(address):
+            return ""
+        used = self.values.effective.get(address)
+        return self.shown_value(address) + ("" if used is None else f" → {self.values.text(address, used)}")
+
+    def shown_value(self, address: Address) -> str:
+        """Return a value as the table shows it."""
+        return self.values.text(address, self.workspace.file.get(address))
+
+    def typed_value(self, address: Address) -> str:
+        """Return a value as text for editing; empty for a masked one."""
+        return self.values.typed(address)
+
+    # -- Qt --------------------------------------------------------------------
+
+    def rowCount(self, parent: Index = QModelIndex()) -> int:  # noqa: B008  # Qt's own signature
+        return 0 if parent.isValid() else len(self.rows)
+
+    def columnCount(self, parent: Index = QModelIndex()) -> int:  # noqa: B008  # Qt's own signature
+        return 0 if parent.isValid() else len(self.columns) + self.shows_commands
+
+    def headerData(
+        self, section: int, orientation: Qt.Orientation, role: int = Qt.ItemDataRole.DisplayRole
+    ) -> Any:
+        if orientation == Qt.Orientation.Vertical:
+            return self._row_head(section, role)
+        if role == Qt.ItemDataRole.DisplayRole:
+            return " ".join(filter(None, self.column_head(section)))
+        return None
+
+    def column_head(self, column: int) -> tuple[str, str]:
+        """Return the head of a column, what is loud of it and what is not: ``("X", "1 linear")``, ``("", "Control")``."""
+        if column >= len(self.columns):
+            return "", self.tr("Read by")
+        name = self.columns[column]
+        if name not in self._axis_heads:
+            label = self.workspace.file.schema.family.scopes["global"].label
+            letter, what = ("", label) if name == CONTROL else axis_head(self.workspace.file, name)
+            self._axis_heads[name] = letter, worded(what)
+        return self._axis_heads[name]
+
+    @property
+    def titles(self) -> list[str]:
+        """The heads of the columns in words."""
+        return [" ".join(filter(None, self.column_head(n))) for n in range(len(self.columns))]
+
+    def _row_head(self, row: int, role: int) -> Any:
+        if role == Qt.ItemDataRole.DisplayRole:
+            return self.head(row)
+        if role == Qt.ItemDataRole.ToolTipRole and not self.rows[row].section:
+            parameter = self.rows[row].parameter
+            return f"{self.number(row)} {self.row_name(row)}  ({parameter.id})\n{parameter.help.what}"
+        if role == Qt.ItemDataRole.TextAlignmentRole:
+            return _LEFT
+        return None
+
+    def head(self, row: int) -> str:
+        """Return the head of a row in words: its number and its name."""
+        return f"{self.number(row)} {self.row_name(row)}".strip()
+
+    def row_name(self, row: int) -> str:
+        """Return the name of a row: the parameter, and the instance if there are several."""
+        found = self._heads.get(row)
+        if found is None:
+            found = self._heads[row] = self._name(self.rows[row])
+        return found
+
+    def _name(self, shown: TableRow) -> str:
+        if shown.section or not shown.instance:
+            return shown.section or shown.parameter.name
+        place = worded(self.workspace.file.machine_schema.instance_label(next(iter(shown.cells.values()))))
+        if CONTROL not in shown.cells:
+            place = place.rpartition(", ")[2]  # the column is the axis
+        return f"{shown.parameter.name}, {place}" if place else shown.parameter.name
+
+    def number(self, row: int) -> str:
+        """Return the number of a row: that of its first value that exists, if it belongs to this parameter."""
+        found = self._numbers.get(row)
+        if found is None:
+            found = self._numbers[row] = self._number(row)
+        return found
+
+    def _number(self, row: int) -> str:
+        if self.rows[row].section:
+            return ""
+        here = self.workspace.file.machine_schema
+        first = self.first_of(row)
+        address = self.address_at(row, first.column()) if first.isValid() else None
+        if address is None or here.is_disputed(address[0]):
+            return "–"
+        return here.number(address) or "–"
+
+    def data(self, index: Index, role: int = Qt.ItemDataRole.DisplayRole) -> Any:
+        if not index.isValid():
+            return None
+        if index.column() == len(self.columns):
+            return self.command(index.row()) if role == Qt.ItemDataRole.DisplayRole else None
+        address = self.address_at(index.row(), index.column())
+        return None if address is None else self._cell(address, role)
+
+    def _cell(self, address: Address, role: int) -> Any:
+        if role in (Qt.ItemDataRole.DisplayRole, Qt.ItemDataRole.AccessibleTextRole):
+            return self.cell_text(address)
+        if role == Qt.ItemDataRole.EditRole:
+            return self.typed_value(address)
+        if role == AddressRole:
+            return address
+        if role == Qt.ItemDataRole.TextAlignmentRole:
+            parameter = self.workspace.file.schema.parameters[address[0]]
+            return _RIGHT if parameter.type in ("real", "integer", "format") else _LEFT
+        if role in (Qt.ItemDataRole.ToolTipRole, Qt.ItemDataRole.AccessibleDescriptionRole):
+            return self.values.tip(address)
+        return None
+
+    def flags(self, index: Index) -> Qt.ItemFlag:
+        address = self.address_at(index.row(), index.column()) if index.isValid() else None
+        if address is None or not self.values.exists(address):
+            return Qt.ItemFlag.NoItemFlags  # keys pass over it
+        can_be_set = self.rows[index.row()].parameter.access != "read"
+        return _EDITABLE if self.workspace.may_edit and can_be_set else _READABLE
+
+    # -- following the file ----------------------------------------------------
+
+    def _refresh(self, addresses: list[Address]) -> None:
+        self._axis_heads.clear()
+        self.values.find_findings()
+        columns, decides = self._columns(), self.workspace.file.evaluation.decides_states
+        if (
+            columns != self.columns
+            or not addresses
+            or self._filter is not None
+            or any(map(decides, addresses))
+        ):
+            rows = self._rows(columns)
+            if columns != self.columns or rows != self.rows:
+                self._lay_out(columns, rows)
+                return
+            self._forget_heads()  # the number of a row is that of its first value that exists
+        self.headerDataChanged.emit(Qt.Orientation.Horizontal, 0, max(0, len(columns) - 1))
+        self._forget_looks()
+
+    def _forget_heads(self) -> None:
+        self._heads.clear()
+        self._numbers.clear()
+
+    def _forget_looks(self) -> None:
+        self._looks.clear()
+        self._repaint()
+
+    def _repaint(self) -> None:
+        if self.rows and self.columns:
+            last = self.index(len(self.rows) - 1, len(self.columns) - 1)
+            self.dataChanged.emit(self.index(0, 0), last)

@@ -1,0 +1,150 @@
+"""The heads of the parameter table: number and name of each row, which stay while the axes scroll, and the letter of each axis."""
+
+from __future__ import annotations
+
+from PySide6.QtCore import QRect, QSize, Qt
+from PySide6.QtGui import QFontMetrics, QPainter, QPaintEvent
+from PySide6.QtWidgets import QHeaderView, QLabel, QTableView, QWidget
+
+from amp_studio.ui.base.theme import COLUMN_HEAD, GAP3, ROW, colour, font
+
+from .parameter_table import ParameterTable
+
+NUMBER = 54
+"""Width of the column of numbers."""
+_MOST_REMEMBERED = 10_000
+_LEFT = Qt.AlignmentFlag.AlignLeft | Qt.AlignmentFlag.AlignVCenter
+
+
+class RowHeads(QHeaderView):
+    """Two columns, No. and Parameter; the name of a section over both."""
+
+    def __init__(self, table: ParameterTable, parent: QWidget) -> None:
+        super().__init__(Qt.Orientation.Vertical, parent)
+        self._table = table
+        head = font("small")
+        head.setWeight(head.Weight.DemiBold)
+        fonts = {"head": head, "text": font("text"), "dim": font("small")}
+        self._fonts = {ink: (letters, QFontMetrics(letters)) for ink, letters in fonts.items()}
+        self._elided: dict[tuple[str, str, int], str] = {}
+        self.row_height = max(ROW, QFontMetrics(font("text")).height() + 6)
+        self.setMinimumSectionSize(self.row_height)
+        self.setDefaultSectionSize(self.row_height)
+        self.setSectionResizeMode(QHeaderView.ResizeMode.Fixed)
+        self.setSectionsClickable(True)
+        self.setHighlightSections(False)
+        self.setAccessibleName(self.tr("Parameters"))
+
+    def sizeHint(self) -> QSize:
+        """Return the width that the view has set: Qt would measure a thousand heads after each change."""
+        return QSize(self.width(), 0)
+
+    def sectionSizeFromContents(self, section: int) -> QSize:
+        return QSize(self.width(), self.row_height)
+
+    def paintSection(self, painter: QPainter, rect: QRect, section: int) -> None:
+        table, view = self._table, self.parent()
+        assert isinstance(view, QTableView)
+        is_section = bool(table.rows[section].section)
+        is_current = not is_section and view.currentIndex().row() == section
+        ground = colour("panel" if is_section else "selidle" if is_current else "base")
+        painter.fillRect(rect, ground)
+        painter.fillRect(rect.left(), rect.bottom(), rect.width(), 1, colour("grid"))
+        place = rect.adjusted(GAP3, 0, -6, -1)
+        if is_section:
+            self._write(painter, place, table.rows[section].section, "dim", is_head=True)
+            return
+        painter.fillRect(rect.right(), rect.top(), 1, rect.height(), colour("line"))
+        self._write(
+            painter,
+            QRect(place.left(), place.top(), NUMBER - GAP3, place.height()),
+            table.number(section),
+            "dim",
+        )
+        self._write(painter, place.adjusted(NUMBER - GAP3 + 2, 0, 0, 0), table.row_name(section), "text")
+
+    def paintEvent(self, event: QPaintEvent) -> None:
+        super().paintEvent(event)
+        end = self.length() - self.offset()
+        if end < self.viewport().height():
+            QPainter(self.viewport()).fillRect(
+                0, end, self.width(), self.viewport().height() - end, colour("base")
+            )
+
+    def _write(self, painter: QPainter, place: QRect, text: str, ink: str, *, is_head: bool = False) -> None:
+        letters, metrics = self._fonts["head" if is_head else ink]
+        painter.setFont(letters)
+        painter.setPen(colour("text" if ink == "text" else "dim"))
+        key = ink, text, place.width()
+        shown = self._elided.get(key)
+        if shown is None:
+            if len(self._elided) > _MOST_REMEMBERED:
+                self._elided.clear()
+            shown = metrics.elidedText(text, Qt.TextElideMode.ElideRight, place.width())
+            self._elided[key] = shown
+        painter.drawText(place, _LEFT, shown)
+
+
+class AxisHeads(QHeaderView):
+    """The letter of each axis, and behind it its number and how it moves; a line under the current one."""
+
+    def __init__(self, table: ParameterTable, parent: QWidget) -> None:
+        super().__init__(Qt.Orientation.Horizontal, parent)
+        self._table = table
+        self.setSectionsClickable(True)
+        self.setHighlightSections(True)
+        self._height = max(COLUMN_HEAD, QFontMetrics(font("text")).height() + 10)
+        self.setMinimumSectionSize(56)
+        self.setAccessibleName(self.tr("Axes"))
+
+    def sectionSizeFromContents(self, section: int) -> QSize:
+        return QSize(self.minimumSectionSize(), self._height)
+
+    def sizeHint(self) -> QSize:
+        return QSize(super().sizeHint().width(), self._height)
+
+    def paintSection(self, painter: QPainter, rect: QRect, section: int) -> None:
+        view = self.parent()
+        assert isinstance(view, QTableView)
+        painter.fillRect(rect, colour("panel"))
+        painter.fillRect(rect.left(), rect.bottom(), rect.width(), 1, colour("line2"))
+        painter.fillRect(rect.right(), rect.top(), 1, rect.height(), colour("grid"))
+        if view.currentIndex().column() == section:
+            painter.fillRect(rect.left(), rect.bottom() - 1, rect.width() - 1, 2, colour("sel"))
+        letter, rest = self._table.column_head(section)
+        place = rect.adjusted(8, 0, -6, -2)
+        if letter:
+            letters = font("text")
+            letters.setWeight(letters.Weight.DemiBold)
+            painter.setFont(letters)
+            painter.setPen(colour("text"))
+            shown = QFontMetrics(letters).elidedText(letter, Qt.TextElideMode.ElideRight, place.width())
+            painter.drawText(place, _LEFT, shown)
+            place.setLeft(place.left() + QFontMetrics(letters).horizontalAdvance(shown) + 6)
+        small = font("caption")
+        painter.setFont(small)
+        painter.setPen(colour("dim"))
+        painter.drawText(
+            place, _LEFT, QFontMetrics(small).elidedText(rest, Qt.TextElideMode.ElideRight, place.width())
+        )
+
+
+class Corner(QWidget):
+    """The heads of the columns No. and Parameter, over the heads of the rows."""
+
+    def __init__(self, parent: QWidget) -> None:
+        super().__init__(parent)
+        self._number, self._name = QLabel(self.tr("No."), self), QLabel(self.tr("Parameter"), self)
+        for label, left in ((self._number, GAP3), (self._name, NUMBER + 2)):
+            label.setFont(font("caption"))
+            label.setForegroundRole(self.foregroundRole())
+            label.move(left, 0)
+        self.setAttribute(Qt.WidgetAttribute.WA_TransparentForMouseEvents)
+
+    def paintEvent(self, event: object) -> None:
+        painter = QPainter(self)
+        painter.fillRect(self.rect(), colour("panel"))
+        painter.fillRect(0, self.height() - 1, self.width(), 1, colour("line2"))
+        painter.fillRect(self.width() - 1, 0, 1, self.height(), colour("line"))
+        for label in (self._number, self._name):
+            label.resize(self.width() - label.x(), self.height() - 1)

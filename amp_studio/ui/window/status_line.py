@@ -1,0 +1,91 @@
+"""The status bar: the selected cells at the left; findings, open values and the state of the file at the right."""
+
+from __future__ import annotations
+
+from PySide6.QtCore import QObject, QSize, Qt, Signal
+from PySide6.QtWidgets import QLabel, QStatusBar, QToolButton
+
+from amp_studio.files import fitted_axes
+from amp_studio.report.wording import severity_name
+from amp_studio.ui.base.theme import GAP2, GAP3, SMALL_ICON, STATUS, font, icon, severity_icon
+from amp_studio.ui.base.translated import worded
+from amp_studio.ui.base.workspace import Workspace
+from amp_studio.validate import SEVERITIES, not_set
+
+
+class StatusLine(QObject):
+    """The state of the file in front, in words and icons; a click on a count shows the findings."""
+
+    findings_wanted = Signal()
+    """A count was clicked."""
+    not_set_wanted = Signal()
+    """The count of the values that are not set was clicked."""
+
+    def __init__(self, bar: QStatusBar) -> None:
+        super().__init__(bar)
+        bar.setMinimumHeight(STATUS)
+        bar.setSizeGripEnabled(False)
+        bar.setContentsMargins(GAP3, 0, GAP3, 0)
+        self.value, self.file, self.changes, self.control = QLabel(), QLabel(), QLabel(), QLabel()
+        self.value.setAccessibleName(self.tr("Selected values"))
+        self.file.setAccessibleName(self.tr("File"))
+        self.changes.setAccessibleName(self.tr("Unsaved changes"))
+        self.control.setAccessibleName(self.tr("Control"))
+        bar.addWidget(self.value, 1)
+        self.counts = {severity: self._count(icon_of) for severity, icon_of in
+                       [(s, severity_icon(s)) for s in SEVERITIES]}  # fmt: skip
+        self.not_set = self._count(icon("circle-dashed", "dim"))
+        self.not_set.clicked.disconnect(self.findings_wanted)
+        self.not_set.clicked.connect(self.not_set_wanted)
+        for widget in (*self.counts.values(), self.not_set, self.changes, self.file, self.control):
+            widget.setFont(font("small"))
+            bar.addPermanentWidget(widget)
+            if isinstance(widget, QLabel):
+                widget.setContentsMargins(GAP2, 0, GAP2, 0)
+        self.value.setFont(font("small"))
+
+    def _count(self, picture: object) -> QToolButton:
+        button = QToolButton()
+        button.setIcon(picture)  # type: ignore[arg-type]  # an icon
+        button.setIconSize(QSize(SMALL_ICON, SMALL_ICON))
+        button.setToolButtonStyle(Qt.ToolButtonStyle.ToolButtonTextBesideIcon)
+        button.setFocusPolicy(Qt.FocusPolicy.NoFocus)  # Ctrl+4 goes there
+        button.clicked.connect(self.findings_wanted)
+        return button
+
+    def show_file(self, workspace: Workspace | None, control: str) -> None:
+        """Show the state of a file, or nothing; ``control`` is the address of the control it goes to, if any."""
+        every = (*self.counts.values(), self.not_set, self.changes, self.file, self.control)
+        for widget in every:
+            widget.setVisible(workspace is not None)
+        if workspace is None:
+            self.file.clear()
+            return
+        for severity, button in self.counts.items():
+            number = workspace.count(severity)
+            self._show(button, number, worded(severity_name(severity)))
+        self._show(self.not_set, len(not_set(workspace.findings)), self.tr("not set"))
+        self.not_set.setText(self.tr("{number} not set").format(number=len(not_set(workspace.findings))))
+        file = workspace.file
+        count = workspace.changes()
+        self.changes.setText(self.tr("%n unsaved changes", "", count) if count else "")
+        self.changes.setVisible(bool(count))
+        units = self.tr("as entered") if workspace.as_entered else worded(file.header.units)
+        parts = [
+            file.schema.family.name,
+            next(m.name for m in file.schema.family.machines if m.key == file.machine),
+        ]
+        if file.schema.family.axes is not None:
+            parts.append(self.tr("%n axes", "", len(fitted_axes(file))))
+        state = self.tr("not saved") if workspace.is_dirty else self.tr("saved")
+        parts += [units, state if workspace.may_edit else self.tr("read-only")]
+        self.file.setText(", ".join(parts))
+        self.control.setText(control)
+        self.control.setVisible(bool(control))
+
+    def _show(self, button: QToolButton, number: int, noun: str) -> None:
+        text = self.tr("{number} {noun}").format(number=number, noun=noun)
+        button.setText(str(number))
+        button.setVisible(number > 0)
+        button.setToolTip(text)
+        button.setAccessibleName(text)

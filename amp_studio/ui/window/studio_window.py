@@ -1,0 +1,244 @@
+"""The window as its parts see it: the open files, the panels, and what a menu action can ask for.
+
+The action classes and the watch of the disk take this class; ``MainWindow`` is one and builds them all. So nothing that
+is part of the window imports it.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from functools import cached_property
+from pathlib import Path
+from typing import TYPE_CHECKING, Literal
+
+from PySide6.QtCore import Signal
+from PySide6.QtGui import QAction, QKeySequence
+from PySide6.QtWidgets import QMainWindow
+
+from amp_studio.files import ChangedOnDiskError, Project, same_file
+from amp_studio.schema import Address
+from amp_studio.ui.base.garbage import look_again
+from amp_studio.ui.base.questions import ask, show_message
+from amp_studio.ui.base.task import in_background
+from amp_studio.ui.base.theme import icon
+from amp_studio.ui.base.workspace import Workspace
+from amp_studio.ui.findings.panel import FindingsPanel
+from amp_studio.ui.page.file_page import FilePage
+from amp_studio.ui.page.file_summaries import FileSummaries
+from amp_studio.ui.page.group_list import GroupList
+from amp_studio.ui.table.detail_panel import DetailPanel
+from amp_studio.ui.table.parameter_table import ParameterTable
+from amp_studio.ui.table.value_table import ValueTable
+
+from .docks import Docks
+from .file_tabs import FileTabs
+from .settings import UserSettings
+
+if TYPE_CHECKING:
+    from .report_options import ReportChoice
+
+Needs = Literal["", "file", "edit", "axes", "project", "units"]
+"""What an action needs: nothing, an open file, the right to change it, axes as well, a project, several systems of units."""
+
+
+class StudioWindow(QMainWindow):
+    """The open files in tabs, their panels and the actions. What is asked for without naming a file means the one in front."""
+
+    project_changed = Signal()
+    """Another project is open, or its information has changed."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        self._project: Project | None = None
+        self.is_leaving = False
+        """Whether the whole window closes: what its files leave is no longer checked."""
+        self.tabs = FileTabs()
+        self.summaries = FileSummaries(self)
+        self.settings = UserSettings()
+        self.docks = Docks(self, self.settings)
+        self.actions_needing: dict[Needs, list[QAction]] = {
+            "": [],
+            "file": [],
+            "edit": [],
+            "axes": [],
+            "units": [],
+            "project": [],
+        }
+
+    @cached_property
+    def report_choice(self) -> ReportChoice:
+        """What reports contain; loaded when the first is asked for."""
+        from .report_options import ReportChoice
+
+        return ReportChoice(self.settings, self)
+
+    # -- the project and the files -----------------------------------------------
+
+    @property
+    def project(self) -> Project | None:
+        """The project whose files the project menu means."""
+        return self._project
+
+    @project.setter
+    def project(self, project: Project | None) -> None:
+        self._project = project
+        self.project_changed.emit()
+
+    def close_page(self, page: FilePage) -> None:
+        """Close a file without a question."""
+        page.blockSignals(True)  # nobody follows it any more
+        self.tabs.remove(page)
+        self.docks.remove(page)
+        page.workspace.close()
+        page.workspace.deleteLater()  # else it keeps, by what follows its signals, all that was made for it
+        page.deleteLater()
+        if not self.is_leaving:
+            look_again(bool(self.tabs.pages()))
+
+    @property
+    def page(self) -> FilePage | None:
+        """The page of the file in front; None while no file is open."""
+        return self.tabs.current
+
+    @property
+    def workspace(self) -> Workspace | None:
+        """The file in front."""
+        return self.page.workspace if self.page else None
+
+    @property
+    def table(self) -> ParameterTable | None:
+        """The table model of the file in front."""
+        return self.page.table if self.page else None
+
+    @property
+    def table_view(self) -> ValueTable | None:
+        """The table of the file in front."""
+        return self.page.table_view if self.page else None
+
+    @property
+    def groups(self) -> GroupList | None:
+        """The groups of the file in front."""
+        return self.page.groups if self.page else None
+
+    @property
+    def detail(self) -> DetailPanel | None:
+        """The parameter panel of the file in front."""
+        return self.page.detail if self.page else None
+
+    @property
+    def findings(self) -> FindingsPanel | None:
+        """The findings of the file in front."""
+        return self.page.findings if self.page else None
+
+    def page_of(self, path: Path) -> FilePage | None:
+        """Return the page of a file that is open here, by whatever name of it."""
+        return next((p for p in self.tabs.pages() if same_file(p.workspace.path, path)), None)
+
+    # -- actions ---------------------------------------------------------------
+
+    def action(
+        self,
+        text: str,
+        act: Callable[[], object],
+        shortcut: QKeySequence | QKeySequence.StandardKey | str | None = None,
+        needs: Needs = "file",
+        icon_name: str = "",
+        short: str = "",
+    ) -> QAction:
+        """Return a menu action that shows an error of ``act`` as a message."""
+        action = QAction(text, self)
+        if shortcut is not None:
+            action.setShortcut(QKeySequence(shortcut))
+        if icon_name:
+            action.setIcon(icon(icon_name))
+        if short:
+            action.setIconText(short)
+        name = text.replace("&", "").rstrip("…")
+        keys = action.shortcut().toString(QKeySequence.SequenceFormat.NativeText)
+        action.setToolTip(f"{name} ({keys})" if keys else name)
+        action.triggered.connect(lambda *_: self.guarded(act, name))
+        self.actions_needing[needs].append(action)
+        self.addAction(action)
+        return action
+
+    def guarded(self, act: Callable[[], object], title: str = "AMP Studio") -> object:
+        """Run an action and return its result; an error is shown as a message, and the result is None."""
+        if self.table_view is not None and not self.table_view.finish():
+            return None
+        try:
+            return act()
+        except (OSError, ValueError, KeyError, RuntimeError) as error:
+            is_bare = type(error) is KeyError and error.args  # its own text is in quotes
+            show_message(self, title, str(error.args[0]) if is_bare else str(error))
+            return None
+
+    # -- what is shown ---------------------------------------------------------
+
+    def show_status(self, text: str) -> None:
+        """Show a short message in the status bar."""
+        self.statusBar().showMessage(text, 10_000)
+
+    def show_panel(self, title: str) -> None:
+        """Show a panel that may be closed, and give it the keyboard focus."""
+        self.docks.show(title)
+
+    # -- selection -------------------------------------------------------------
+
+    def selected(self) -> Address | None:
+        """Return the address of the current cell."""
+        return self.table_view.address() if self.table_view is not None else None
+
+    def go_to(self, address: Address) -> None:
+        """Select an address of the file in front; shows its group when the table does not contain it."""
+        if self.page is not None:
+            self.page.go_to(address)
+
+    def follow(self, parameter_id: str) -> None:
+        """Go to a parameter of the file in front, in the selected axis if it exists there."""
+        if self.page is not None:
+            self.page.follow(parameter_id)
+
+    # -- leaving ---------------------------------------------------------------
+
+    def save(self, page: FilePage | None = None) -> bool:
+        """Save a file, the one in front by default; an error is shown, and the work stays open.
+
+        Returns whether it was saved. Where another program has changed the file, its page offers the comparison.
+        """
+        page = page or self.page
+        assert page is not None
+        workspace = page.workspace
+        try:
+            workspace.save(lambda work: in_background(self, self.tr("Saving"), work))
+        except ChangedOnDiskError:
+            page.conflict.emit()
+            return False
+        except OSError as error:
+            show_message(
+                self,
+                self.tr("Not saved"),
+                self.tr("{error}.\n\nYour work is still open.").format(error=error),
+            )
+            return False
+        if workspace.document.notes:
+            self.show_status("; ".join(workspace.document.notes))
+        return True
+
+    def may_leave(self, page: FilePage | None = None) -> bool:
+        """Ask about unsaved work of a file; returns whether it may be closed."""
+        page = page or self.page
+        if page is None or not page.table_view.finish():
+            return page is None
+        if not page.workspace.is_dirty or not page.workspace.may_edit:
+            return True
+        self.tabs.bring(page)
+        question = self.tr("Save the changes to {name}?").format(name=page.workspace.path.name)
+        answer = ask(
+            self,
+            self.tr("Unsaved changes"),
+            question,
+            self.tr("&Save"),
+            self.tr("&Discard"),
+            self.tr("Cancel"),
+        )
+        return self.save(page) if answer == self.tr("&Save") else answer == self.tr("&Discard")

@@ -1,0 +1,98 @@
+"""The tool bar: the file, undo, units, the find box in the middle, the views, the control."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+
+from PySide6.QtCore import QSize, Qt
+from PySide6.QtGui import QAction
+from PySide6.QtWidgets import QHBoxLayout, QSizePolicy, QToolBar, QToolButton, QWidget
+
+from amp_studio.ui.base.theme import GAP4, ICON
+from amp_studio.ui.forms.segment import Segment
+
+from .docks import WIDE
+from .studio_window import StudioWindow
+
+_FIND_WIDTH, _FIND_LEAST = 440, 160
+"""Most that the find box takes, in logical pixels, and what it needs."""
+_SYSTEMS = {"metric": "mm"}
+"""Unit system -> the text of its button, if not its name."""
+
+
+class MainToolBar(QToolBar):
+    """Words beside the icons where the window is wide; the words of a narrow one are in the tips."""
+
+    def __init__(
+        self, window: StudioWindow, file: Iterable[QAction], steps: Iterable[QAction], switch: QAction,
+        views: Iterable[QAction], control: Iterable[QAction],
+    ) -> None:  # fmt: skip
+        """Return the bar of a window; ``switch`` changes the unit system, which the segment shows."""
+        super().__init__(self.tr("Main"), window)
+        self.setObjectName("main-toolbar")
+        self.setMovable(False)
+        self.setIconSize(QSize(ICON, ICON))
+        self.setContextMenuPolicy(Qt.ContextMenuPolicy.PreventContextMenu)
+        self._window, self._switch = window, switch
+        self.addActions(list(file))
+        self.addSeparator()
+        self.addActions(list(steps))
+        self._bare = [
+            button for action in steps if isinstance(button := self.widgetForAction(action), QToolButton)
+        ]
+        self.addSeparator()
+        self.units = Segment(self.tr("Unit system"))
+        self.units.setToolTip(switch.toolTip())
+        self.units.chosen.connect(self._choose)
+        self._units_action = self.addWidget(self.units)
+        self._slot = QWidget()
+        self._slot.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Preferred)
+        self._slot_row = QHBoxLayout(self._slot)
+        self._slot_row.setContentsMargins(12, 0, 12, 0)
+        self._slot_row.addStretch(1)
+        self.addWidget(self._slot)
+        self.addActions(list(views))
+        self.addSeparator()
+        self.addActions(list(control))
+        self.fit(window.width())
+
+    def take_find_box(self, box: QWidget) -> None:
+        """Show the find box between the units and the views."""
+        box.setMaximumWidth(_FIND_WIDTH)
+        self._slot_row.insertWidget(0, box, 100)
+
+    def fit(self, width: int) -> None:
+        """Show words where the window has room for them."""
+        style = Qt.ToolButtonStyle
+        self._show_words(style.ToolButtonTextBesideIcon if width >= WIDE else style.ToolButtonIconOnly)
+        if width >= WIDE and self._needed() > width:  # the words of a longer language
+            self._show_words(style.ToolButtonIconOnly)
+
+    def _needed(self) -> int:
+        """Return the width at which everything is seen."""
+        parts = [self.widgetForAction(action) for action in self.actions()]
+        spacing = self.layout().spacing() * len(parts) + 2 * GAP4
+        return (
+            sum(part.sizeHint().width() for part in parts if part is not self._slot) + _FIND_LEAST + spacing
+        )
+
+    def _show_words(self, style: Qt.ToolButtonStyle) -> None:
+        self.setToolButtonStyle(style)
+        for button in self._bare:
+            button.setToolButtonStyle(Qt.ToolButtonStyle.ToolButtonIconOnly)
+
+    def show_units(self) -> None:
+        """Show the unit systems of the file in front, and which one it is shown in; none is pressed for values as entered."""
+        workspace = self._window.workspace
+        systems = workspace.file.schema.family.units if workspace else ("metric", "inch")
+        self.units.offer([(system, _SYSTEMS.get(system, system), "") for system in systems])
+        self.units.setEnabled(workspace is not None)
+        self._units_action.setVisible(len(systems) > 1)
+        shown = workspace is not None and not workspace.as_entered
+        self.units.show_choice(workspace.file.header.units if workspace and shown else None)
+
+    def _choose(self, system: str) -> None:
+        workspace = self._window.workspace
+        if workspace is not None:
+            self._window.guarded(lambda: workspace.show_in(system), self._switch.toolTip())
+        self.show_units()
