@@ -72,7 +72,7 @@ docs: setup-run build/docs/env/ready ## write the site with the reference of eve
 
 build/docs/env/ready: requirements/docs.lock
 	@rm -rf build/docs/env && $(or $(PYTHON),python3) -m venv build/docs/env
-	@build/docs/env/bin/pip install --quiet --disable-pip-version-check --only-binary :all: --require-hashes -r $<
+	@build/docs/env/bin/pip install --quiet --disable-pip-version-check --only-binary :all: --require-hashes --no-deps -r $<
 	@touch $@
 
 bench: setup ## measure, and print one table

@@ -113,7 +113,7 @@ install_packages() {
     rm -f .venv/ready-* .venv/qt-works
     note "getting the packages of requirements/$1.lock (over 200 MB the first time, which can take minutes)"
     pip install --quiet --disable-pip-version-check --no-input --no-warn-script-location \
-        --only-binary :all: --require-hashes -r "requirements/$1.lock" ||
+        --only-binary :all: --require-hashes --no-deps -r "requirements/$1.lock" ||
         stop "the Python packages could not be installed (see above); is the network there?"
     pip install --quiet --disable-pip-version-check --no-input --no-warn-script-location \
         --no-index --no-deps --no-build-isolation --editable . ||

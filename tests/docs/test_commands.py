@@ -38,7 +38,7 @@ MILL = EXAMPLES / "mill-1394/MILL_1394.amp"
 CANNOT_RUN = {
     'pipx install ".[fast]"': "installs from the network",
     "py -m venv .venv": "Windows",
-    r".venv\Scripts\python -m pip install --require-hashes -r requirements\dev.lock": "Windows",
+    r".venv\Scripts\python -m pip install --require-hashes --no-deps -r requirements\dev.lock": "Windows",
     r".venv\Scripts\python -m pip install --no-index --no-deps --no-build-isolation --editable .": "Windows",
     r".venv\Scripts\python -m pytest -n 2 --dist worksteal": "Windows",
     ". .venv/bin/activate": "the tests have their own environment; make run has made this one",
