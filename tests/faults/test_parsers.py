@@ -121,21 +121,21 @@ READERS = {
     "transfer/links/tls.py": "hostile clients",
     "transfer/links/tcp.py": "hostile clients",
     "ui/__init__.py": "",  # paths of files to open: by the gate of every file
-    "ui/control_actions.py": "damaged control image",
-    "ui/display.py": "",  # whether names of displays are set
-    "ui/file_actions.py": "",  # copies an example of the program, which is opened as every file is
-    "ui/file_tabs.py": "",  # writes to the clipboard
-    "ui/emulated_control.py": "",  # the own child's first line: an address, which is read as one
-    "ui/known_controls.py": "damaged settings",
-    "ui/merge_sources.py": "damaged control image",
-    "ui/merge_tree.py": "",  # writes to the clipboard
-    "ui/project_files.py": "damaged parameter file",
-    "ui/range_actions.py": "pasted blocks of cells",
-    "ui/restore.py": "damaged control image",
+    "ui/actions/control.py": "damaged control image",
+    "ui/base/display.py": "",  # whether names of displays are set
+    "ui/actions/file.py": "",  # copies an example of the program, which is opened as every file is
+    "ui/window/file_tabs.py": "",  # writes to the clipboard
+    "ui/base/emulated_control.py": "",  # the own child's first line: an address, which is read as one
+    "ui/base/known_controls.py": "damaged settings",
+    "ui/merge/sources.py": "damaged control image",
+    "ui/merge/tree.py": "",  # writes to the clipboard
+    "ui/project/files.py": "damaged parameter file",
+    "ui/actions/range.py": "pasted blocks of cells",
+    "ui/control/restore.py": "damaged control image",
     "transfer/plain/ymodem.py": "hostile ends of plain files",
-    "ui/sheet_actions.py": "damaged control image",
-    "ui/theme.py": "",  # a file of the icon package
-    "ui/settings.py": "damaged settings",
+    "ui/actions/sheet.py": "damaged control image",
+    "ui/base/theme.py": "",  # a file of the icon package
+    "ui/window/settings.py": "damaged settings",
     "validate/cell_expression.py": "odd expressions in cells",
     "validate/rule_file.py": "damaged suppressions",
     "validate/calculator.py": "odd arguments of formulas",
