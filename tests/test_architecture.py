@@ -407,6 +407,20 @@ def test_no_modules_import_each_other_when_they_are_loaded(checkout: Path) -> No
     assert circles(checkout / "amp_studio") == []
 
 
+def test_no_name_of_a_front_page_is_a_module_below_it_too(checkout: Path) -> None:
+    """Python sets a loaded module on its package: a name that is loaded when it is asked for would be the module then."""
+    package = checkout / "amp_studio"
+    same = [
+        f"{page.parent.name}.{name}"
+        for page in package.rglob("__init__.py")
+        for node in ast.parse(page.read_text("utf-8")).body
+        if isinstance(node, ast.Assign) and ast.unparse(node.targets[0]) == "_PLACES"
+        for name in ast.literal_eval(node.value)
+        if (page.parent / f"{name}.py").is_file() or (page.parent / name).is_dir()
+    ]
+    assert same == []
+
+
 @pytest.mark.parametrize(
     ("line", "pages", "circle"),
     [

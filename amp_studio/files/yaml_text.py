@@ -18,7 +18,7 @@ _LONGEST_KEY = 1000
 
 # -- one value ---------------------------------------------------------------------------------------------------------
 
-_PRINTABLE = re.compile("[\x20-\x7e\xa0-\u2027\u202a-\ud7ff\ue000-\ufefe\uff00-\ufffd\U00010000-\U0010ffff]+")
+_PRINTABLE = re.compile("[^\x00-\x1f\x7f-\x9f\u2028\u2029\ud800-\udfff\ufeff\ufffe\uffff]+")
 _PLAIN = re.compile(r"(?:[^\s\-?:,\[\]{}#&*!|>'\"%@`=<~]|-(?=[^\s\-]))(?:.*[^\s:])?")
 """It begins with no sign that means something, and ends with none."""
 _LOOKS_OTHERWISE = re.compile(

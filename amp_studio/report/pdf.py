@@ -23,9 +23,7 @@ _BREAK = "\u200b"
 """Zero-width space: a possible line break."""
 _LONG_RUN = re.compile(r"[^\s\u200b]{17,}")
 _JOINT = re.compile(r"\\.|[^\w-]|_|[^\W_]{8}")
-_FOREIGN = re.compile(
-    r"[\u0700-\u1cff\u2e80-\ua63f\ua960-\ud7ff\uf900-\ufaff\uff00-\uffef\U00010000-\U0010ffff]"
-)
+_FOREIGN = r"[\u0700-\u1cff\u2e80-\ua63f\ua960-\ud7ff\uf900-\ufaff\uff00-\uffef\U00010000-\U0010ffff]"
 """Scripts missing in Typst's fonts (Chinese, Japanese, Korean, Thai, …); they contain Latin, Greek and Cyrillic."""
 FONT = "Libertinus Serif"
 """The font of a PDF, also in its drawings."""
@@ -197,4 +195,4 @@ def _forget_earlier() -> None:
 
 def _options(source: str, root: Path) -> dict[str, Any]:
     """Return how Typst reads a source; the root is given because Typst takes the working folder otherwise, which may be gone."""
-    return {"root": root, "ignore_system_fonts": _FOREIGN.search(source) is None}
+    return {"root": root, "ignore_system_fonts": re.search(_FOREIGN, source) is None}

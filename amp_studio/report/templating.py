@@ -6,8 +6,11 @@ a bound for its size and its time. Its mistakes have their line.
 
 from __future__ import annotations
 
+import os
 import re
+import sys
 from collections.abc import Mapping
+from importlib.util import cache_from_source
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -16,7 +19,7 @@ from amp_studio.errors import AmpStudioError
 from .language import ENGLISH, Language
 
 if TYPE_CHECKING:
-    from jinja2 import BaseLoader, Environment
+    from jinja2 import BaseLoader, BytecodeCache, Environment
 
 TEMPLATES = Path(__file__).parent / "templates"
 OWN = "templates"
@@ -68,15 +71,15 @@ def filled(
 
     ``own`` is used in the place of ``name``, which it can extend as ``standard/NAME``.
     """
-    from jinja2 import StrictUndefined, TemplateError, TemplateNotFound
-    from jinja2.sandbox import SandboxedEnvironment
+    from jinja2 import Environment, StrictUndefined, TemplateError, TemplateNotFound
 
     from .model import Listing
 
-    whole = {"loader": _loader(own), "trim_blocks": True, "lstrip_blocks": True}
-    environment: Environment
+    whole: dict[str, Any] = {"loader": _loader(own), "trim_blocks": True, "lstrip_blocks": True}
     if own is None:
-        environment = SandboxedEnvironment(undefined=StrictUndefined, **whole, **settings)
+        environment = Environment(  # noqa: S701 (settings escape a page, filters the source of Typst)
+            undefined=StrictUndefined, bytecode_cache=_compiled_templates(), **whole, **settings
+        )
     else:
         from .bounded_templates import BoundedEnvironment, UnknownName
 
@@ -115,6 +118,20 @@ def _loader(own: Path | None) -> BaseLoader:
     if own is None:
         return standard
     return ChoiceLoader([PrefixLoader({"standard": standard}), FileSystemLoader(own.parent)])
+
+
+def _compiled_templates() -> BytecodeCache | None:
+    """Return the cache of the program's own templates; None where there is none.
+
+    It lies where Python keeps the program's compiled modules, under the same rights: who can write there can write the
+    program. A project's template is compiled each time.
+    """
+    if sys.dont_write_bytecode:
+        return None
+    from jinja2 import FileSystemBytecodeCache
+
+    folder = Path(cache_from_source(__file__)).parent
+    return FileSystemBytecodeCache(str(folder)) if os.access(folder, os.W_OK) else None
 
 
 def _bounded(environment: Environment, own: Path, values: Mapping[str, object]) -> str:

@@ -22,11 +22,11 @@ from amp_studio.schema import axis_name
 from amp_studio.schema.file_error import FileError, read_yaml_file
 
 from .errors import SimulationError
-from .identify import FIGURES, figure_text, machine_settings
+from .identification import FIGURES, figure_text, machine_settings
 from .law import law_of
 from .model import torque_unit
 from .rounding import shown
-from .simulate import bind_axis
+from .run import bind_axis
 from .trace import Trace
 
 ENDINGS = (".yaml", ".yml")

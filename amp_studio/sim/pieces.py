@@ -10,7 +10,7 @@ import math
 from collections.abc import Iterable
 from dataclasses import dataclass
 
-from .law import Ramp
+from .events import Ramp
 from .profiles import EXPONENTIAL, POLYNOMIAL, SINE_SQUARED
 
 TIME_CONSTANTS = 30.0

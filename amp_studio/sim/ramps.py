@@ -10,7 +10,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 from .errors import SimulationError
-from .law import Ramp
+from .events import Ramp
 from .pieces import Piece, change, length
 from .profiles import EXPONENTIAL, IN_POSITION, POLYNOMIAL, START, WIDTH
 

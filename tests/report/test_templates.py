@@ -5,13 +5,16 @@ from __future__ import annotations
 import re
 import shutil
 import subprocess
+import sys
+from importlib.util import cache_from_source
 from pathlib import Path
 
 import pytest
 
 from amp_studio.files import ParameterFile, save_file
-from amp_studio.report import Contents, print_report
+from amp_studio.report import Contents, build_report, print_report, templating
 from amp_studio.report.apart import made
+from amp_studio.report.page import render_html
 from amp_studio.report.templating import TEMPLATES
 
 SHORT = Contents(changed_only=True, without=frozenset({"pictures", "signatures"}))
@@ -243,6 +246,30 @@ def test_a_template_changes_nothing_of_the_report(machine: Path, mill: Parameter
     )
     assert "line 2: " in note
     assert b'{"home.calibration"' in content or b'"home.calibration": [' in content
+
+
+def test_a_template_of_the_program_is_kept_compiled_and_one_of_a_project_is_not(
+    machine: Path, mill: ParameterFile, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """It lies beside the program's compiled modules: nowhere else, and nothing of a person is run from there."""
+    kept = tmp_path / "bytecode"
+    monkeypatch.setattr(sys, "pycache_prefix", str(kept))
+    monkeypatch.setattr(sys, "dont_write_bytecode", False)
+    folder = Path(cache_from_source(templating.__file__)).parent
+    folder.mkdir(parents=True)
+    report = build_report(mill, SHORT)
+    first = render_html(report)
+    names = [path.name for path in folder.iterdir()]
+    assert len(names) == 1
+    assert render_html(report) == first
+    own = machine.parent / "templates" / "report.html.j2"
+    own.write_text(EXTENDS_PAGE, "utf-8")
+    assert render_html(report, own) == first
+    assert [path.name for path in folder.iterdir()] == names
+    monkeypatch.setattr(sys, "dont_write_bytecode", True)
+    (folder / names[0]).unlink()
+    assert render_html(report) == first
+    assert list(folder.iterdir()) == []
 
 
 def test_a_template_that_writes_nothing_is_a_mistake(machine: Path, mill: ParameterFile) -> None:

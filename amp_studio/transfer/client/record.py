@@ -11,6 +11,7 @@ import os
 from collections.abc import Callable
 from dataclasses import asdict, dataclass, fields
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from amp_studio.files import ENDING, ParameterFile, compare, real_path, text_of_name
 from amp_studio.files.atomic import append_line
@@ -22,8 +23,10 @@ from amp_studio.transfer.content import ContentKind, decode_content
 from amp_studio.transfer.errors import AtControl, TransferError
 from amp_studio.transfer.image import ImageError
 
-from .exchange import Outcome
 from .kept import BEFORE, CopyError, open_copy
+
+if TYPE_CHECKING:  # a report reads the record, and connects to nothing
+    from .exchange import Outcome
 
 RECORD = "exchanges.jsonl"
 

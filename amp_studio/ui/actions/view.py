@@ -203,7 +203,7 @@ class ViewActions(Translated):
 def _motion_view(file: ParameterFile) -> type[MotionView]:
     """Load the view with the plots, and the simulator with what it knows of the family of a file. For a thread."""
     load("amp_studio.sim", "amp_studio.ui.motion.view")
-    from amp_studio.sim.listing import listing
+    from amp_studio.sim.listings import listing
     from amp_studio.ui.motion.view import MotionView
 
     listing(file)

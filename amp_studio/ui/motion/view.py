@@ -37,7 +37,7 @@ from amp_studio.sim import (
     simulate,
     write_trace,
 )
-from amp_studio.sim.listing import SimulationListing
+from amp_studio.sim.listings import SimulationListing
 from amp_studio.sim.picture import picture_of, settling_span
 from amp_studio.ui.base.task import Task, TaskProgress
 from amp_studio.ui.base.theme import severity_ink

@@ -15,7 +15,7 @@ from .axis_parameters import AxisParameters, ParameterValue, ReadParameter
 from .doubts import doubts
 from .errors import SimulationError
 from .law import AxisLaw, Law, law_of
-from .listing import known_settings
+from .listings import known_settings
 from .model import with_model
 from .scenarios import SCENARIOS
 from .scenarios.circle import SECOND

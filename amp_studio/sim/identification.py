@@ -17,7 +17,7 @@ from .friction import FrictionFit, fit_friction
 from .law import AxisLaw, law_of
 from .model import AT_SPEED, torque_unit
 from .rounding import rounded, shown
-from .simulate import bind_axis
+from .run import bind_axis
 from .trace import Figure, Trace
 from .unit_system import in_unit, length_unit
 
