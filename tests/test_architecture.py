@@ -491,3 +491,15 @@ def test_the_window_loads_the_simulator_by_its_loader_alone(checkout: Path) -> N
             ]
     assert beside == []
     assert "amp_studio.ui.motion.step_answer" in brings
+
+
+def test_no_test_is_longer_than_a_screen(checkout: Path) -> None:
+    """40 lines from its name to its end; what several tests need is a fixture, long texts are constants."""
+    long = [
+        f"{path.relative_to(checkout)}:{node.lineno} {node.name}: {lines} lines"
+        for path in sorted((checkout / "tests").rglob("*.py"))
+        for node in ast.walk(ast.parse(path.read_text(encoding="utf-8")))
+        if isinstance(node, ast.FunctionDef) and node.name.startswith("test")
+        if (lines := node.end_lineno - node.lineno + 1) > 40
+    ]
+    assert long == []

@@ -109,26 +109,33 @@ def control(tmp_path: Path) -> Iterator[str]:
         yield process.stdout.readline().removeprefix("listening on ").strip()
 
 
-def test_what_drifted_and_since_when_is_one_page(
-    amp: Callable[..., Said], checkout: Path, control: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch,
-    capsys: pytest.CaptureFixture[str],
-) -> None:  # fmt: skip
+@pytest.fixture
+def hall(
+    amp: Callable[..., Said], checkout: Path, control: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> Path:
+    """Return a folder whose mill.amp went to the control on 1 March; each record after it is a day later."""
     days = iter(f"2026-03-{day:02}T11:00:00+00:00" for day in range(1, 30))
     monkeypatch.setattr(record, "now", lambda: next(days))
     hall = tmp_path / "hall"
     hall.mkdir()
-    mill = Path(shutil.copy(checkout / "examples" / "mill-1394" / "MILL_1394.amp", hall / "mill.amp"))
-    assert amp("download", mill, "--to", control).code == 0  # 1 March
+    shutil.copy(checkout / "examples" / "mill-1394" / "MILL_1394.amp", hall / "mill.amp")
+    assert amp("download", hall / "mill.amp", "--to", control).code == 0
+    return hall
+
+
+def test_what_drifted_at_the_control_is_known_with_its_days(
+    amp: Callable[..., Said], control: str, hall: Path, tmp_path: Path
+) -> None:
     same = amp("verify", "--all", hall)  # 2 March
     assert (same.code, same.out.splitlines()[-1]) == (0, "1 control: 1 same")
 
-    elsewhere = Path(shutil.copy(mill, tmp_path / "elsewhere.amp"))
+    elsewhere = Path(shutil.copy(hall / "mill.amp", tmp_path / "elsewhere.amp"))
     amp("set", elsewhere, "1750=12 mm")
     assert amp("download", elsewhere, "--to", control).code == 0  # 3 March, recorded elsewhere
     first = amp("verify", "--all", hall, "--json")  # 4 March
     assert first.code == 1
     (one,) = first.json["controls"]
-    assert (one["address"], one["file"], one["result"]) == (control, str(mill), "differs")
+    assert (one["address"], one["file"], one["result"]) == (control, str(hall / "mill.amp"), "differs")
     assert one["since"] == "the control was changed after 2026-03-02 11:00"
     assert [(d["param"], d["a"], d["b"]) for d in one["differences"]] == [("1750", "11 mm", "12 mm")]
     again = amp("verify", "--all", hall)  # 5 March
@@ -136,18 +143,22 @@ def test_what_drifted_and_since_when_is_one_page(
     assert "1750 Excess Error" in again.out
     assert again.out.splitlines()[-1] == "1 control: 1 differs"
 
-    assert amp("download", mill, "--to", control).code == 0  # 6 March
-    amp("set", mill, "1300=2 mm")
+
+def test_what_drifted_in_the_file_and_what_is_not_reached_is_one_page(
+    amp: Callable[..., Said], control: str, hall: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert amp("download", hall / "mill.amp", "--to", control).code == 0  # 2 March: the last exchange counts
+    amp("set", hall / "mill.amp", "1300=2 mm")
     page = tmp_path / "page.html"
     folder_with(project(hall / "b", DEAD), files=("b.amp",))
-    shutil.copy(checkout / "examples" / "mill-1394" / "MILL_1394.amp", hall / "b" / "b.amp")
+    shutil.copy(hall / "mill.amp", hall / "b" / "b.amp")
     capsys.readouterr()
     assert cli.run(["verify", "--all", str(hall), "--report", str(page), "--json"]) == 2
     found = json.loads(capsys.readouterr().out)
     assert (found["same"], found["differs"], found["not_reached"]) == (0, 1, 1)
     by_address = {each["address"]: each for each in found["controls"]}
     assert by_address[control]["since"] == (
-        "the file was changed after 2026-03-06 11:00; the control is as it was left then"
+        "the file was changed after 2026-03-02 11:00; the control is as it was left then"
     )
     assert by_address[DEAD]["result"] == "not reached"
     text = page.read_text("utf-8")

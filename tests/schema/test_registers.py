@@ -17,70 +17,70 @@ from amp_studio.schema import (
 # -- 57C422B: registers ------------------------------------------------------------------------------
 
 
+REGISTERS = """
+- id: gain.proportional
+  name: Proportional Gain
+  scope: axis
+  numbers: {start: 3, step: 2048, format: "R{n}"}
+  type: integer
+  ranges: {"": [0, 32767]}
+  storage: {bits: 16}
+  effect: {level: command, command: change default setups}
+  help: {what: Proportional gain of the position loop.}
+  page: "4-7"
+- id: limit.positive
+  name: Positive Overtravel Limit
+  scope: axis
+  numbers: {start: 11, step: 2048, format: "R{n}"}
+  type: integer
+  quantity: counts
+  ranges: {counts: [-2147483648, 2147483647]}
+  storage: {unit: counts, bits: 32, words: 2, word_order: high-first}
+  effect: {level: command, command: enable feedback}
+  help: {what: Where the travel ends.}
+  page: "4-9"
+- id: homing.low_speed
+  name: Low Speed Homing Reference
+  scope: axis
+  numbers: {start: 15, step: 2048, format: "R{n}"}
+  type: real
+  unit: counts/s
+  storage: {unit: counts/s, scale: 65.536, bits: 32, words: 2, word_order: low-first}
+  effect: {level: command, command: home axis}
+  help: {what: Speed of the search for the marker.}
+  page: "4-10"
+"""
+SMALL = """
+family: small
+name: Small servo module
+document: module-manual
+title: Small Servo Module
+machines: [{key: module, name: Module}]
+default_machine: module
+scopes: {axis: {instances: [X, Y], label: "Axis {i}"}}
+units: {}
+effect: {level: at-once}
+groups: [all]
+"""
+
+
 def test_registers_are_read_on_a_command_and_the_second_axis_lies_2048_higher(facts, machine) -> None:
-    schema = facts.schema(
-        """
-        - id: gain.proportional
-          name: Proportional Gain
-          scope: axis
-          numbers: {start: 3, step: 2048, format: "R{n}"}
-          type: integer
-          ranges: {"": [0, 32767]}
-          storage: {bits: 16}
-          effect: {level: command, command: change default setups}
-          help: {what: Proportional gain of the position loop.}
-          page: "4-7"
-        - id: limit.positive
-          name: Positive Overtravel Limit
-          scope: axis
-          numbers: {start: 11, step: 2048, format: "R{n}"}
-          type: integer
-          quantity: counts
-          ranges: {counts: [-2147483648, 2147483647]}
-          storage: {unit: counts, bits: 32, words: 2, word_order: high-first}
-          effect: {level: command, command: enable feedback}
-          help: {what: Where the travel ends.}
-          page: "4-9"
-        - id: homing.low_speed
-          name: Low Speed Homing Reference
-          scope: axis
-          numbers: {start: 15, step: 2048, format: "R{n}"}
-          type: real
-          unit: counts/s
-          storage: {unit: counts/s, scale: 65.536, bits: 32, words: 2, word_order: low-first}
-          effect: {level: command, command: home axis}
-          help: {what: Speed of the search for the marker.}
-          page: "4-10"
-        """,
-        """
-        family: small
-        name: Small servo module
-        document: module-manual
-        title: Small Servo Module
-        machines: [{key: module, name: Module}]
-        default_machine: module
-        scopes: {axis: {instances: [X, Y], label: "Axis {i}"}}
-        units: {}
-        effect: {level: at-once}
-        groups: [all]
-        """,
-    )
-    find = machine(schema).evaluation.find
+    schema = facts.schema(REGISTERS, SMALL)
+    find, effect = machine(schema).evaluation.find, schema.parameter("gain.proportional").effect
     assert [find("R3"), find("R2051")] == [("gain.proportional", "X"), ("gain.proportional", "Y")]
     assert [find("r11"), find("r2059")] == [("limit.positive", "X"), ("limit.positive", "Y")]
-    effect = schema.parameter("gain.proportional").effect
     assert (effect.level, effect.command) == ("command", "change default setups")
-    orders = [schema.parameter(name).storage.word_order for name in ("limit.positive", "homing.low_speed")]
-    assert orders == ["high-first", "low-first"]
-    assert schema.parameter("limit.positive").storage.words == 2
-    assert Value(2**31 - 1, "counts") == read_value(
-        schema.parameter("limit.positive"), "2147483647", "counts"
-    )
-    assert fault(machine(schema).evaluation, find("R2059"), Value(2**31, "counts")) is not None
-    assert schema.units_of(schema.parameter("homing.low_speed")) == ("counts/s",)
-    assert Value(2000.0, "counts/s") == read_value(
-        schema.parameter("homing.low_speed"), "2000 counts/sec", "counts/s"
-    )
+
+
+def test_words_of_a_register_lie_in_either_order_and_bound_its_value(facts, machine) -> None:
+    schema = facts.schema(REGISTERS, SMALL)
+    limit, speed = schema.parameter("limit.positive"), schema.parameter("homing.low_speed")
+    assert (limit.storage.words, limit.storage.word_order) == (2, "high-first")
+    assert speed.storage.word_order == "low-first"
+    assert read_value(limit, "2147483647", "counts") == Value(2**31 - 1, "counts")
+    assert fault(machine(schema).evaluation, ("limit.positive", "Y"), Value(2**31, "counts")) is not None
+    assert schema.units_of(speed) == ("counts/s",)
+    assert read_value(speed, "2000 counts/sec", "counts/s") == Value(2000.0, "counts/s")
 
 
 MODULE = """

@@ -233,40 +233,40 @@ def test_fields_of_many_bits_share_a_long_word_with_bits_nobody_knows(facts, mac
         with_field(field_at(parameter, 0), word, "32")
 
 
-def test_a_condition_may_ask_for_a_bit_or_a_field_of_a_word(facts, machine) -> None:
-    """NUM P21 counts for axes whose bit of P3 is set; P36 for some of the types in bits 25 and 26 of P34."""
-    schema = facts.schema(
-        """
-        - id: axes.servoed
-          name: Servo-Controlled Axes
-          numbers: {format: P3N0}
-          type: bits
-          storage: {bits: 32, signed: false, notation: hex, code: 6}
-          help: {what: One bit for each axis that is controlled.}
-          page: "4-14"
-        - id: sensor.kind
-          name: Sensor
-          scope: axis
-          numbers: {format: "P34N{i}"}
-          type: bits
-          help: {what: The sensor of each axis.}
-          page: "5-18"
-        - id: sensor.graduation
-          name: Graduation
-          scope: axis
-          numbers: {format: "P36N{i}"}
-          type: integer
-          states: [{state: hidden, unless: servoed}, {state: ignored, unless: graduated}]
-          help: {what: The graduation of the scale of each axis.}
-          page: "5-22"
-        """,
-        NUM
-        + """
+SERVOED = """
+- id: axes.servoed
+  name: Servo-Controlled Axes
+  numbers: {format: P3N0}
+  type: bits
+  storage: {bits: 32, signed: false, notation: hex, code: 6}
+  help: {what: One bit for each axis that is controlled.}
+  page: "4-14"
+- id: sensor.kind
+  name: Sensor
+  scope: axis
+  numbers: {format: "P34N{i}"}
+  type: bits
+  help: {what: The sensor of each axis.}
+  page: "5-18"
+- id: sensor.graduation
+  name: Graduation
+  scope: axis
+  numbers: {format: "P36N{i}"}
+  type: integer
+  states: [{state: hidden, unless: servoed}, {state: ignored, unless: graduated}]
+  help: {what: The graduation of the scale of each axis.}
+  page: "5-22"
+"""
+SERVOED_CONDITIONS = """
 conditions:
   servoed: {reads: {servoed: axes.servoed}, when: "bit(servoed, double(instance))", why: it is controlled}
   graduated: {reads: {kind: sensor.kind}, when: "field(kind, 25.0, 2.0) in [2.0, 3.0]", why: it is graduated}
-""",
-    )
+"""
+
+
+def test_a_condition_may_ask_for_a_bit_or_a_field_of_a_word(facts, machine) -> None:
+    """NUM P21 counts for axes whose bit of P3 is set; P36 for some of the types in bits 25 and 26 of P34."""
+    schema = facts.schema(SERVOED, NUM + SERVOED_CONDITIONS)
     assert schema.parameter("axes.servoed").storage.code == 6
     values = {"axes.servoed": Value(0x80000004), "sensor.kind@2": Value(0x04000000)}
     here = machine(schema, values)
@@ -332,35 +332,36 @@ def test_odd_and_even_numbers_may_be_a_pair_that_takes_effect_on_reset(facts, ma
     assert levels == ["reset", "restart"], "what is not said of a parameter is said of the family"
 
 
+UNNUMBERED = """
+- id: axes.pulses_per_unit
+  name: Pulses/Unit
+  scope: axis
+  type: real
+  help: {what: Pulses of the feedback device for a unit of travel.}
+  page: "A-4"
+- id: system.units
+  name: Units
+  type: choice
+  choices: [{key: inch, label: Inch}, {key: mm, label: Metric}]
+  help: {what: The unit of the machine.}
+  page: "A-1"
+"""
+SMALL_MILL = """
+family: small
+name: Small mill
+document: mill-guide
+title: Small Mill Guide
+machines: [{key: mill, name: Mill}]
+default_machine: mill
+scopes: {global: {instances: [""], label: Control}, axis: {instances: [X, "Y", Z], label: "Axis {i}"}}
+units: {metric: {length: mm}}
+effect: {level: at-once}
+groups: [all]
+"""
+
+
 def test_a_field_may_have_no_number_at_all(facts, machine) -> None:
-    schema = facts.schema(
-        """
-        - id: axes.pulses_per_unit
-          name: Pulses/Unit
-          scope: axis
-          type: real
-          help: {what: Pulses of the feedback device for a unit of travel.}
-          page: "A-4"
-        - id: system.units
-          name: Units
-          type: choice
-          choices: [{key: inch, label: Inch}, {key: mm, label: Metric}]
-          help: {what: The unit of the machine.}
-          page: "A-1"
-        """,
-        """
-        family: small
-        name: Small mill
-        document: mill-guide
-        title: Small Mill Guide
-        machines: [{key: mill, name: Mill}]
-        default_machine: mill
-        scopes: {global: {instances: [""], label: Control}, axis: {instances: [X, "Y", Z], label: "Axis {i}"}}
-        units: {metric: {length: mm}}
-        effect: {level: at-once}
-        groups: [all]
-        """,
-    )
+    schema = facts.schema(UNNUMBERED, SMALL_MILL)
     find = machine(schema).evaluation.find
     assert find("axes.pulses_per_unit@Y") == ("axes.pulses_per_unit", "Y")
     assert find("system.units") == ("system.units", "")

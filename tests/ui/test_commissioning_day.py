@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import dataclass
 from pathlib import Path
 
 from PySide6.QtCore import QPoint, QPointF, Qt
@@ -11,8 +12,10 @@ from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QWidget
 from pytestqt.qtbot import QtBot
 
+from amp_studio.files import ParameterFile
 from amp_studio.files.examples import examples
 from amp_studio.schema import Value
+from amp_studio.ui.base.workspace import Workspace
 from amp_studio.ui.control.download_preview import DownloadPreview
 from amp_studio.ui.dialogs.file_dialogs import ReportDialog
 from amp_studio.ui.dialogs.new_file_dialog import NewFileDialog
@@ -48,6 +51,165 @@ def is_typed_over(window: MainWindow, text: str) -> QWidget:
     return field
 
 
+@dataclass
+class Day:
+    """What the steps of the day share: the window, who answers its questions, and the file the day is about."""
+
+    window: MainWindow
+    person: Person
+    accept: Callable[..., None]
+    qtbot: QtBot
+    path: Path
+    example: Path
+
+    @property
+    def workspace(self) -> Workspace:
+        assert self.window.workspace is not None
+        return self.window.workspace
+
+    @property
+    def file(self) -> ParameterFile:
+        return self.workspace.file
+
+    def do(self, name: str) -> None:
+        """Choose a command of the menus."""
+        action(self.window, name).trigger()
+
+
+def a_new_machine_like_the_example(day: Day) -> None:
+    def like_the_example(dialog: NewFileDialog) -> None:
+        dialog.like.setCurrentIndex(dialog.like.findData(day.example))
+        dialog.name.setText("DAY")
+
+    day.accept(NewFileDialog, like_the_example)
+    day.person.chooses(day.path)
+    day.window.files.new("9pc")
+    assert day.file.header.name == "DAY"
+
+
+def the_guide_goes_to_the_next_value_that_is_not_set(day: Day) -> None:
+    day.do("Next Not Set")
+    first = day.window.selected()
+    assert first is not None
+    assert day.file.get(first) is None
+    assert day.window.page.left.side == "steps"
+
+
+def a_block_of_a_spreadsheet_is_checked_first(day: Day) -> None:
+    day.window.go_to(EXCESS)
+    QGuiApplication.clipboard().setText("12\t13\t14")
+    blocks: list[str] = []
+    day.accept(BlockPreview, lambda dialog: blocks.append(dialog.summary.text()))
+    day.do("Paste")
+    assert blocks == ["3 cells: 3 change, 0 the same, 0 refused"]
+    assert [day.file.get((EXCESS[0], a)) for a in "123"] == [Value(v, "mm") for v in (12.0, 13.0, 14.0)]
+
+
+def an_expression_is_calculated_and_a_refusal_stays_in_its_cell(day: Day) -> None:
+    type_into(day.window, EXCESS, "25.4/2 mm")
+    assert day.file.get(EXCESS) == Value(12.7, "mm")
+    type_into(day.window, EXCESS, "99999 mm")
+    assert "is outside" in editor(day.window).refusal_text
+    assert day.file.get(EXCESS) == Value(12.7, "mm")
+    is_typed_over(day.window, "12 mm")
+    assert day.file.get(EXCESS) == Value(12.0, "mm")
+
+
+def two_mistakes_are_mended_together(day: Day) -> None:
+    workspace = day.workspace
+    workspace.show_later(True)
+    workspace.edit("mistakes", {("servo.feedrate_suppression", a): Value(60.0, "mm") for a in "12"})
+    broken = [f for f in workspace.listed if f.fix]
+    assert len(broken) > 1
+    day.window.edits.fix_all(broken)
+    assert not {f.key for f in broken} & {f.key for f in workspace.listed}
+
+
+def a_handle_of_a_picture_is_dragged(day: Day) -> None:
+    day.do("Pictures")
+    pictures = day.window.page.pictures
+    pictures.show_picture("travel")
+    pictures.grab()
+    canvas, before = pictures.chosen_card.canvas, day.file.get(RIGHT)
+    (handle,) = [h for h in canvas.scene.handles if [d.address for d in h.drags] == [RIGHT]]
+    start = QPointF(*canvas.place.at(handle.at)).toPoint()
+    QTest.mousePress(canvas, Qt.MouseButton.LeftButton, pos=start)
+    QTest.mouseMove(canvas, start + QPoint(6, 0))
+    QTest.mouseRelease(canvas, Qt.MouseButton.LeftButton, pos=start + QPoint(6, 0))
+    assert day.file.get(RIGHT) != before
+    day.do("Pictures")
+
+
+def what_is_on_the_screen_of_the_control_leads_to_its_parameters(day: Day) -> None:
+    box = day.window.finder.box
+    box.begin("servo amp fe limits")
+    day.qtbot.waitUntil(lambda: day.window.finder._finder() is not None, timeout=WAIT_MS)
+    box.search()
+    assert next(row.text for row in box.model.rows if row.is_head) == "Messages of the control"
+    QTest.keyClick(box, Qt.Key.Key_Escape)
+
+
+def bookmark_filter_note_and_save(day: Day) -> None:
+    window = day.window
+    window.go_to(EXCESS)
+    day.do("Bookmark")
+    window.page.filters.choose("bookmarked", True)
+    assert [row.parameter.id for row in window.table.rows] == [EXCESS[0]]
+    window.page.filters.clear()
+    day.accept(NoteDialog, lambda dialog: dialog.text.setPlainText("measured with the new drives"))
+    window.edits.note()
+    assert window.save()
+    assert "measured with the new drives" in day.path.read_text(encoding="utf-8")
+
+
+def one_value_of_the_example_is_taken_back(day: Day) -> None:
+    window, wait = day.window, day.qtbot.waitUntil
+    shown = window.files.comparing.open(window.page)
+    assert isinstance(shown, MergeWindow)
+    shown.start(B, lambda: shown.sources.from_copy(shown.sources.other_file, day.example))
+    wait(lambda: not shown._reading and bool(shown.merge.rows), timeout=WAIT_MS)
+    row = next(r for r in shown.merge.rows if r.id.part == "value" and r.address == EXCESS)
+    shown.tree.show_row(row)
+    shown.tree.setFocus()
+    QTest.keyClick(shown.tree, Qt.Key.Key_B)
+    wait(shown.outcome.merge.isEnabled, timeout=WAIT_MS)
+    shown.outcome.merge.click()
+    shown.close()
+    assert day.file.get(EXCESS) == Value(11.0, "mm")
+
+
+def the_reversal_error_is_tuned(day: Day) -> None:
+    day.do("Tuning")
+    tuning = day.window.findChildren(TuningWindow)[-1]
+    values = next(p for p in tuning.values if p.page.key == "reversal")
+    values.table.setCurrentCell(values.addresses().index(REVERSAL), 2)
+    values.increase.click()
+    assert day.file.get(REVERSAL) == Value(0.001, "mm")
+    tuning.close()
+    assert day.window.save()
+
+
+def the_control_gets_it_after_a_look_at_what_changes(day: Day, control: Control) -> None:
+    changes: list[int] = []
+    day.accept(DownloadPreview, lambda dialog: changes.append(len(dialog.list.items)))
+    day.person.types(control.address)
+    if day.workspace.count("error"):
+        day.person.answers("Download")
+    day.do("Download to Control")
+    assert day.person.reads().startswith("Download complete and read back equal")
+    assert changes[0] > 100
+    day.person.types(control.address)
+    day.do("Verify With Control")
+    assert day.person.reads().startswith("Nothing differs")
+
+
+def the_report_for_the_cabinet_is_written(day: Day) -> None:
+    report = day.path.with_suffix(".csv")
+    day.accept(ReportDialog, lambda dialog: dialog.path.setText(str(report)))
+    day.do("Report")
+    assert "Excess Error" in report.read_text(encoding="utf-8")
+
+
 def test_a_whole_commissioning_day(
     open_window: Callable[..., MainWindow],
     start_control: Callable[..., Control],
@@ -56,130 +218,19 @@ def test_a_whole_commissioning_day(
     tmp_path: Path,
     qtbot: QtBot,
 ) -> None:
-    window, path = open_window(), tmp_path / "DAY.amp"
-    mill = next(e for e in examples() if e.family == "9pc" and e.path.name == "MILL_1394.amp")
-
-    # A new machine like the example.
-    def like_the_example(dialog: NewFileDialog) -> None:
-        dialog.like.setCurrentIndex(dialog.like.findData(mill.path))
-        dialog.name.setText("DAY")
-
-    accept(NewFileDialog, like_the_example)
-    person.chooses(path)
-    window.files.new("9pc")
-    workspace = window.workspace
-    assert workspace is not None
-    file = workspace.file
-    assert file.header.name == "DAY"
-
-    # The guide goes to the next value that is not set.
-    action(window, "Next Not Set").trigger()
-    first = window.selected()
-    assert first is not None
-    assert file.get(first) is None
-    assert window.page.left.side == "steps"
-
-    # A block from a spreadsheet, checked first.
-    window.go_to(EXCESS)
-    QGuiApplication.clipboard().setText("12\t13\t14")
-    blocks: list[str] = []
-    accept(BlockPreview, lambda dialog: blocks.append(dialog.summary.text()))
-    action(window, "Paste").trigger()
-    assert blocks == ["3 cells: 3 change, 0 the same, 0 refused"]
-    assert [file.get((EXCESS[0], a)) for a in "123"] == [Value(v, "mm") for v in (12.0, 13.0, 14.0)]
-
-    # An expression; and a refusal that stays in its cell until it is typed over.
-    type_into(window, EXCESS, "25.4/2 mm")
-    assert file.get(EXCESS) == Value(12.7, "mm")
-    type_into(window, EXCESS, "99999 mm")
-    assert "is outside" in editor(window).refusal_text
-    assert file.get(EXCESS) == Value(12.7, "mm")
-    is_typed_over(window, "12 mm")
-    assert file.get(EXCESS) == Value(12.0, "mm")
-
-    # Two mistakes, mended together from the list of findings.
-    workspace.show_later(True)
-    workspace.edit("mistakes", {("servo.feedrate_suppression", a): Value(60.0, "mm") for a in "12"})
-    broken = [f for f in workspace.listed if f.fix]
-    assert len(broken) > 1
-    window.edits.fix_all(broken)
-    assert not {f.key for f in broken} & {f.key for f in workspace.listed}
-
-    # A handle of a picture.
-    action(window, "Pictures").trigger()
-    pictures = window.page.pictures
-    pictures.show_picture("travel")
-    pictures.grab()
-    canvas, before = pictures.chosen_card.canvas, file.get(RIGHT)
-    (handle,) = [h for h in canvas.scene.handles if [d.address for d in h.drags] == [RIGHT]]
-    start = QPointF(*canvas.place.at(handle.at)).toPoint()
-    QTest.mousePress(canvas, Qt.MouseButton.LeftButton, pos=start)
-    QTest.mouseMove(canvas, start + QPoint(6, 0))
-    QTest.mouseRelease(canvas, Qt.MouseButton.LeftButton, pos=start + QPoint(6, 0))
-    assert file.get(RIGHT) != before
-    action(window, "Pictures").trigger()
-
-    # What is on the control's screen leads to its parameters.
-    box = window.finder.box
-    box.begin("servo amp fe limits")
-    qtbot.waitUntil(lambda: window.finder._finder() is not None, timeout=WAIT_MS)
-    box.search()
-    assert next(row.text for row in box.model.rows if row.is_head) == "Messages of the control"
-    QTest.keyClick(box, Qt.Key.Key_Escape)
-
-    # Bookmark, filter, note, save.
-    window.go_to(EXCESS)
-    action(window, "Bookmark").trigger()
-    window.page.filters.choose("bookmarked", True)
-    assert [row.parameter.id for row in window.table.rows] == [EXCESS[0]]
-    window.page.filters.clear()
-    accept(NoteDialog, lambda dialog: dialog.text.setPlainText("measured with the new drives"))
-    window.edits.note()
-    assert window.save()
-    assert "measured with the new drives" in path.read_text(encoding="utf-8")
-
-    # One value of the example is taken back.
-    shown = window.files.comparing.open(window.page)
-    assert isinstance(shown, MergeWindow)
-    shown.start(B, lambda: shown.sources.from_copy(shown.sources.other_file, mill.path))
-    qtbot.waitUntil(lambda: not shown._reading and bool(shown.merge.rows), timeout=WAIT_MS)
-    row = next(r for r in shown.merge.rows if r.id.part == "value" and r.address == EXCESS)
-    shown.tree.show_row(row)
-    shown.tree.setFocus()
-    QTest.keyClick(shown.tree, Qt.Key.Key_B)
-    qtbot.waitUntil(shown.outcome.merge.isEnabled, timeout=WAIT_MS)
-    shown.outcome.merge.click()
-    shown.close()
-    assert file.get(EXCESS) == Value(11.0, "mm")
-
-    # The reversal error is tuned, as one more step of undo.
-    action(window, "Tuning").trigger()
-    tuning = window.findChildren(TuningWindow)[-1]
-    values = next(p for p in tuning.values if p.page.key == "reversal")
-    values.table.setCurrentCell(values.addresses().index(REVERSAL), 2)
-    values.increase.click()
-    assert file.get(REVERSAL) == Value(0.001, "mm")
-    tuning.close()
-    assert window.save()
-
-    # The control gets it after a look at what changes, and has it.
-    control = start_control()
-    changes: list[int] = []
-    accept(DownloadPreview, lambda dialog: changes.append(len(dialog.list.items)))
-    person.types(control.address)
-    if workspace.count("error"):
-        person.answers("Download")
-    action(window, "Download to Control").trigger()
-    assert person.reads().startswith("Download complete and read back equal")
-    assert changes[0] > 100
-    person.types(control.address)
-    action(window, "Verify With Control").trigger()
-    assert person.reads().startswith("Nothing differs")
-
-    # The report for the cabinet; and nothing is left to save.
-    report = tmp_path / "DAY.csv"
-    accept(ReportDialog, lambda dialog: dialog.path.setText(str(report)))
-    action(window, "Report").trigger()
-    assert "Excess Error" in report.read_text(encoding="utf-8")
-    assert not workspace.is_dirty
-    assert on_disk(path).get(EXCESS) == Value(11.0, "mm")
+    mill = next(e.path for e in examples() if e.family == "9pc" and e.path.name == "MILL_1394.amp")
+    day = Day(open_window(), person, accept, qtbot, tmp_path / "DAY.amp", mill)
+    a_new_machine_like_the_example(day)
+    the_guide_goes_to_the_next_value_that_is_not_set(day)
+    a_block_of_a_spreadsheet_is_checked_first(day)
+    an_expression_is_calculated_and_a_refusal_stays_in_its_cell(day)
+    two_mistakes_are_mended_together(day)
+    a_handle_of_a_picture_is_dragged(day)
+    what_is_on_the_screen_of_the_control_leads_to_its_parameters(day)
+    bookmark_filter_note_and_save(day)
+    one_value_of_the_example_is_taken_back(day)
+    the_reversal_error_is_tuned(day)
+    the_control_gets_it_after_a_look_at_what_changes(day, start_control())
+    the_report_for_the_cabinet_is_written(day)
+    assert not day.workspace.is_dirty, "nothing is left to save"
+    assert on_disk(day.path).get(EXCESS) == Value(11.0, "mm")

@@ -121,6 +121,39 @@ def test_a_hopeless_line_ends_in_time_and_with_the_truth(
     assert made.clock.now < 60
 
 
+class NoisyLink:
+    """A link on which bytes change, vanish and appear, and which is cut now and then."""
+
+    bytes_per_second = 11_520.0
+
+    def __init__(self, link: Any, chance: random.Random, one_in: int) -> None:
+        self._link = link
+        self._chance = chance
+        self._one_in = one_in
+
+    def read(self, timeout: float) -> bytes:
+        return self._spoil(self._link.read(timeout))
+
+    def write(self, data: bytes) -> None:
+        self._link.write(self._spoil(data))
+
+    def close(self) -> None:
+        self._link.close()
+
+    def _spoil(self, data: bytes) -> bytes:
+        out, random_up_to = bytearray(), self._chance.randrange
+        for byte in data:
+            if random_up_to(self._one_in):
+                out.append(byte)
+            elif (what := random_up_to(4)) == 0:
+                out.append(random_up_to(256))
+            elif what == 1:
+                out += bytes((byte, random_up_to(256)))
+            elif what == 2:
+                raise LinkError("noise", "cut")
+        return bytes(out)
+
+
 @settings(max_examples=examples(60), suppress_health_check=[HealthCheck.function_scoped_fixture])
 @given(chance=st.randoms(use_true_random=False), one_in=st.integers(60, 2_000))
 def test_noise_of_any_kind_never_gives_a_wrong_image(
@@ -128,38 +161,7 @@ def test_noise_of_any_kind_never_gives_a_wrong_image(
 ) -> None:
     made = rig(control=new_control(initial=OLD), bytes_per_second=11_520, patience=30)
     connect = made.modem.connect
-
-    class Noisy:
-        """A link on which bytes change, vanish and appear, and which is cut now and then."""
-
-        bytes_per_second = 11_520.0
-
-        def __init__(self) -> None:
-            self._link = connect()
-
-        def read(self, timeout: float) -> bytes:
-            return self._spoil(self._link.read(timeout))
-
-        def write(self, data: bytes) -> None:
-            self._link.write(self._spoil(data))
-
-        def close(self) -> None:
-            self._link.close()
-
-        def _spoil(self, data: bytes) -> bytes:
-            out = bytearray()
-            for byte in data:
-                if chance.randrange(one_in):
-                    out.append(byte)
-                elif (what := chance.randrange(4)) == 0:
-                    out.append(chance.randrange(256))
-                elif what == 1:
-                    out += bytes((byte, chance.randrange(256)))
-                elif what == 2:
-                    raise LinkError("noise", "cut")
-            return bytes(out)
-
-    made.modem.connect = Noisy
+    made.modem.connect = lambda: NoisyLink(connect(), chance, one_in)
     try:
         send(made.session())
         said = "new"
