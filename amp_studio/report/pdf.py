@@ -7,8 +7,12 @@ but the report's date depends on the time of printing.
 
 from __future__ import annotations
 
+import contextlib
 import json
+import os
 import re
+import tempfile
+from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -137,8 +141,9 @@ def _drawing(svg: str) -> Exact:
 
 def render_pdf(report: Report, own: Path | None = None) -> bytes:
     """Return the PDF; equal reports have equal bytes. ``own`` is a template of the project. Raises TemplateMistakeError."""
-    (pdf,) = _set(typst_source(report, own), own, format="pdf")
-    return pdf
+    source = typst_source(report, own)
+    with _mistakes(source, own):
+        return _as_pdf(source, own.parent if own else TEMPLATES)
 
 
 def set_pages(report: Report, ppi: int, own: Path | None = None) -> SetReport:
@@ -146,39 +151,49 @@ def set_pages(report: Report, ppi: int, own: Path | None = None) -> SetReport:
     import typst
 
     source = typst_source(report, own, places=True)
-    pages = _set(source, own, format="png", ppi=ppi)
-    options = _options(source, own.parent if own else TEMPLATES)
-    marks = typst.query(source.encode("utf-8"), "<amp-places>", field="value", **options)
-    return SetReport(tuple(pages), source, marks)
+    with contextlib.ExitStack() as stack, _mistakes(source, own):
+        root = (
+            own.parent
+            if own
+            else Path(stack.enter_context(tempfile.TemporaryDirectory(prefix="amp-studio-")))
+        )
+        # Typst sets a file once for both questions, and a text once for each: nearly half of the time.
+        handle, name = tempfile.mkstemp(dir=root, suffix=".typ")
+        stack.callback(os.unlink, name)
+        with os.fdopen(handle, "wb") as file:
+            file.write(source.encode("utf-8"))
+        compiler = typst.Compiler(name, **_options(source, root))
+        pages = compiler.compile(format="png", ppi=ppi)
+        marks = compiler.query("<amp-places>", field="value")
+    return SetReport(tuple([pages] if isinstance(pages, bytes) else pages or ()), source, marks)
 
 
-def _set(source: str, own: Path | None, **form: object) -> list[bytes]:
-    """Return the files that Typst makes of a report; raises TemplateMistakeError."""
-    if own is None:
-        return _compiled(source, TEMPLATES, **form)
+@contextlib.contextmanager
+def _mistakes(source: str, own: Path | None) -> Iterator[None]:
+    """Turn what Typst refuses of a project's template into a TemplateMistakeError with its line."""
     from typst import TypstError
 
     try:
-        return _compiled(source, own.parent, **form)
+        yield
     except TypstError as error:
+        if own is None:
+            raise
         line = line_of_source(own, source, error.diagnostic)
         raise TemplateMistakeError(own, f"{line}Typst: {error}") from None
 
 
 def typeset(source: str) -> bytes:
     """Return the PDF of Typst source."""
-    (pdf,) = _compiled(source, TEMPLATES, format="pdf")
-    return pdf
+    return _as_pdf(source, TEMPLATES)
 
 
-def _compiled(source: str, root: Path, **form: object) -> list[bytes]:
-    """Return what Typst makes of source that may read the files under ``root``: one file, or one for each page."""
+def _as_pdf(source: str, root: Path) -> bytes:
+    """Return the PDF of Typst source that may read the files under ``root``."""
     import typst
 
-    if form.get("format") == "pdf":
-        _forget_earlier()
-    made = typst.compile(source.encode("utf-8"), **_options(source, root), **form)  # type: ignore[call-overload]
-    return [made] if isinstance(made, bytes) else list(made)
+    _forget_earlier()
+    pdf: bytes = typst.compile(source.encode("utf-8"), format="pdf", **_options(source, root))
+    return pdf
 
 
 def _forget_earlier() -> None:
