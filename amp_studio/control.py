@@ -12,6 +12,7 @@ from amp_studio.transfer.client.exchange import Outcome
 from amp_studio.transfer.client.parameters import download_file, fetch_file, fetch_image
 from amp_studio.transfer.client.verification import ImageComparison, verify_content
 from amp_studio.transfer.driver import ControlIdentity
+from amp_studio.transfer.exchange import Exchange
 
 
 class ConnectedControl:
@@ -67,7 +68,8 @@ class ConnectedControl:
                 "a machine that was never saved needs the folder for the copy of the control: keep=FOLDER"
             )
         stem = machine.path.stem if machine.path else machine.file.header.name or "machine"
-        return download_file(machine.file, self.address, folder, stem, expected=expect, record=machine.path)
+        exchange = Exchange(keep=folder / f"{stem}.amp", record=machine.path)
+        return download_file(machine.file, self.address, exchange, expected=expect)
 
 
 def connect(address: str, family: str = "") -> ConnectedControl:

@@ -48,6 +48,7 @@ def _in_terminal() -> int:
     from amp_studio.files import Document, compare, open_file
     from amp_studio.report import counted
     from amp_studio.transfer.client.parameters import download_file, fetch_file
+    from amp_studio.transfer.exchange import Exchange
     from amp_studio.validate import Validator
 
     begin = time.monotonic()
@@ -71,9 +72,9 @@ def _in_terminal() -> int:
     try:
         address = _address_of(control)
         _print_step(4, f"emulated control at {address}, in E-stop")
-        outcome = download_file(file, address, folder, path.stem, _percent)
+        outcome = download_file(file, address, Exchange(_percent, keep=path))
         _print_step(5, outcome.text)
-        fetched = fetch_file(address, _percent, family=file.schema.family.family)
+        fetched = fetch_file(address, Exchange(_percent), family=file.schema.family.family)
         upload = folder / "from-control.amp"
         fetched.header.name = upload.stem
         Document.create(fetched, upload).close()

@@ -16,6 +16,7 @@ from amp_studio.files import open_file
 from amp_studio.schema import Value
 from amp_studio.transfer.client.parameters import download_file, fetch_file, fetch_image
 from amp_studio.transfer.client.verification import verify_content
+from amp_studio.transfer.exchange import Exchange
 
 LINES = {"TCP loopback": "tcp://127.0.0.1:0", **({"pty": "pty:"} if os.name == "posix" else {})}
 
@@ -32,7 +33,12 @@ def measures(folder: Path, full: Path, example: Path, times: int) -> Iterator[Me
         kept = folder / f"kept-{name.replace(' ', '-')}"
         kept.mkdir()
         with _control(listen, kept / "control") as address:
-            down = timed(lambda a=address, k=kept: download_file(file, a, k, "bench"), times, change, warm=0)
+            down = timed(
+                lambda a=address, k=kept: download_file(file, a, Exchange(keep=k / "bench")),
+                times,
+                change,
+                warm=0,
+            )
             yield Measure(f"download, {name} (restart of the control included)", down)
             yield Measure(f"upload, {name}", timed(lambda a=address: fetch_file(a, family="9pc"), times))
 
@@ -46,7 +52,9 @@ def _of_full_file(folder: Path, full: Path, times: int) -> Iterator[Measure]:
         def change() -> None:
             file.set(("servo.excess_error", "1"), next(values))
 
-        down = timed(lambda: download_file(file, address, kept, "bench"), times, change, warm=0)
+        down = timed(
+            lambda: download_file(file, address, Exchange(keep=kept / "bench")), times, change, warm=0
+        )
         yield Measure(
             "download of a full file, TCP (0.5 s of it is the control's restart)", down, target=0.65
         )

@@ -237,6 +237,7 @@ def _side(options: argparse.Namespace, text: str) -> tuple[ParameterFile, str | 
         return opened(Path(text), options), None
     from amp_studio.transfer.client.parameters import fetch_image, sha256
     from amp_studio.transfer.content import decode_content
+    from amp_studio.transfer.exchange import Exchange
 
-    image = fetch_image(text, progress())
+    image = fetch_image(text, Exchange(progress()))
     return decode_content(image), sha256(image)

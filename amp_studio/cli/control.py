@@ -16,18 +16,21 @@ from amp_studio.transfer.client.parameters import (
     restore_copy,
     sha256,
 )
+from amp_studio.transfer.client.record import record_look
 from amp_studio.transfer.client.verification import verify_content
 from amp_studio.transfer.content import decode_content
 from amp_studio.transfer.emulated.family_control import EmulatedOptions, emulate
+from amp_studio.transfer.exchange import Exchange
 from amp_studio.transfer.image import ImageError
 from amp_studio.transfer.links.endpoint import Endpoint, parse_endpoint
 from amp_studio.transfer.links.security import Security, can_others_read, exposure, read_password
+from amp_studio.transfer.progress import Stop
 
 from .by_hand import note_by_hand, sheet_offered
 from .comparing import difference_json, print_comparison, print_difference
 from .console import assignments, family, note, print_json, progress
 from .errors import UsageError
-from .fleet import check_fleet, download_to_several, is_fleet, note_exchange, upload_several, verify_several
+from .fleet import check_fleet, download_to_several, is_fleet, record_upload, upload_several, verify_several
 from .opened import opened
 from .out_of_range import settle_values
 from .output import check_new, write_new
@@ -70,13 +73,18 @@ def download_verb(options: argparse.Namespace) -> int:
     name = file.schema.family.family
     check_fleet(options, options.to)
     with asked_politely() as stop, sheet_offered(name):
-        keep = options.keep or path.parent
+        exchange = _exchange(options, path, stop)
         if is_fleet(options, options.to):
-            return download_to_several(options, file, path, keep, stop)
-        outcome = download_file(file, options.to[0], keep, path.stem, progress(), stop, expected=options.expect,
-                                record=path, notify=note)  # fmt: skip
+            return download_to_several(options, file, exchange)
+        outcome = download_file(file, options.to[0], exchange, expected=options.expect)
         note_by_hand(name)
         return _print_outcome(outcome)
+
+
+def _exchange(options: argparse.Namespace, path: Path, stop: Stop) -> Exchange:
+    """Return the exchange of a verb that replaces what a control contains."""
+    keep = options.keep / path.name if options.keep else path
+    return Exchange(progress(), stop, keep, record=path, notify=note)
 
 
 def restore_verb(options: argparse.Namespace) -> int:
@@ -95,20 +103,8 @@ def restore_verb(options: argparse.Namespace) -> int:
             )
         note(f"{path} goes back with {errors}, as the control contained it")
     with asked_politely() as stop:
-        keep = options.keep or path.parent
-        return _print_outcome(
-            restore_copy(
-                copy,
-                options.to,
-                keep,
-                path.stem,
-                progress(),
-                stop,
-                expected=options.expect,
-                record=path,
-                notify=note,
-            )
-        )
+        outcome = restore_copy(copy, options.to, _exchange(options, path, stop), expected=options.expect)
+        return _print_outcome(outcome)
 
 
 def _note_errors(file: ParameterFile, path: Path) -> str:
@@ -150,9 +146,9 @@ def upload_verb(options: argparse.Namespace) -> int:
     check_fleet(options, options.source)
     if is_fleet(options, options.source):
         with asked_politely() as stop:
-            return upload_several(options, stop)
+            return upload_several(options, Exchange(cancel=stop))
     check_new(output, "an upload")
-    image = fetch_image(source, progress())
+    image = fetch_image(source, Exchange(progress()))
     if not image:
         raise UsageError("the control is empty: there is nothing to upload")
     values: int | None = None
@@ -166,7 +162,7 @@ def upload_verb(options: argparse.Namespace) -> int:
         write_new(file, output)
         values = len(file.values)
         text = f"{output}: {counted(values, 'value')}"
-        note_exchange("upload", output, file, source, image, "uploaded")
+        record_upload(output, file, source, image)
     if options.json:
         print_json({"path": str(output), "values": values, "sha256": sha256(image)})
     else:
@@ -196,12 +192,13 @@ def verify_verb(options: argparse.Namespace) -> int:
     check_fleet(options, options.control)
     if is_fleet(options, options.control):
         with asked_politely() as stop:
-            return verify_several(options, file, stop)
-    control = options.control[0]
-    with sheet_offered(file.schema.family.family):
-        fetched = fetch_image(control, progress(), family=file.schema.family.family)
+            return verify_several(options, file, Exchange(cancel=stop, record=options.path, notify=note))
+    control, name = options.control[0], file.schema.family.family
+    exchange = Exchange(progress(), record=options.path, notify=note)
+    with sheet_offered(name):
+        fetched = fetch_image(control, exchange, family=name)
     found = verify_content(file, fetched)
-    note_exchange("verify", options.path, file, control, fetched, found.summary())
+    record_look("verify", exchange, name, control, fetched, found.summary())
     if options.json:
         print_json({
             "differences": [difference_json(file, d, options.secrets) for d in found.values.differences], "same": found.values.same,

@@ -13,6 +13,7 @@ from amp_studio.report.paper import Paper, PaperTable, check_paper_ending, write
 from amp_studio.report.wording import counted
 from amp_studio.schema import show_value
 from amp_studio.transfer.client.drift import Drift, drift_of_all, known_controls
+from amp_studio.transfer.exchange import Exchange
 
 from .comparing import difference_json
 from .console import note, print_json, progress
@@ -42,7 +43,7 @@ def verify_all_verb(options: argparse.Namespace) -> int:
             f"{folder} knows no control: no download is recorded there, and no project.yaml names one"
         )
     with asked_politely() as stop:
-        found = drift_of_all(known, progress, cancel=stop, notify=note)
+        found = drift_of_all(known, lambda address: Exchange(progress(address), stop, notify=note))
     counts = {word: sum(each.result == word for each in found) for word in _CODES}
     if options.json:
         controls = [_entry(each, options.secrets) for each in found]

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import argparse
 from collections.abc import Sequence
+from dataclasses import replace
 from pathlib import Path
 
 from amp_studio.files import ParameterFile
@@ -11,6 +12,7 @@ from amp_studio.report.paper import check_paper_ending, results_paper, write_pap
 from amp_studio.report.wording import counted
 from amp_studio.transfer.client.fleet import (
     HEADS,
+    ExchangeOf,
     FleetResult,
     FleetRow,
     check_addresses,
@@ -20,9 +22,9 @@ from amp_studio.transfer.client.fleet import (
     with_each,
 )
 from amp_studio.transfer.client.parameters import fetch_image, sha256
-from amp_studio.transfer.client.record import add_look
+from amp_studio.transfer.client.record import record_look
 from amp_studio.transfer.content import decode_content
-from amp_studio.transfer.progress import Progress, Stop
+from amp_studio.transfer.exchange import Exchange
 
 from .console import note, print_json, progress
 from .errors import UsageError
@@ -45,29 +47,32 @@ def is_fleet(options: argparse.Namespace, addresses: Sequence[str]) -> bool:
     )
 
 
-def note_exchange(
-    verb: str, path: Path, file: ParameterFile, address: str, content: bytes, text: str
-) -> None:
-    """Record an exchange that replaced nothing, in the folder of a file."""
-    if problem := add_look(verb, path, file.schema.family.family, address, content, text):
-        note(problem)
-
-
-def download_to_several(
-    options: argparse.Namespace, file: ParameterFile, path: Path, keep: Path, stop: Stop
-) -> int:
+def download_to_several(options: argparse.Namespace, file: ParameterFile, exchange: Exchange) -> int:
     """Send a file to each control; returns the exit code of all."""
-    return _end(options, download_each(file, path, keep, options.to, progress, expected=options.expect,
-                                       stop_on_failure=options.stop_on_failure, cancel=stop, notify=note))  # fmt: skip
+    return _end(
+        options,
+        download_each(
+            file,
+            options.to,
+            _one_of_several(exchange),
+            expected=options.expect,
+            stop_on_failure=options.stop_on_failure,
+        ),
+    )
 
 
-def verify_several(options: argparse.Namespace, file: ParameterFile, stop: Stop) -> int:
+def verify_several(options: argparse.Namespace, file: ParameterFile, exchange: Exchange) -> int:
     """Compare a file with each control; 1 where one differs, 2 where one could not be read."""
-    return _end(options, verify_each(file, options.path, options.control, progress,
-                                     stop_on_failure=options.stop_on_failure, cancel=stop, notify=note))  # fmt: skip
+    of_each = _one_of_several(exchange)
+    return _end(options, verify_each(file, options.control, of_each, stop_on_failure=options.stop_on_failure))
 
 
-def upload_several(options: argparse.Namespace, stop: Stop) -> int:
+def _one_of_several(exchange: Exchange) -> ExchangeOf:
+    """Return the exchange with each control, whose progress names its address."""
+    return lambda address: replace(exchange, progress=progress(address))
+
+
+def upload_several(options: argparse.Namespace, exchange: Exchange) -> int:
     """Fetch what each control contains into a file of a folder, named by its address; returns the exit code of all."""
     folder: Path = options.output
     if not folder.is_dir():
@@ -78,14 +83,19 @@ def upload_several(options: argparse.Namespace, stop: Stop) -> int:
     for output in outputs.values():
         check_new(output, "an upload")
 
-    def work(address: str, show: Progress) -> tuple[bytes, ParameterFile]:
-        content = fetch_image(address, show, stop)
+    def work(address: str, with_control: Exchange) -> tuple[bytes, ParameterFile]:
+        content = fetch_image(address, with_control)
         if not content:
             raise UsageError("the control is empty: there is nothing to upload")
         return content, decode_content(content)
 
     found = with_each(
-        options.source, work, progress, failed=lambda _: False, stop_on_failure=options.stop_on_failure, cancel=stop)  # fmt: skip
+        options.source,
+        work,
+        _one_of_several(exchange),
+        failed=lambda _: False,
+        stop_on_failure=options.stop_on_failure,
+    )
     return _end(options, [_uploaded(each, outputs[each.address]) for each in found])
 
 
@@ -98,9 +108,15 @@ def _uploaded(found: FleetResult[tuple[bytes, ParameterFile]], output: Path) -> 
         write_new(file, output)
     except (OSError, ValueError) as error:
         return FleetRow(found.address, "not written", "failed", sha256=digest, text=str(error))
-    note_exchange("upload", output, file, found.address, content, "uploaded")
+    record_upload(output, file, found.address, content)
     text = f"{output}: {counted(len(file.values), 'value')}"
     return FleetRow(found.address, "done", sha256=digest, text=text)
+
+
+def record_upload(output: Path, file: ParameterFile, address: str, content: bytes) -> None:
+    """Record an upload in the folder of the file that was made of it."""
+    exchange = Exchange(record=output, notify=note)
+    record_look("upload", exchange, file.schema.family.family, address, content, "uploaded")
 
 
 def _as_name(address: str) -> str:

@@ -11,6 +11,7 @@ from amp_studio.report.wording import counted
 from amp_studio.transfer.client.drivers import open_driver_at
 from amp_studio.transfer.client.exchange import look_at
 from amp_studio.transfer.content import decode_content
+from amp_studio.transfer.exchange import Exchange
 from amp_studio.transfer.image import ImageError
 from amp_studio.transfer.links.serial_ports import serial_ports
 
@@ -37,12 +38,13 @@ def identify_verb(options: argparse.Namespace) -> int:
     """Print who answers at an address, and what it contains."""
     if options.family:
         family(options.family)
+    exchange = Exchange(progress())
     with (
-        closing(open_driver_at(options.address, options.family or "", progress())) as driver,
+        closing(open_driver_at(options.address, options.family or "", exchange)) as driver,
         sheet_offered(options.family or ""),
     ):
         abilities = driver.abilities
-        control, content, digest = look_at(driver, progress())
+        control, content, digest = look_at(driver, exchange)
     note_by_hand(control.family)
     unreadable, axes, values, signature = "", list(control.axes), None, control.signature
     try:

@@ -8,7 +8,7 @@ from pathlib import Path
 
 from amp_studio.files import open_file, real_path, text_of_name
 from amp_studio.files.local_time import local_time
-from amp_studio.transfer.client.record import RECORD, Exchange, read_exchanges
+from amp_studio.transfer.client.record import RECORD, RecordedExchange, read_exchanges
 
 from .console import print_json
 from .errors import UsageError
@@ -40,7 +40,7 @@ def history_verb(options: argparse.Namespace) -> int:
     return 0
 
 
-def _show(each: Exchange) -> None:
+def _show(each: RecordedExchange) -> None:
     print(f"      {each.text}")
     print(f"      at {local_time(each.when)} ({each.when}), family {each.family}")
     print(f"      before {each.before or 'not known'}")

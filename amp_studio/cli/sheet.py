@@ -66,8 +66,9 @@ def _present(text: str) -> tuple[ParameterFile, str]:
     if is_endpoint(text):
         from amp_studio.transfer.client.parameters import fetch_image, sha256
         from amp_studio.transfer.content import decode_content
+        from amp_studio.transfer.exchange import Exchange
 
-        content = fetch_image(text, progress())
+        content = fetch_image(text, Exchange(progress()))
         return decode_content(content), f"{text}, sha256 {sha256(content)}"
     from amp_studio.transfer.client.kept import open_copy
 

@@ -7,15 +7,14 @@ its peer and its waiting, and ends every exchange with a TransferError that name
 from __future__ import annotations
 
 import re
-import threading
 from collections.abc import Callable
 from dataclasses import dataclass
 from typing import ClassVar, Protocol, runtime_checkable
 
 from .content import ContentKind
 from .errors import TransferError
+from .exchange import QUIET, Exchange, Replacement
 from .links.endpoint import Endpoint
-from .progress import Progress, quiet
 
 
 @dataclass(frozen=True)
@@ -93,49 +92,34 @@ class Receipt:
 
 
 class ControlDriver(ContentKind, Protocol):
-    """One way of speaking to one control. Everything may raise TransferError; a driver belongs to one thread.
-
-    ``progress`` is called for steps and silences; ``cancel`` may be set from another thread and breaks off what waits.
-    """
+    """One way of speaking to one control. Everything may raise TransferError; a driver belongs to one thread."""
 
     @property
     def abilities(self) -> Abilities:
         """What can be asked for; known before anything is connected."""
 
-    def identify(self, progress: Progress = quiet, cancel: threading.Event | None = None) -> ControlIdentity:
+    def identify(self, exchange: Exchange = QUIET) -> ControlIdentity:
         """Return who answers; connects where there is no connection yet."""
 
-    def fetch(
-        self, progress: Progress = quiet, cancel: threading.Event | None = None, stage: str = "upload"
-    ) -> bytes:
+    def fetch(self, exchange: Exchange = QUIET, stage: str = "upload") -> bytes:
         """Return all that the control contains, whole and undamaged; the same bytes while it contains the same."""
 
-    def send(
-        self,
-        content: bytes,
-        *,
-        signature: str,
-        expected: bytes,
-        held: bytes,
-        progress: Progress = quiet,
-        cancel: threading.Event | None = None,
-    ) -> Receipt:
-        """Have the control contain ``content`` instead of ``held``, whose SHA-256 is ``expected``.
+    def send(self, replacement: Replacement, exchange: Exchange = QUIET) -> Receipt:
+        """Have the control contain one content instead of another.
 
         A driver that sends single values sends those that differ. ``at_control`` of an error is what the control contains then.
         """
 
-    def wait_restarted(
-        self,
-        receipt: Receipt,
-        seconds: float,
-        progress: Progress = quiet,
-        cancel: threading.Event | None = None,
-    ) -> bool:
-        """Wait up to so many seconds for the restart after ``send``; returns whether the control has come back."""
-
     def close(self) -> None:
-        """Hang up. Closing twice is no fault."""
+        """Close the line. Closing twice is no fault."""
+
+
+@runtime_checkable
+class RestartsItself(Protocol):
+    """A driver whose control restarts after a download without anybody's doing."""
+
+    def wait_restarted(self, receipt: Receipt, seconds: float, exchange: Exchange = QUIET) -> bool:
+        """Wait up to so many seconds for the restart after ``send``; returns whether the control has come back."""
 
 
 @runtime_checkable
@@ -152,20 +136,6 @@ class TakesLiveValues(Protocol):
     """A driver over which single values go into a control that is at work, one short exchange each."""
 
     takes_live_values: ClassVar[bool]
-
-
-class NeverRestarts:
-    """What a driver is whose control does not restart after a download, or only by a person's hand."""
-
-    def wait_restarted(
-        self,
-        receipt: Receipt,  # noqa: ARG002
-        seconds: float,  # noqa: ARG002
-        progress: Progress = quiet,  # noqa: ARG002
-        cancel: threading.Event | None = None,  # noqa: ARG002
-    ) -> bool:
-        """Wait for nothing; the control is there."""
-        return True
 
 
 @dataclass(frozen=True)

@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 import contextlib
-import threading
 import time
 from collections.abc import Callable
 
 from .errors import CancelledError
+from .exchange import QUIET, Exchange
 from .links.link import Link
-from .progress import SILENT, Progress, quiet
+from .progress import SILENT
 
 SLICE = 0.1  # seconds between two looks at the cancel event
 SILENT_AFTER = 1.8  # seconds without an answer until the waiting caller is notified
@@ -28,19 +28,18 @@ class Waiting:
     ) -> None:
         self.now = clock
         self.sleep = sleep
-        self._progress: Progress = quiet
-        self._cancel: threading.Event | None = None
+        self._exchange = QUIET
         self._heard_at = self._notified_at = clock()
 
-    def begin(self, progress: Progress, cancel: threading.Event | None) -> None:
+    def begin(self, exchange: Exchange) -> None:
         """Serve another call."""
-        self._progress, self._cancel = progress, cancel
+        self._exchange = exchange
         self._heard_at = self._notified_at = self.now()
 
     @property
     def is_stopped(self) -> bool:
         """Whether somebody has asked to stop."""
-        return self._cancel is not None and self._cancel.is_set()
+        return self._exchange.is_stopped
 
     def look(self) -> None:
         """Notify of silence; raises CancelledError where somebody has asked to stop."""
@@ -62,7 +61,7 @@ class Waiting:
     def notify(self, stage: str, done: int, total: int) -> None:
         """Notify the waiting caller; an error in that ends no exchange."""
         with contextlib.suppress(Exception):
-            self._progress(stage, done, total)
+            self._exchange.progress(stage, done, total)
 
     def ask(self, sentence: str) -> None:
         """Show a person what to do at the control."""

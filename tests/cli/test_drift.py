@@ -15,7 +15,7 @@ import pytest
 from amp_studio import cli
 from amp_studio.transfer.client import record
 from amp_studio.transfer.client.drift import ControlWithFile, known_controls
-from amp_studio.transfer.client.record import Exchange, add_exchange
+from amp_studio.transfer.client.record import RecordedExchange, add_exchange
 
 from .conftest import Said
 
@@ -23,13 +23,13 @@ DEAD = "tcp://127.0.0.1:1"
 """Nothing listens there."""
 
 
-def exchange(day: int, verb: str, file: str, control: str, after: str) -> Exchange:
-    return Exchange(
+def exchange(day: int, verb: str, file: str, control: str, after: str) -> RecordedExchange:
+    return RecordedExchange(
         f"2026-03-{day:02}T08:00:00+00:00", "eva", verb, file, "9pc", control, after=after, state="new"
     )
 
 
-def folder_with(folder: Path, *exchanges: Exchange, files: tuple[str, ...] = ()) -> Path:
+def folder_with(folder: Path, *exchanges: RecordedExchange, files: tuple[str, ...] = ()) -> Path:
     folder.mkdir(parents=True, exist_ok=True)
     for name in files:
         (folder / name).write_text("", encoding="utf-8")

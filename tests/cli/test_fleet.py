@@ -18,7 +18,7 @@ from amp_studio.files import open_file
 from amp_studio.transfer.client.fleet import with_each
 from amp_studio.transfer.client.record import read_exchanges
 from amp_studio.transfer.errors import TransferError
-from amp_studio.transfer.progress import Progress, quiet
+from amp_studio.transfer.exchange import Exchange
 
 from .conftest import Said
 
@@ -145,7 +145,7 @@ def test_what_cannot_be_used_is_refused_before_anything_is_begun(
 
 
 def test_one_exchange_that_breaks_does_not_end_the_others() -> None:
-    def work(address: str, _: Progress) -> str:
+    def work(address: str, _: Exchange) -> str:
         if address.endswith("1"):
             raise TransferError("the line is cut", "unknown", kept="copy.img")
         if address.endswith("2"):
@@ -153,7 +153,7 @@ def test_one_exchange_that_breaks_does_not_end_the_others() -> None:
         return "well"
 
     places = [f"tcp://h:{n}" for n in (1, 2, 3)]
-    one, two, three = with_each(places, work, lambda _: quiet, failed=lambda _: False)
+    one, two, three = with_each(places, work, lambda _: Exchange(), failed=lambda _: False)
 
     assert (one.result, one.state, one.kept) == (None, "unknown", "copy.img")
     assert (two.result, two.state) == (None, "unknown")

@@ -20,6 +20,7 @@ from amp_studio.transfer.client.parameters import download_file
 from amp_studio.transfer.driver import Receipt
 from amp_studio.transfer.emulated.memory import Memory
 from amp_studio.transfer.errors import TransferError
+from amp_studio.transfer.exchange import Exchange
 from amp_studio.transfer.image import ImageError
 from amp_studio.transfer.links.link import Link
 from tests.transfer.emulated.memory_steps import lose_power_at
@@ -65,7 +66,7 @@ def download_under_faults(
     bench: FaultBench, file: ParameterFile, faults: Mapping[str, int], chance: random.Random, folder: Path
 ) -> list[str]:
     """Download a file; returns what was not true. ``folder`` is where the copy is kept."""
-    present, held = bench.present(), bench.driver.fetch(bench.progress)
+    present, held = bench.present(), bench.driver.fetch(Exchange(bench.progress))
     wanted = bench.names(bench.driver.encode(file, held))
     bench.driver.close()
     folder.mkdir()
@@ -125,7 +126,7 @@ def _downloaded(bench: FaultBench, file: ParameterFile, folder: Path, stop_at: i
 
     with mock.patch("amp_studio.transfer.client.parameters.open_driver", return_value=bench.driver):
         try:
-            return download_file(file, "", folder, "control", progress, cancel)
+            return download_file(file, "", Exchange(progress, cancel, folder / "control"))
         except (TransferError, ImageError) as error:
             return error
 

@@ -133,12 +133,11 @@ def _no_sync_at_control() -> AbstractContextManager[object]:
 
 
 def _no_read_back(*others: tuple[str, object]) -> AbstractContextManager[object]:
-    def believed(
-        _driver: object, _content: bytes, _old: bytes, _receipt: Receipt, kept: str, *_: object
-    ) -> Outcome:
-        return Outcome("new", True, True, kept, "not needed", "", "Download complete and read back equal.")
+    def believed(proof: Any, *_: object) -> Outcome:
+        text = "Download complete and read back equal."
+        return Outcome("new", True, True, proof.kept, "not needed", "", text)
 
-    return _patched((f"{CLIENT}.exchange._prove", believed), *others)
+    return _patched((f"{CLIENT}.exchange._Proof.outcome", believed), *others)
 
 
 def _not_sent(driver: type) -> AbstractContextManager[object]:

@@ -76,7 +76,7 @@ def fuzz_racks(folder: Path, seed: int, count: int) -> list[str]:
             assert all(0 <= word <= 0xFFFF for word in rack.module.words)
         else:
             clock = VirtualClock()
-            driver = RegisterDriver(lambda _: _OddRack(rack, chance, clock), clock, clock.sleep)
+            driver = RegisterDriver(lambda _: _OddRack(rack, chance, clock), clock=clock, sleep=clock.sleep)
             begun = clock.now
             driver.identify()
             assert clock.now - begun < 60

@@ -12,7 +12,7 @@ from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import Any
 
-from amp_studio.transfer.client.exchange import download
+from amp_studio.transfer.client.exchange import WantedContent, download
 from amp_studio.transfer.emulated.control import Control
 from amp_studio.transfer.emulated.emulator import Emulator
 from amp_studio.transfer.emulated.record import Identity
@@ -272,7 +272,9 @@ def clients_beside_hostile_ones(seed: int, folder: Path) -> list[str]:
                 patience=30,
             )
             try:
-                outcome = download(HouseDriver(session), NEW, lambda image: "kept.amp", signature=SIGNATURE)
+                outcome = download(
+                    HouseDriver(session), WantedContent(NEW, SIGNATURE), lambda image: "kept.amp"
+                )
             except TransferError:
                 session.close()
                 for _ in range(20):

@@ -12,11 +12,12 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
-from amp_studio.transfer.client.exchange import download
+from amp_studio.transfer.client.exchange import WantedContent, download
 from amp_studio.transfer.emulated.control import Control
 from amp_studio.transfer.emulated.record import Identity
 from amp_studio.transfer.emulated.responder import Responder
 from amp_studio.transfer.errors import CancelledError, TransferError
+from amp_studio.transfer.exchange import Exchange
 from amp_studio.transfer.house.driver import HouseDriver
 from amp_studio.transfer.house.frame import FrameDecoder, encode_frame
 from amp_studio.transfer.house.message import (
@@ -209,7 +210,7 @@ def exchange_with_hostile_control(seed: int, folder: Path) -> list[str]:
 
     try:
         at_control: str = download(
-            HouseDriver(session), NEW, keep, signature=SIGNATURE, progress=progress
+            HouseDriver(session), WantedContent(NEW, SIGNATURE), keep, Exchange(progress)
         ).at_control
         text = ""
     except CancelledError:

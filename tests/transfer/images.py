@@ -5,6 +5,7 @@ from __future__ import annotations
 import hashlib
 from typing import Any
 
+from amp_studio.transfer.exchange import Exchange, Replacement
 from amp_studio.transfer.house.session import Session
 
 OLD = b"1 old\n" * 20
@@ -16,6 +17,6 @@ def sha(image: bytes) -> bytes:
     return hashlib.sha256(image).digest()
 
 
-def send(session: Session, image: bytes = NEW, **options: Any) -> Any:
+def send(session: Session, image: bytes = NEW, held: bytes = OLD, **options: Any) -> Any:
     """Send an image to a control that contains the old one."""
-    return session.send(image, signature="s1", expected=sha(OLD), **options)
+    return session.send(Replacement(image, held, "s1"), Exchange(**options))

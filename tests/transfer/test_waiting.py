@@ -7,6 +7,7 @@ import threading
 import pytest
 
 from amp_studio.transfer.errors import CancelledError
+from amp_studio.transfer.exchange import Exchange
 from amp_studio.transfer.waiting import PERSON, Waiting
 
 from .null_modem import VirtualClock
@@ -32,7 +33,7 @@ class Silent:
 def test_silence_is_shown_after_two_seconds_each_second_until_something_comes() -> None:
     clock, shown = VirtualClock(), list[tuple[str, int, int]]()
     waiting = Waiting(clock, clock.sleep)
-    waiting.begin(lambda *event: shown.append(event), None)
+    waiting.begin(Exchange(lambda *event: shown.append(event)))
     assert waiting.read(Silent(clock), 3) == b""
     assert shown == [("silent", 2, 0), ("silent", 3, 0)]
     assert waiting.read(Silent(clock), 3) == b"x"
@@ -43,7 +44,7 @@ def test_silence_is_shown_after_two_seconds_each_second_until_something_comes() 
 def test_somebody_who_stops_waits_no_longer_than_a_slice() -> None:
     clock, cancel = VirtualClock(), threading.Event()
     waiting = Waiting(clock, clock.sleep)
-    waiting.begin(lambda *_: cancel.set(), cancel)
+    waiting.begin(Exchange(lambda *_: cancel.set(), cancel))
     with pytest.raises(CancelledError):
         waiting.read(Silent(clock), 3)
     assert 1.8 <= clock.now < 2.1, "the first silence was shown, and there the person stopped"
@@ -57,6 +58,6 @@ def test_a_sentence_for_a_person_is_marked_as_one_and_whoever_fails_to_show_it_e
         raise OSError("nobody reads")
 
     waiting = Waiting(VirtualClock())
-    waiting.begin(show, None)
+    waiting.begin(Exchange(show))
     waiting.ask("At the control: start")
     assert shown == [("At the control: start", 0, PERSON)]

@@ -4,15 +4,18 @@ from __future__ import annotations
 
 import threading
 from collections.abc import Callable
+from dataclasses import replace
 from pathlib import Path
+from typing import Any
 
 import pytest
 from PySide6.QtWidgets import QDialogButtonBox
 from pytestqt.qtbot import QtBot
 
-from amp_studio.files import content_of, new_file, open_file
+from amp_studio.files import ParameterFile, content_of, new_file, open_file
 from amp_studio.schema import Value
 from amp_studio.transfer.client import parameters
+from amp_studio.transfer.exchange import Exchange
 from amp_studio.ui.base.task import ProgressDialog
 from amp_studio.ui.control.download_preview import DownloadPreview
 from amp_studio.ui.main_window import MainWindow
@@ -106,7 +109,9 @@ def test_a_change_at_the_control_after_the_preview_is_not_overwritten(
     other = new_file("9pc", "mill", ["X"])
 
     def somebody_else(dialog: DownloadPreview) -> None:
-        parameters.download_file(other, control.address, window.workspace.path.parent, "other")
+        parameters.download_file(
+            other, control.address, Exchange(keep=window.workspace.path.parent / "other")
+        )
 
     accept(DownloadPreview, somebody_else)
 
@@ -204,16 +209,15 @@ def test_cancel_in_the_middle_leaves_the_control_as_it_was(
     sending = threading.Event()
     real = parameters.download_file
 
-    def slow(*arguments: object, **approved: object) -> object:
-        *first, progress, cancel = arguments
-
+    def slow(file: ParameterFile, address: str, exchange: Exchange, **approved: Any) -> object:
         def tell(stage: str, done: int, total: int) -> None:
-            progress(stage, done, total)  # type: ignore[operator]
+            exchange.progress(stage, done, total)
             if stage == "download":  # as if the line were slow
                 sending.set()
-                cancel.wait(WAIT_MS / 1000)  # type: ignore[attr-defined]
+                assert exchange.cancel is not None
+                exchange.cancel.wait(WAIT_MS / 1000)
 
-        return real(*first, tell, cancel, **approved)
+        return real(file, address, replace(exchange, progress=tell), **approved)
 
     monkeypatch.setattr(parameters, "download_file", slow)
 
@@ -265,7 +269,7 @@ def odd_control(start_control: Start, path: Path) -> Control:
     control = start_control()
     file = open_file(path).file
     file.set_many({EXCESS: Value(1e6, "mm")}, force="on a day")
-    parameters.download_file(file, control.address, path.parent, "odd")
+    parameters.download_file(file, control.address, Exchange(keep=path.parent / "odd"))
     return control
 
 
@@ -360,7 +364,7 @@ def test_the_upload_of_a_file_keeps_its_content(start_control: Start, path: Path
     """The emulated control gives back what it was given, byte for byte in the file's own form."""
     control = start_control()
     file = open_file(path).file
-    parameters.download_file(file, control.address, path.parent, "mill")
+    parameters.download_file(file, control.address, Exchange(keep=path.parent / "mill"))
     held = parameters.fetch_file(control.address)
     held.header.name, held.header.notes = file.header.name, file.header.notes
     held.header.units = file.header.units

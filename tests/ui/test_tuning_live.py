@@ -12,6 +12,7 @@ from pytestqt.qtbot import QtBot
 from amp_studio.files import Document, new_file, open_file
 from amp_studio.schema import Value
 from amp_studio.transfer.client.live import LiveTuning
+from amp_studio.transfer.exchange import Exchange
 from amp_studio.ui.base.workspace import Workspace
 from amp_studio.ui.motion.tuning_window import TuningWindow
 from tests.families.grblhal.bench import Bench, sent
@@ -32,7 +33,7 @@ def router(qapp: QApplication, tmp_path: Path) -> Workspace:
 @pytest.fixture
 def live(router: Workspace, tmp_path: Path, qtbot: QtBot, person: Person) -> tuple[TuningWindow, Bench]:
     bench = Bench(tmp_path / "control")
-    tuning = TuningWindow(router, lambda: LiveTuning(bench.driver, tmp_path, "router", address="bench"))
+    tuning = TuningWindow(router, lambda: LiveTuning(bench.driver, tmp_path / "router", address="bench"))
     shown(tuning, qtbot)
     tuning.switch.buttons["control"].click()
     assert tuning.control is not None
@@ -120,12 +121,12 @@ def start_house(tmp_path: Path, path: Path) -> Callable[[], LiveTuning]:
     from tests.ui.conftest import Control
 
     control = Control(tmp_path / "control")
-    download_file(open_file(path).file, control.address, tmp_path, "mill")
+    download_file(open_file(path).file, control.address, Exchange(keep=tmp_path / "mill"))
     made: list[LiveTuning] = []
 
     def connect() -> LiveTuning:
         made.append(
-            LiveTuning(open_driver(control.address, "9pc"), tmp_path, "mill", address=control.address)
+            LiveTuning(open_driver(control.address, "9pc"), tmp_path / "mill", address=control.address)
         )
         return made[-1]
 

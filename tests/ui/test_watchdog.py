@@ -14,6 +14,7 @@ from pytestqt.qtbot import QtBot
 from amp_studio.files.examples import examples
 from amp_studio.report import CHAPTERS, Contents
 from amp_studio.transfer.client.parameters import download_file
+from amp_studio.transfer.exchange import Exchange
 from amp_studio.ui.base.task import Task
 from amp_studio.ui.main_window import MainWindow
 from amp_studio.ui.motion.view import MotionView
@@ -101,7 +102,9 @@ def test_the_window_does_not_stall_over_its_work(
     tasks = [
         Task(partial(check_files, paths * 4)),
         Task(
-            lambda progress, cancel: download_file(file, control.address, tmp_path, "copy", progress, cancel)
+            lambda progress, cancel: download_file(
+                file, control.address, Exchange(progress, cancel, tmp_path / "copy")
+            )
         ),
     ]
     with Watchdog() as dog:

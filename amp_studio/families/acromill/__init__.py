@@ -14,7 +14,7 @@ REGISTRATION = Registration(
     drivers={
         "house": "amp_studio.transfer.house.driver:HouseDriver.at",
         "terminal": "amp_studio.families.acromill.lines.driver:TerminalDriver.at",
-        "terminal-metric": "amp_studio.families.acromill.lines.driver:metric",
+        "terminal-metric": "amp_studio.families.acromill.lines.driver:MetricTerminalDriver.at",
     },
     contents={"ACR script 1": "amp_studio.families.acromill.lines.content:AcrContent"},
     emulators={

@@ -26,61 +26,48 @@ def after_break(
     *,
     has_lost_memory: bool = False,
     is_answered: bool = False,
-) -> TransferError:
-    """Return the error with what the control contains: as it was read since, else what its answers prove.
+) -> None:
+    """Write into the error what the control contains: as it was read since, else what its answers prove.
 
     ``is_answered`` is whether the line was whole to the end: then the control has what it has answered ``ok`` to.
     """
     if found is not None:
         at, new = state_of(writing, found, has_lost_memory=has_lost_memory)
-        new = tuple(writing.taken) if at == "new" else new
+        new = tuple(writing.sent.names) if at == "new" else new
     elif is_answered:
-        at, new = answered_state(writing)
+        at, new = writing.sent.answered_state()
     else:
-        at, new = ("unknown", tuple(writing.taken)) if writing.has_begun else ("old", ())
+        at, new = ("unknown", tuple(writing.sent.names)) if writing.sent.has_begun else ("old", ())
     if error.at_control == "unknown" and at != "defaults":
         at = "unknown"
     error.at_control, error.new = at, new
-    return error
-
-
-def answered_state(writing: Writing) -> tuple[AtControl, tuple[str, ...]]:
-    """Return what a control contains by its answers alone, and which settings are new."""
-    new = tuple(writing.taken)
-    if writing.unanswered:
-        return "unknown", new
-    if not new:
-        return "old", ()
-    if len(new) < len(writing.settings) + len(writing.others):
-        return "mixed", new
-    return "new", ()
 
 
 def state_of(
     writing: Writing, found: GrblContent, *, has_lost_memory: bool = False
 ) -> tuple[AtControl, tuple[str, ...]]:
     """Return what a control that shows ``found`` contains of a download, and which settings are new."""
-    held, wanted = _items(writing.present), _items(writing.wanted)
+    held, wanted = names_of(writing.present), names_of(writing.wanted)
     names = {f"${n}" for n in writing.settings} | writing.others.keys()
     wanted = {name: text for name, text in wanted.items() if name in names or name in held}
     wanted |= {name: text for name, text in held.items() if name not in names}
-    now = _items(found)
+    now = names_of(found)
     for name in {*held, *wanted}:
         if name in names:
             is_new = _is_shown(writing, found, name, wanted[name], now.get(name, ""))
-            if is_new and (now.get(name) != held.get(name) or name in writing.taken):
+            if is_new and (now.get(name) != held.get(name) or name in writing.sent.names):
                 now[name] = wanted[name]
         elif name in _MOVED:
             now[name] = held[name]
     changed = [n for n in held if n not in names and now.get(n) != held[n]]
     at, new = state_after_break(held, wanted, {n: t for n, t in now.items() if n in held or n in wanted})
     if (has_lost_memory and at != "old") or len(changed) >= _MANY:
-        after = writing.unanswered  # what a control that has just restarted has still taken
+        after = writing.sent.unanswered  # what a control that has just restarted has still taken
         return "defaults", (after,) if after and now.get(after) == wanted.get(after) else ()
     return at, new
 
 
-def _items(content: GrblContent) -> dict[str, str]:
+def names_of(content: GrblContent) -> dict[str, str]:
     """Return what can be written of a content, by name."""
     return {
         **{f"${n}": text for n, text in content.settings.items()},

@@ -7,10 +7,7 @@ lost may have left half a line: it is erased before the first command (``docs/pr
 from __future__ import annotations
 
 import re
-import threading
-import time
 from collections import deque
-from collections.abc import Callable
 
 from amp_studio.schema.visible import visible
 from amp_studio.transfer.driver import Recognised
@@ -22,7 +19,6 @@ from amp_studio.transfer.errors import (
     TransferError,
 )
 from amp_studio.transfer.links.link import LinkError
-from amp_studio.transfer.progress import Progress, quiet
 from amp_studio.transfer.waiting import OpenLink, Waiting
 
 from .states import SUSPENDED, state_in, state_text
@@ -73,7 +69,7 @@ class ControlSuspendedError(TransferError):
 
 
 class GrblLine:
-    """One open line to a control.
+    """One open line to a control; obeys whom ``waiting`` serves.
 
     ``messages`` are the texts of ``[MSG:…]`` that came unasked, ``alarm`` the number of the last alarm; ``has_lost_memory``
     whether the control has reported that it could not read its settings and begins with the defaults (``error:7``).
@@ -82,22 +78,17 @@ class GrblLine:
     def __init__(
         self,
         open_link: OpenLink,
-        *,
-        progress: Progress = quiet,
-        cancel: threading.Event | None = None,
-        clock: Callable[[], float] = time.monotonic,
-        sleep: Callable[[float], None] = time.sleep,
+        waiting: Waiting,
     ) -> None:
-        self._waiting = Waiting(clock)
+        self._waiting = waiting
         self.messages: list[str] = []
         self.alarm: int | None = None
         self.has_lost_memory = False
-        self._clock, self._sleep = clock, sleep
+        self._clock, self._sleep = waiting.now, waiting.sleep
         self._rest = b""
         self._lines: deque[str] = deque()
         self._owed = 0  # refusals of first lines that may still come, before any other answer
         self._begin(START, lingers=False)
-        self.serve(progress, cancel)
         try:
             self._link = open_link(self.look)
         except LinkError as error:
@@ -107,10 +98,6 @@ class GrblLine:
         except BaseException:
             self.close()
             raise
-
-    def serve(self, progress: Progress, cancel: threading.Event | None) -> None:
-        """Obey another call from here on: whom to notify, and what stops it."""
-        self._waiting.begin(progress, cancel)
 
     def rest(self, seconds: float) -> None:
         """Wait; raises CancelledError."""

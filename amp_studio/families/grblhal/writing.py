@@ -11,8 +11,8 @@ from collections.abc import Iterator, Mapping
 from itertools import chain
 
 from amp_studio.transfer.driver import Receipt
-from amp_studio.transfer.errors import Confirmed
 from amp_studio.transfer.progress import Progress
+from amp_studio.transfer.sent_values import SentValues
 
 from .content import GrblContent
 from .description import Setting
@@ -28,41 +28,29 @@ ROUNDS = 4
 
 
 class Writing:
-    """One download on its way: ``settings`` are those that differ, ``taken`` what the control has answered ``ok`` to.
+    """One download on its way: ``settings`` are those that differ, ``sent`` what the control has answered ``ok`` to."""
 
-    ``unanswered`` is the command under way, of which it is not known whether the control has taken it.
-    """
-
-    def __init__(self, wanted: GrblContent, present: GrblContent, known: Mapping[int, Setting]) -> None:
+    def __init__(
+        self, wanted: GrblContent, present: GrblContent, known: Mapping[int, Setting], sent: SentValues
+    ) -> None:
         self.wanted, self.present, self._known = wanted, present, known
         self.names = {number: setting.name for number, setting in known.items()}
         self.settings = {n: text for n, text in wanted.settings.items() if present.settings.get(n) != text}
         self.others = dict(chain(offset_commands(wanted, present), startup_commands(wanted, present)))
-        self.taken: list[str] = []
-        self.unanswered = ""
-
-    @property
-    def has_begun(self) -> bool:
-        """Whether anything was sent that the control may have taken."""
-        return bool(self.taken or self.unanswered)
-
-    @property
-    def confirmed(self) -> Confirmed:
-        """How far it has come."""
-        return Confirmed(len(self.taken), len(self.settings) + len(self.others), self.unanswered)
+        self.sent = sent
+        sent.total = len(self.settings) + len(self.others)
 
     def run(self, line: GrblLine, progress: Progress) -> None:
         """Send it all; raises GrblRefusalError for what the control refuses in the end, and as ``GrblLine.ask``."""
-        total = len(self.settings) + len(self.others)
         left = dict(self.settings)
         for _ in range(ROUNDS):
             if not left:
                 break
-            self._round(line, left, progress, total)
+            self._round(line, left, progress)
             shown = read_settings(line, self.present)
             left = {n: text for n, text in self.wanted.settings.items() if not self._is_there(n, text, shown)}
         if self.others:
-            self._write_others(line, progress, total)
+            self._write_others(line, progress)
 
     def receipt(self) -> Receipt:
         """Return what a person has to know of a download that was taken."""
@@ -75,7 +63,7 @@ class Writing:
     def _is_there(self, number: int, text: str, shown: Mapping[int, str]) -> bool:
         return is_shown_as(text, shown.get(number, ""))
 
-    def _round(self, line: GrblLine, left: Mapping[int, str], progress: Progress, total: int) -> None:
+    def _round(self, line: GrblLine, left: Mapping[int, str], progress: Progress) -> None:
         """Write settings; what is refused is tried again as long as another one was taken meanwhile."""
         waiting = dict(sorted(left.items(), key=lambda entry: (entry[0] != HOMING, entry[0])))
         refusal: GrblRefusalError | None = None
@@ -91,31 +79,29 @@ class Writing:
                     continue
                 del waiting[number]
                 taken += 1
-                progress("download", min(len(self.taken), total), total)
+                progress("download", min(len(self.sent.names), self.sent.total), self.sent.total)
             if waiting and not taken:
                 assert refusal is not None
                 raise refusal
 
-    def _write_others(self, line: GrblLine, progress: Progress, total: int) -> None:
+    def _write_others(self, line: GrblLine, progress: Progress) -> None:
         """Put back offsets and start-up lines, and the unit of the program as it was."""
         modes = " ".join(line.ask("$G"))
         for name, command in self.others.items():
             self._write(line, name, command)
-            progress("download", min(len(self.taken), total), total)
+            progress("download", min(len(self.sent.names), self.sent.total), self.sent.total)
         unit = "G20" if " G20 " in f"{modes} " else "G21"
         line.ask(unit, writes=True)
 
     def _write(self, line: GrblLine, name: str, command: str) -> None:
         line.go_on()
-        self.unanswered = name
+        self.sent.begin(name)
         try:
             line.ask(command, writes=True)
         except GrblRefusalError:
-            self.unanswered = ""
+            self.sent.refuse(name)
             raise
-        self.unanswered = ""
-        if name not in self.taken:
-            self.taken.append(name)
+        self.sent.confirm(name)
 
 
 def coarse_notes(

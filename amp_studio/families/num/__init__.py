@@ -11,7 +11,7 @@ REGISTRATION = Registration(
     drivers={
         "house": "amp_studio.transfer.house.driver:HouseDriver.at",
         "peripheral": "amp_studio.families.num.lines.driver:PeripheralDriver.at",
-        "peripheral-check": "amp_studio.families.num.lines.driver:checking",
+        "peripheral-check": "amp_studio.families.num.lines.driver:CheckingPeripheralDriver.at",
     },
     contents={"NUM table 1": "amp_studio.families.num.lines.content:NumTableContent"},
     emulators={

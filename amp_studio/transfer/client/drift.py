@@ -7,20 +7,19 @@ file of the project where there is only one.
 from __future__ import annotations
 
 import os
-import threading
-from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Literal
 
-from amp_studio.files import ENDING, Notify, ParameterFile, ParameterFileError, Project, is_there, open_file
+from amp_studio.files import ENDING, ParameterFile, ParameterFileError, Project, is_there, open_file
 from amp_studio.files.local_time import local_time
+from amp_studio.transfer.exchange import Exchange
 from amp_studio.transfer.links.endpoint import parse_endpoint
-from amp_studio.transfer.progress import Progress
 
-from .fleet import FleetResult, with_each
+from .fleet import ExchangeOf, FleetResult, with_each
 from .parameters import fetch_image, sha256
-from .record import RECORD, Exchange, add_look, file_of_exchange, read_exchanges
+from .record import RECORD, RecordedExchange, file_of_exchange, read_exchanges, record_look
 from .verification import ImageComparison, verify_content
 
 _PUT = ("download", "restore")
@@ -35,11 +34,11 @@ class ControlWithFile:
     path: Path
     """The file; its folder where there is a fault."""
     fault: str = ""
-    exchanges: tuple[Exchange, ...] = ()
+    exchanges: tuple[RecordedExchange, ...] = ()
     """Those with this control, oldest first."""
 
     @property
-    def last_put(self) -> Exchange | None:
+    def last_put(self) -> RecordedExchange | None:
         """The last exchange that put a file into it."""
         return next((e for e in reversed(self.exchanges) if e.verb in _PUT and e.after), None)
 
@@ -87,7 +86,7 @@ def _folders(folder: Path) -> Iterator[Path]:
 
 def _controls_of(folder: Path) -> Iterator[ControlWithFile]:
     exchanges = read_exchanges(folder)
-    by_address: dict[str, list[Exchange]] = {}
+    by_address: dict[str, list[RecordedExchange]] = {}
     for each in exchanges:
         try:
             by_address.setdefault(str(parse_endpoint(each.control)), []).append(each)
@@ -120,32 +119,26 @@ def _when(known: ControlWithFile) -> str:
     return known.last_put.when if known.last_put else ""
 
 
-def drift_of_all(
-    controls: Sequence[ControlWithFile],
-    progress: Callable[[str], Progress],
-    *,
-    cancel: threading.Event | None = None,
-    notify: Notify = lambda _: None,
-) -> list[Drift]:
-    """Compare each control with its file, side by side, and record each look; in the order of the controls."""
+def drift_of_all(controls: Sequence[ControlWithFile], exchange_of: ExchangeOf) -> list[Drift]:
+    """Compare each control with its file, side by side, and record each look beside the file; in the order of the controls."""
     opened = {known.address: _opened(known) for known in controls}
     by_address = {known.address: known for known in controls}
 
-    def work(address: str, show: Progress) -> Drift:
+    def work(address: str, exchange: Exchange) -> Drift:
         known, file = by_address[address], opened[address]
         assert isinstance(file, ParameterFile)
         family = file.schema.family.family
-        content = fetch_image(address, show, cancel, family=family)
+        content = fetch_image(address, exchange, family=family)
         compared = verify_content(file, content)
         drift = _drift(known, file, compared, sha256(content))
-        if problem := add_look("verify", known.path, family, address, content, compared.summary()):
-            notify(problem)
+        beside = replace(exchange, record=known.path)
+        record_look("verify", beside, family, address, content, compared.summary())
         return drift
 
     reachable = [address for address, file in opened.items() if isinstance(file, ParameterFile)]
     found: dict[str, FleetResult[Drift]] = {}
     if reachable:
-        results = with_each(reachable, work, progress, failed=lambda _: False, cancel=cancel)
+        results = with_each(reachable, work, exchange_of, failed=lambda _: False)
         found = {each.address: each for each in results}
     return [_row(known, opened[known.address], found.get(known.address)) for known in controls]
 

@@ -2,18 +2,17 @@
 
 from __future__ import annotations
 
-import threading
 from dataclasses import replace
 
 from amp_studio.schema.quoting import quoted
 from amp_studio.schema.registration import load_part, registered_families, registration_of
 from amp_studio.transfer.driver import ControlDriver, DriverFactory, Recognised
 from amp_studio.transfer.errors import NoConnectionError
+from amp_studio.transfer.exchange import QUIET, Exchange
 from amp_studio.transfer.links.endpoint import Endpoint, parse_endpoint
 from amp_studio.transfer.links.link import LinkError
 from amp_studio.transfer.links.opening import connect
 from amp_studio.transfer.links.password import PasswordError
-from amp_studio.transfer.progress import Progress, quiet
 from amp_studio.transfer.waiting import Waiting
 
 RECOGNISED, RECOGNISED_SERIAL = 0.3, 2.5
@@ -41,9 +40,7 @@ def open_driver(endpoint: Endpoint | str, family: str = "") -> ControlDriver:
     return factory(place, family)
 
 
-def open_driver_at(
-    address: str, family: str = "", progress: Progress = quiet, cancel: threading.Event | None = None
-) -> ControlDriver:
+def open_driver_at(address: str, family: str = "", exchange: Exchange = QUIET) -> ControlDriver:
     """Return the driver for a control, whose protocol is found out where neither it nor a family is named.
 
     Only what does nothing to any machine is sent for that: the frames of the house protocol may contain what a Grbl takes for
@@ -53,7 +50,7 @@ def open_driver_at(
     place = parse_endpoint(address)
     if not family and not place.protocol:
         try:
-            place = replace(place, protocol=_recognise(place, progress, cancel))
+            place = replace(place, protocol=_recognise(place, exchange))
         except PasswordError as error:  # tried again it would be one more wrong guess
             raise NoConnectionError(f"no connection to the control ({error})", "") from None
         except LinkError:
@@ -61,12 +58,12 @@ def open_driver_at(
     return open_driver(place, family)
 
 
-def _recognise(place: Endpoint, progress: Progress, cancel: threading.Event | None) -> str:
+def _recognise(place: Endpoint, exchange: Exchange) -> str:
     """Return the protocol of a control that is known by its answer; "" for any other. Raises LinkError, CancelledError."""
     places = (registration_of(family).recognised for family in registered_families())
     known: list[Recognised] = [load_part(part) for part in places if part]
     waiting = Waiting()
-    waiting.begin(progress, cancel)
+    waiting.begin(exchange)
     link = connect(place, look=waiting.look)
     try:
         end = waiting.now() + (RECOGNISED_SERIAL if place.kind == "serial" else RECOGNISED)

@@ -9,12 +9,17 @@ from __future__ import annotations
 
 import contextlib
 import hashlib
-import threading
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from typing import Literal
 
-from amp_studio.transfer.driver import ControlDriver, ControlIdentity, ReadsBackPartly, Receipt
+from amp_studio.transfer.driver import (
+    ControlDriver,
+    ControlIdentity,
+    ReadsBackPartly,
+    Receipt,
+    RestartsItself,
+)
 from amp_studio.transfer.errors import (
     AT_CONTROL_TEXT,
     AtControl,
@@ -26,13 +31,38 @@ from amp_studio.transfer.errors import (
     TransferError,
     unforeseen,
 )
-from amp_studio.transfer.progress import Progress, quiet
+from amp_studio.transfer.exchange import QUIET, Exchange, Replacement
 
 RESTART_WAIT = 60.0  # seconds a control may take to come back
+RestartState = Literal["not needed", "done", "needed", "missed"]
 
 Keep = Callable[[bytes], str]
-Wanted = Callable[[bytes], bytes]
-"""What a control shall contain, of what it contains; raises ImageError."""
+"""Keeps what a control contains and returns where; nothing is replaced where it raises."""
+
+
+@dataclass(frozen=True)
+class WantedContent:
+    """What is to be put into a control.
+
+    ``content``    its bytes, or what makes them of those that the control contains; raises ImageError
+    ``signature``  of the schema under which it was made
+    ``expected``   the SHA-256 of what may be replaced; None for whatever is there
+    ``known``      was fetched from this control before: it is not fetched again if the control states its digest, as it must
+                   for the commit too
+    ``is_return``  the control has contained it before: one that remembers what it contained decides by itself whether it takes it
+    ``what``       the first word of the result
+    """
+
+    content: bytes | Callable[[bytes], bytes]
+    signature: str
+    expected: bytes | None = None
+    known: bytes | None = None
+    is_return: bool = False
+    what: str = "Download"
+
+    def of(self, held: bytes) -> bytes:
+        """Return what a control that contains ``held`` shall contain; raises ImageError."""
+        return self.content(held) if callable(self.content) else self.content
 
 
 @dataclass(frozen=True)
@@ -52,25 +82,23 @@ class Outcome:
     verified: bool
     written: bool
     kept: str | None
-    restart: Literal["not needed", "done", "needed", "missed"]
+    restart: RestartState
     sha256: str
     text: str
 
 
-def upload(driver: ControlDriver, progress: Progress = quiet, cancel: threading.Event | None = None) -> bytes:
+def upload(driver: ControlDriver, exchange: Exchange = QUIET) -> bytes:
     """Return the image the control contains; raises TransferError."""
     with _only_looking():
-        driver.identify(progress, cancel)
-        return driver.fetch(progress, cancel)
+        driver.identify(exchange)
+        return driver.fetch(exchange)
 
 
-def look_at(
-    driver: ControlDriver, progress: Progress = quiet, cancel: threading.Event | None = None
-) -> tuple[ControlIdentity, bytes, str]:
+def look_at(driver: ControlDriver, exchange: Exchange = QUIET) -> tuple[ControlIdentity, bytes, str]:
     """Return who the control is, what it contains, and the SHA-256 of that in hexadecimal; raises TransferError."""
     with _only_looking():
-        control = driver.identify(progress, cancel)
-        content = driver.fetch(progress, cancel)
+        control = driver.identify(exchange)
+        content = driver.fetch(exchange)
     return control, content, hashlib.sha256(content).hexdigest()
 
 
@@ -86,61 +114,38 @@ def _only_looking() -> Iterator[None]:
 
 def download(
     driver: ControlDriver,
-    wanted: bytes | Wanted,
+    wanted: WantedContent,
     keep: Keep,
+    exchange: Exchange = QUIET,
     *,
-    signature: str,
-    expected: bytes | None = None,
-    known: bytes | None = None,
-    is_return: bool = False,
-    what: str = "Download",
     meanwhile: Callable[[], None] = lambda: None,
-    progress: Progress = quiet,
-    cancel: threading.Event | None = None,
     restart_wait: float = RESTART_WAIT,
 ) -> Outcome:
     """Put a content into a control, and prove it.
 
-    Fetches what the control contains, of which ``wanted`` makes what it shall contain, and hands it to ``keep``, which
-    returns where it has kept it, before anything is replaced; when one of them raises, nothing is written. Then sends,
-    waits up to ``restart_wait`` seconds for the restart, reads everything back and compares. ``signature`` is the
-    schema's under which the content was made. ``expected`` is the SHA-256 of what may be replaced; None
-    for whatever is there. ``known`` was fetched from this control before: it is not fetched again if the control states
-    its digest, as it must for the commit too. ``is_return`` means that the control has contained this image before: one that remembers
-    what it contained decides by itself whether it takes it. ``what`` is the first word of the result. ``meanwhile`` is done while the control restarts. Raises TransferError, whose ``at_control`` and ``kept`` give what the control contains and
-    where its old image is.
+    Fetches what the control contains, of which ``wanted`` makes what it shall contain, and hands it to ``keep`` before anything
+    is replaced; when one of them raises, nothing is written. Then sends, waits up to ``restart_wait`` seconds for the restart,
+    reads everything back and compares. ``meanwhile`` is done while the control restarts. Raises TransferError, whose
+    ``at_control`` and ``kept`` give what the control contains and where its old image is.
     """
-    make: Wanted = wanted if callable(wanted) else lambda _: wanted
     if not driver.abilities.can_send:
         raise TransferError("nothing can be downloaded over this protocol")
-    control = driver.identify(progress, cancel)
-    if not (driver.abilities.maps_numbers or (is_return and driver.abilities.remembers)):
-        _check_signature(control, signature)
-    _check_expected(expected, control.sha256)
-    _check_stop(control, make)
-    is_known = known is not None and control.sha256 == hashlib.sha256(known).digest()
-    old = known if known is not None and is_known else driver.fetch(progress, cancel, "keep")
-    _check_expected(expected, hashlib.sha256(old).digest())
-    content = make(old)
+    control = driver.identify(exchange)
+    old = _replaceable(driver, control, wanted, exchange)
+    content = wanted.of(old)
     if content == old:
         return _nothing_to_do(control, hashlib.sha256(content).hexdigest())
     kept = _keep(keep, old) if old else None
     try:
-        receipt = driver.send(
-            content,
-            signature=signature,
-            expected=hashlib.sha256(old).digest(),
-            held=old,
-            progress=progress,
-            cancel=cancel,
-        )
+        receipt = driver.send(Replacement(content, old, wanted.signature), exchange)
     except TransferError as error:
         error.kept = kept
         raise
+    proof = _Proof(driver, content, old, receipt, kept, wanted.what)
     try:
         if receipt.restarting:
             meanwhile()
-        return _prove(driver, content, old, receipt, kept, progress, cancel, restart_wait, what)
+        return proof.outcome(exchange, restart_wait)
     except TransferError as error:
         # Without a commit, what was taken last may not have reached the memory of a control that is gone.
         is_new = driver.abilities.all_or_nothing or (
@@ -149,10 +154,23 @@ def download(
         error.at_control, error.kept = "new" if is_new else "unknown", kept
         raise
     except KeyboardInterrupt:
-        raise CancelledError("stopped", "new" if receipt.is_answered else "unknown", kept) from None
+        raise CancelledError("stopped", proof.at_control, kept) from None
     except Exception as error:  # no memory, no handle: the commit has happened anyway
-        now: AtControl = "new" if receipt.is_answered else "unknown"
-        raise TransferError(f"it was not read back ({unforeseen(error)})", now, kept) from error
+        raise TransferError(f"it was not read back ({unforeseen(error)})", proof.at_control, kept) from error
+
+
+def _replaceable(
+    driver: ControlDriver, control: ControlIdentity, wanted: WantedContent, exchange: Exchange
+) -> bytes:
+    """Return what the control contains, after everything that forbids to replace it."""
+    if not (driver.abilities.maps_numbers or (wanted.is_return and driver.abilities.remembers)):
+        _check_signature(control, wanted.signature)
+    _check_expected(wanted.expected, control.sha256)
+    _check_stop(control, wanted)
+    is_known = wanted.known is not None and control.sha256 == hashlib.sha256(wanted.known).digest()
+    old = wanted.known if wanted.known is not None and is_known else driver.fetch(exchange, "keep")
+    _check_expected(wanted.expected, hashlib.sha256(old).digest())
+    return old
 
 
 def short(digest: bytes) -> str:
@@ -176,9 +194,9 @@ def _check_expected(expected: bytes | None, found: bytes | None) -> None:
         )
 
 
-def _check_stop(control: ControlIdentity, wanted: Wanted) -> None:
+def _check_stop(control: ControlIdentity, wanted: WantedContent) -> None:
     """Ask for E-stop before anything is moved; an image that is there already needs none."""
-    if control.in_estop is False and control.sha256 != hashlib.sha256(wanted(b"")).digest():
+    if control.in_estop is False and control.sha256 != hashlib.sha256(wanted.of(b"")).digest():
         raise NotInEmergencyStopError("please place the control in E-stop to download")
 
 
@@ -207,39 +225,56 @@ _RESTART_TEXT = {
 }
 
 
-def _prove(
-    driver: ControlDriver,
-    content: bytes,
-    old: bytes,
-    receipt: Receipt,
-    kept: str | None,
-    progress: Progress,
-    cancel: threading.Event | None,
-    restart_wait: float,
-    what: str,
-) -> Outcome:
-    """Wait for the restart, read back, compare; ``what`` was done."""
-    digest = hashlib.sha256(content).hexdigest()
-    before = f" What it contained before is kept in {kept}." if kept else " It was empty before."
-    before = "".join(f" {note}" for note in receipt.notes) + before
-    restart: Literal["done", "needed", "not needed"] = "needed" if receipt.restart_needed else "not needed"
-    if receipt.restarting:
-        if not driver.wait_restarted(receipt, restart_wait, progress, cancel):
-            text = f"{what} complete, but the control has not come back from its restart "
-            text += f"within {restart_wait:g} s."
-            return Outcome("new", False, True, kept, "missed", digest, text + before)
-        restart = "done"
-    fetched = driver.fetch(progress, cancel, "verify")
-    where = driver.difference(content, fetched)
-    if where and fetched == old and not driver.abilities.all_or_nothing:
-        text = f"The control has taken nothing of it: {AT_CONTROL_TEXT['old']}."
-        return Outcome("old", False, True, kept, restart, digest, text)
-    if where:
-        at_control: AtControl = "unknown" if driver.abilities.all_or_nothing else "mixed"
-        rest = AT_CONTROL_TEXT["unknown"] if driver.abilities.all_or_nothing else "the rest is as it was sent"
+@dataclass(frozen=True)
+class _Proof:
+    """A download that the control has taken: ``content`` in the place of ``old``, which is ``kept``; ``what`` was done."""
+
+    driver: ControlDriver
+    content: bytes
+    old: bytes
+    receipt: Receipt
+    kept: str | None
+    what: str
+
+    @property
+    def at_control(self) -> AtControl:
+        """What the control contains as long as it was not read back."""
+        return "new" if self.receipt.is_answered else "unknown"
+
+    def outcome(self, exchange: Exchange, restart_wait: float) -> Outcome:
+        """Wait for the restart, read back, compare; raises TransferError."""
+        restart: RestartState = "needed" if self.receipt.restart_needed else "not needed"
+        if self.receipt.restarting and isinstance(self.driver, RestartsItself):
+            if not self.driver.wait_restarted(self.receipt, restart_wait, exchange):
+                text = f"{self.what} complete, but the control has not come back from its restart "
+                text += f"within {restart_wait:g} s."
+                return self._ended("new", "missed", text + self._before(), is_verified=False)
+            restart = "done"
+        fetched = self.driver.fetch(exchange, "verify")
+        if where := self.driver.difference(self.content, fetched):
+            return self._differs(where, fetched, restart)
+        partly = self.driver.read_back if isinstance(self.driver, ReadsBackPartly) else ""
+        proof = f"complete: {partly}" if partly else "complete and read back equal"
+        text = f"{self.what} {proof}{_RESTART_TEXT[restart]}"
+        return self._ended("new", restart, text + self._before())
+
+    def _differs(self, where: str, fetched: bytes, restart: RestartState) -> Outcome:
+        is_whole = self.driver.abilities.all_or_nothing
+        if fetched == self.old and not is_whole:
+            text = f"The control has taken nothing of it: {AT_CONTROL_TEXT['old']}."
+            return self._ended("old", restart, text, is_verified=False)
+        rest = AT_CONTROL_TEXT["unknown"] if is_whole else "the rest is as it was sent"
         text = f"The control took the image, but what it contains differs {where}; {rest}."
-        return Outcome(at_control, False, True, kept, restart, digest, text + before)
-    partly = driver.read_back if isinstance(driver, ReadsBackPartly) else ""
-    proof = f"complete: {partly}" if partly else "complete and read back equal"
-    text = f"{what} {proof}{_RESTART_TEXT[restart]}"
-    return Outcome("new", True, True, kept, restart, digest, text + before)
+        state: AtControl = "unknown" if is_whole else "mixed"
+        return self._ended(state, restart, text + self._before(), is_verified=False)
+
+    def _before(self) -> str:
+        """Return what the user has to know, and where the old content is."""
+        before = f"What it contained before is kept in {self.kept}." if self.kept else "It was empty before."
+        return "".join(f" {text}" for text in (*self.receipt.notes, before))
+
+    def _ended(
+        self, state: AtControl, restart: RestartState, text: str, *, is_verified: bool = True
+    ) -> Outcome:
+        digest = hashlib.sha256(self.content).hexdigest()
+        return Outcome(state, is_verified, True, self.kept, restart, digest, text)

@@ -6,26 +6,27 @@ import threading
 from collections.abc import Callable, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
-from pathlib import Path
 from typing import Any, Generic, Literal, TypeVar
 
-from amp_studio.files import Notify, ParameterFile
+from amp_studio.files import ParameterFile
 from amp_studio.schema.quoting import quoted
 from amp_studio.transfer.errors import AtControl, TransferError, unforeseen
+from amp_studio.transfer.exchange import Exchange
 from amp_studio.transfer.links.endpoint import parse_endpoint
-from amp_studio.transfer.progress import Progress
 
 from .exchange import Outcome
 from .parameters import download_file, fetch_image, sha256
-from .record import add_look
+from .record import record_look
 from .verification import ImageComparison, verify_content
 
 MOST = 16
 """Controls with which is exchanged at once; the others wait."""
 
 T = TypeVar("T")
-FleetWork = Callable[[str, Progress], T]
-"""The exchange with the control at an address."""
+FleetWork = Callable[[str, Exchange], T]
+"""What is done with the control at an address."""
+ExchangeOf = Callable[[str], Exchange]
+"""Gives the exchange with the control at an address; all of them can be stopped together."""
 
 
 @dataclass(frozen=True)
@@ -60,25 +61,25 @@ def check_addresses(addresses: Sequence[str]) -> None:
 def with_each(
     addresses: Sequence[str],
     work: FleetWork[T],
-    progress: Callable[[str], Progress],
+    exchange_of: ExchangeOf,
     *,
     failed: Callable[[T], bool],
     stop_on_failure: bool = False,
-    cancel: threading.Event | None = None,
 ) -> list[FleetResult[T]]:
     """Exchange with each control and return the results in the order of the addresses.
 
-    ``progress`` gives the progress of an address. All exchanges run side by side; with ``stop_on_failure`` one after the
-    other, and after the first that ``failed`` or raised no other is begun. ``cancel`` is for the exchanges themselves; once
-    it is set no other is begun. Raises ValueError for addresses that cannot be used, before anything is begun.
+    All exchanges run side by side; with ``stop_on_failure`` one after the other, and after the first that ``failed`` or raised
+    no other is begun. One that is stopped before it is begun is not tried. Raises ValueError for addresses that cannot be used,
+    before anything is begun.
     """
     check_addresses(addresses)
     is_over = threading.Event()
 
     def one(address: str) -> FleetResult[T]:
-        if is_over.is_set() or (cancel is not None and cancel.is_set()):
+        exchange = exchange_of(address)
+        if is_over.is_set() or exchange.is_stopped:
             return FleetResult(address)
-        found = _one(address, work, progress(address))
+        found = _one(address, work, exchange)
         if stop_on_failure and (found.result is None or failed(found.result)):
             is_over.set()
         return found
@@ -89,9 +90,9 @@ def with_each(
         return list(pool.map(one, addresses))
 
 
-def _one(address: str, work: FleetWork[T], progress: Progress) -> FleetResult[T]:
+def _one(address: str, work: FleetWork[T], exchange: Exchange) -> FleetResult[T]:
     try:
-        return FleetResult(address, work(address, progress))
+        return FleetResult(address, work(address, exchange))
     except TransferError as error:
         return FleetResult(address, error=str(error), state=error.at_control, kept=error.kept or "")
     except (OSError, ValueError) as error:
@@ -128,19 +129,26 @@ HEADS = ("Address", "Result", "SHA-256", "Kept copy", "How it ended")
 
 
 def download_each(
-    file: ParameterFile, path: Path, keep: Path, addresses: Sequence[str], progress: Callable[[str], Progress], *,
-    expected: str | None = None, stop_on_failure: bool = False, cancel: threading.Event | None = None,
-    notify: Notify = lambda _: None,
-) -> list[FleetRow]:  # fmt: skip
-    """Download a file to each control, as ``download_file`` does; ``path`` is its place, ``keep`` the folder of the copies."""
+    file: ParameterFile,
+    addresses: Sequence[str],
+    exchange_of: ExchangeOf,
+    *,
+    expected: str | None = None,
+    stop_on_failure: bool = False,
+) -> list[FleetRow]:
+    """Download a file to each control, as ``download_file`` does."""
     files = {address: file.copy() for address in addresses}  # a thread each
 
-    def work(address: str, show: Progress) -> Outcome:
-        return download_file(files[address], address, keep, path.stem, show, cancel, expected=expected, record=path,
-                             notify=notify)  # fmt: skip
+    def work(address: str, exchange: Exchange) -> Outcome:
+        return download_file(files[address], address, exchange, expected=expected)
 
-    found = with_each(addresses, work, progress, failed=lambda outcome: not outcome.verified,
-                      stop_on_failure=stop_on_failure, cancel=cancel)  # fmt: skip
+    found = with_each(
+        addresses,
+        work,
+        exchange_of,
+        failed=lambda outcome: not outcome.verified,
+        stop_on_failure=stop_on_failure,
+    )
     return [_downloaded(each) for each in found]
 
 
@@ -157,22 +165,29 @@ def _downloaded(found: FleetResult[Outcome]) -> FleetRow:
 
 
 def verify_each(
-    file: ParameterFile, path: Path, addresses: Sequence[str], progress: Callable[[str], Progress], *,
-    stop_on_failure: bool = False, cancel: threading.Event | None = None, notify: Notify = lambda _: None,
-) -> list[FleetRow]:  # fmt: skip
+    file: ParameterFile,
+    addresses: Sequence[str],
+    exchange_of: ExchangeOf,
+    *,
+    stop_on_failure: bool = False,
+) -> list[FleetRow]:
     """Compare a file with what each control contains, and record that."""
     family = file.schema.family.family
     files = {address: file.copy() for address in addresses}
 
-    def work(address: str, show: Progress) -> tuple[ImageComparison, str]:
-        content = fetch_image(address, show, cancel, family=family)
+    def work(address: str, exchange: Exchange) -> tuple[ImageComparison, str]:
+        content = fetch_image(address, exchange, family=family)
         compared = verify_content(files[address], content)
-        if problem := add_look("verify", path, family, address, content, compared.summary()):
-            notify(problem)
+        record_look("verify", exchange, family, address, content, compared.summary())
         return compared, sha256(content)
 
-    found = with_each(addresses, work, progress, failed=lambda pair: not pair[0].is_same,
-                      stop_on_failure=stop_on_failure, cancel=cancel)  # fmt: skip
+    found = with_each(
+        addresses,
+        work,
+        exchange_of,
+        failed=lambda pair: not pair[0].is_same,
+        stop_on_failure=stop_on_failure,
+    )
     return [_compared(each) for each in found]
 
 

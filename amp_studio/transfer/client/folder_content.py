@@ -9,7 +9,7 @@ from pathlib import Path
 from amp_studio.files import ENDING, backup_path
 
 from .kept import BEFORE, IMAGE
-from .record import Exchange, read_exchanges
+from .record import RecordedExchange, read_exchanges
 
 RULES = "rules.yaml"
 
@@ -23,7 +23,7 @@ class FolderFile:
     """The file before the last save."""
     copies: tuple[Path, ...]
     """What controls contained before a download of it, the latest first."""
-    exchange: Exchange | None
+    exchange: RecordedExchange | None
     """The last exchange with a control."""
 
 
@@ -55,7 +55,7 @@ def folder_content(folder: Path) -> FolderContent:
     )
 
 
-def _exchanges(folder: Path) -> Iterable[Exchange]:
+def _exchanges(folder: Path) -> Iterable[RecordedExchange]:
     """Return the exchanges of a folder; none where the record cannot be read."""
     try:
         return read_exchanges(folder)
@@ -63,7 +63,7 @@ def _exchanges(folder: Path) -> Iterable[Exchange]:
         return []
 
 
-def _file(path: Path, names: list[Path], backups: set[Path], exchange: Exchange | None) -> FolderFile:
+def _file(path: Path, names: list[Path], backups: set[Path], exchange: RecordedExchange | None) -> FolderFile:
     try:
         backup: Path | None = backup_path(path)
     except OSError:

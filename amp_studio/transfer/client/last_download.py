@@ -13,7 +13,7 @@ from amp_studio.files.reading import read_stored
 from amp_studio.schema import InvalidValueError, read_address
 
 from .kept import open_copy
-from .record import Exchange, read_exchanges
+from .record import RecordedExchange, read_exchanges
 from .verification import completed
 
 
@@ -56,7 +56,7 @@ def last_download(file: ParameterFile, path: Path) -> LastDownload:
     )
 
 
-def _content(each: Exchange, wanted: str, file: ParameterFile, folder: Path) -> ParameterFile | None:
+def _content(each: RecordedExchange, wanted: str, file: ParameterFile, folder: Path) -> ParameterFile | None:
     """Return the content whose digest is ``wanted``: the copy that an exchange kept, or that with its changes."""
     path = Path(each.kept)
     path = path if path.is_file() else folder / path.name  # the folder may have been moved
@@ -75,7 +75,7 @@ def _content(each: Exchange, wanted: str, file: ParameterFile, folder: Path) -> 
     return completed(held, copy.image, file)
 
 
-def _changed(held: ParameterFile, each: Exchange, file: ParameterFile) -> ParameterFile:
+def _changed(held: ParameterFile, each: RecordedExchange, file: ParameterFile) -> ParameterFile:
     """Return a content after the changes of an exchange; secrets, which are recorded without what they were, as in ``file``."""
     found = held.copy()
     for entry, _, text in each.changes:

@@ -4,22 +4,22 @@ from __future__ import annotations
 
 import hashlib
 import re
-import threading
 from contextlib import closing
 from dataclasses import replace
 from functools import partial
 from pathlib import Path
 from typing import Self
 
-from amp_studio.files import Notify, ParameterFile
+from amp_studio.files import ParameterFile
 from amp_studio.schema.quoting import quoted
 from amp_studio.transfer.content import ContentKind, decode_content
-from amp_studio.transfer.progress import Progress, quiet
+from amp_studio.transfer.driver import ControlDriver
+from amp_studio.transfer.exchange import QUIET, Exchange
 
 from .drivers import open_driver, open_driver_at
-from .exchange import Outcome, download, upload
+from .exchange import Outcome, WantedContent, upload
 from .kept import BEFORE, Copy, keep_image, keep_readable, open_copy
-from .record import Recording, check_whole
+from .recording import Recording
 
 __all__ = [
     "Copy",
@@ -35,40 +35,38 @@ __all__ = [
 
 
 def download_file(
-    file: ParameterFile, address: str, folder: Path, stem: str, progress: Progress = quiet,
-    cancel: threading.Event | None = None, *, expected: str | None = None, known: bytes | None = None,
-    record: Path | None = None, notify: Notify = lambda _: None,
-) -> Outcome:  # fmt: skip
-    """Put a file into the control at ``address``; what it contained is kept in ``folder`` before anything is replaced.
+    file: ParameterFile,
+    address: str,
+    exchange: Exchange,
+    *,
+    expected: str | None = None,
+    known: bytes | None = None,
+) -> Outcome:
+    """Put a file into the control at ``address``; what it contained is kept before anything is replaced, and all of it recorded.
 
     ``expected`` is the digest of what may be replaced, None for whatever is there; ``known`` is what was fetched from this
-    control just before; ``record`` is the path of the file, in whose folder the exchange is recorded, and ``notify`` is called if
-    it could not be. Raises TransferError, whose
-    text names what the control contains, ImageError for a file no image can carry or that sets what the control cannot take, and ValueError for an address or
-    a digest that is none.
+    control just before. Raises TransferError, whose text names what the control contains, ImageError for a file no image can
+    carry or that sets what the control cannot take, and ValueError for an address or a digest that is none.
     """
     approved = read_digest(expected)
     family = file.schema.family.family
-    with (
-        closing(open_driver(address, family)) as driver,
-        _Keeping(folder, stem, driver, record, address) as copy,
-    ):
-        remarks: list[str] = []
+    remarks: list[str] = []
+    with closing(open_driver(address, family)) as driver:
 
-        def wanted(held: bytes) -> bytes:
-            content = driver.encode(file, held)
+        def content(held: bytes) -> bytes:
+            made = driver.encode(file, held)
             remarks[:] = remarks_of(driver, file, held)
-            return content
+            return made
 
-        recording = Recording("download", record, family, address, wanted, notify)
+        wanted = WantedContent(content, file.schema.signature, approved, known)
+        outcome = download_content(driver, wanted, Recording("download", family, address, exchange))
+    return replace(outcome, text=" ".join([outcome.text, *remarks]))
 
-        def run() -> Outcome:
-            outcome = download(
-                driver, recording.wanted, copy.keep, signature=file.schema.signature, expected=approved, known=known,
-                meanwhile=copy.finish, progress=progress, cancel=cancel)  # fmt: skip
-            return replace(outcome, text=" ".join([outcome.text, *remarks]))
 
-        return recording.run(run)
+def download_content(driver: ControlDriver, wanted: WantedContent, recording: Recording) -> Outcome:
+    """Keep, download and record; the parameter file beside the copy is written while the control restarts."""
+    with _Keeping(driver, recording) as copy:
+        return recording.run(driver, wanted, copy.keep, meanwhile=copy.finish)
 
 
 def remarks_of(kind: ContentKind, file: ParameterFile, held: bytes) -> list[str]:
@@ -80,38 +78,30 @@ def remarks_of(kind: ContentKind, file: ParameterFile, held: bytes) -> list[str]
     return [f"{what}: {text}." for what, text in texts if text]
 
 
-def restore_copy(
-    copy: Copy, address: str, folder: Path, stem: str, progress: Progress = quiet,
-    cancel: threading.Event | None = None, *, expected: str | None = None, record: Path | None = None,
-    notify: Notify = lambda _: None,
-) -> Outcome:  # fmt: skip
-    """Put back what a control has contained, byte for byte; what it contains instead is kept in ``folder`` first.
+def restore_copy(copy: Copy, address: str, exchange: Exchange, *, expected: str | None = None) -> Outcome:
+    """Put back what a control has contained, byte for byte; what it contains instead is kept first.
 
     What is kept goes back whatever it is, for the control to decide whether it has contained it. Raises as ``download_file``.
     """
     approved = read_digest(expected)
-    with (
-        closing(open_driver(address, copy.family)) as driver,
-        _Keeping(folder, stem, driver, record, address) as before,
-    ):
-        wanted = partial(driver.refit, copy.image)
+    with closing(open_driver(address, copy.family)) as driver:
+        content = partial(driver.refit, copy.image)
         if copy.file is not None and not copy.is_kept:
-            wanted = partial(driver.encode, copy.file)
+            content = partial(driver.encode, copy.file)
         of = copy.file.schema.family.family if copy.file else ""
-        recording = Recording("restore", record, of, address, wanted, notify)
-        return recording.run(lambda: download(
-            driver, recording.wanted, before.keep, signature=copy.signature, expected=approved, is_return=copy.is_kept,
-            what="Restore", meanwhile=before.finish, progress=progress, cancel=cancel))  # fmt: skip
+        wanted = WantedContent(content, copy.signature, approved, is_return=copy.is_kept, what="Restore")
+        return download_content(driver, wanted, Recording("restore", of, address, exchange))
 
 
 class _Keeping:
     """Keeps what a control contained in a folder: its bytes at once, the parameter file beside them when there is time."""
 
-    def __init__(
-        self, folder: Path, stem: str, kind: ContentKind, record: Path | None = None, address: str = ""
-    ) -> None:
-        self._folder, self._stem = folder, stem.partition(BEFORE)[0]
-        self._kind, self._record, self._address = kind, record, address
+    def __init__(self, kind: ContentKind, recording: Recording) -> None:
+        place = recording.exchange.keep
+        if place is None:
+            raise ValueError("a download needs a place for the copy of what it replaces")
+        self._folder, self._stem = place.parent, place.stem.partition(BEFORE)[0]
+        self._kind, self._recording = kind, recording
         self._kept: tuple[bytes, Path] | None = None
 
     def __enter__(self) -> Self:
@@ -122,7 +112,7 @@ class _Keeping:
 
     def keep(self, content: bytes) -> str:
         """Keep the bytes and return where; raises CopyError for less than the last copy of the control has, OSError."""
-        check_whole(self._kind, content, self._record, self._address, self._folder)
+        self._recording.check_whole(self._kind, content, self._folder)
         path = keep_image(content, self._folder, self._stem, readable=False)
         self._kept = content, path
         return str(path)
@@ -150,16 +140,12 @@ def read_digest(text: str | None) -> bytes | None:
     return bytes.fromhex(text.strip())
 
 
-def fetch_image(
-    address: str, progress: Progress = quiet, cancel: threading.Event | None = None, *, family: str = ""
-) -> bytes:
+def fetch_image(address: str, exchange: Exchange = QUIET, *, family: str = "") -> bytes:
     """Return what the control at ``address`` contains, byte for byte; raises TransferError."""
-    with closing(open_driver_at(address, family, progress, cancel)) as driver:
-        return upload(driver, progress, cancel)
+    with closing(open_driver_at(address, family, exchange)) as driver:
+        return upload(driver, exchange)
 
 
-def fetch_file(
-    address: str, progress: Progress = quiet, cancel: threading.Event | None = None, *, family: str = ""
-) -> ParameterFile:
+def fetch_file(address: str, exchange: Exchange = QUIET, *, family: str = "") -> ParameterFile:
     """Return what the control at ``address`` contains as a parameter file; raises TransferError, ImageError."""
-    return decode_content(fetch_image(address, progress, cancel, family=family))
+    return decode_content(fetch_image(address, exchange, family=family))

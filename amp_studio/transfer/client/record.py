@@ -8,10 +8,8 @@ from __future__ import annotations
 import hashlib
 import json
 import os
-from collections.abc import Callable
 from dataclasses import asdict, dataclass, fields
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 from amp_studio.files import ENDING, ParameterFile, compare, real_path, text_of_name
 from amp_studio.files.atomic import append_line
@@ -19,20 +17,18 @@ from amp_studio.files.local_time import local_time
 from amp_studio.files.lock import now, user
 from amp_studio.schema import MASKED, Value, write_value, written
 from amp_studio.schema.regular_file import read_file
-from amp_studio.transfer.content import ContentKind, decode_content
-from amp_studio.transfer.errors import AtControl, TransferError
+from amp_studio.transfer.content import decode_content
+from amp_studio.transfer.errors import AtControl
+from amp_studio.transfer.exchange import Exchange
 from amp_studio.transfer.image import ImageError
 
-from .kept import BEFORE, CopyError, open_copy
-
-if TYPE_CHECKING:  # a report reads the record, and connects to nothing
-    from .exchange import Outcome
+from .kept import BEFORE
 
 RECORD = "exchanges.jsonl"
 
 
 @dataclass(frozen=True)
-class Exchange:
+class RecordedExchange:
     """One exchange with a control.
 
     ``when``      UTC; ``who``: name of the user
@@ -69,7 +65,7 @@ def record_path(beside: Path) -> Path:
     return real_path(beside).parent / RECORD
 
 
-def add_exchange(beside: Path, exchange: Exchange) -> str:
+def add_exchange(beside: Path, exchange: RecordedExchange) -> str:
     """Append an exchange to the record in the folder of a file; returns why it could not be, empty where it was.
 
     An exchange that cannot be recorded has happened anyway.
@@ -83,21 +79,23 @@ def add_exchange(beside: Path, exchange: Exchange) -> str:
     return ""
 
 
-def add_look(verb: str, beside: Path, family: str, control: str, content: bytes, text: str) -> str:
-    """Record an exchange that replaced nothing; returns as ``add_exchange``."""
-    digest = _digest(content)
-    return add_exchange(
-        beside, exchange_now(verb, beside, family, control, before=digest, after=digest, text=text)
-    )
+def record_look(verb: str, exchange: Exchange, family: str, control: str, content: bytes, text: str) -> None:
+    """Record that a control was read and nothing replaced, where the exchange is recorded; notifies where it could not be."""
+    if exchange.record is None:
+        return
+    digest = digest_of(content)
+    entry = exchange_now(verb, exchange.record, family, control, before=digest, after=digest, text=text)
+    if problem := add_exchange(exchange.record, entry):
+        exchange.notify(problem)
 
 
-def exchange_now(verb: str, file: Path, family: str, control: str, **facts: object) -> Exchange:
+def exchange_now(verb: str, file: Path, family: str, control: str, **facts: object) -> RecordedExchange:
     """Return an exchange of this moment by this user; ``facts`` are the other fields."""
     name = Path(os.path.realpath(file)).name  # by whatever link the file was reached
-    return Exchange(now(), user(), verb, text_of_name(name), family, control, **facts)  # type: ignore[arg-type]  # as asked for
+    return RecordedExchange(now(), user(), verb, text_of_name(name), family, control, **facts)  # type: ignore[arg-type]  # as asked for
 
 
-def read_exchanges(folder: Path, file: str = "") -> list[Exchange]:
+def read_exchanges(folder: Path, file: str = "") -> list[RecordedExchange]:
     """Return the exchanges recorded in a folder, oldest first; of one file, or of all. A line that is none is left out.
 
     Raises OSError where there is a record that cannot be read.
@@ -110,7 +108,7 @@ def read_exchanges(folder: Path, file: str = "") -> list[Exchange]:
     return [each for each in found if file in ("", each.file, _file_of_copy(each.file))]
 
 
-def file_of_exchange(exchange: Exchange) -> str:
+def file_of_exchange(exchange: RecordedExchange) -> str:
     """Return the name of the parameter file of an exchange, also where a copy of it was put back."""
     return _file_of_copy(exchange.file)
 
@@ -121,45 +119,19 @@ def _file_of_copy(name: str) -> str:
     return f"{stem}{ENDING}" if before else name
 
 
-def _exchange(line: str) -> Exchange | None:
+def _exchange(line: str) -> RecordedExchange | None:
     """Return the exchange of a line; None for what this program has not written so."""
     try:
         entry = json.loads(line)
         if not isinstance(entry, dict):
             return None
         changes = tuple((str(p), str(old), str(new)) for p, old, new in entry.pop("changes", ()))
-        texts = {f.name: entry[f.name] for f in fields(Exchange) if f.name in entry}
+        texts = {f.name: entry[f.name] for f in fields(RecordedExchange) if f.name in entry}
         if not all(isinstance(text, str) for text in texts.values()):
             return None
-        return Exchange(**texts, changes=changes)
+        return RecordedExchange(**texts, changes=changes)
     except (ValueError, TypeError, RecursionError):
         return None
-
-
-def check_whole(kind: ContentKind, content: bytes, beside: Path | None, control: str, folder: Path) -> None:
-    """Refuse to keep less than the newest copy of the same control has; raises CopyError.
-
-    The record of the file ``beside`` leads to that copy, in the ``folder`` where the next one is kept. Where there is none that
-    can be read, there is nothing to compare.
-    """
-    try:
-        exchanges = read_exchanges(record_path(beside).parent) if beside is not None else []
-    except OSError:
-        return
-    names = (Path(each.kept).name for each in reversed(exchanges) if each.control == control and each.kept)
-    for path in (folder / name for name in names):
-        try:
-            earlier = open_copy(path).image
-            is_alike = earlier.partition(b"\n")[0] == content.partition(b"\n")[0]
-            lacking = kind.lacks(content, earlier) if is_alike else ""
-        except (OSError, ValueError):
-            continue
-        if lacking:
-            raise CopyError(
-                f"this reading lacks {lacking}, which {path.name} has: try once more; where another control is connected there "
-                "now, keep its copies in another folder"
-            )
-        return
 
 
 def changes_of(before: bytes, after: bytes) -> tuple[tuple[str, str, str], ...]:
@@ -184,51 +156,6 @@ def _text(file: ParameterFile, parameter_id: str, value: Value | None) -> str:
     return MASKED if parameter.secret else write_value(parameter, value)
 
 
-class Recording:
-    """Records one download or restore, however it ends.
-
-    ``make`` gives what the control shall contain, of what it contains; ``beside`` is the file in whose folder the record is,
-    None for none; ``notify`` is called with the reason if it could not be written.
-    """
-
-    def __init__(
-        self, verb: str, beside: Path | None, family: str, control: str, make: Callable[[bytes], bytes],
-        notify: Callable[[str], object],
-    ) -> None:  # fmt: skip
-        self._verb, self._beside, self._family, self._control = verb, beside, family, control
-        self._make, self._notify = make, notify
-        self._held: bytes | None = None
-        self._wanted = b""
-
-    def wanted(self, held: bytes) -> bytes:
-        """Return what a control that contains ``held`` shall contain."""
-        content = self._make(held)
-        self._held, self._wanted = held or None, content
-        return content
-
-    def run(self, download: Callable[[], Outcome]) -> Outcome:
-        """Run the exchange and record it; one that ended before the control was read is left out. Raises what it raises."""
-        try:
-            outcome = download()
-        except TransferError as error:
-            if self._held is not None or error.at_control not in ("", "old"):
-                self._add(error.at_control, error.kept, str(error))
-            raise
-        self._add(outcome.at_control, outcome.kept, outcome.text, outcome.verified)
-        return outcome
-
-    def _add(self, state: AtControl, kept: str | None, text: str, is_proven: bool = False) -> None:
-        if self._beside is None:
-            return
-        held, wanted = self._held or b"", self._wanted
-        after = _digest(wanted) if is_proven else _digest(held) if state == "old" else ""
-        changes = () if state == "old" else changes_of(held, wanted)
-        note = add_exchange(self._beside, exchange_now(
-            self._verb, self._beside, self._family, self._control, before=_digest(held), after=after, state=state,
-            kept=kept or "", text=text, changes=changes))  # fmt: skip
-        if note:
-            self._notify(note)
-
-
-def _digest(content: bytes) -> str:
+def digest_of(content: bytes) -> str:
+    """Return the SHA-256 of a content in hexadecimal; "" for none."""
     return hashlib.sha256(content).hexdigest() if content else ""

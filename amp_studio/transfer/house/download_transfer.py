@@ -16,6 +16,7 @@ from amp_studio.transfer.errors import (
     TransferError,
     unforeseen,
 )
+from amp_studio.transfer.exchange import Replacement
 
 from .broken_transfers import BrokenTransfers
 from .connection import STEPS, Connection
@@ -46,17 +47,15 @@ class Sent:
 class DownloadTransfer:
     """Sends one image under one transfer id; ``at_control`` is what the control contains as far as can be known."""
 
-    def __init__(
-        self, line: Connection, image: bytes, signature: str, expected: bytes, broken: BrokenTransfers
-    ) -> None:
+    def __init__(self, line: Connection, replacement: Replacement, broken: BrokenTransfers) -> None:
         self._line = line
-        self._image = image
-        self._signature = signature
-        self._expected = expected
-        self._digest = hashlib.sha256(image).digest()
+        self._image = replacement.content
+        self._signature = replacement.signature
+        self._expected = replacement.held_digest
+        self._digest = hashlib.sha256(self._image).digest()
         control = line.welcome.name if line.welcome is not None else ""
         self._broken = broken
-        self._what = b"\n".join((self._digest, expected, signature.encode(), control.encode()))
+        self._what = b"\n".join((self._digest, self._expected, self._signature.encode(), control.encode()))
         begun = broken.find(self._what)
         self._transfer = begun or line.random(16)
         self._is_resumed = begun is not None

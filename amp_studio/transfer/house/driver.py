@@ -2,12 +2,10 @@
 
 from __future__ import annotations
 
-import threading
-
 from amp_studio.transfer.content import HouseContent
 from amp_studio.transfer.driver import Abilities, ControlIdentity, Receipt
+from amp_studio.transfer.exchange import QUIET, Exchange, Replacement
 from amp_studio.transfer.links.endpoint import Endpoint
-from amp_studio.transfer.progress import Progress, quiet
 
 from .message import Flags
 from .session import Session
@@ -16,7 +14,7 @@ from .session import Session
 class HouseDriver(HouseContent):
     """Speaks to a control in the sessions of the house protocol (docs/protocols/exchange.md)."""
 
-    abilities = Abilities(can_send=True, remembers=True, lasting_states=("E-stop",))
+    abilities = Abilities(remembers=True, lasting_states=("E-stop",))
 
     def __init__(self, session: Session) -> None:
         self.session = session
@@ -27,9 +25,9 @@ class HouseDriver(HouseContent):
         """Return the driver of an endpoint; ``family`` is the one the control must be of, "" for any."""
         return cls(Session.at(endpoint, family=family))
 
-    def identify(self, progress: Progress = quiet, cancel: threading.Event | None = None) -> ControlIdentity:
+    def identify(self, exchange: Exchange = QUIET) -> ControlIdentity:
         """Return what the control answers about itself."""
-        welcome = self.session.hello(cancel, progress)
+        welcome = self.session.hello(exchange)
         return ControlIdentity(
             family=welcome.family,
             protocol="house",
@@ -42,12 +40,10 @@ class HouseDriver(HouseContent):
             restart_needed=bool(welcome.flags & Flags.RESTART_NEEDED),
         )
 
-    def fetch(
-        self, progress: Progress = quiet, cancel: threading.Event | None = None, stage: str = "upload"
-    ) -> bytes:
+    def fetch(self, exchange: Exchange = QUIET, stage: str = "upload") -> bytes:
         """Return the control's active image; on a slow line only some of what was sent is read back."""
         sent = self._sent if stage == "verify" else None
-        return self.session.fetch(progress, cancel, stage, sent)
+        return self.session.fetch(exchange, stage, sent)
 
     @property
     def read_back(self) -> str:
@@ -60,33 +56,16 @@ class HouseDriver(HouseContent):
             "chosen at random, were read back equal (amp-studio verify reads everything)"
         )
 
-    def send(
-        self,
-        content: bytes,
-        *,
-        signature: str,
-        expected: bytes,
-        held: bytes,  # noqa: ARG002 -- it is replaced as a whole
-        progress: Progress = quiet,
-        cancel: threading.Event | None = None,
-    ) -> Receipt:
+    def send(self, replacement: Replacement, exchange: Exchange = QUIET) -> Receipt:
         """Stage and commit an image, all or nothing."""
-        sent = self.session.send(
-            content, signature=signature, expected=expected, progress=progress, cancel=cancel
-        )
-        self._sent = content
+        sent = self.session.send(replacement, exchange)
+        self._sent = replacement.content
         notes = (f"It was taken up again at byte {sent.resumed_at}.",) if sent.resumed_at else ()
         return Receipt(sent.committed.restarting, sent.committed.incarnation, notes=notes)
 
-    def wait_restarted(
-        self,
-        receipt: Receipt,
-        seconds: float,
-        progress: Progress = quiet,
-        cancel: threading.Event | None = None,
-    ) -> bool:
+    def wait_restarted(self, receipt: Receipt, seconds: float, exchange: Exchange = QUIET) -> bool:
         """Call the control until it answers with another incarnation."""
-        return self.session.wait_restarted(receipt.incarnation, seconds, progress, cancel) is not None
+        return self.session.wait_restarted(receipt.incarnation, seconds, exchange) is not None
 
     def close(self) -> None:
         """Hang up."""

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import contextlib
 import os
-import threading
 import time
 from collections.abc import Callable
 from pathlib import Path
@@ -13,10 +12,10 @@ from typing import TypeVar
 import platformdirs
 
 from amp_studio.transfer.errors import ControlSilentError, NoConnectionError, TransferError
+from amp_studio.transfer.exchange import QUIET, Exchange, Replacement
 from amp_studio.transfer.links.endpoint import Endpoint, parse_endpoint
 from amp_studio.transfer.links.link import LinkError
 from amp_studio.transfer.links.opening import connect
-from amp_studio.transfer.progress import Progress, quiet
 from amp_studio.transfer.waiting import OpenLink
 
 from .broken_transfers import BrokenTransfers, NoBrokenTransfers
@@ -39,9 +38,6 @@ from .upload_transfer import UploadTransfer
 Result = TypeVar("Result")
 
 RESTART_PAUSE = 0.02  # seconds between two calls to a control that restarts
-
-
-__all__ = ["Progress", "Session", "quiet"]
 
 
 class Session:
@@ -100,12 +96,12 @@ class Session:
 
     # -- asking ------------------------------------------------------------------------------------
 
-    def hello(self, cancel: threading.Event | None = None, progress: Progress = quiet) -> Welcome:
+    def hello(self, exchange: Exchange = QUIET) -> Welcome:
         """Return who the control is and what it contains; connects where there is no line yet.
 
         Raises NoConnectionError, ControlSilentError, ControlBusyError, WrongFamilyError, ProtocolMismatchError, CancelledError.
         """
-        self._line.cancel, self._line.progress = cancel, progress
+        self._line.cancel, self._line.progress = exchange.cancel, exchange.progress
         self._line.begin()
         try:
             return self._line.greet()
@@ -129,13 +125,7 @@ class Session:
         self.close()
         return incarnation
 
-    def wait_restarted(
-        self,
-        incarnation: int,
-        seconds: float,
-        progress: Progress = quiet,
-        cancel: threading.Event | None = None,
-    ) -> Welcome | None:
+    def wait_restarted(self, incarnation: int, seconds: float, exchange: Exchange = QUIET) -> Welcome | None:
         """Call the control until it answers with another incarnation; None when it has not after ``seconds``.
 
         Raises CancelledError and an error where another control answers.
@@ -144,9 +134,9 @@ class Session:
         start = line.now()
 
         def waiting(*_: object) -> None:  # the control's silence is what is waited out here
-            progress("restart", int((line.now() - start) * 10), max(1, int(seconds * 10)))
+            exchange.progress("restart", int((line.now() - start) * 10), max(1, int(seconds * 10)))
 
-        line.cancel, line.progress = cancel, waiting
+        line.cancel, line.progress = exchange.cancel, waiting
         self.close()
         line.begin(seconds)
         while line.now() - start < seconds:
@@ -158,7 +148,7 @@ class Session:
             else:
                 if welcome.incarnation != incarnation:
                     line.further()
-                    line.progress = progress
+                    line.progress = exchange.progress
                     line.notify("restart", 1, 1)
                     return welcome
             with contextlib.suppress(OutOfTimeError):
@@ -167,41 +157,27 @@ class Session:
 
     # -- images ------------------------------------------------------------------------------------
 
-    def fetch(
-        self,
-        progress: Progress = quiet,
-        cancel: threading.Event | None = None,
-        stage: str = "upload",
-        sent: bytes | None = None,
-    ) -> bytes:
+    def fetch(self, exchange: Exchange = QUIET, stage: str = "upload", sent: bytes | None = None) -> bytes:
         """Return the control's active image, checked against its digest; raises TransferError.
 
         ``sent`` is what was committed before: on a slow line only some of it is read, and ``sampled`` is how many pieces of
         how many; None after every other upload.
         """
-        self._line.cancel, self._line.progress = cancel, progress
+        self._line.cancel, self._line.progress = exchange.cancel, exchange.progress
         upload = UploadTransfer(self._line, stage, sent)
         image = upload.run()
         self.sampled = upload.sampled
         return image
 
-    def send(
-        self,
-        image: bytes,
-        *,
-        signature: str,
-        expected: bytes,
-        progress: Progress = quiet,
-        cancel: threading.Event | None = None,
-    ) -> Sent:
-        """Have the control replace the image whose SHA-256 is ``expected`` by ``image``, all or nothing.
+    def send(self, replacement: Replacement, exchange: Exchange = QUIET) -> Sent:
+        """Have the control replace one image by another, all or nothing.
 
-        Breaks off at ``cancel`` until the commit is asked for; from then on it sees the matter through, for
+        Can be stopped until the commit is asked for; from then on it sees the matter through, for
         up to 5 s more (not at all where the event is a Stop that was set twice). Raises TransferError, whose
         ``at_control`` is what the control contains.
         """
-        self._line.progress = progress
-        return DownloadTransfer(self._line, image, signature, expected, self._broken).run(cancel)
+        self._line.progress = exchange.progress
+        return DownloadTransfer(self._line, replacement, self._broken).run(exchange.cancel)
 
     def _ask(self, action: Callable[[Transaction], Result]) -> Result:
         try:

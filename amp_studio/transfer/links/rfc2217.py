@@ -1,164 +1,181 @@
 """Links over RFC 2217: a serial port of another computer, whose rate and parity are set from here.
 
-pyserial negotiates and sets. Its reader stores whatever comes, without end, and dies of some of it, so that part is
-replaced by one that bounds both.
+The client's side of the standard over a TCP link, without a thread: what comes is read when it is asked for, so that a flood
+waits in the network. (pyserial has a client too; its reader stores whatever comes, without end, dies of some of it, and can be
+replaced through its private parts only.)
 """
 
 from __future__ import annotations
 
-import contextlib
-import socket
-import threading
 import time
-from collections.abc import Callable
-from typing import Any
+from collections.abc import Callable, Iterator
 
-from serial import SerialException, rfc2217
-
-from .attempt import in_time
+from .attempt import SLICE
 from .endpoint import Endpoint
 from .link import LinkError, keep_waiting
-from .serial_line import SLICE, SerialLink, port_settings
-from .telnet import Negotiation, TelnetData, TelnetReader
+from .serial_line import HELD_LIMIT, WRITE_LIMIT
+from .serial_settings import SerialSettings
+from .tcp import TcpLink, connect_tcp
+from .telnet import DO, DONT, IAC, SB, SE, WILL, WONT, Negotiation, Option, TelnetData, TelnetReader
 
-READ_SIZE = 1_024
-STORED = 65_536  # bytes that wait to be read; beyond them the line rests, and TCP slows the other end down
-FLOW_CONTROLS = (
-    rfc2217.SET_CONTROL_USE_NO_FLOW_CONTROL,
-    rfc2217.SET_CONTROL_USE_SW_FLOW_CONTROL,
-    rfc2217.SET_CONTROL_USE_HW_FLOW_CONTROL,
-)
-CLOSING = 1.0  # seconds the reader may take to notice that the line was closed
+BINARY, ECHO, SUPPRESS_GO_AHEAD, COM_PORT = 0, 1, 3, 44
+WANTED = (SUPPRESS_GO_AHEAD, BINARY, COM_PORT)
+"""Telnet options that are asked for on both sides; without the last one there is no port."""
+ANSWER = 100  # a server answers command n with n + 100
+BAUD, DATA_BITS, PARITY, STOP_BITS, CONTROL, PURGE = 1, 2, 3, 4, 5, 12
+PARITIES = {"none": 1, "odd": 2, "even": 3, "mark": 4, "space": 5}
+STOPS = {1: 1, 2: 2, 1.5: 3}
+FLOWS = {"none": 1, "xonxoff": 2, "rtscts": 3}
+DTR_ON, RTS_ON = 8, 11
+RECEIVED, LEAVING = 1, 2  # which bytes a purge is of
+
+NO_SERVER = "what answers there is no RFC 2217 server"
+NOT_SET = "the server does not set the port like this; another program may have it"
+CLOSED = "the server has closed the connection"
 
 
 def connect_rfc2217(
     endpoint: Endpoint, timeout: float, look: Callable[[], None] = keep_waiting, *, own_flow: bool = False
-) -> SerialLink:
-    """Open and set a port within ``timeout`` seconds; raises LinkError, and what ``look`` raises."""
-    host = f"[{endpoint.host}]" if ":" in endpoint.host else endpoint.host
-    port = _RemotePort(None, timeout=SLICE, **port_settings(endpoint, own_flow))
-    port.port = f"rfc2217://{host}:{endpoint.port}"
+) -> Rfc2217Link:
+    """Open and set a port within ``timeout`` seconds; raises LinkError, and what ``look`` raises.
 
-    def error_of(error: Exception) -> LinkError:
-        return LinkError(endpoint, _message(error))
-
+    ``own_flow``: Xon and Xoff are left to the reader.
+    """
+    end = time.monotonic() + timeout
+    link = Rfc2217Link(endpoint, connect_tcp(endpoint, timeout, look), look)
     try:
-        in_time(port.open, lambda _: port.close(), timeout, look, error_of)
+        link.agree(end)
+        link.set_port(end, own_flow=own_flow)
     except BaseException:
-        port.close()
+        link.close()
         raise
-    return SerialLink(endpoint, port, look)
+    return link
 
 
-class _RemotePort(rfc2217.Serial):  # type: ignore[misc]
-    """pyserial's port with a separate reader."""
+class Rfc2217Link:
+    """One open port of a server."""
 
-    _socket: Any
-    _thread: Any
+    def __init__(self, endpoint: Endpoint, line: TcpLink, look: Callable[[], None] = keep_waiting) -> None:
+        self._settings: SerialSettings = endpoint.serial_settings()
+        self.bytes_per_second: float | None = self._settings.bytes_per_second
+        self._endpoint, self._line, self._look = endpoint, line, look
+        line.write_limit = WRITE_LIMIT if self._settings.flow == "none" else HELD_LIMIT
+        self._telnet = TelnetReader()
+        self._sent: set[tuple[int, int]] = set()
+        self._is_open, self._has_heard, self._is_agreed = True, False, False
+        self._answers: dict[int, bytes] = {}
+        self._early = b""
+        """Data that came right behind the answer that was waited for."""
 
-    def __init__(self, *args: Any, **settings: Any) -> None:
-        self._stored = bytearray()
-        self._changed = threading.Condition()
-        self._has_ended = False
-        self._is_given_up = False
-        super().__init__(*args, **settings)
+    def read(self, timeout: float) -> bytes:
+        end = time.monotonic() + timeout
+        while True:
+            early, self._early = self._early, b""
+            data = early or b"".join(self._received(max(0.0, end - time.monotonic())))
+            if data or time.monotonic() >= end:
+                return data
+
+    def write(self, data: bytes) -> None:
+        self._write(data.replace(bytes([IAC]), bytes([IAC, IAC])))
 
     def close(self) -> None:
-        """Hang up at once, also while another thread opens it."""
-        self.is_open, self._is_given_up = False, True
-        connection, self._socket = self._socket, None
-        if connection is not None:
-            with contextlib.suppress(OSError):
-                connection.shutdown(socket.SHUT_RDWR)
-            connection.close()
-            with self._changed:
-                self._changed.notify_all()
-        reader, self._thread = self._thread, None
-        if reader is not None and reader.is_alive() and reader is not threading.current_thread():
-            reader.join(CLOSING)  # one that has not been started yet finds the line closed
+        self._is_open = False
+        self._line.close()
 
-    def fileno(self) -> int:
-        """Return the handle that shows whether something can be written."""
-        return int(self._socket.fileno())
+    # -- opening -----------------------------------------------------------------------------------
 
-    @property
-    def in_waiting(self) -> int:
-        """How many bytes wait; the end of the line is reported by ``read``."""
-        return len(self._stored)
+    def agree(self, end: float) -> None:
+        """Agree with the server that this is a port; raises LinkError."""
+        for option in WANTED:
+            self._negotiate(WILL, option)
+            self._negotiate(DO, option)
+        self._await(
+            lambda: self._is_agreed, end, lambda: NO_SERVER if self._has_heard else "no answer in time"
+        )
 
-    def read(self, size: int = 1) -> bytes:
-        """Return what waits, up to ``size`` bytes, or b"" after the time-out; raises SerialException at the end of the line."""
-        end = time.monotonic() + SLICE
-        with self._changed:
-            while not self._stored and size:
-                if self._has_ended or not self.is_open:
-                    raise SerialException("the server has closed the connection")
-                left = end - time.monotonic()
-                if left <= 0:
-                    return b""
-                self._changed.wait(left)
-            data = bytes(self._stored[:size])
-            del self._stored[:size]
-            self._changed.notify_all()
-        return data
+    def set_port(self, end: float, *, own_flow: bool) -> None:
+        """Set the line as the endpoint asks for and forget what came before; raises LinkError."""
+        settings = self._settings
+        flow = "none" if own_flow and settings.flow == "xonxoff" else settings.flow
+        wanted = {
+            BAUD: settings.baud.to_bytes(4, "big"),
+            DATA_BITS: bytes([settings.bits]),
+            PARITY: bytes([PARITIES[settings.parity]]),
+            STOP_BITS: bytes([STOPS[settings.stop]]),
+            CONTROL: bytes([FLOWS[flow]]),
+        }
+        for command, value in wanted.items():
+            self._set(command, value)
+        self._await(lambda: self._answers.keys() >= wanted.keys(), end, lambda: NOT_SET)
+        if any(self._answers[command] != value for command, value in wanted.items()):
+            raise LinkError(self._endpoint, NOT_SET)
+        # A port may be without DTR and RTS, and its server then answers nothing.
+        self._set(CONTROL, bytes([DTR_ON]))
+        if flow != "rtscts":
+            self._set(CONTROL, bytes([RTS_ON]))
+        for which in (LEAVING, RECEIVED):
+            self._early = b""
+            self._answers.pop(PURGE, None)
+            self._set(PURGE, bytes([which]))
+            self._await(lambda: PURGE in self._answers, end, lambda: NOT_SET)
 
-    def rfc2217_set_control(self, value: bytes) -> None:
-        """Set flow control and wait for the answer; a port may be without DTR and RTS, and its server then answers nothing."""
-        if value in FLOW_CONTROLS:
-            super().rfc2217_set_control(value)
-        else:
-            self._rfc2217_options["control"].set(value)
+    def _await(self, is_there: Callable[[], bool], end: float, why_not: Callable[[], str]) -> None:
+        """Read until something is there; data that comes before it is of an earlier use of the port."""
+        while not is_there():
+            self._look()
+            left = end - time.monotonic()
+            if left <= 0:
+                raise LinkError(self._endpoint, why_not())
+            for content in self._received(min(left, SLICE)):
+                self._has_heard = True
+                self._early += content if is_there() else b""
 
-    def reset_input_buffer(self) -> None:
-        """Forget what came before."""
-        self.rfc2217_send_purge(rfc2217.PURGE_RECEIVE_BUFFER)
-        with self._changed:
-            self._stored.clear()
-            self._changed.notify_all()
+    # -- the telnet line ---------------------------------------------------------------------------
 
-    def _telnet_read_loop(self) -> None:
-        """Be the thread that reads the line (pyserial starts it)."""
-        telnet = TelnetReader()
-        if self._is_given_up:
-            self.close()
+    def _received(self, timeout: float) -> Iterator[bytes]:
+        """Yield the data that comes, and obey the rest; raises LinkError."""
         try:
-            while self.is_open:
-                with contextlib.suppress(TimeoutError):
-                    data = self._socket.recv(READ_SIZE)
-                    if not data:
-                        return
-                    for each in telnet.feed(data):
-                        self._take(each)
-        except (OSError, ValueError, TypeError, AttributeError):
-            return  # closed meanwhile, or something that is no RFC 2217: either way the line is over
-        finally:
-            with self._changed:
-                self._has_ended = True
-                self._changed.notify_all()
+            came = self._line.read(timeout)
+        except LinkError:
+            raise LinkError(self._endpoint, CLOSED if self._is_open else "the port is closed") from None
+        for each in self._telnet.feed(came):
+            if isinstance(each, TelnetData):
+                yield each.content
+            elif isinstance(each, Negotiation):
+                self._answer(each)
+            else:
+                self._take(each)
 
-    def _take(self, each: Any) -> None:
-        if isinstance(each, TelnetData):
-            with self._changed:
-                while len(self._stored) >= STORED and self.is_open:
-                    self._changed.wait()
-                self._stored += each.content
-                self._changed.notify_all()
-        elif isinstance(each, Negotiation):
-            self._telnet_negotiate_option(bytes([each.command]), bytes([each.option]))
-        else:
-            self._telnet_process_subnegotiation(each.content)
+    def _answer(self, asked: Negotiation) -> None:
+        """Agree to what is needed, refuse anything else; what was sent once is not sent again."""
+        self._has_heard = True
+        if asked.option == COM_PORT and asked.command in (DO, DONT):
+            self._is_agreed = asked.command == DO
+            if not self._is_agreed:
+                raise LinkError(self._endpoint, NO_SERVER)
+        if asked.command == WILL:
+            self._negotiate(DO if asked.option in (*WANTED, ECHO) else DONT, asked.option)
+        elif asked.command == DO:
+            self._negotiate(WILL if asked.option in WANTED else WONT, asked.option)
 
+    def _take(self, option: Option) -> None:
+        """Remember what the server answers to a setting."""
+        kind, command, value = option.content[:1], option.content[1:2], option.content[2:]
+        if kind == bytes([COM_PORT]) and command and command[0] >= ANSWER:
+            self._answers.setdefault(command[0] - ANSWER, value)
 
-def _message(error: Exception) -> str:
-    text = str(error)
-    if isinstance(error, TimeoutError) or "timed out" in text:
-        return "no answer in time"
-    if "does not seem to support" in text:
-        return "what answers there is no RFC 2217 server"
-    if "does not accept" in text or "rejected value" in text or "waiting for option" in text:
-        return "the server does not set the port like this; another program may have it"
-    if "refused" in text:
-        return "nothing listens there"
-    if "Name or service" in text or "getaddrinfo" in text or "name resolution" in text:
-        return "the host is not known"
-    return text or "the port cannot be opened"
+    def _negotiate(self, command: int, option: int) -> None:
+        if (command, option) not in self._sent:
+            self._sent.add((command, option))
+            self._write(bytes([IAC, command, option]))
+
+    def _set(self, command: int, value: bytes) -> None:
+        doubled = value.replace(bytes([IAC]), bytes([IAC, IAC]))
+        self._write(bytes([IAC, SB, COM_PORT, command]) + doubled + bytes([IAC, SE]))
+
+    def _write(self, data: bytes) -> None:
+        try:
+            self._line.write(data)
+        except LinkError as error:
+            what = error.what if "takes nothing" in error.what else CLOSED
+            raise LinkError(self._endpoint, what if self._is_open else "the port is closed") from None

@@ -39,6 +39,7 @@ class TcpLink:
     """One TCP connection, without Nagle's delay: a frame goes out when it is written."""
 
     bytes_per_second: float | None = None
+    write_limit = WRITE_LIMIT
 
     def __init__(
         self, endpoint: Endpoint, connection: socket.socket, look: Callable[[], None] = keep_waiting
@@ -74,7 +75,7 @@ class TcpLink:
 
     def write(self, data: bytes) -> None:
         rest = memoryview(data)
-        end = time.monotonic() + WRITE_LIMIT
+        end = time.monotonic() + self.write_limit
         while rest:
             try:
                 if select.select([], [self._socket], [], SLICE)[1]:

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from enum import Enum, auto
 
 IAC, SB, SE = 0xFF, 0xFA, 0xF0
-NEGOTIATIONS = range(0xFB, 0xFF)  # WILL, WONT, DO, DONT
+WILL, WONT, DO, DONT = NEGOTIATIONS = range(0xFB, 0xFF)
 LONGEST_OPTION = 256  # bytes; the longest of RFC 2217 that means something here has 6
 
 

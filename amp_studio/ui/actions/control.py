@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-import threading
+from dataclasses import replace
 from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -16,7 +16,6 @@ from amp_studio.files.out_of_range import settle
 from amp_studio.ui.base.emulated_control import EmulatedControl
 from amp_studio.ui.base.modal import run_dialog
 from amp_studio.ui.base.questions import ask, show_message
-from amp_studio.ui.base.task import TaskProgress
 from amp_studio.ui.base.translated import Translated
 from amp_studio.ui.base.workspace import Workspace
 from amp_studio.ui.control.exchange import ControlExchange
@@ -30,6 +29,7 @@ from .tuning import tune
 
 if TYPE_CHECKING:
     from amp_studio.transfer.client.parameters import Outcome
+    from amp_studio.transfer.exchange import Exchange
 
 
 class ControlActions(Translated):
@@ -144,11 +144,11 @@ class ControlActions(Translated):
 
         notes: list[str] = []
 
-        def work(progress: TaskProgress, cancel: threading.Event) -> Outcome:
+        def work(exchange: Exchange) -> Outcome:
             from amp_studio.transfer.client.parameters import download_file, sha256
 
-            return download_file(file, address, path.parent, path.stem, progress, cancel,
-                                 expected=sha256(present), known=present, record=path, notify=notes.append)  # fmt: skip
+            beside = replace(exchange, keep=path, record=path, notify=notes.append)
+            return download_file(file, address, beside, expected=sha256(present), known=present)
 
         if self.exchanges.run(self.tr("Download"), work).verified:
             self.exchanges.remember(workspace, file)

@@ -37,4 +37,4 @@ def _connect(workspace: Workspace, exchanges: ControlExchange) -> LiveTuning | N
 
     path = workspace.path
     driver = open_driver(address, workspace.file.schema.family.family)
-    return LiveTuning(driver, path.parent, path.stem, address=address, record=path)
+    return LiveTuning(driver, path, address=address, record=path)

@@ -8,7 +8,7 @@ from contextlib import closing
 from datetime import UTC, datetime
 from typing import TYPE_CHECKING, Any
 
-from PySide6.QtWidgets import QInputDialog, QMessageBox
+from PySide6.QtWidgets import QInputDialog, QMessageBox, QWidget
 
 from amp_studio.files import ParameterFile
 from amp_studio.ui.base.emulated_control import EmulatedControl
@@ -22,6 +22,7 @@ from amp_studio.ui.window.studio_window import StudioWindow
 if TYPE_CHECKING:
     from amp_studio.transfer.client.parameters import Outcome
     from amp_studio.transfer.driver import ControlIdentity
+    from amp_studio.transfer.exchange import Exchange
 
 
 def stages() -> dict[str, str]:
@@ -34,6 +35,19 @@ def stages() -> dict[str, str]:
         "verify": tr("Reading all parameters back and comparing …"),
         "upload": tr("Reading the parameters of the control …"),
     }
+
+
+def exchange_dialog(
+    title: str, work: Callable[[Exchange], Any], parent: QWidget | None, hint: str = ""
+) -> ProgressDialog:
+    """Return the dialog in which work with a control is shown and can be stopped."""
+
+    def run(progress: TaskProgress, cancel: threading.Event) -> Any:
+        from amp_studio.transfer.exchange import Exchange
+
+        return work(Exchange(progress, cancel))
+
+    return ProgressDialog(title, run, parent, hint or tr("Waiting for the control …"), stages())
 
 
 class ControlExchange(Translated):
@@ -73,14 +87,13 @@ class ControlExchange(Translated):
     def identify(self, address: str, family: str = "") -> ControlIdentity:
         """Return who answers at an address; nothing is read or changed. Raises as ``open_driver_at``."""
 
-        def work(progress: TaskProgress, cancel: threading.Event) -> ControlIdentity:
+        def work(exchange: Exchange) -> ControlIdentity:
             from amp_studio.transfer.client.drivers import open_driver_at
 
-            with closing(open_driver_at(address, family, progress, cancel)) as driver:
-                return driver.identify(progress, cancel)
+            with closing(open_driver_at(address, family, exchange)) as driver:
+                return driver.identify(exchange)
 
-        hint = self.tr("Waiting for the control …")
-        dialog = ProgressDialog(self.tr("Connect"), work, self.window, hint, stages())
+        dialog = exchange_dialog(self.tr("Connect"), work, self.window)
         found: ControlIdentity = self._noted(address, "connect", dialog.run, family)
         self.note(address, "connect", reached=True, family=found.family, name=found.name)
         return found
@@ -98,20 +111,19 @@ class ControlExchange(Translated):
     def fetch(self, address: str, title: str, family: str = "", verb: ControlVerb = "connect") -> bytes:
         """Return the image of the control, byte for byte; raises an error for a control of another family."""
 
-        def work(progress: TaskProgress, cancel: threading.Event) -> bytes:
+        def work(exchange: Exchange) -> bytes:
             from amp_studio.transfer.client.parameters import fetch_image
 
-            return fetch_image(address, progress, cancel, family=family)
+            return fetch_image(address, exchange, family=family)
 
-        dialog = ProgressDialog(title, work, self.window, self.tr("Waiting for the control …"), stages())
+        dialog = exchange_dialog(title, work, self.window)
         image: bytes = self._noted(address, verb, dialog.run, family)
         self.note(address, verb, reached=True, family=family)
         return image
 
-    def run(self, title: str, work: Callable[[TaskProgress, threading.Event], Outcome]) -> Outcome:
+    def run(self, title: str, work: Callable[[Exchange], Outcome]) -> Outcome:
         """Run a download or restore, show its outcome and return it."""
-        hint = self.tr("Waiting for the control …")
-        outcome: Outcome = ProgressDialog(title, work, self.window, hint, stages()).run()
+        outcome: Outcome = exchange_dialog(title, work, self.window).run()
         icon = QMessageBox.Icon.Information if outcome.verified else QMessageBox.Icon.Warning
         show_message(self.window, title, outcome.text, icon)
         return outcome

@@ -22,15 +22,14 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
-from amp_studio.transfer.progress import Progress
 from amp_studio.ui.base.questions import ask
-from amp_studio.ui.base.task import ProgressDialog
+from amp_studio.ui.base.task import ProgressDialog, TaskProgress
 from amp_studio.ui.base.theme import severity_icon
 from amp_studio.ui.base.translated import counted
 from amp_studio.ui.base.workspace import Workspace
 
 if TYPE_CHECKING:
-    from amp_studio.transfer.client.fleet import FleetRow
+    from amp_studio.transfer.client.fleet import ExchangeOf, FleetRow
 
 
 class FleetDialog(QDialog):
@@ -108,10 +107,9 @@ class FleetDialog(QDialog):
         """Compare the file with what each control contains."""
         from amp_studio.transfer.client.fleet import verify_each
 
-        named, file, path = self._named(), self._workspace.file.copy(), self._workspace.path
+        named, file = self._named(), self._workspace.file.copy()
         stop_on_failure = self.stop.isChecked()
-        self._run(self.tr("Verify"), lambda progress, cancel: verify_each(
-            file, path, named, _of_each(progress), stop_on_failure=stop_on_failure, cancel=cancel))  # fmt: skip
+        self._run(self.tr("Verify"), lambda of: verify_each(file, named, of, stop_on_failure=stop_on_failure))
 
     def download(self) -> None:
         """Download the file to each control; what each contained is kept beside the file first."""
@@ -130,12 +128,21 @@ class FleetDialog(QDialog):
             self, self.tr("Download"), question, self.tr("&Download"), self.tr("Cancel"), default=1
         ) != self.tr("&Download"):
             return
-        file, path = self._workspace.file.copy(), self._workspace.path
+        file = self._workspace.file.copy()
         stop_on_failure = self.stop.isChecked()
-        self._run(self.tr("Download"), lambda progress, cancel: download_each(
-            file, path, path.parent, named, _of_each(progress), stop_on_failure=stop_on_failure, cancel=cancel))  # fmt: skip
+        self._run(
+            self.tr("Download"), lambda of: download_each(file, named, of, stop_on_failure=stop_on_failure)
+        )
 
-    def _run(self, title: str, work: Callable[[Progress, threading.Event], list[FleetRow]]) -> None:
+    def _run(self, title: str, exchange_with_all: Callable[[ExchangeOf], list[FleetRow]]) -> None:
+        path = self._workspace.path
+
+        def work(progress: TaskProgress, cancel: threading.Event) -> list[FleetRow]:
+            from amp_studio.transfer.exchange import Exchange
+
+            shown = _of_each(progress)
+            return exchange_with_all(lambda address: Exchange(shown(address), cancel, keep=path, record=path))
+
         self.rows = ProgressDialog(title, work, self, self.tr("Waiting for the controls …")).run()
         self.table.clear()
         for row in self.rows:
@@ -168,10 +175,10 @@ class FleetDialog(QDialog):
             )
 
 
-def _of_each(progress: Progress) -> Callable[[str], Progress]:
+def _of_each(progress: TaskProgress) -> Callable[[str], TaskProgress]:
     """Return the progress of each control: its stage with its address before it."""
 
-    def of(address: str) -> Progress:
+    def of(address: str) -> TaskProgress:
         def show(stage: str, done: int, total: int) -> None:
             if stage != "silent":
                 progress(f"{address}: {stage}", done, total)

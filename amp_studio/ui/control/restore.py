@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-import threading
+from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -12,7 +12,7 @@ from amp_studio.files import compare
 from amp_studio.files.by_schema import by_schema
 from amp_studio.ui.base.modal import run_dialog
 from amp_studio.ui.base.questions import ask
-from amp_studio.ui.base.task import TaskProgress, in_background
+from amp_studio.ui.base.task import in_background
 from amp_studio.ui.base.translated import tr
 from amp_studio.validate import Validator, rules_beside
 
@@ -20,6 +20,7 @@ from .exchange import ControlExchange
 
 if TYPE_CHECKING:
     from amp_studio.transfer.client.parameters import Copy, Outcome
+    from amp_studio.transfer.exchange import Exchange
 
 COPIES = "Backups of a control (*.img *.before-*.amp);;All files (*)"
 
@@ -48,9 +49,9 @@ def restore(control: ControlExchange) -> None:
 
     notes: list[str] = []
 
-    def work(progress: TaskProgress, cancel: threading.Event) -> Outcome:
-        return restore_copy(copy, address, path.parent, path.stem, progress, cancel, expected=sha256(present), record=path,
-                            notify=notes.append)  # fmt: skip
+    def work(exchange: Exchange) -> Outcome:
+        beside = replace(exchange, keep=path, record=path, notify=notes.append)
+        return restore_copy(copy, address, beside, expected=sha256(present))
 
     outcome = control.run(tr("Restore"), work)
     if outcome.verified:

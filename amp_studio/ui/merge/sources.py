@@ -189,8 +189,9 @@ class MergeSources(QObject):
 
         def read(progress: TaskProgress, cancel: threading.Event) -> MergeSource:
             from amp_studio.transfer.client.parameters import fetch_image
+            from amp_studio.transfer.exchange import Exchange
 
-            image = fetch_image(address, progress, cancel, family=file.schema.family.family)
+            image = fetch_image(address, Exchange(progress, cancel), family=file.schema.family.family)
             return self.of_content(file, image, address)
 
         return read

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import threading
 from collections.abc import Callable, Iterable, Mapping
 from typing import TYPE_CHECKING, Any
 
@@ -11,17 +10,17 @@ from PySide6.QtCore import QObject, Signal
 from amp_studio.calibration.steps import with_followers
 from amp_studio.files import ParameterFile
 from amp_studio.schema import Address, Schema, Value
-from amp_studio.ui.base.task import TaskProgress
 from amp_studio.ui.base.translated import tr
 from amp_studio.ui.base.workspace import Workspace
 
 if TYPE_CHECKING:
     from amp_studio.transfer.client.exchange import Outcome
     from amp_studio.transfer.client.live import LiveTuning
+    from amp_studio.transfer.exchange import Exchange
 
-ControlWork = Callable[[TaskProgress, threading.Event], Any]
+ControlWork = Callable[["Exchange"], Any]
 RunExchange = Callable[[str, ControlWork], Any]
-"""Runs an exchange with progress and cancel, and returns its result or raises its error."""
+"""Runs work with a control that is shown and can be stopped, and returns its result or raises its error."""
 
 
 def effect_words(schema: Schema, address: Address) -> str:
@@ -180,14 +179,12 @@ class ControlTarget(TuningTarget):
             self._waiting = {a: v for a, v in self._waiting.items() if present.get(a) != v}
             self._show(list(wanted))
             return
-        self._exchange(text, lambda progress, cancel: self.live.set(wanted, progress, cancel), wanted)
+        self._exchange(text, lambda exchange: self.live.set(wanted, exchange), wanted)
 
     def send(self) -> None:
         """Download what is collected; raises TransferError."""
         waiting = dict(self._waiting)
-        self._exchange(
-            self.tr("Download"), lambda progress, cancel: self.live.set(waiting, progress, cancel), waiting
-        )
+        self._exchange(self.tr("Download"), lambda exchange: self.live.set(waiting, exchange), waiting)
         self._waiting = {}
         self._show([])
 
@@ -206,9 +203,9 @@ class ControlTarget(TuningTarget):
         self._run(self.tr("Read Control"), self.live.look)
         self._show([])
 
-    def _exchange(self, text: str, exchange: ControlWork, changed: Iterable[Address]) -> None:
+    def _exchange(self, text: str, work: ControlWork, changed: Iterable[Address]) -> None:
         try:
-            outcome: Outcome = self._run(text, exchange)
+            outcome: Outcome = self._run(text, work)
         finally:
             if self.live.file is not None:
                 self._show([])

@@ -27,7 +27,7 @@ from amp_studio.schema.registration import registration_of
 from amp_studio.ui.base.loading import load
 from amp_studio.ui.base.modal import run_dialog
 from amp_studio.ui.base.questions import ask
-from amp_studio.ui.base.task import ProgressDialog, Task
+from amp_studio.ui.base.task import Task
 from amp_studio.ui.base.theme import CONTROL, GAP2, icon
 from amp_studio.ui.base.translated import worded
 from amp_studio.ui.base.workspace import Workspace
@@ -267,11 +267,11 @@ class TuningWindow(QWidget):
             self._update()
         return None
 
-    def run_exchange(self, title: str, exchange: ControlWork) -> object:
-        """Run an exchange with the control with progress and cancel; raises its error."""
-        from amp_studio.ui.control.exchange import stages
+    def run_exchange(self, title: str, work: ControlWork) -> object:
+        """Run work with the control in a dialog that shows it and can stop it; raises its error."""
+        from amp_studio.ui.control.exchange import exchange_dialog
 
-        return ProgressDialog(title, exchange, self, f"{title} …", stages()).run(300)
+        return exchange_dialog(title, work, self, f"{title} …").run(300)
 
     def read_measured(self, axis: str) -> None:
         """Ask for a file of measured points and set what they make of an axis, as one step."""

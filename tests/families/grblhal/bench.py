@@ -11,7 +11,7 @@ from amp_studio.families.grblhal.content import GrblContent, read_content, write
 from amp_studio.families.grblhal.driver import GrblDriver
 from amp_studio.families.grblhal.emulated.firmware import Firmware
 from amp_studio.files import ParameterFile
-from amp_studio.transfer.client.exchange import Outcome, download
+from amp_studio.transfer.client.exchange import Outcome, WantedContent, download
 from amp_studio.transfer.content import decode_content
 from amp_studio.transfer.emulated.line_device import DeviceSetup
 from amp_studio.transfer.emulated.memory import Memory
@@ -107,7 +107,7 @@ def put(bench: Bench, settings: Mapping[int, str], **others: object) -> Outcome:
     """Download the settings that the control has, with these changed."""
     present = held(bench)
     wanted = replace(present, settings={**present.settings, **settings}, **others)  # type: ignore[arg-type]
-    return download(bench.driver, write_content(wanted), lambda _: "kept", signature="")
+    return download(bench.driver, WantedContent(write_content(wanted), ""), lambda _: "kept")
 
 
 def sent(bench: Bench) -> list[str]:

@@ -15,6 +15,7 @@ from amp_studio.families.grblhal.line import GrblLine, GrblRefusalError
 from amp_studio.transfer.links.endpoint import parse_endpoint
 from amp_studio.transfer.links.link import Link
 from amp_studio.transfer.links.opening import connect
+from amp_studio.transfer.waiting import Waiting
 
 RECORD = Path(__file__).with_name("conversation.txt")
 COMMANDS = (
@@ -106,4 +107,4 @@ class Player:
 
 if __name__ == "__main__":
     place = parse_endpoint(sys.argv[1])
-    RECORD.write_text(written(answers(GrblLine(lambda look: connect(place, look=look)))), "utf-8")
+    RECORD.write_text(written(answers(GrblLine(lambda look: connect(place, look=look), Waiting()))), "utf-8")

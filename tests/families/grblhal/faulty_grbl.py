@@ -11,10 +11,12 @@ from typing import Any
 
 from amp_studio.families.grblhal.content import read_content, write_content
 from amp_studio.families.grblhal.emulated.firmware import Firmware
-from amp_studio.transfer.client.exchange import download
-from amp_studio.transfer.client.parameters import _Keeping
+from amp_studio.transfer.client.exchange import WantedContent
+from amp_studio.transfer.client.parameters import download_content
+from amp_studio.transfer.client.recording import Recording
 from amp_studio.transfer.driver import Receipt
 from amp_studio.transfer.errors import TransferError
+from amp_studio.transfer.exchange import Exchange
 from tests.families.grblhal.bench import Bench, damage
 from tests.faults.bad_line import BadLine
 from tests.faults.disk import Disk
@@ -74,8 +76,9 @@ def download_with_faults(seed: int, folder: Path, only: str | None = None) -> li
 
     bench.driver.send = sent  # type: ignore[method-assign]
     try:
-        with disk.watched(), _Keeping(copies, "control", bench.driver) as copy:
-            outcome = download(bench.driver, content, copy.keep, signature="")
+        with disk.watched():
+            recording = Recording("download", "grblhal", "", Exchange(keep=copies / "control"))
+            outcome = download_content(bench.driver, WantedContent(content, ""), recording)
         told, text, is_verified = outcome.at_control, outcome.text, outcome.verified
     except TransferError as error:
         told, text, new = error.at_control or "old", str(error), error.new

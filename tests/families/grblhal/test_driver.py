@@ -16,7 +16,7 @@ from amp_studio.families.grblhal.driver import GrblDriver
 from amp_studio.families.grblhal.line import GrblLine
 from amp_studio.families.grblhal.writing import Writing
 from amp_studio.schema import Value
-from amp_studio.transfer.client.exchange import download
+from amp_studio.transfer.client.exchange import WantedContent, download
 from amp_studio.transfer.content import decode_content, kind_of
 from amp_studio.transfer.errors import (
     CancelledError,
@@ -27,9 +27,12 @@ from amp_studio.transfer.errors import (
     TransferError,
     WrongFamilyError,
 )
+from amp_studio.transfer.exchange import Exchange
 from amp_studio.transfer.image import ImageError
 from amp_studio.transfer.links.endpoint import parse_endpoint
 from amp_studio.transfer.progress import SILENT
+from amp_studio.transfer.sent_values import SentValues
+from amp_studio.transfer.waiting import Waiting
 from tests.families.grblhal.bench import Bench, Clock, edited, held, put, sent
 from tests.families.grblhal.conversation import Player, answers, recorded
 from tests.families.grblhal.faulty_grbl import download_with_faults
@@ -61,7 +64,9 @@ def test_only_what_differs_is_sent_homing_before_what_needs_it(bench: Bench) -> 
 def test_a_file_is_sent_by_the_numbers_of_its_settings(bench: Bench) -> None:
     file = edited(bench, n130=301.5, n11=0.0004)
     outcome = download(
-        bench.driver, partial(bench.driver.encode, file), lambda _: "kept", signature=file.schema.signature
+        bench.driver,
+        WantedContent(partial(bench.driver.encode, file), file.schema.signature),
+        lambda _: "kept",
     )
     assert sent(bench) == ["$11=0.0004", "$130=301.500"]
     assert "$11 Junction deviation is shown as 0.000: what was sent, 0.0004, is finer" in outcome.text
@@ -70,7 +75,8 @@ def test_a_file_is_sent_by_the_numbers_of_its_settings(bench: Bench) -> None:
 
 def test_a_second_download_of_the_same_file_sends_nothing(bench: Bench) -> None:
     file = edited(bench, n130=301.5)
-    send = partial(download, bench.driver, partial(bench.driver.encode, file), lambda _: "kept", signature="")
+    wanted = WantedContent(partial(bench.driver.encode, file), "")
+    send = partial(download, bench.driver, wanted, lambda _: "kept")
     assert send().written
     assert not send().written
 
@@ -89,7 +95,7 @@ def test_what_the_control_would_not_store_as_it_is_is_never_sent(
 ) -> None:
     file = edited(bench, **{number: value})
     with pytest.raises(ImageError, match=text):
-        download(bench.driver, partial(bench.driver.encode, file), lambda _: "kept", signature="")
+        download(bench.driver, WantedContent(partial(bench.driver.encode, file), ""), lambda _: "kept")
     assert sent(bench) == []
 
 
@@ -99,7 +105,7 @@ def test_a_file_that_sets_only_homing_says_what_goes_with_it(bench: Bench) -> No
     for address in [a for a in file.values if a != file.find("$22")]:
         del file.values[address]
     file.take({file.find("$22"): Value(0)})
-    outcome = download(bench.driver, partial(bench.driver.encode, file), lambda _: "kept", signature="")
+    outcome = download(bench.driver, WantedContent(partial(bench.driver.encode, file), ""), lambda _: "kept")
     assert outcome.verified, outcome.text
 
 
@@ -108,7 +114,7 @@ def test_a_refusal_is_a_sentence_with_the_name_of_the_setting_and_the_rest_is_ol
     wanted = write_content(replace(present, settings={**present.settings, 32: "1", 30: "250.000"}))
     bench.firmware.settings.all[32].labels = ("Normal",)  # it lists a mode that it refuses
     with pytest.raises(TransferError) as caught:
-        download(bench.driver, wanted, lambda _: "copy", signature="")
+        download(bench.driver, WantedContent(wanted, ""), lambda _: "copy")
     assert str(caught.value) == (
         "the control refuses $32=1 (Mode of operation): the value is out of range (error 52); 1 of 2 values were confirmed; the control contains the new "
         "$30 and the old values of the rest (what it contained before is kept in copy)"
@@ -134,7 +140,7 @@ def test_a_machine_that_moves_is_not_touched(bench: Bench) -> None:
         TransferError,
         match="the control is in the state Run: it takes no settings then: bring it to rest first; nothing was",
     ):
-        download(bench.driver, wanted, starts, signature="")
+        download(bench.driver, WantedContent(wanted, ""), starts)
     assert sent(bench) == []
 
 
@@ -151,7 +157,7 @@ def test_in_check_mode_nothing_is_written_because_it_would_not_last(bench: Bench
 
 def test_what_the_emulated_control_takes_in_check_mode_is_gone_after_the_power(bench: Bench) -> None:
     bench.firmware.command("state Check")
-    line = GrblLine(bench.open, clock=bench.clock, sleep=bench.clock.sleep)
+    line = GrblLine(bench.open, Waiting(bench.clock, bench.clock.sleep))
     assert line.ask("$130=301.500") == []
     assert line.ask("$130") == ["$130=301.500"]
     bench.firmware.power_cycle()
@@ -187,7 +193,7 @@ def test_an_answer_that_comes_slowly_is_no_silence(bench: Bench) -> None:
         return data
 
     bench.spoil_out = slow
-    bench.driver.fetch(progress=lambda stage, done, total: stages.append(stage))
+    bench.driver.fetch(Exchange(lambda stage, done, total: stages.append(stage)))
     assert SILENT not in stages
 
 
@@ -203,7 +209,7 @@ def test_what_somebody_has_changed_meanwhile_is_not_overwritten(bench: Bench) ->
         ImageChangedError,
         match="somebody has changed the settings since they were read; nothing was replaced",
     ):
-        download(bench.driver, wanted, person, signature="")
+        download(bench.driver, WantedContent(wanted, ""), person)
     assert sent(bench) == []
 
 
@@ -213,11 +219,15 @@ def test_grbl_1_1_is_served_with_the_bundled_description(tmp_path: Path) -> None
     assert (who.name, who.revision, who.axes) == ("Grbl", "1.1h.20190830", ("X", "Y", "Z"))
     file = edited(bench, n130=301.5)
     assert file.machine == "grbl-1.1"
-    assert download(bench.driver, partial(bench.driver.encode, file), lambda _: "kept", signature="").verified
+    assert download(
+        bench.driver, WantedContent(partial(bench.driver.encode, file), ""), lambda _: "kept"
+    ).verified
     assert sent(bench) == ["$130=301.500"]
     with pytest.raises(ImageError, match=r"\$1 takes 0 to 255, not 300"):
         download(
-            bench.driver, partial(bench.driver.encode, edited(bench, n1=300)), lambda _: "kept", signature=""
+            bench.driver,
+            WantedContent(partial(bench.driver.encode, edited(bench, n1=300)), ""),
+            lambda _: "kept",
         )
 
 
@@ -267,7 +277,7 @@ def test_a_break_after_the_last_answer_is_told_as_new_and_read(bench: Bench) -> 
     with pytest.raises(
         ConnectionCutError, match="the control contains the new content, as it was read since"
     ) as caught:
-        download(bench.driver, write_content(wanted), lambda _: "copy", signature="", progress=restart)
+        download(bench.driver, WantedContent(write_content(wanted), ""), lambda _: "copy", Exchange(restart))
     assert caught.value.at_control == "new"
 
 
@@ -278,7 +288,7 @@ def test_a_cable_that_is_out_for_good_leaves_it_unknown(bench: Bench) -> None:
     present = held(bench)
     wanted = replace(present, settings={**present.settings, 110: "600.000", 111: "600.000"})
     with pytest.raises(ConnectionCutError) as caught:
-        download(bench.driver, write_content(wanted), lambda _: "copy", signature="", progress=pull)
+        download(bench.driver, WantedContent(write_content(wanted), ""), lambda _: "copy", Exchange(pull))
     assert (caught.value.at_control, caught.value.kept) == ("unknown", "copy")
     assert bench.clock.now < 60
 
@@ -296,7 +306,7 @@ def test_who_stops_while_a_broken_line_is_made_again_waits_for_nothing(bench: Be
     began = bench.clock.now
     with pytest.raises(TransferError) as caught:
         download(
-            bench.driver, write_content(wanted), lambda _: "copy", signature="", progress=pull, cancel=cancel
+            bench.driver, WantedContent(write_content(wanted), ""), lambda _: "copy", Exchange(pull, cancel)
         )
     assert caught.value.at_control == "mixed"
     assert bench.clock.now - began < 1.0
@@ -307,7 +317,7 @@ def test_a_setting_that_is_never_answered_is_read_and_not_guessed(bench: Bench) 
     bench.firmware._is_deaf = True  # as this build is after a soft reset
     wanted = replace(present, settings={**present.settings, 110: "600.000"})
     with pytest.raises(ControlSilentError) as caught:
-        download(bench.driver, write_content(wanted), lambda _: "copy", signature="")
+        download(bench.driver, WantedContent(write_content(wanted), ""), lambda _: "copy")
     assert caught.value.at_control == "old"
 
 
@@ -322,7 +332,7 @@ def test_who_stops_between_two_settings_reads_which_are_new(bench: Bench) -> Non
 
     with pytest.raises(CancelledError) as caught:
         download(
-            bench.driver, write_content(wanted), lambda _: "copy", signature="", progress=stop, cancel=cancel
+            bench.driver, WantedContent(write_content(wanted), ""), lambda _: "copy", Exchange(stop, cancel)
         )
     assert (caught.value.at_control, caught.value.new) == ("mixed", ("$110", "$111"))
     assert [held(bench).settings[n] for n in (110, 111, 112)] == ["600.000", "600.000", "500.000"]
@@ -360,7 +370,7 @@ def test_the_driver_reads_the_recorded_firmware() -> None:
 
 
 def test_the_emulated_control_does_with_settings_what_the_recorded_firmware_did(bench: Bench) -> None:
-    line = GrblLine(bench.open, clock=bench.clock, sleep=bench.clock.sleep)
+    line = GrblLine(bench.open, Waiting(bench.clock, bench.clock.sleep))
     own_words = {"$I", "$EG", "$ES", "$ESH", "$EA", "$EE", "$G", "$SED=22"}
     for (command, said), (_, real) in zip(answers(line), recorded(), strict=True):
         if command not in own_words:
@@ -370,17 +380,19 @@ def test_the_emulated_control_does_with_settings_what_the_recorded_firmware_did(
 def test_a_fault_of_this_computer_between_two_settings_is_told_with_what_the_control_contains(
     bench: Bench,
 ) -> None:
-    def fails(stage: str, done: int, total: int) -> None:
-        if (stage, done) == ("download", 1):
+    def fails(data: bytes) -> bytes:
+        if b"$111=" in data:
             raise MemoryError
+        return data
 
     present = held(bench)
     wanted = replace(present, settings={**present.settings, 110: "600.000", 111: "600.000"})
+    bench.spoil_in = fails
     with pytest.raises(
         TransferError,
-        match=r"the download broke off \(MemoryError\); 1 of 2 values were confirmed; the control contains the new \$110",
+        match=r"broke off \(MemoryError\); 1 of 2 values were confirmed, \$111 was not answered; the control contains the new \$110",
     ) as caught:
-        download(bench.driver, write_content(wanted), lambda _: "copy", signature="", progress=fails)
+        download(bench.driver, WantedContent(write_content(wanted), ""), lambda _: "copy")
     assert caught.value.at_control == "mixed"
 
 
@@ -403,7 +415,7 @@ def test_a_download_that_loses_its_line_reports_how_many_values_were_confirmed_a
         bench.is_cut |= (stage, done) == ("download", 1)
 
     with pytest.raises(TransferError) as caught:
-        download(bench.driver, write_content(wanted), lambda _: "copy", signature="", progress=cut)
+        download(bench.driver, WantedContent(write_content(wanted), ""), lambda _: "copy", Exchange(cut))
     assert caught.value.at_control == "unknown"
     assert "1 of 3 values were confirmed, $111 was not answered; which of the new values" in str(caught.value)
     assert "old or the new" not in str(caught.value)
@@ -430,7 +442,9 @@ def test_three_settings_that_nobody_has_touched_are_more_than_a_damaged_byte(
     bench: Bench, others: int, at: str
 ) -> None:
     present = held(bench)
-    writing = Writing(replace(present, settings={**present.settings, 110: "600.000"}), present, {})
+    writing = Writing(
+        replace(present, settings={**present.settings, 110: "600.000"}), present, {}, SentValues()
+    )
     changed = dict.fromkeys((120, 121, 122)[:others], "7.000")
     found = replace(present, settings={**present.settings, **changed})
     assert state_of(writing, found)[0] == at

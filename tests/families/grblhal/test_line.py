@@ -15,7 +15,9 @@ from amp_studio.transfer.errors import (
     NoConnectionError,
     ProtocolMismatchError,
 )
+from amp_studio.transfer.exchange import Exchange
 from amp_studio.transfer.links.link import Link, LinkError
+from amp_studio.transfer.waiting import Waiting
 from tests.families.grblhal.bench import Bench, Clock
 
 
@@ -47,20 +49,22 @@ class Script:
         self._out = b""
 
     def line(self, cancel: threading.Event | None = None, **options: object) -> GrblLine:
-        return GrblLine(self.open, cancel=cancel, clock=self.clock, sleep=self.clock.sleep, **options)  # type: ignore[arg-type]
+        waiting = Waiting(self.clock, self.clock.sleep)
+        waiting.begin(Exchange(cancel=cancel, **options))  # type: ignore[arg-type]
+        return GrblLine(self.open, waiting)
 
 
 def test_half_a_line_of_a_lost_client_is_erased_and_stores_nothing(tmp_path: Path) -> None:
     bench = Bench(tmp_path)
     bench.firmware.receive(b"$130=3")
-    line = GrblLine(bench.open, clock=bench.clock, sleep=bench.clock.sleep)
+    line = GrblLine(bench.open, Waiting(bench.clock, bench.clock.sleep))
     assert line.ask("$130") == ["$130=200.000"]
 
 
 def test_a_grbl_that_knows_no_delete_refuses_the_half_line_as_too_long(tmp_path: Path) -> None:
     bench = Bench(tmp_path, "grbl-1.1")
     bench.firmware.receive(b"$130=3")
-    line = GrblLine(bench.open, clock=bench.clock, sleep=bench.clock.sleep)
+    line = GrblLine(bench.open, Waiting(bench.clock, bench.clock.sleep))
     assert "$130=200.000" in line.ask("$$")
 
 
@@ -139,7 +143,7 @@ def test_no_line_is_no_connection() -> None:
         raise LinkError("tcp://127.0.0.1:1", "nothing listens there")
 
     with pytest.raises(NoConnectionError, match="nothing listens there"):
-        GrblLine(fails)
+        GrblLine(fails, Waiting())
 
 
 def test_who_stops_waits_no_longer_than_a_moment() -> None:

@@ -16,7 +16,7 @@ from tests.families.grblhal.bench import Bench, held, sent
 
 @pytest.fixture
 def live(bench: Bench, tmp_path: Path) -> LiveTuning:
-    tuning = LiveTuning(bench.driver, tmp_path, "router", address="bench", record=tmp_path / "router.amp")
+    tuning = LiveTuning(bench.driver, tmp_path / "router", address="bench", record=tmp_path / "router.amp")
     tuning.look()
     return tuning
 

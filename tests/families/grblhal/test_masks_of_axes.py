@@ -11,7 +11,7 @@ from amp_studio.families.grblhal.described import schema_of
 from amp_studio.families.grblhal.masks import Build, bits_beyond, with_bits
 from amp_studio.files import ParameterFile
 from amp_studio.schema import Value
-from amp_studio.transfer.client.exchange import Outcome, download
+from amp_studio.transfer.client.exchange import Outcome, WantedContent, download
 from amp_studio.transfer.client.parameters import remarks_of
 from amp_studio.transfer.client.verification import verify_content
 from amp_studio.transfer.content import decode_content
@@ -43,7 +43,7 @@ def file_of(bench: Bench, **values: int) -> ParameterFile:
 
 
 def sent_to(bench: Bench, file: ParameterFile) -> Outcome:
-    return download(bench.driver, partial(bench.driver.encode, file), lambda _: "kept", signature="")
+    return download(bench.driver, WantedContent(partial(bench.driver.encode, file), ""), lambda _: "kept")
 
 
 def masks(bench: Bench) -> dict[int, str]:
@@ -84,9 +84,13 @@ def test_a_file_of_five_axes_goes_to_three_and_the_bits_of_the_others_are_named(
 def test_a_copy_of_five_axes_is_put_back_at_three_and_one_of_three_at_five(three: Bench, five: Bench) -> None:
     wide, narrow = five.driver.fetch(), three.driver.fetch()
     before = masks(five)
-    assert download(five.driver, partial(five.driver.refit, narrow), lambda _: "kept", signature="").verified
+    assert download(
+        five.driver, WantedContent(partial(five.driver.refit, narrow), ""), lambda _: "kept"
+    ).verified
     assert masks(five) == before | {5: "24", 45: "27"}
-    assert download(three.driver, partial(three.driver.refit, wide), lambda _: "kept", signature="").verified
+    assert download(
+        three.driver, WantedContent(partial(three.driver.refit, wide), ""), lambda _: "kept"
+    ).verified
     assert masks(three) == {3: "0", 4: "7", 5: "7", 23: "0", 45: "0"}
 
 

@@ -16,7 +16,7 @@ from amp_studio.files import new_file, open_file
 from amp_studio.formats import file_of
 from amp_studio.formats.text_format import ReadOptions, TextRead
 from amp_studio.schema import Value, load_schema
-from amp_studio.transfer.client.exchange import download
+from amp_studio.transfer.client.exchange import WantedContent, download
 from amp_studio.validate import Validator
 
 from .bench import Bench, held
@@ -179,7 +179,7 @@ def test_a_masked_password_and_an_empty_one_are_text_and_no_value() -> None:
 def test_a_listing_goes_to_a_control_by_its_numbers_and_what_that_lacks_is_not_sent(tmp_path: Path) -> None:
     bench = Bench(tmp_path / "control")
     file = file_of(GRBLHAL, read("$110=777\n$16=1\n$370=3\n$N0=G21\n"), "mill")
-    outcome = download(bench.driver, partial(bench.driver.encode, file), lambda _: "kept", signature="")
+    outcome = download(bench.driver, WantedContent(partial(bench.driver.encode, file), ""), lambda _: "kept")
     assert outcome.verified
     assert held(bench).settings[110] == "777.000"
     sent = b"".join(bench.received).split()

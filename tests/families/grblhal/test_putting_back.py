@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 
 from amp_studio.families.grblhal.content import read_content, write_content
-from amp_studio.transfer.client.exchange import download
+from amp_studio.transfer.client.exchange import WantedContent, download
 from amp_studio.transfer.errors import (
     TransferError,
 )
@@ -23,7 +23,7 @@ def test_disabling_homing_takes_soft_limits_along_and_the_copy_brings_them_back(
     assert put(bench, {22: "0", 20: "0", 40: "0", 676: "15"}).verified
     assert [held(bench).settings[n] for n in (20, 22, 40)] == ["0", "0", "0"]
     outcome = download(
-        bench.driver, partial(bench.driver.refit, copy), lambda _: "kept", signature="", what="Restore"
+        bench.driver, WantedContent(partial(bench.driver.refit, copy), "", what="Restore"), lambda _: "kept"
     )
     assert outcome.verified
     assert bench.driver.fetch() == copy
@@ -34,17 +34,19 @@ def test_rates_of_each_axis_come_and_go_with_an_option(bench: Bench) -> None:
     common = read_content(before).settings[24]
     with_rates = edited(bench, n22=513.0)
     assert download(
-        bench.driver, partial(bench.driver.encode, with_rates), lambda _: "kept", signature=""
+        bench.driver, WantedContent(partial(bench.driver.encode, with_rates), ""), lambda _: "kept"
     ).verified
     now = held(bench).settings
     assert [now[180], now[181], now[182]] == [common] * 3, "each axis has the rate that was there for all"
     assert not {24, 25} & now.keys(), "they are hidden, and not sent"
     assert not bench.driver.left_out(with_rates, bench.driver.fetch())
     own = edited(bench, n181=31.0)
-    assert download(bench.driver, partial(bench.driver.encode, own), lambda _: "kept", signature="").verified
+    assert download(
+        bench.driver, WantedContent(partial(bench.driver.encode, own), ""), lambda _: "kept"
+    ).verified
     assert held(bench).settings[181] == "31.0"
     assert download(
-        bench.driver, partial(bench.driver.refit, before), lambda _: "kept", signature=""
+        bench.driver, WantedContent(partial(bench.driver.refit, before), ""), lambda _: "kept"
     ).verified
     assert bench.driver.fetch() == before
 
@@ -56,7 +58,7 @@ def test_offsets_and_harmless_start_up_lines_are_put_back_and_the_rest_is_told(b
     bench.firmware.offsets |= {"G54": "0.000,0.000,0.000", "G28": "0.000,0.000,0.000"}
     bench.firmware.startup.update({0: "", 1: ""})
     outcome = download(
-        bench.driver, partial(bench.driver.refit, copy), lambda _: "kept", signature="", what="Restore"
+        bench.driver, WantedContent(partial(bench.driver.refit, copy), "", what="Restore"), lambda _: "kept"
     )
     assert sent(bench) == ["$N0=G21G54"]
     assert "G21G10L2P1X1.5Y-2.25Z3" in bench.lines
@@ -79,7 +81,7 @@ def test_a_locked_control_takes_no_offsets_and_nothing_else_of_the_copy_is_sent(
     with pytest.raises(
         TransferError, match=r"the control is locked, and takes no offsets .*; nothing was replaced"
     ):
-        download(bench.driver, write_content(wanted), lambda _: "kept", signature="")
+        download(bench.driver, WantedContent(write_content(wanted), ""), lambda _: "kept")
     assert sent(bench) == []
 
 
@@ -88,7 +90,9 @@ def test_offsets_that_are_shown_in_inches_are_put_back_in_inches(bench: Bench) -
     bench.firmware.offsets["G55"] = "25.400,0.000,-50.800"
     copy = bench.driver.fetch()
     bench.firmware.offsets["G55"] = "0.000,0.000,0.000"
-    assert download(bench.driver, partial(bench.driver.refit, copy), lambda _: "kept", signature="").verified
+    assert download(
+        bench.driver, WantedContent(partial(bench.driver.refit, copy), ""), lambda _: "kept"
+    ).verified
     assert bench.firmware.offsets["G55"] == "25.400,0.000,-50.800"
     assert bench.lines[-30:].count("G21") == 1, "the unit of the program is as it was"
 
@@ -99,9 +103,8 @@ def test_a_start_up_line_that_does_anything_is_not_sent(bench: Bench, line: str)
     present = held(bench)
     outcome = download(
         bench.driver,
-        write_content(replace(present, startup={0: line, 1: ""})),
+        WantedContent(write_content(replace(present, startup={0: line, 1: ""})), ""),
         lambda _: "kept",
-        signature="",
     )
     assert sent(bench) == []
     assert f"$N0={line} is not put back" in outcome.text
@@ -113,13 +116,17 @@ def test_a_copy_of_another_build_goes_back_by_the_numbers_or_says_what_is_not_th
     three.firmware.offsets["G54"] = "1.000,2.000,3.000"
     four.firmware.offsets["G54"] = "0.000,0.000,0.000,45.000"
     copy = three.driver.fetch()
-    assert download(four.driver, partial(four.driver.refit, copy), lambda _: "kept", signature="").verified
+    assert download(
+        four.driver, WantedContent(partial(four.driver.refit, copy), ""), lambda _: "kept"
+    ).verified
     assert held(four).settings[130] == "300.000"
     assert held(four).axes == ("X", "Y", "Z", "A")
     assert held(four).offsets["G54"] == "1.000,2.000,3.000,45.000"
     four.firmware.settings.store(131, "250")
     back = four.driver.fetch()
-    assert download(three.driver, partial(three.driver.refit, back), lambda _: "kept", signature="").verified
+    assert download(
+        three.driver, WantedContent(partial(three.driver.refit, back), ""), lambda _: "kept"
+    ).verified
     assert held(three).settings[131] == "250.000"
     assert 103 not in held(three).settings
 
@@ -129,20 +136,24 @@ def test_a_copy_in_inches_is_not_put_on_other_axes_in_millimeters(tmp_path: Path
     three.firmware.settings.store(13, "1")
     with pytest.raises(ImageError, match=r"set \$13 alike first"):
         download(
-            four.driver, partial(four.driver.refit, three.driver.fetch()), lambda _: "kept", signature=""
+            four.driver, WantedContent(partial(four.driver.refit, three.driver.fetch()), ""), lambda _: "kept"
         )
 
 
 def test_a_file_of_another_build_is_mapped_by_number_and_says_what_is_not_there(tmp_path: Path) -> None:
     three, four = Bench(tmp_path / "3"), Bench(tmp_path / "4", axes="XYZA")
     file = edited(three, n130=300.0)
-    assert download(four.driver, partial(four.driver.encode, file), lambda _: "kept", signature="").verified
+    assert download(
+        four.driver, WantedContent(partial(four.driver.encode, file), ""), lambda _: "kept"
+    ).verified
     assert held(four).settings[130] == "300.000"
     wide = edited(four, n131=250.0)
     present = three.driver.fetch()
     assert three.driver.left_out(wide, present).startswith(
         "the control does not have $47, $103, $113, $123, $133"
     )
-    assert download(three.driver, partial(three.driver.encode, wide), lambda _: "kept", signature="").verified
+    assert download(
+        three.driver, WantedContent(partial(three.driver.encode, wide), ""), lambda _: "kept"
+    ).verified
     assert held(three).settings[131] == "250.000"
     assert 103 not in held(three).settings

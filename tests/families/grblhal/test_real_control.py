@@ -16,10 +16,12 @@ from amp_studio.cli import run
 from amp_studio.families.grblhal.content import read_content, write_content
 from amp_studio.families.grblhal.driver import GrblDriver
 from amp_studio.families.grblhal.line import GrblLine
-from amp_studio.transfer.client.exchange import download
+from amp_studio.transfer.client.exchange import WantedContent, download
 from amp_studio.transfer.errors import TransferError
+from amp_studio.transfer.exchange import Exchange
 from amp_studio.transfer.links.endpoint import parse_endpoint
 from amp_studio.transfer.links.opening import connect
+from amp_studio.transfer.waiting import Waiting
 from tests.families.grblhal.conversation import answers, recorded
 from tests.families.grblhal.real_control import FIRMWARE, FIVE_AXES, RealControl, real_control
 
@@ -36,7 +38,7 @@ def control(tmp_path: Path) -> Iterator[RealControl]:
 
 def test_the_recorded_conversation_is_the_real_one(control: RealControl) -> None:
     place = parse_endpoint(control.address)
-    with closing(GrblLine(lambda look: connect(place, look=look))) as line:
+    with closing(GrblLine(lambda look: connect(place, look=look), Waiting())) as line:
         assert answers(line) == recorded()
 
 
@@ -89,7 +91,7 @@ def test_files_and_copies_cross_between_three_and_five_real_axes(
 def _settings(control: RealControl, *numbers: int) -> list[str]:
     """Return what a control shows of these settings, over a separate line."""
     place = parse_endpoint(control.address)
-    with closing(GrblLine(lambda look: connect(place, look=look))) as line:
+    with closing(GrblLine(lambda look: connect(place, look=look), Waiting())) as line:
         shown = dict(text.split("=") for text in line.ask("$$"))
     return [shown[f"${number}"] for number in numbers]
 
@@ -121,7 +123,7 @@ def power_cut(seed: int, folder: Path) -> list[str]:
                 27: "2.000",
             },
         )
-        download(driver, write_content(own), lambda _: "first", signature="")
+        download(driver, WantedContent(write_content(own), ""), lambda _: "first")
         changes = {
             n: f"{chance.randint(10, 90)}.000"
             for n in chance.sample([100, 101, 102, 110, 111, 112, 120, 130], 6)
@@ -138,7 +140,10 @@ def power_cut(seed: int, folder: Path) -> list[str]:
         told, new = "", ()
         try:
             told = download(
-                driver, write_content(wanted), lambda old: str(kept.append(old)), signature="", progress=pull
+                driver,
+                WantedContent(write_content(wanted), ""),
+                lambda old: str(kept.append(old)),
+                Exchange(pull),
             ).at_control
         except TransferError as error:
             told, new = error.at_control, error.new
@@ -158,6 +163,6 @@ def power_cut(seed: int, folder: Path) -> list[str]:
         if kept != [write_content(own)]:
             found.append(f"seed {seed}: the copy is not what the control contained")
         back = partial(driver.refit, kept[0])
-        if not download(driver, back, lambda _: "kept", signature="").verified:
+        if not download(driver, WantedContent(back, ""), lambda _: "kept").verified:
             found.append(f"seed {seed}: the copy does not go back")
         return found

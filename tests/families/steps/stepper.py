@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import hashlib
-import threading
 from pathlib import Path
 from typing import ClassVar
 
@@ -17,8 +16,8 @@ from amp_studio.sim.signals import COMMAND, OUTPUT, POSITION
 from amp_studio.transfer.content import HouseContent
 from amp_studio.transfer.driver import Abilities, ControlIdentity, Receipt
 from amp_studio.transfer.errors import NoConnectionError, WrongFamilyError
+from amp_studio.transfer.exchange import QUIET, Exchange, Replacement
 from amp_studio.transfer.links.endpoint import Endpoint
-from amp_studio.transfer.progress import Progress, quiet
 
 FAMILY = "steps"
 
@@ -68,13 +67,13 @@ FORMAT = TextFormat("stp", "stepper list", ".stp", lambda text: text.startswith(
 class Driver(HouseContent):
     """Speaks to a stepper control; those of the tests are ``BENCH``, by the host that an endpoint names."""
 
-    abilities = Abilities(can_send=True)
+    abilities = Abilities()
     BENCH: ClassVar[dict[str, bytes]] = {}
 
     def __init__(self, endpoint: Endpoint, family: str) -> None:
         self._host, self._family = endpoint.host, family
 
-    def identify(self, progress: Progress = quiet, cancel: threading.Event | None = None) -> ControlIdentity:
+    def identify(self, exchange: Exchange = QUIET) -> ControlIdentity:
         if self._host not in self.BENCH:
             raise NoConnectionError("no connection to the control")
         if self._family not in {"", FAMILY}:
@@ -84,32 +83,12 @@ class Driver(HouseContent):
             FAMILY, "dnc", "STEPPER", "7", load_schema(FAMILY).signature, axes=("X", "Y"), sha256=digest
         )
 
-    def fetch(
-        self, progress: Progress = quiet, cancel: threading.Event | None = None, stage: str = "upload"
-    ) -> bytes:
+    def fetch(self, exchange: Exchange = QUIET, stage: str = "upload") -> bytes:
         return self.BENCH[self._host]
 
-    def send(
-        self,
-        content: bytes,
-        *,
-        signature: str,
-        expected: bytes,
-        held: bytes,
-        progress: Progress = quiet,
-        cancel: threading.Event | None = None,
-    ) -> Receipt:
-        self.BENCH[self._host] = content
+    def send(self, replacement: Replacement, exchange: Exchange = QUIET) -> Receipt:
+        self.BENCH[self._host] = replacement.content
         return Receipt()
-
-    def wait_restarted(
-        self,
-        receipt: Receipt,
-        seconds: float,
-        progress: Progress = quiet,
-        cancel: threading.Event | None = None,
-    ) -> bool:
-        return True
 
     def close(self) -> None:
         pass

@@ -14,7 +14,7 @@ from amp_studio.cli.program import AT_CONTROL
 from amp_studio.files import ParameterFile, new_file
 from amp_studio.schema.registration import Registration, register, unregister
 from amp_studio.transfer.client.drivers import open_driver, protocols_of
-from amp_studio.transfer.client.exchange import download
+from amp_studio.transfer.client.exchange import WantedContent, download
 from amp_studio.transfer.client.kept import keep_image, open_copy
 from amp_studio.transfer.content import HouseContent
 from amp_studio.transfer.driver import Abilities, ControlIdentity, Receipt
@@ -28,6 +28,7 @@ from amp_studio.transfer.errors import (
     SignatureMismatchError,
     TransferError,
 )
+from amp_studio.transfer.exchange import Replacement
 from amp_studio.transfer.house.driver import HouseDriver
 from amp_studio.transfer.image import ImageError, decode_image, encode_image
 from amp_studio.transfer.links.endpoint import Endpoint
@@ -52,9 +53,9 @@ class Sheet(HouseContent):
         self.calls.append("fetch")
         return self.content
 
-    def send(self, image: bytes, **_: Any) -> Receipt:
+    def send(self, replacement: Replacement, *_: Any) -> Receipt:
         self.calls.append("send")
-        self.content = image
+        self.content = replacement.content
         return Receipt()
 
     def wait_restarted(self, *_: Any) -> bool:
@@ -95,7 +96,7 @@ def test_an_unknown_protocol_is_refused_with_those_there_are(sheet_family: None)
 
 def test_a_download_over_any_driver_is_kept_sent_and_read_back() -> None:
     control, kept = Sheet(), []
-    outcome = download(control, NEW, lambda old: str(kept.append(old)), signature="s1")
+    outcome = download(control, WantedContent(NEW, "s1"), lambda old: str(kept.append(old)))
     assert (outcome.at_control, outcome.verified, outcome.written, outcome.restart) == (
         "new",
         True,
@@ -110,7 +111,7 @@ def test_what_may_be_replaced_is_compared_with_what_was_read_where_the_control_s
     control = Sheet()
     seen = hashlib.sha256(b"seen").digest()
     with pytest.raises(ImageChangedError, match="than what was approved"):
-        download(control, NEW, lambda _: "kept", signature="s1", expected=seen)
+        download(control, WantedContent(NEW, "s1", expected=seen), lambda _: "kept")
     assert control.content == OLD
 
 
@@ -119,27 +120,27 @@ def test_a_protocol_without_downloads_is_not_even_connected() -> None:
     with pytest.raises(
         TransferError, match="nothing can be downloaded over this protocol; nothing was replaced"
     ):
-        download(control, NEW, lambda _: "kept", signature="s1")
+        download(control, WantedContent(NEW, "s1"), lambda _: "kept")
     assert control.calls == []
 
 
 def test_a_control_that_remembers_nothing_takes_back_only_what_its_schema_made() -> None:
     control = Sheet()
     with pytest.raises(SignatureMismatchError):
-        download(control, NEW, lambda _: "kept", signature="", is_return=True)
+        download(control, WantedContent(NEW, "", is_return=True), lambda _: "kept")
     remembering = Sheet(remembers=True)
-    assert download(remembering, NEW, lambda _: "kept", signature="", is_return=True).verified
+    assert download(remembering, WantedContent(NEW, "", is_return=True), lambda _: "kept").verified
 
 
 def test_a_control_that_does_not_say_its_signature_takes_nothing() -> None:
     with pytest.raises(SignatureMismatchError, match="nothing was replaced"):
-        download(Sheet(signature=""), NEW, lambda _: "kept", signature="s1")
+        download(Sheet(signature=""), WantedContent(NEW, "s1"), lambda _: "kept")
 
 
 def test_only_a_control_that_says_so_is_out_of_estop() -> None:
     with pytest.raises(NotInEmergencyStopError):
-        download(Sheet(estop=False), NEW, lambda _: "kept", signature="s1")
-    assert download(Sheet(estop=None), NEW, lambda _: "kept", signature="s1").verified
+        download(Sheet(estop=False), WantedContent(NEW, "s1"), lambda _: "kept")
+    assert download(Sheet(estop=None), WantedContent(NEW, "s1"), lambda _: "kept").verified
 
 
 class Settings(Sheet):
@@ -168,11 +169,11 @@ class Settings(Sheet):
             raise self._cut("gone")
         return super().fetch()
 
-    def send(self, content: bytes, *, held: bytes, **_: Any) -> Receipt:
+    def send(self, replacement: Replacement, *_: Any) -> Receipt:
         self.calls.append("send")
-        self.content = held
-        for line in content.splitlines():
-            if line not in held.splitlines():
+        self.content = replacement.held
+        for line in replacement.content.splitlines():
+            if line not in replacement.held.splitlines():
                 if not self._left:
                     raise ConnectionCutError("the line broke", "mixed", new=("1",))
                 self._left -= 1
@@ -182,7 +183,7 @@ class Settings(Sheet):
 
 def test_what_a_file_does_not_set_stays_as_the_control_has_it() -> None:
     control = Settings(b"1=5\n2=6\n")
-    outcome = download(control, partial(control.encode, b"2=7\n"), lambda _: "kept", signature="s1")
+    outcome = download(control, WantedContent(partial(control.encode, b"2=7\n"), "s1"), lambda _: "kept")
     assert control.content == b"1=5\n2=7\n"
     assert outcome.text == (
         "Download complete and read back equal. Setting 1 is shown with one decimal. "
@@ -195,7 +196,9 @@ def test_what_a_control_does_not_have_is_named_before_anything_is_kept_or_sent()
     control, kept = Settings(b"1=5\n2=6\n"), []
     with pytest.raises(ImageError, match="the control does not have the setting 9"):
         download(
-            control, partial(control.encode, b"2=7\n9=1\n"), lambda old: str(kept.append(old)), signature="s1"
+            control,
+            WantedContent(partial(control.encode, b"2=7\n9=1\n"), "s1"),
+            lambda old: str(kept.append(old)),
         )
     assert (control.calls, kept) == (["identify", "fetch"], [])
 
@@ -203,7 +206,7 @@ def test_what_a_control_does_not_have_is_named_before_anything_is_kept_or_sent()
 def test_a_break_between_two_settings_says_which_are_new() -> None:
     control = Settings(b"1=5\n2=6\n3=7\n", breaks_after=1)
     with pytest.raises(ConnectionCutError) as caught:
-        download(control, partial(control.encode, b"1=8\n2=9\n"), lambda _: "kept", signature="s1")
+        download(control, WantedContent(partial(control.encode, b"1=8\n2=9\n"), "s1"), lambda _: "kept")
     assert str(caught.value) == (
         "the line broke; the control contains the new 1 and the old values of the rest "
         "(what it contained before is kept in kept)"
@@ -217,14 +220,14 @@ def test_without_a_commit_only_what_is_read_back_is_certain(
 ) -> None:
     control = Settings(b"1=5\n", cut=cut)
     with pytest.raises(cut) as caught:
-        download(control, partial(control.encode, b"1=8\n"), lambda _: "kept", signature="s1")
+        download(control, WantedContent(partial(control.encode, b"1=8\n"), "s1"), lambda _: "kept")
     assert (caught.value.at_control, caught.value.kept) == (state, "kept")
 
 
 def test_settings_that_read_back_otherwise_are_some_new_and_some_not() -> None:
     control = Settings(b"1=5\n2=6\n")
     control.difference = lambda content, found: "in setting 2"  # type: ignore[method-assign]
-    outcome = download(control, partial(control.encode, b"1=8\n2=9\n"), lambda _: "kept", signature="s1")
+    outcome = download(control, WantedContent(partial(control.encode, b"1=8\n2=9\n"), "s1"), lambda _: "kept")
     assert (outcome.at_control, outcome.verified) == ("mixed", False)
     assert "what it contains differs in setting 2; the rest is as it was sent." in outcome.text
 

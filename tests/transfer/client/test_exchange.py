@@ -9,7 +9,7 @@ from typing import Any
 
 import pytest
 
-from amp_studio.transfer.client.exchange import download, upload
+from amp_studio.transfer.client.exchange import WantedContent, download, upload
 from amp_studio.transfer.content import first_difference
 from amp_studio.transfer.emulated.faults import Faults
 from amp_studio.transfer.errors import (
@@ -23,6 +23,7 @@ from amp_studio.transfer.errors import (
     SignatureMismatchError,
     TransferError,
 )
+from amp_studio.transfer.exchange import Exchange
 from amp_studio.transfer.house import download_transfer
 from amp_studio.transfer.house.driver import HouseDriver
 from amp_studio.transfer.house.message import Flags
@@ -62,10 +63,9 @@ def test_a_download_is_kept_sent_restarted_and_read_back(bench: Callable[..., An
     told: list[str] = []
     outcome = download(
         HouseDriver(session),
-        NEW,
+        WantedContent(NEW, "s1"),
         shelf,
-        signature="s1",
-        progress=lambda stage, done, total: told.append(stage),
+        Exchange(lambda stage, done, total: told.append(stage)),
     )
     assert (outcome.at_control, outcome.verified, outcome.written, outcome.restart) == (
         "new",
@@ -86,18 +86,18 @@ def test_a_download_is_kept_sent_restarted_and_read_back(bench: Callable[..., An
 
 def test_without_autostart_a_person_must_restart_the_control(bench: Callable[..., Any]) -> None:
     made, session, shelf = bench(autostart=False)
-    outcome = download(HouseDriver(session), NEW, shelf, signature="s1")
+    outcome = download(HouseDriver(session), WantedContent(NEW, "s1"), shelf)
     assert (outcome.at_control, outcome.verified, outcome.restart) == ("new", True, "needed")
     assert "Restart the control to make it current" in outcome.text
     assert made.control.flags & Flags.RESTART_NEEDED
-    again = download(HouseDriver(session), NEW, shelf, signature="s1")
+    again = download(HouseDriver(session), WantedContent(NEW, "s1"), shelf)
     assert (again.written, again.restart) == (False, "needed")
     assert "Restart the control" in again.text
 
 
 def test_an_image_that_is_there_already_is_not_written(bench: Callable[..., Any]) -> None:
     made, session, shelf = bench(estop=False)
-    outcome = download(HouseDriver(session), OLD, shelf, signature="s1")
+    outcome = download(HouseDriver(session), WantedContent(OLD, "s1"), shelf)
     assert (outcome.at_control, outcome.verified, outcome.written, outcome.kept) == ("new", True, False, None)
     assert outcome.text == "The control contains exactly this image already; nothing was written."
     assert shelf.kept == []
@@ -106,7 +106,7 @@ def test_an_image_that_is_there_already_is_not_written(bench: Callable[..., Any]
 
 def test_a_control_without_an_image_has_nothing_to_keep(bench: Callable[..., Any]) -> None:
     made, session, shelf = bench(initial=b"")
-    outcome = download(HouseDriver(session), NEW, shelf, signature="s1")
+    outcome = download(HouseDriver(session), WantedContent(NEW, "s1"), shelf)
     assert (outcome.at_control, outcome.kept, shelf.kept) == ("new", None, [])
     assert outcome.text.endswith("It was empty before.")
     assert made.control.image == NEW
@@ -117,14 +117,14 @@ def test_out_of_estop_nothing_is_even_fetched(bench: Callable[..., Any]) -> None
     with pytest.raises(
         NotInEmergencyStopError, match="place the control in E-stop to download; nothing was replaced"
     ):
-        download(HouseDriver(session), NEW, shelf, signature="s1")
+        download(HouseDriver(session), WantedContent(NEW, "s1"), shelf)
     assert shelf.kept == []
 
 
 def test_another_schema_is_refused_before_anything_moves(bench: Callable[..., Any]) -> None:
     _, session, shelf = bench()
     with pytest.raises(SignatureMismatchError, match=r"CNC_1.*another schema"):
-        download(HouseDriver(session), NEW, shelf, signature="s2")
+        download(HouseDriver(session), WantedContent(NEW, "s2"), shelf)
     assert shelf.kept == []
 
 
@@ -135,7 +135,7 @@ def test_what_cannot_be_kept_is_not_replaced(bench: Callable[..., Any]) -> None:
         raise OSError(28, "No space left on device")
 
     with pytest.raises(KeepFailedError, match=r"could not be kept.*No space left.*nothing was replaced"):
-        download(HouseDriver(session), NEW, full, signature="s1")
+        download(HouseDriver(session), WantedContent(NEW, "s1"), full)
     assert made.control.image == OLD
 
 
@@ -147,7 +147,7 @@ def test_a_change_at_the_control_after_it_was_kept_is_not_overwritten(bench: Cal
         return shelf.kept.append(image) or "kept.amp"
 
     with pytest.raises(ImageChangedError) as caught:
-        download(HouseDriver(session), NEW, keep_and_patch, signature="s1")
+        download(HouseDriver(session), WantedContent(NEW, "s1"), keep_and_patch)
     assert (caught.value.at_control, caught.value.kept) == ("old", "kept.amp")
     assert made.control.image == OLD + b"11 = 5\n"
 
@@ -159,11 +159,11 @@ def sha(image: bytes) -> bytes:
 def test_only_the_image_that_was_approved_is_replaced(bench: Callable[..., Any]) -> None:
     made, session, shelf = bench()
     with pytest.raises(ImageChangedError, match="approved to be replaced") as caught:
-        download(HouseDriver(session), NEW, shelf, signature="s1", expected=sha(b"seen"))
+        download(HouseDriver(session), WantedContent(NEW, "s1", expected=sha(b"seen")), shelf)
     assert f"(sha256 {sha(OLD).hex()[:12]}…, approved {sha(b'seen').hex()[:12]}…)" in str(caught.value)
     assert str(caught.value).endswith("nothing was replaced in the control")
     assert (made.control.image, shelf.kept) == (OLD, [])
-    assert download(HouseDriver(session), NEW, shelf, signature="s1", expected=sha(OLD)).verified
+    assert download(HouseDriver(session), WantedContent(NEW, "s1", expected=sha(OLD)), shelf).verified
 
 
 def test_a_change_between_the_greeting_and_the_reading_is_noticed(bench: Callable[..., Any]) -> None:
@@ -178,24 +178,24 @@ def test_a_change_between_the_greeting_and_the_reading_is_noticed(bench: Callabl
 
     session.hello = greet_and_patch
     with pytest.raises(ImageChangedError, match="approved to be replaced"):
-        download(HouseDriver(session), NEW, shelf, signature="s1", expected=sha(OLD))
+        download(HouseDriver(session), WantedContent(NEW, "s1", expected=sha(OLD)), shelf)
     assert (made.control.image, shelf.kept) == (OLD + b"11 = 5\n", [])
 
 
 def test_what_is_there_already_must_still_be_what_was_approved(bench: Callable[..., Any]) -> None:
     _, session, shelf = bench(initial=NEW)
     with pytest.raises(ImageChangedError):
-        download(HouseDriver(session), NEW, shelf, signature="s1", expected=sha(OLD))
-    assert not download(HouseDriver(session), NEW, shelf, signature="s1", expected=sha(NEW)).written
+        download(HouseDriver(session), WantedContent(NEW, "s1", expected=sha(OLD)), shelf)
+    assert not download(HouseDriver(session), WantedContent(NEW, "s1", expected=sha(NEW)), shelf).written
 
 
 def test_what_a_control_has_held_goes_back_under_no_signature(bench: Callable[..., Any]) -> None:
     made, session, shelf = bench()
-    download(HouseDriver(session), NEW, shelf, signature="s1")
-    outcome = download(HouseDriver(session), OLD, shelf, signature="", is_return=True)
+    download(HouseDriver(session), WantedContent(NEW, "s1"), shelf)
+    outcome = download(HouseDriver(session), WantedContent(OLD, "", is_return=True), shelf)
     assert (outcome.at_control, outcome.verified, made.control.image) == ("new", True, OLD)
     with pytest.raises(SignatureMismatchError, match="has not contained this image; nothing was replaced"):
-        download(HouseDriver(session), b"other", shelf, signature="", is_return=True)
+        download(HouseDriver(session), WantedContent(b"other", "", is_return=True), shelf)
 
 
 def test_an_error_while_only_looking_does_not_say_what_was_replaced(bench: Callable[..., Any]) -> None:
@@ -216,7 +216,7 @@ def test_a_cut_that_leaves_the_end_unknown_names_the_kept_image(bench: Callable[
             session._line._talk.link.close()
 
     with pytest.raises(ConnectionCutError) as caught:
-        download(HouseDriver(session), NEW, shelf, signature="s1", progress=pull_the_cable)
+        download(HouseDriver(session), WantedContent(NEW, "s1"), shelf, Exchange(pull_the_cable))
     assert caught.value.at_control == "unknown"
     assert "not known: verify before you go on" in str(caught.value)
     assert "kept in machine.before.amp" in str(caught.value)
@@ -224,7 +224,7 @@ def test_a_cut_that_leaves_the_end_unknown_names_the_kept_image(bench: Callable[
 
 def test_a_control_that_does_not_come_back_is_told(bench: Callable[..., Any]) -> None:
     _, session, shelf = bench(lines=1)
-    outcome = download(HouseDriver(session), NEW, shelf, signature="s1", restart_wait=5)
+    outcome = download(HouseDriver(session), WantedContent(NEW, "s1"), shelf, restart_wait=5)
     assert (outcome.at_control, outcome.verified, outcome.restart) == ("new", False, "missed")
     assert "has not come back from its restart within 5 s" in outcome.text
     assert "kept in machine.before.amp" in outcome.text
@@ -243,7 +243,7 @@ def test_a_cancel_while_the_control_restarts_says_that_the_new_image_is_there(
     with pytest.raises(
         CancelledError, match=r"the control contains the new image.*kept in machine\.before\.amp"
     ) as caught:
-        download(HouseDriver(session), NEW, shelf, signature="s1", cancel=cancel, progress=while_restarting)
+        download(HouseDriver(session), WantedContent(NEW, "s1"), shelf, Exchange(while_restarting, cancel))
     assert caught.value.at_control == "new"
     assert made.control.image == NEW
 
@@ -255,7 +255,7 @@ def test_a_control_that_holds_something_else_after_the_commit_is_found_out(bench
         if stage == "restart" and (done, total) == (1, 1):
             made.control._take(NEW[:50] + b"?" + NEW[51:])
 
-    outcome = download(HouseDriver(session), NEW, shelf, signature="s1", progress=rot)
+    outcome = download(HouseDriver(session), WantedContent(NEW, "s1"), shelf, Exchange(rot))
     assert (outcome.at_control, outcome.verified) == ("unknown", False)
     assert "differs from byte 50 on" in outcome.text
     assert "kept in machine.before.amp" in outcome.text
@@ -267,7 +267,7 @@ def test_a_download_is_all_or_nothing_wherever_the_line_is_cut(bench: Callable[.
     while was_cut:
         made, session, shelf = bench(Faults(drop_after_bytes=cut_at))
         try:
-            outcome = download(HouseDriver(session), NEW, shelf, signature="s1")
+            outcome = download(HouseDriver(session), WantedContent(NEW, "s1"), shelf)
         except (NoConnectionError, ControlSilentError):
             first_hello_failed.append(cut_at)
             assert made.control.image == OLD
@@ -308,7 +308,7 @@ def test_whatever_breaks_a_download_off_is_told_with_what_the_control_holds(
     monkeypatch.setattr(download_transfer, part, breaks)
     _, session, shelf = bench()
     with pytest.raises(TransferError) as caught:
-        download(HouseDriver(session), NEW, shelf, signature="s1")
+        download(HouseDriver(session), WantedContent(NEW, "s1"), shelf)
     assert caught.value.at_control == at_control
     assert (str(error) or "MemoryError") in str(caught.value)
 
@@ -323,5 +323,5 @@ def test_whatever_ends_the_reading_back_is_told_with_what_the_control_holds(
     _, session, shelf = bench()
     monkeypatch.setattr(session, "wait_restarted", breaks)
     with pytest.raises(TransferError, match=r"kept in machine\.before\.amp") as caught:
-        download(HouseDriver(session), NEW, shelf, signature="s1")
+        download(HouseDriver(session), WantedContent(NEW, "s1"), shelf)
     assert caught.value.at_control == "new"

@@ -12,7 +12,8 @@ import pytest
 from amp_studio.transfer.client import drivers
 from amp_studio.transfer.client.drivers import open_driver_at
 from amp_studio.transfer.errors import CancelledError
-from amp_studio.transfer.progress import Stop, quiet
+from amp_studio.transfer.exchange import Exchange
+from amp_studio.transfer.progress import Stop
 
 
 class Machine:
@@ -100,7 +101,7 @@ def test_finding_out_can_be_stopped(machine: Callable[[bytes], Machine]) -> None
     silent, stop = machine(b""), Stop()
     stop.set()
     with pytest.raises(CancelledError):
-        open_driver_at(silent.address, "", quiet, stop)
+        open_driver_at(silent.address, "", Exchange(cancel=stop))
 
 
 def test_a_control_that_is_not_there_is_left_to_its_driver() -> None:

@@ -7,7 +7,7 @@ from typing import Any
 
 import pytest
 
-from amp_studio.transfer.client.exchange import Outcome, download
+from amp_studio.transfer.client.exchange import Outcome, WantedContent, download
 from amp_studio.transfer.house.driver import HouseDriver
 from amp_studio.transfer.house.upload_transfer import SLOW
 
@@ -21,7 +21,7 @@ PASS = len(OLD) / BAUD_9600
 def exchanged(made: Any, image: bytes = NEW) -> tuple[Outcome, float]:
     """Download an image and return what came of it, and the seconds on the clock of the line."""
     begun = made.clock.now
-    outcome = download(HouseDriver(made.session()), image, lambda _: "kept", signature="s1")
+    outcome = download(HouseDriver(made.session()), WantedContent(image, "s1"), lambda _: "kept")
     return outcome, made.clock.now - begun
 
 
@@ -97,7 +97,9 @@ def test_an_upload_and_a_verify_read_every_byte_of_a_slow_line(slow) -> None:
 def test_what_was_just_fetched_to_be_shown_is_not_fetched_again(slow) -> None:
     begun, kept = slow.clock.now, []
     outcome = download(
-        HouseDriver(slow.session()), NEW, lambda old: kept.append(old) or "kept", signature="s1", known=OLD
+        HouseDriver(slow.session()),
+        WantedContent(NEW, "s1", known=OLD),
+        lambda old: kept.append(old) or "kept",
     )
     assert (outcome.verified, kept) == (True, [OLD])
     assert slow.clock.now - begun < 1.35 * PASS
@@ -107,9 +109,7 @@ def test_what_was_fetched_before_somebody_changed_the_control_is_fetched_again(s
     kept: list[bytes] = []
     download(
         HouseDriver(slow.session()),
-        NEW,
+        WantedContent(NEW, "s1", known=OLD[:-1]),
         lambda old: kept.append(old) or "kept",
-        signature="s1",
-        known=OLD[:-1],
     )
     assert kept == [OLD]

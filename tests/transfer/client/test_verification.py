@@ -7,7 +7,7 @@ import pytest
 from amp_studio.files import ParameterFile
 from amp_studio.schema import load_schema
 from amp_studio.schema.values import read_value
-from amp_studio.transfer.client.exchange import download
+from amp_studio.transfer.client.exchange import WantedContent, download
 from amp_studio.transfer.client.verification import verify_content
 from amp_studio.transfer.content import HouseContent
 from amp_studio.transfer.driver import Abilities, ControlDriver, ControlIdentity, Receipt
@@ -36,7 +36,7 @@ class Stopped(HouseContent):
     def identify(self, *_: object) -> ControlIdentity:
         return ControlIdentity("9pc", "test")
 
-    def fetch(self, _progress: object, _cancel: object, stage: str = "upload") -> bytes:
+    def fetch(self, _exchange: object = None, stage: str = "upload") -> bytes:
         if stage == "verify":
             raise self._end
         return b"old"
@@ -66,5 +66,5 @@ def test_a_stop_behind_a_commit_that_was_not_answered_does_not_call_it_new(
 ) -> None:
     driver: ControlDriver = Stopped(Receipt(is_answered=is_answered), end, all_or_nothing=all_or_nothing)  # type: ignore[assignment]
     with pytest.raises(TransferError) as caught:
-        download(driver, b"new", lambda _: "kept", signature="")
+        download(driver, WantedContent(b"new", ""), lambda _: "kept")
     assert (caught.value.at_control, caught.value.kept) == (state, "kept")

@@ -13,7 +13,7 @@ from typing import Any
 
 import pytest
 
-from amp_studio.transfer.client.exchange import download, upload
+from amp_studio.transfer.client.exchange import WantedContent, download, upload
 from amp_studio.transfer.emulated.emulator import Emulator, serve
 from amp_studio.transfer.errors import (
     CancelledError,
@@ -24,6 +24,7 @@ from amp_studio.transfer.errors import (
     NoConnectionError,
     NotInEmergencyStopError,
 )
+from amp_studio.transfer.exchange import Exchange, Replacement
 from amp_studio.transfer.house.driver import HouseDriver
 from amp_studio.transfer.house.message import Flags
 from amp_studio.transfer.house.retry_timer import RetryPolicy
@@ -73,7 +74,7 @@ def test_the_whole_exchange_over_a_real_line(emulate: Callable[..., Any], tmp_pa
     emulated = emulate(tmp_path, kind, initial=OLD.decode())
     with session_at(emulated.address, family="9pc") as session:
         assert upload(HouseDriver(session)) == OLD
-        outcome = download(HouseDriver(session), NEW, keep, signature="s1")
+        outcome = download(HouseDriver(session), WantedContent(NEW, "s1"), keep)
         assert (outcome.at_control, outcome.verified, outcome.restart) == ("new", True, "done")
         assert upload(HouseDriver(session)) == NEW
     assert emulated.hear() == "restarted 2"
@@ -99,7 +100,7 @@ def test_a_bad_line_is_lived_through(
 ) -> None:
     emulated = emulate(tmp_path, kind, faults=faults)
     with session_at(emulated.address) as session:
-        outcome = download(HouseDriver(session), NEW, keep, signature="s1")
+        outcome = download(HouseDriver(session), WantedContent(NEW, "s1"), keep)
     assert (outcome.at_control, outcome.verified) == ("new", True)
     assert (tmp_path / "active.img").read_bytes() == NEW
 
@@ -125,7 +126,7 @@ def test_a_download_goes_on_in_a_control_that_was_killed(emulate: Callable[..., 
                 emulated[0].kill()
 
     with Session(open_link, policy=QUICK) as session:
-        session.send(NEW, signature="s1", expected=hashlib.sha256(OLD).digest(), progress=kill_at_half)
+        session.send(Replacement(NEW, OLD, "s1"), Exchange(kill_at_half))
     assert staged[0] > len(NEW) // 2
     assert staged[0] in told, "it went on where the control said"
     assert (tmp_path / "active.img").read_bytes() == NEW
@@ -152,7 +153,7 @@ def test_a_control_killed_at_any_step_of_the_commit_holds_old_or_new(
             return connect(parse_endpoint(emulated[-1].address))
 
         with Session(open_link, policy=QUICK) as session:
-            outcome = download(HouseDriver(session), NEW, keep, signature="s1")
+            outcome = download(HouseDriver(session), WantedContent(NEW, "s1"), keep)
         died = len(emulated) > 1
         assert (outcome.at_control, outcome.verified) == ("new", True), f"step {step}"
         assert (folder / "previous.img").read_bytes() == OLD, f"step {step}"
@@ -174,7 +175,7 @@ def test_a_control_that_stays_dead_after_the_commit_was_asked_for_is_unknown(
 ) -> None:
     emulated = emulate(tmp_path, faults={"die_at_commit_step": 5})
     with session_at(emulated.address, patience=0.5) as session, pytest.raises(ConnectionCutError) as caught:
-        download(HouseDriver(session), NEW, keep, signature="s1")
+        download(HouseDriver(session), WantedContent(NEW, "s1"), keep)
     assert (caught.value.at_control, caught.value.kept) == ("unknown", "kept.amp")
 
 
@@ -182,10 +183,10 @@ def test_estop_is_what_the_operator_says(emulate: Callable[..., Any], tmp_path: 
     emulated = emulate(tmp_path, estop=False)
     with session_at(emulated.address) as session:
         with pytest.raises(NotInEmergencyStopError):
-            download(HouseDriver(session), NEW, keep, signature="s1")
+            download(HouseDriver(session), WantedContent(NEW, "s1"), keep)
         assert emulated.command("estop on") == "estop on"
         assert emulated.command("autostart off") == "autostart off"
-        outcome = download(HouseDriver(session), NEW, keep, signature="s1")
+        outcome = download(HouseDriver(session), WantedContent(NEW, "s1"), keep)
         assert (outcome.verified, outcome.restart) == (True, "needed")
         assert emulated.command("restart") == "restarting"
         assert emulated.hear() == "restarted 2"
@@ -220,7 +221,7 @@ def test_a_full_control_says_so(emulate: Callable[..., Any], tmp_path: Path) -> 
         session_at(emulated.address) as session,
         pytest.raises(ControlFullError, match="nothing was replaced"),
     ):
-        download(HouseDriver(session), NEW, keep, signature="s1")
+        download(HouseDriver(session), WantedContent(NEW, "s1"), keep)
 
 
 @pytest.mark.parametrize("kind", KINDS)
@@ -238,7 +239,7 @@ def test_a_cancel_is_heard_at_once(emulate: Callable[..., Any], tmp_path: Path) 
     with Session.at(emulated.address) as session:
         timer.start()
         with pytest.raises(CancelledError):
-            session.hello(cancel)
+            session.hello(Exchange(cancel=cancel))
     assert time.monotonic() - start < 15, "not the 20 s that a silence is waited for"
 
 
@@ -309,7 +310,7 @@ def test_a_new_client_on_a_serial_line_begins_anew(emulate: Callable[..., Any], 
     link.write(b"half a frame \x07\x99" * 20)
     link.close()
     with session_at(emulated.address) as session:
-        assert download(HouseDriver(session), NEW, keep, signature="s1").verified
+        assert download(HouseDriver(session), WantedContent(NEW, "s1"), keep).verified
 
 
 def test_the_port_is_there_again_at_once_after_a_kill(emulate: Callable[..., Any], tmp_path: Path) -> None:

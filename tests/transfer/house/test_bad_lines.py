@@ -12,6 +12,7 @@ from hypothesis import strategies as st
 
 from amp_studio.transfer.emulated.faults import Faults
 from amp_studio.transfer.errors import ConnectionCutError, ControlSilentError, TransferError
+from amp_studio.transfer.exchange import Exchange
 from amp_studio.transfer.links.link import LinkError
 from tests.campaigns import examples
 from tests.transfer.images import NEW, OLD, send
@@ -79,7 +80,7 @@ def test_an_upload_goes_on_with_what_has_come(
         if stage == "upload":
             told.append(done)
 
-    assert made.session().fetch(note) == image
+    assert made.session().fetch(Exchange(note)) == image
     assert stages.count("cut") == stages.count("silent") == made.modem.lines - 1 > 2, (
         "each cut is told, and its end"
     )

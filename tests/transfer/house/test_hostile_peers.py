@@ -11,7 +11,7 @@ from typing import Any
 
 import pytest
 
-from amp_studio.transfer.client.exchange import download
+from amp_studio.transfer.client.exchange import WantedContent, download
 from amp_studio.transfer.emulated.responder import Responder
 from amp_studio.transfer.errors import (
     ControlSilentError,
@@ -377,7 +377,7 @@ def test_a_download_goes_through_where_nobody_is_hostile(tmp_path: Path) -> None
     """What the seeded tests rest on."""
     room = Room(tmp_path, [])
     session = Session(room.open_link, clock=room.clock, sleep=hostile_clients._turns(room))
-    outcome = download(HouseDriver(session), NEW, lambda image: "kept.amp", signature="s1")
+    outcome = download(HouseDriver(session), WantedContent(NEW, "s1"), lambda image: "kept.amp")
     assert (outcome.at_control, outcome.verified) == ("new", True)
     assert room.control.image == NEW
     room.close()

@@ -10,6 +10,7 @@ import pytest
 
 from amp_studio.transfer.emulated.faults import Faults
 from amp_studio.transfer.errors import CancelledError, NotInEmergencyStopError
+from amp_studio.transfer.exchange import Exchange
 from amp_studio.transfer.house.frame import encode_frame
 from amp_studio.transfer.house.message import Ack, Flags, pack
 from tests.transfer.images import NEW, OLD, send, sha
@@ -41,7 +42,7 @@ def test_an_image_goes_there_and_comes_back(rig: Callable[..., Any], control: Ca
 def test_progress_is_told_to_the_last_byte(rig: Callable[..., Any], control: Callable[..., Any]) -> None:
     told: list[tuple[str, int, int]] = []
     session = rig(control=control()).session()
-    session.fetch(lambda *step: told.append(step))
+    session.fetch(Exchange(lambda *step: told.append(step)))
     send(session, progress=lambda *step: told.append(step))
     for stage, total in (("upload", len(OLD)), ("download", len(NEW)), ("commit", 1)):
         steps = [done for name, done, _ in told if name == stage]
@@ -53,9 +54,9 @@ def test_progress_is_told_to_the_last_byte(rig: Callable[..., Any], control: Cal
 def test_an_empty_image_is_an_image_too(rig: Callable[..., Any], new_control: Callable[..., Any]) -> None:
     session = rig(control=new_control(initial=b"")).session()
     assert session.fetch() == b""
-    session.send(NEW, signature="s1", expected=sha(b""))
+    send(session, NEW, b"")
     session.wait_restarted(1, 10)
-    session.send(b"", signature="s1", expected=sha(NEW))
+    send(session, b"", NEW)
     session.wait_restarted(2, 10)
     assert session.fetch() == b""
 
@@ -91,10 +92,10 @@ def test_a_cancel_of_an_upload_and_of_a_waiting_session(
     cancel.set()
     made = rig(control=control())
     with pytest.raises(CancelledError):
-        made.session().fetch(cancel=cancel)
+        made.session().fetch(Exchange(cancel=cancel))
     made = rig(Faults(silent=True), control=control())
     with pytest.raises(CancelledError):
-        made.session().hello(cancel)
+        made.session().hello(Exchange(cancel=cancel))
     assert made.clock.now < 0.2
 
 

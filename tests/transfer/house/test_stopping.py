@@ -9,10 +9,11 @@ from typing import Any
 
 import pytest
 
-from amp_studio.transfer.client.exchange import download, upload
+from amp_studio.transfer.client.exchange import WantedContent, download, upload
 from amp_studio.transfer.emulated.faults import Faults
 from amp_studio.transfer.emulated.responder import Responder
 from amp_studio.transfer.errors import CancelledError, ConnectionCutError, ControlSilentError, TransferError
+from amp_studio.transfer.exchange import Exchange
 from amp_studio.transfer.house.driver import HouseDriver
 from amp_studio.transfer.house.message import Commit
 from amp_studio.transfer.progress import Stop
@@ -47,7 +48,7 @@ def test_a_download_stopped_at_any_moment_says_what_the_control_holds(
         cancel = SetAfter(asks, urgent=urgent)
         try:
             at_control = download(
-                HouseDriver(made.session()), NEW, keep, signature="s1", cancel=cancel
+                HouseDriver(made.session()), WantedContent(NEW, "s1"), keep, Exchange(cancel=cancel)
             ).at_control
             was_stopped = False
         except CancelledError as error:
@@ -80,7 +81,7 @@ def test_a_keyboard_interrupt_after_the_commit_says_that_the_new_image_is_there(
             raise KeyboardInterrupt
 
     with pytest.raises(CancelledError) as caught:
-        download(HouseDriver(made.session()), NEW, keep, signature="s1", progress=interrupt)
+        download(HouseDriver(made.session()), WantedContent(NEW, "s1"), keep, Exchange(interrupt))
     assert (caught.value.at_control, caught.value.kept) == ("new", "kept.amp")
     assert made.control.image == NEW
 
@@ -96,7 +97,7 @@ def test_nobody_who_can_be_told_ends_no_exchange(
             raise BrokenPipeError
 
     made = rig(control=control())
-    assert download(HouseDriver(made.session()), NEW, keep, signature="s1", progress=closed).verified
+    assert download(HouseDriver(made.session()), WantedContent(NEW, "s1"), keep, Exchange(closed)).verified
 
 
 # -- a commit without an answer --------------------------------------------------------------------
@@ -149,7 +150,7 @@ def test_an_unanswered_commit_is_given_up_within_20_seconds(
             asked.append(made.clock.now)
 
     with pytest.raises(TransferError) as caught:
-        download(HouseDriver(made.session()), NEW, keep, signature="s1", progress=note)
+        download(HouseDriver(made.session()), WantedContent(NEW, "s1"), keep, Exchange(note))
     assert 19.9 <= made.clock.now - asked[0] <= 20.2
     assert isinstance(caught.value, ControlSilentError if lines > 2 else ConnectionCutError)
     assert caught.value.at_control == "unknown"
@@ -173,7 +174,7 @@ def test_who_stops_while_the_commit_is_not_answered_waits_5_seconds_and_not_at_a
                 cancel.set()
 
     with pytest.raises(CancelledError, match="stopped before the control has answered") as caught:
-        download(HouseDriver(made.session()), NEW, keep, signature="s1", progress=stop, cancel=cancel)
+        download(HouseDriver(made.session()), WantedContent(NEW, "s1"), keep, Exchange(stop, cancel))
     assert caught.value.at_control == "unknown"
     assert least <= made.clock.now - stopped_at[0] <= most
     assert made.control.image == NEW
@@ -192,7 +193,7 @@ def test_a_silent_control_is_told_of_within_2_seconds(
     made = rig(Faults(silent=True), control=control())
     told: list[tuple[float, str, int]] = []
     with pytest.raises(ControlSilentError):
-        upload(HouseDriver(made.session()), silences(made, told))
+        upload(HouseDriver(made.session()), Exchange(silences(made, told)))
     assert [(stage, seconds) for _, stage, seconds in told] == [("silent", 2), ("silent", 3), ("silent", 4)]
     assert 1.7 < told[0][0] <= 2.0
 
@@ -212,7 +213,7 @@ def test_a_line_that_is_not_made_is_told_of_within_2_seconds(
 
     made.open_link = slowly
     told: list[tuple[float, str, int]] = []
-    assert upload(HouseDriver(made.session()), silences(made, told)) == OLD
+    assert upload(HouseDriver(made.session()), Exchange(silences(made, told))) == OLD
     assert told[0][1:] == ("silent", 2)
     assert told[0][0] <= 2.0
     assert told[1][1:] == ("silent", 0), "and it is told that this is over"
@@ -247,7 +248,9 @@ def test_a_control_that_restarts_is_not_called_silent(
     made = rig(control=control())
     made.modem._restart_seconds = 9.0
     told: list[tuple[float, str, int]] = []
-    outcome = download(HouseDriver(made.session()), NEW, keep, signature="s1", progress=silences(made, told))
+    outcome = download(
+        HouseDriver(made.session()), WantedContent(NEW, "s1"), keep, Exchange(silences(made, told))
+    )
     assert outcome.verified
     restarting = [at for at, stage, _ in told if stage == "restart"]
     assert all(later - earlier <= 2.0 for earlier, later in pairwise(restarting))
@@ -269,4 +272,4 @@ def test_a_cancel_ends_the_wait_for_a_connection(
 
     made.open_link = never
     with pytest.raises(CancelledError):
-        made.session().hello(cancel)
+        made.session().hello(Exchange(cancel=cancel))

@@ -25,6 +25,7 @@ from amp_studio.transfer.errors import (
     TransferError,
     WrongFamilyError,
 )
+from amp_studio.transfer.exchange import Exchange, Replacement
 from amp_studio.transfer.house.driver import HouseDriver
 from amp_studio.transfer.house.frame import Frame, encode_frame
 from amp_studio.transfer.house.message import (
@@ -40,7 +41,7 @@ from amp_studio.transfer.house.message import (
     pack,
 )
 from amp_studio.transfer.links.link import LinkError
-from tests.transfer.images import NEW, OLD, send, sha
+from tests.transfer.images import NEW, OLD, send
 
 
 def test_nothing_listens(rig: Callable[..., Any], control: Callable[..., Any]) -> None:
@@ -140,7 +141,7 @@ def test_another_schema_is_refused_by_the_control_too(
     rig: Callable[..., Any], control: Callable[..., Any]
 ) -> None:
     with pytest.raises(SignatureMismatchError):
-        rig(control=control()).session().send(NEW, signature="s2", expected=sha(OLD))
+        rig(control=control()).session().send(Replacement(NEW, OLD, "s2"))
 
 
 def test_a_full_control_is_said_to_be_full_on_a_dirty_line_too(
@@ -196,10 +197,10 @@ def test_a_control_that_begins_anew_unnoticed_is_asked_again(
             responder = session._line._talk.link._link._responder
             responder._copy = responder._transfer = None
 
-    assert session.fetch(forget) == OLD * 5
+    assert session.fetch(Exchange(forget)) == OLD * 5
     assert reached == sorted(reached), "nothing was read twice"
     reached.clear()
-    session.send(NEW * 3, signature="s1", expected=sha(OLD * 5), progress=forget)
+    send(session, NEW * 3, OLD * 5, progress=forget)
     assert forgotten == ["upload", "download", "commit"]
     assert made.control.image == NEW * 3
     assert made.modem.lines == 1

@@ -6,21 +6,15 @@ Pages 91 and 113 to 135 of the AcroMill user's guide; docs/protocols/acr-termina
 from __future__ import annotations
 
 import re
-import threading
 import time
 from collections.abc import Callable
-from dataclasses import replace
 from functools import partial
 from typing import ClassVar
 
 from amp_studio.families.acromill.formats.acr_command import CommandSetting
 from amp_studio.schema import load_schema
-from amp_studio.transfer.break_state import state_after_break
-from amp_studio.transfer.driver import Abilities, ControlIdentity, NeverRestarts, Receipt
+from amp_studio.transfer.driver import ControlIdentity, Receipt
 from amp_studio.transfer.errors import (
-    AtControl,
-    CancelledError,
-    Confirmed,
     ConnectionCutError,
     ControlFullError,
     ControlSilentError,
@@ -28,14 +22,12 @@ from amp_studio.transfer.errors import (
     ImageRejectedError,
     ProtocolMismatchError,
     TransferError,
-    WrongFamilyError,
 )
-from amp_studio.transfer.image import ImageError
-from amp_studio.transfer.links.endpoint import Endpoint
-from amp_studio.transfer.links.opening import connect
+from amp_studio.transfer.exchange import Replacement
+from amp_studio.transfer.line_driver import LineDriver
 from amp_studio.transfer.links.serial_settings import SerialSettings
-from amp_studio.transfer.progress import Progress, quiet
-from amp_studio.transfer.waiting import OpenLink, Waiting
+from amp_studio.transfer.sent_values import SentValues
+from amp_studio.transfer.waiting import OpenLink
 
 from .content import (
     FAMILY,
@@ -71,87 +63,64 @@ _WORDS = re.compile(r"[A-Z]{3}[A-Z ,.;:'()/-]*", re.IGNORECASE)
 Figures = tuple[str, ...]
 
 
-class TerminalDriver(AcrContent, NeverRestarts):
-    """Speaks to a card; ``system`` is the unit system of its figures, which it does not know itself."""
+class TerminalDriver(AcrContent, LineDriver):
+    """Speaks to a card whose figures are in inches; the card does not know itself in which unit system they are."""
 
-    abilities = Abilities(can_send=True, all_or_nothing=False)
+    family, protocol = FAMILY, "terminal"
+    usual = USUAL
+    system: ClassVar[str] = "inch"
     takes_live_values: ClassVar[bool] = True
 
     def __init__(
         self,
         open_link: OpenLink,
-        system: str = "inch",
+        *,
         clock: Callable[[], float] = time.monotonic,
         sleep: Callable[[float], None] = time.sleep,
     ) -> None:
-        self._waiting = Waiting(clock, sleep)
+        super().__init__(open_link, clock=clock, sleep=sleep)
         self._terminal = Terminal(open_link, self._waiting)
-        self._system = system
         self._answered: set[str] = set()
         """The settings that the card has answered for in the readings of this driver so far."""
 
-    @classmethod
-    def at(cls, endpoint: Endpoint, family: str = "", system: str = "inch") -> TerminalDriver:
-        """Return the driver of an endpoint; raises WrongFamilyError where another family is asked for."""
-        if family not in ("", FAMILY):
-            raise WrongFamilyError(f"this is how ACR cards are spoken to, not {family}")
-        place = endpoint.with_usual(USUAL)
-        return cls(lambda look: connect(place, look=look), system)
+    def close(self) -> None:
+        """Close the line."""
+        self._terminal.close()
 
-    # -- what a driver can be asked for -----------------------------------------------------------
+    # -- what the driver is made of ----------------------------------------------------------------
 
-    def identify(self, progress: Progress = quiet, cancel: threading.Event | None = None) -> ControlIdentity:
+    def _identity(self) -> ControlIdentity:
         """Return the name and the version that the card prints."""
-        self._waiting.begin(progress, cancel)
         rows = self._twice("VER", on_damage=2)  # only shown
         if self._terminal.program != "00":
             self._terminal.obey("PROG0")
         version = next((found[1] for row in rows if (found := re.match(r"Version\s+(\S+)", row))), "")
         return ControlIdentity(
             family=FAMILY,
-            protocol="terminal" if self._system == "inch" else f"terminal-{self._system}",
+            protocol=self.protocol,
             name=rows[0][:SHOWN] if rows and version else "ACR card",
             revision=version,
             signature=load_schema(FAMILY).signature,
         )
 
-    def fetch(
-        self, progress: Progress = quiet, cancel: threading.Event | None = None, stage: str = "upload"
-    ) -> bytes:
-        """Return every setting the card answers for."""
-        self._waiting.begin(progress, cancel)
-        return self._fetched(stage)
+    def _names(self, content: bytes) -> dict[str, str]:
+        return {name: ", ".join(figures) for name, figures in CardContent.read(content).names().items()}
 
-    def send(
-        self,
-        content: bytes,
-        *,
-        signature: str,  # noqa: ARG002 -- the card states none
-        expected: bytes,  # noqa: ARG002
-        held: bytes,
-        progress: Progress = quiet,
-        cancel: threading.Event | None = None,
-    ) -> Receipt:
-        """Send the commands that differ, read each back, save; after a break everything is read again."""
-        self._waiting.begin(progress, cancel)
-        sending = _Sending(content, held)
-        try:
-            self._send(sending)
-        except CancelledError as error:
-            error.at_control, error.new = sending.state()
-            error.confirmed = sending.confirmed
-            if sending.is_saving:
-                error.what += "; whether the card has saved it is not known"
-            elif error.at_control != "old":
-                error.what += "; nothing of it is saved yet, and the card loses it with its power"
-            raise
-        except TransferError as error:
-            raise self._after_break(error, sending) from None
-        return Receipt(restart_needed=False, notes=("The card has saved it (ESAVE).",))
+    def _names_now(self, replacement: Replacement) -> dict[str, str]:
+        """Return what the card shows, each figure as the content spells it that shows the same."""
+        now = CardContent.read(self._fetched("verify")).names()
+        for content in (replacement.held, replacement.content):
+            known = CardContent.read(content).names()
+            now.update(
+                (name, known[name]) for name in now if name in known and same_figures(now[name], known[name])
+            )
+        return {name: ", ".join(figures) for name, figures in now.items()}
 
-    def close(self) -> None:
-        """Hang up."""
-        self._terminal.close()
+    def _after_break(self, error: TransferError, sent: SentValues, replacement: Replacement) -> None:
+        if isinstance(error, ConnectionCutError):  # it was called long enough
+            error.at_control, error.confirmed = "unknown", sent.confirmed
+        else:
+            super()._after_break(error, sent, replacement)
 
     # -- reading ----------------------------------------------------------------------------------
 
@@ -161,7 +130,7 @@ class TerminalDriver(AcrContent, NeverRestarts):
         A setting counts as one that the card does not have where a second reading lacks it too. Raises ImageDamagedError
         where an earlier reading has it: what is short is no copy.
         """
-        found = CardContent(self._system)
+        found = CardContent(self.system)
         asked = [*settings(), *AXES]
         early, end = [], self._waiting.now() + FETCH_WAIT
         for n, what in enumerate(asked, 1):
@@ -240,7 +209,9 @@ class TerminalDriver(AcrContent, NeverRestarts):
 
     # -- writing ----------------------------------------------------------------------------------
 
-    def _send(self, sending: _Sending) -> None:
+    def _send(self, replacement: Replacement, sent: SentValues) -> Receipt:
+        """Send the commands that differ, read each back, save."""
+        sending = _Sending(replacement, sent)
         cuts = self._terminal.cuts
         for number, name in enumerate(sending.names, 1):
             self._waiting.look()
@@ -261,12 +232,12 @@ class TerminalDriver(AcrContent, NeverRestarts):
                     f"the card answers ESAVE with '{rows[0][:SHOWN]}', and loses with its power what it has not saved"
                 )
             if self._terminal.cuts == cuts:
-                return
+                return Receipt(restart_needed=False, notes=("The card has saved it (ESAVE).",))
         raise ConnectionCutError("the line breaks each time the card is to save")
 
     def _command(self, sending: _Sending, name: str) -> str:
         """Send the command of one setting; returns what the card answers instead of obeying it, "" for nothing."""
-        rows = self._terminal.obey(sending.lines[name], sent=partial(sending.is_sent, name))
+        rows = self._terminal.obey(sending.lines[name], sent=partial(sending.begin, name))
         return f"the card answers '{rows[0][:SHOWN]}'" if rows else ""
 
     def _set(self, sending: _Sending, name: str) -> None:
@@ -277,7 +248,7 @@ class TerminalDriver(AcrContent, NeverRestarts):
                 fault = self._command(sending, name)
                 present = self._figures(name, len(wanted))
             if not fault and present is not None and same_figures(present, wanted):
-                sending.is_proved(name)
+                sending.sent.confirm(name)
                 return
             fault = fault or f"the card takes it and shows {', '.join(present or ()) or 'nothing'}"
         raise sending.refused(name, fault)
@@ -299,7 +270,7 @@ class TerminalDriver(AcrContent, NeverRestarts):
             else:
                 raise sending.refused(wrong[-1], fault)
             for name in names:
-                sending.is_proved(name)
+                sending.sent.confirm(name)
 
     def _set_again(self, sending: _Sending) -> None:
         """Set once more what a card has forgotten that lost its power meanwhile: half of it is not saved."""
@@ -310,25 +281,6 @@ class TerminalDriver(AcrContent, NeverRestarts):
             if present is None or not same_figures(present, sending.wanted[name]):
                 self._set(sending, name)
         self._prove_tables(sending)
-
-    def _after_break(self, error: TransferError, sending: _Sending) -> TransferError:
-        """Return the error with what the card contains now, read from it."""
-        if not sending.touched:
-            return error
-        error.confirmed = sending.confirmed
-        if isinstance(error, ImageRejectedError) and error.confirmed:  # it has been answered
-            error.confirmed = replace(error.confirmed, unanswered="")
-        if isinstance(error, ConnectionCutError):  # it was called long enough
-            error.at_control = "unknown"
-            return error
-        try:
-            now = _joined(CardContent.read(self._fetched("verify")), sending)
-            error.at_control, error.new = state_after_break(
-                _named(sending.held), _named(sending.content), now
-            )
-        except (TransferError, ImageError):
-            error.at_control = "unknown"
-        return error
 
 
 def _is_error(rows: list[str]) -> bool:
@@ -360,64 +312,31 @@ def _is_table(rows: list[str]) -> bool:
 class _Sending:
     """What is to be sent, and how far it has come."""
 
-    def __init__(self, content: bytes, held: bytes) -> None:
-        self.content, self.held = CardContent.read(content), CardContent.read(held)
+    def __init__(self, replacement: Replacement, sent: SentValues) -> None:
+        self.content = CardContent.read(replacement.content)
         self.lines = self.content.lines()
         self.numbers = {name: number for number, name in enumerate(self.lines, 3)}
         self.wanted = self.content.names()
-        self.names = changed(content, held)
-        self.touched: set[str] = set()
-        self.is_saving = False
-        self._proved: list[str] = []
+        self.names = changed(replacement.content, replacement.held)
+        self.sent = sent
+        sent.total = len(self.names)
 
     def refused(self, name: str, fault: str) -> ImageRejectedError:
         """Return the error of a setting that the card does not take, with its line."""
         return ImageRejectedError(f"line {self.numbers[name]} of the script, '{self.lines[name]}': {fault}")
 
-    def is_sent(self, name: str) -> None:
+    def begin(self, name: str) -> None:
         """Take notice that a command is being sent."""
-        self.touched.add(name)
+        self.sent.begin(name)
+        self.sent.when_stopped = "nothing of it is saved yet, and the card loses it with its power"
 
     def begin_save(self) -> None:
         """Take notice that the card is asked to save."""
-        self.is_saving = True
-
-    def is_proved(self, name: str) -> None:
-        """Take notice that a setting was read back."""
-        if name not in self._proved:
-            self._proved.append(name)
-
-    @property
-    def confirmed(self) -> Confirmed | None:
-        """How far it has come; None before anything was sent."""
-        under_way = next(
-            (name for name in self.names if name in self.touched and name not in self._proved), ""
-        )
-        return Confirmed(len(self._proved), len(self.names), under_way) if self.touched else None
-
-    def state(self) -> tuple[AtControl, Figures]:
-        """Return what the card contains by what was read back of it so far."""
-        if not self.touched:
-            return "old", ()
-        if self.touched != set(self._proved):
-            return "unknown", ()
-        return ("new", ()) if len(self._proved) == len(self.names) else ("mixed", tuple(self._proved))
+        self.sent.when_stopped = "whether the card has saved it is not known"
 
 
-def _named(card: CardContent) -> dict[str, str]:
-    return {name: ", ".join(figures) for name, figures in card.names().items()}
+class MetricTerminalDriver(TerminalDriver):
+    """Speaks to a card whose figures are in millimetres."""
 
-
-def _joined(card: CardContent, sending: _Sending) -> dict[str, str]:
-    """Return what the card shows, each figure as the content spells it that shows the same."""
-    now = card.names()
-    for known in (sending.held.names(), sending.wanted):
-        now.update(
-            (name, known[name]) for name in now if name in known and same_figures(now[name], known[name])
-        )
-    return {name: ", ".join(figures) for name, figures in now.items()}
-
-
-def metric(endpoint: Endpoint, family: str = "") -> TerminalDriver:
-    """Return the driver of a card whose figures are in millimetres."""
-    return TerminalDriver.at(endpoint, family, "metric")
+    protocol = "terminal-metric"
+    system = "metric"

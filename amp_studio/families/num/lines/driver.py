@@ -6,31 +6,29 @@ Sections 13.2.3 to 13.2.6 of the NUM parameter manual; docs/protocols/num-table.
 from __future__ import annotations
 
 import hashlib
-import threading
 import time
 from collections.abc import Callable
 from dataclasses import dataclass, replace
+from typing import ClassVar, Self
 
 from amp_studio.schema import load_schema
-from amp_studio.transfer.break_state import state_after_break
-from amp_studio.transfer.driver import Abilities, ControlIdentity, NeverRestarts, Receipt
+from amp_studio.transfer.driver import ControlIdentity, Receipt
 from amp_studio.transfer.errors import (
-    CancelledError,
     ConnectionCutError,
     ControlSilentError,
     ImageDamagedError,
     ImageRejectedError,
     NoConnectionError,
     TransferError,
-    WrongFamilyError,
 )
+from amp_studio.transfer.exchange import Replacement
 from amp_studio.transfer.image import ImageError
+from amp_studio.transfer.line_driver import LineDriver
 from amp_studio.transfer.links.endpoint import Endpoint
 from amp_studio.transfer.links.link import Link, LinkError
-from amp_studio.transfer.links.opening import connect
 from amp_studio.transfer.links.serial_settings import Parity, SerialSettings
-from amp_studio.transfer.progress import Progress, quiet
-from amp_studio.transfer.waiting import OpenLink, Waiting
+from amp_studio.transfer.sent_values import SentValues
+from amp_studio.transfer.waiting import OpenLink
 
 from .content import FAMILY, NumTableContent, content_of_table, reference_of, table_text, words_of_table
 from .table_reader import XOFF, XON, TableReader, with_parity
@@ -69,25 +67,25 @@ HELD_TEXT = (
 )
 
 
-class PeripheralDriver(NumTableContent, NeverRestarts):
+class PeripheralDriver(NumTableContent, LineDriver):
     """Speaks to a control in utility 5. Every operation is begun by a person; what to press comes through ``progress``."""
 
-    abilities = Abilities(can_send=True, all_or_nothing=False)
+    family, protocol = FAMILY, "peripheral"
+    usual = USUAL
+    own_flow = True
+    is_checked = False
+    """Whether the line itself finds damaged bytes, as TCP does."""
+    has_checked: ClassVar[bool] = False
+    """Whether the control checks each unload."""
 
     def __init__(
         self,
         open_link: OpenLink,
         *,
-        is_checked: bool = False,
-        has_checked: bool = False,
         clock: Callable[[], float] = time.monotonic,
         sleep: Callable[[float], None] = time.sleep,
     ) -> None:
-        """``is_checked``: the line itself finds damaged bytes, as TCP does. ``has_checked``: the control checks each unload."""
-        self._open_link = open_link
-        self._is_checked = is_checked
-        self._has_checked = has_checked
-        self._waiting = Waiting(clock, sleep)
+        super().__init__(open_link, clock=clock, sleep=sleep)
         self._link: Link | None = None
         self._parity: Parity = "none"
         self._seen: bytes | None = None
@@ -96,84 +94,65 @@ class PeripheralDriver(NumTableContent, NeverRestarts):
         self._is_held = False
 
     @classmethod
-    def at(cls, endpoint: Endpoint, family: str = "", *, has_checked: bool = False) -> PeripheralDriver:
+    def at(cls, endpoint: Endpoint, family: str = "") -> Self:
         """Return the driver of an endpoint; raises WrongFamilyError where another family is asked for."""
-        if family not in ("", FAMILY):
-            raise WrongFamilyError(f"this is how NUM controls are spoken to, not {family}")
         place = endpoint.with_usual(USUAL)
         if place.bits == 7 and place.parity in ("even", "odd"):
             # The same ten bits a character; so a damaged one is seen here, where the port would pass it on unnoticed.
             place = replace(place, bits=8, parity="none")
-        return cls(
-            lambda look: connect(place, look=look, own_flow=True),
-            is_checked=endpoint.kind in ("tcp", "tls"),
-            has_checked=has_checked,
-        )
+        driver = super().at(place, family)
+        driver.is_checked = endpoint.kind in ("tcp", "tls")
+        return driver
 
-    # -- what a driver can be asked for -----------------------------------------------------------
+    def close(self) -> None:
+        """Close the line."""
+        if self._link is not None:
+            self._link.close()
+            self._link = None
 
-    def identify(self, progress: Progress = quiet, cancel: threading.Event | None = None) -> ControlIdentity:
+    # -- what the driver is made of ----------------------------------------------------------------
+
+    def _identity(self) -> ControlIdentity:
         """Return the job reference of the CNC, which its table begins with."""
-        self._waiting.begin(progress, cancel)
         self._seen = self._unloaded("upload", PERSON_WAIT)
         return ControlIdentity(
             family=FAMILY,
-            protocol="peripheral-check" if self._has_checked else "peripheral",
+            protocol=self.protocol,
             name=f"CNC with the job reference {reference_of(self._seen)}",
             signature=load_schema(FAMILY).signature,
             size=len(self._seen),
             sha256=hashlib.sha256(self._seen).digest(),
         )
 
-    def fetch(
-        self, progress: Progress = quiet, cancel: threading.Event | None = None, stage: str = "upload"
-    ) -> bytes:
+    def _fetched(self, stage: str) -> bytes:
         """Return the table; the one that ``identify`` has just read need not be unloaded again."""
         seen, self._seen = self._seen, None
-        if seen is not None:
-            return seen
-        self._waiting.begin(progress, cancel)
-        return self._unloaded(stage, PERSON_WAIT)
+        return self._unloaded(stage, PERSON_WAIT) if seen is None else seen
 
-    def send(
-        self,
-        content: bytes,
-        *,
-        signature: str,  # noqa: ARG002 -- the control states none
-        expected: bytes,  # noqa: ARG002
-        held: bytes,
-        progress: Progress = quiet,
-        cancel: threading.Event | None = None,
-    ) -> Receipt:
-        """Load a table; after a break a person is asked for one more unload, to say what the control contains."""
-        self._waiting.begin(progress, cancel)
+    def _names(self, content: bytes) -> dict[str, str]:
+        return words_of_table(content)
+
+    def _send(self, replacement: Replacement, sent: SentValues) -> Receipt:
+        """Load a table: the control takes all of its lines and answers none."""
         self._seen = None
-        lines = table_text(content).splitlines(keepends=True)
-        load = _Load(lines, LOAD_TEXT, "download", HELD_WAIT)
+        lines = table_text(replacement.content).splitlines(keepends=True)
+        sent.when_stopped = "end the load at the control too"
         try:
-            self._push(load)
-        except CancelledError as error:
-            error.at_control = "unknown" if load.has_changed else "old"
-            error.what += "; end the load at the control too"
-            raise
-        except (LinkError, TransferError) as error:
-            broken = (
-                error
-                if isinstance(error, TransferError)
-                else ConnectionCutError(f"the line broke: {error.what}")
-            )
-            if not load.has_changed:
-                raise broken from None
-            raise self._after_break(broken, held, content) from None
+            self._push(_Load(lines, LOAD_TEXT, "download", HELD_WAIT, sent))
+        except LinkError as error:
+            raise ConnectionCutError(f"the line broke: {error.what}") from None
         return Receipt(
             is_answered=False, notes=("Leave utility 5, confirm the changes and reset the CNC (page 13-8).",)
         )
 
-    def close(self) -> None:
-        """Hang up."""
-        if self._link is not None:
-            self._link.close()
-            self._link = None
+    def _after_break(self, error: TransferError, sent: SentValues, replacement: Replacement) -> None:
+        """Ask a person for one more unload, which alone can show what the control contains now."""
+        self.close()
+        self._waiting.ask(f"{error.what}. End the load at the control")
+        super()._after_break(error, sent, replacement)
+
+    def _names_now(self, replacement: Replacement) -> dict[str, str]:  # noqa: ARG002 -- the base class has it
+        return words_of_table(self._unloaded("verify", RECOVERY_WAIT))
 
     # -- unload -----------------------------------------------------------------------------------
 
@@ -190,13 +169,13 @@ class PeripheralDriver(NumTableContent, NeverRestarts):
                 fault, last = f"{error.what}: unload it once more. ", error
                 continue
             self._parity = reader.parity
-            if self._has_checked:
+            if self.has_checked:
                 if self._check(content):
                     return content
                 fault = "The control has found another table than its own: unload it once more. "
                 last = ImageDamagedError("the control found the table it had unloaded to be another")
                 continue
-            if self._is_checked or reader.parity != "none" or content == before:
+            if self.is_checked or reader.parity != "none" or content == before:
                 return content
             fault = "Nothing on this line (no parity) shows a damaged character: unload it once more, to compare. "
             last = ImageDamagedError("two unloads of the table were not the same")
@@ -255,7 +234,7 @@ class PeripheralDriver(NumTableContent, NeverRestarts):
         """
         lines = table_text(content).splitlines(keepends=True)
         try:
-            self._push(_Load(lines, CHECK_TEXT, "verify", CHECK_WAIT))
+            self._push(_Load(lines, CHECK_TEXT, "verify", CHECK_WAIT, SentValues()))
         except ImageRejectedError:
             return False
         except LinkError as error:
@@ -279,7 +258,8 @@ class PeripheralDriver(NumTableContent, NeverRestarts):
             self._await_go_on(link, load.held_wait)
             if waiting.now() > began + LOAD_WAIT:
                 raise ImageRejectedError(f"the control has not taken the table within {LOAD_WAIT:g} s")
-            load.sent(line)
+            if line.startswith("#"):  # one that changes the control
+                load.sent.begin("the table")
             self._write(link, line)
             due = max(due, waiting.now()) + len(line) / rate
             self._listen(link, due - waiting.now())
@@ -329,33 +309,16 @@ class PeripheralDriver(NumTableContent, NeverRestarts):
             if waited >= seconds:
                 raise ImageRejectedError(f"the control has stopped the table for {seconds:g} s")
 
-    def _after_break(self, error: TransferError, held: bytes, content: bytes) -> TransferError:
-        """Return the error with what the control contains now, which only one more unload can show."""
-        self.close()
-        self._waiting.ask(f"{error.what}. End the load at the control")
-        try:
-            now = words_of_table(self._unloaded("verify", RECOVERY_WAIT))
-            error.at_control, error.new = state_after_break(
-                words_of_table(held), words_of_table(content), now
-            )
-        except (TransferError, ImageError):
-            error.at_control = "unknown"
-        return error
-
 
 @dataclass
 class _Load:
-    """A table that is sent: its lines, what a person is to do for it, and whether a line that changes the control has gone out."""
+    """A table that is sent: its lines, what a person is to do for it, and what becomes of it."""
 
     lines: list[str]
     sentence: str
     stage: str
     held_wait: float
-    has_changed: bool = False
-
-    def sent(self, line: str) -> None:
-        """Take notice of a line that is about to be sent."""
-        self.has_changed |= line.startswith("#")
+    sent: SentValues
 
 
 def _checked(reader: TableReader) -> bytes:
@@ -368,6 +331,8 @@ def _checked(reader: TableReader) -> bytes:
     return content
 
 
-def checking(endpoint: Endpoint, family: str = "") -> PeripheralDriver:
-    """Return the driver that has the control check each unload, as the manual asks for (page 13-13)."""
-    return PeripheralDriver.at(endpoint, family, has_checked=True)
+class CheckingPeripheralDriver(PeripheralDriver):
+    """Has the control check each unload, as the manual asks for (page 13-13)."""
+
+    protocol = "peripheral-check"
+    has_checked = True

@@ -6,29 +6,24 @@ Instruction manual, pages 4-1 to 4-37; docs/protocols/registers.md.
 from __future__ import annotations
 
 import contextlib
-import threading
 import time
 from collections.abc import Callable, Iterator
 from typing import ClassVar
 
 from amp_studio.schema import load_schema
-from amp_studio.transfer.break_state import state_after_break
-from amp_studio.transfer.driver import Abilities, ControlIdentity, NeverRestarts, Receipt
+from amp_studio.transfer.driver import Abilities, ControlIdentity, Receipt
 from amp_studio.transfer.errors import (
     CancelledError,
-    Confirmed,
     ControlSilentError,
     ImageRejectedError,
     NotInEmergencyStopError,
     ProtocolMismatchError,
     TransferError,
-    WrongFamilyError,
 )
-from amp_studio.transfer.image import ImageError
-from amp_studio.transfer.links.endpoint import Endpoint
-from amp_studio.transfer.links.opening import connect
-from amp_studio.transfer.progress import Progress, quiet
-from amp_studio.transfer.waiting import OpenLink, Waiting
+from amp_studio.transfer.exchange import QUIET, Replacement
+from amp_studio.transfer.line_driver import LineDriver
+from amp_studio.transfer.sent_values import SentValues
+from amp_studio.transfer.waiting import OpenLink
 
 from .content import AXIS_Y, FAMILY, RegisterContent, settings, words_of_content, written_content
 from .register_line import MOST, RegisterLine
@@ -44,97 +39,70 @@ WRITE_TRIES = 3
 AXES = {0: "X", AXIS_Y: "Y"}
 
 
-class RegisterDriver(RegisterContent, NeverRestarts):
+class RegisterDriver(RegisterContent, LineDriver):
     """Speaks to the live registers of one module."""
 
-    abilities = Abilities(can_send=True, all_or_nothing=False, lasting_states=())
+    family, protocol = FAMILY, "registers"
+    abilities = Abilities(all_or_nothing=False, lasting_states=())
+    is_read_when_stopped = True
     takes_live_values: ClassVar[bool] = True
 
     def __init__(
         self,
         open_link: OpenLink,
+        *,
         clock: Callable[[], float] = time.monotonic,
         sleep: Callable[[float], None] = time.sleep,
     ) -> None:
-        self._waiting = Waiting(clock, sleep)
+        super().__init__(open_link, clock=clock, sleep=sleep)
         self._line = RegisterLine(open_link, self._waiting)
 
-    @classmethod
-    def at(cls, endpoint: Endpoint, family: str = "") -> RegisterDriver:
-        """Return the driver of an endpoint; raises WrongFamilyError where another family is asked for."""
-        if family not in ("", FAMILY):
-            raise WrongFamilyError(f"this is how the registers of a {FAMILY} are read, not a {family}")
-        return cls(lambda look: connect(endpoint, look=look))
-
-    def identify(self, progress: Progress = quiet, cancel: threading.Event | None = None) -> ControlIdentity:
-        """Return the name of the rack and the version that the module's registers 99 to 103 contain (page 4-42)."""
-        self._waiting.begin(progress, cancel)
-        name = self._line.name()
-        signs = b"".join(word.to_bytes(2, "big") for word in self._line.read(VERSION, VERSION_WORDS))
-        revision = signs.decode("ascii", "replace").strip("\0 ")
-        return ControlIdentity(FAMILY, "registers", name[:60], revision, load_schema(FAMILY).signature)
-
-    def fetch(
-        self, progress: Progress = quiet, cancel: threading.Event | None = None, stage: str = "upload"
-    ) -> bytes:
-        """Return the registers that an application sets."""
-        self._waiting.begin(progress, cancel)
-        return self._fetched(stage)
-
-    def send(
-        self,
-        content: bytes,
-        *,
-        signature: str,  # noqa: ARG002 -- every module has the same registers
-        expected: bytes,  # noqa: ARG002
-        held: bytes,
-        progress: Progress = quiet,
-        cancel: threading.Event | None = None,
-    ) -> Receipt:
-        """Write the registers that differ, read each back, and have the module take its setups over.
-
-        Raises NotInEmergencyStopError while a control loop is on: what is written then becomes active in a motion.
-        """
-        self._waiting.begin(progress, cancel)
-        before, wanted = words_of_content(held), words_of_content(content)
-        changed = [register for register in settings() if before[register] != wanted[register]]
-        self._need_loops_off()
-        written: list[int] = []
-        proved = 0
-        try:
-            for number, register in enumerate(changed, 1):
-                written.append(register)
-                self._write(register, wanted[register])
-                proved = number
-                self._waiting.notify("download", number, len(changed))
-            notes = tuple(
-                self._taken_over(axis) for axis in AXES if any(r // AXIS_Y * AXIS_Y == axis for r in changed)
-            )
-        except TransferError as error:
-            if written:
-                self._tell_state(error, held, content)
-                is_refused = isinstance(error, ImageRejectedError)  # it has been answered
-                under_way = f"R{written[-1]}" if len(written) > proved and not is_refused else ""
-                error.confirmed = Confirmed(proved, len(changed), under_way)
-            raise
-        lost = (
-            "The registers lose it with the power of the rack: load the AutoMax tables there too (page 3-10)."
-        )
-        return Receipt(restart_needed=False, notes=(*notes, lost))
-
     def close(self) -> None:
-        """Hang up."""
+        """Close the line."""
         self._line.close()
 
-    # -- parts ------------------------------------------------------------------------
+    def _identity(self) -> ControlIdentity:
+        """Return the name of the rack and the version that the module's registers 99 to 103 contain (page 4-42)."""
+        name = self._line.name()
+        characters = b"".join(word.to_bytes(2, "big") for word in self._line.read(VERSION, VERSION_WORDS))
+        revision = characters.decode("ascii", "replace").strip("\0 ")
+        return ControlIdentity(FAMILY, self.protocol, name[:60], revision, load_schema(FAMILY).signature)
 
     def _fetched(self, stage: str) -> bytes:
+        """Return the registers that an application sets."""
         words: dict[int, int] = {}
         blocks = list(_blocks(settings()))
         for number, (first, count) in enumerate(blocks, 1):
             words.update(zip(range(first, first + count), self._line.read(first, count), strict=True))
             self._waiting.notify(stage, number, len(blocks))
         return written_content(words)
+
+    def _names(self, content: bytes) -> dict[str, str]:
+        return {f"R{register}": str(word) for register, word in words_of_content(content).items()}
+
+    def _send(self, replacement: Replacement, sent: SentValues) -> Receipt:
+        """Write the registers that differ, read each back, and have the module take its setups over.
+
+        Raises NotInEmergencyStopError while a control loop is on: what is written then becomes active in a motion.
+        """
+        before, wanted = words_of_content(replacement.held), words_of_content(replacement.content)
+        changed = [register for register in settings() if before[register] != wanted[register]]
+        sent.total = len(changed)
+        self._need_loops_off()
+        for number, register in enumerate(changed, 1):
+            sent.begin(f"R{register}")
+            self._write(register, wanted[register])
+            sent.confirm(f"R{register}")
+            self._waiting.notify("download", number, len(changed))
+        notes = tuple(
+            self._taken_over(axis) for axis in AXES if any(r // AXIS_Y * AXIS_Y == axis for r in changed)
+        )
+        lost = (
+            "The registers lose it with the power of the rack: load the AutoMax tables there too (page 3-10)."
+        )
+        return Receipt(restart_needed=False, notes=(*notes, lost))
+
+    # -- parts ------------------------------------------------------------------------
 
     def _need_loops_off(self) -> None:
         for axis, name in AXES.items():
@@ -179,7 +147,7 @@ class RegisterDriver(RegisterContent, NeverRestarts):
     def _take_back(self, axis: int, error: TransferError) -> None:
         """Leave no command behind, also if somebody asked to stop."""
         if isinstance(error, CancelledError):
-            self._waiting.begin(quiet, None)
+            self._waiting.begin(QUIET)
         with contextlib.suppress(TransferError):
             self._line.write(axis + COMMAND, 0)
 
@@ -197,20 +165,6 @@ class RegisterDriver(RegisterContent, NeverRestarts):
                 )
             self._waiting.look()
             self._waiting.sleep(POLL)
-
-    def _tell_state(self, error: TransferError, held: bytes, content: bytes) -> None:
-        """Read everything again and set what the module contains now; "unknown" where it does not answer."""
-        if isinstance(error, CancelledError):
-            self._waiting.begin(quiet, None)
-        try:
-            now = self._fetched("verify")
-            error.at_control, error.new = state_after_break(_named(held), _named(content), _named(now))
-        except (TransferError, ImageError):
-            error.at_control = "unknown"
-
-
-def _named(content: bytes) -> dict[str, str]:
-    return {f"R{register}": str(word) for register, word in words_of_content(content).items()}
 
 
 def _blocks(registers: tuple[int, ...]) -> Iterator[tuple[int, int]]:

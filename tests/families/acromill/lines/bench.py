@@ -6,7 +6,7 @@ from collections.abc import Callable
 from pathlib import Path
 
 from amp_studio.families.acromill.emulated.card import AcrCard
-from amp_studio.families.acromill.lines.driver import TerminalDriver
+from amp_studio.families.acromill.lines.driver import MetricTerminalDriver, TerminalDriver
 from amp_studio.transfer.emulated.line_device import DeviceSetup
 from amp_studio.transfer.emulated.memory import Memory
 from amp_studio.transfer.links.link import Link, LinkError
@@ -22,7 +22,8 @@ class CardBench:
         self.is_up = True
         self.lines: list[DeviceLine] = []
         self.card = self.switch_on()
-        self.driver = TerminalDriver(self._open, system, self.clock, self.clock.sleep)
+        kind = MetricTerminalDriver if system == "metric" else TerminalDriver
+        self.driver = kind(self._open, clock=self.clock, sleep=self.clock.sleep)
 
     def switch_on(self) -> AcrCard:
         """Begin with what is saved."""

@@ -16,7 +16,7 @@ from amp_studio.families.acromill.lines.driver import TerminalDriver
 from amp_studio.files import ParameterFile
 from amp_studio.schema import load_schema
 from amp_studio.schema.values import read_value
-from amp_studio.transfer.client.exchange import Outcome, download, upload
+from amp_studio.transfer.client.exchange import Outcome, WantedContent, download, upload
 from amp_studio.transfer.client.parameters import download_file
 from amp_studio.transfer.emulated.faults import Faults, FaultyLink
 from amp_studio.transfer.errors import (
@@ -31,6 +31,7 @@ from amp_studio.transfer.errors import (
     TransferError,
     WrongFamilyError,
 )
+from amp_studio.transfer.exchange import Exchange
 from amp_studio.transfer.image import ImageError
 from amp_studio.transfer.links.endpoint import parse_endpoint
 from amp_studio.transfer.links.link import Link
@@ -62,8 +63,7 @@ def send(bench: CardBench, file: ParameterFile, kept: list[bytes], cancel: threa
         kept.append(old)
         return "kept"
 
-    return download(bench.driver, partial(bench.driver.encode, file), keep, signature=file.schema.signature,
-                    progress=progress, cancel=cancel)  # fmt: skip
+    return download(bench.driver, WantedContent(partial(bench.driver.encode, file), file.schema.signature), keep, Exchange(progress, cancel))  # fmt: skip
 
 
 def test_what_differs_is_sent_line_by_line_read_back_and_saved(bench: CardBench) -> None:
@@ -87,8 +87,7 @@ def test_a_copy_that_was_kept_goes_back(bench: CardBench) -> None:
     send(bench, small_file(pgain="0.08", table="X0E.00325 X1E-.00100"), kept)
     bench.obey("PGAIN X0.09")
     now = upload(bench.driver)
-    outcome = download(bench.driver, partial(bench.driver.refit, now.replace(b"PGAIN X0.09", b"PGAIN X0.000000199")),
-                       lambda _: "kept", signature=load_schema("acromill").signature)  # fmt: skip
+    outcome = download(bench.driver, WantedContent(partial(bench.driver.refit, now.replace(b"PGAIN X0.09", b"PGAIN X0.000000199")), load_schema("acromill").signature), lambda _: "kept")  # fmt: skip
     assert outcome.verified
     assert bench.card.settings.values["PGAIN X"] == "1.99E-07"
     with pytest.raises(
@@ -264,9 +263,11 @@ def test_a_setting_is_missing_only_where_a_second_reading_lacks_it_too(bench: Ca
 
 def another_run(bench: CardBench, file: ParameterFile, folder: Path) -> Outcome:
     """Download a file as a program does that has just been started; copies and record are in the folder."""
-    bench.driver = TerminalDriver(bench._open, "inch", bench.clock, bench.clock.sleep)
+    bench.driver = TerminalDriver(bench._open, clock=bench.clock, sleep=bench.clock.sleep)
     with mock.patch("amp_studio.transfer.client.parameters.open_driver", return_value=bench.driver):
-        return download_file(file, "tcp://card:23", folder, "router", record=folder / "router.amp")
+        return download_file(
+            file, "tcp://card:23", Exchange(keep=folder / "router", record=folder / "router.amp")
+        )
 
 
 def test_a_reading_that_is_shorter_than_the_last_copy_stops_the_download_of_another_run(
@@ -398,7 +399,7 @@ def test_ctrl_c_while_the_card_is_silent_ends_at_once(bench: CardBench) -> None:
     cancel, began = threading.Event(), bench.clock.now
     bench.card.receive = lambda _: cancel.set()  # type: ignore[method-assign]
     with pytest.raises(CancelledError):
-        bench.driver.fetch(cancel=cancel)
+        bench.driver.fetch(Exchange(cancel=cancel))
     assert bench.clock.now - began < 0.3
 
 
@@ -438,7 +439,7 @@ class Hostile:
 def test_a_hostile_other_end_is_bounded(
     bench: CardBench, answer: Callable[[int, bytes], bytes], kind: type[TransferError]
 ) -> None:
-    driver = TerminalDriver(lambda _: Hostile(bench, answer), "inch", bench.clock, bench.clock.sleep)
+    driver = TerminalDriver(lambda _: Hostile(bench, answer), clock=bench.clock, sleep=bench.clock.sleep)
     with pytest.raises(kind):
         upload(driver)
     assert bench.clock.now < 120
@@ -448,7 +449,7 @@ def test_silence_is_told_each_second_and_ends(bench: CardBench) -> None:
     bench.card.receive = lambda _: None  # type: ignore[method-assign]
     told: list[tuple[str, int]] = []
     with pytest.raises(ControlSilentError, match="the card does not take 'VER': the card does not answer"):
-        bench.driver.identify(lambda stage, done, _: told.append((stage, done)))
+        bench.driver.identify(Exchange(lambda stage, done, _: told.append((stage, done))))
     assert told[:2] == [("silent", 2), ("silent", 3)]
 
 

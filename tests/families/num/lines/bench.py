@@ -6,7 +6,7 @@ from collections.abc import Callable
 from pathlib import Path
 
 from amp_studio.families.num.emulated.control import NumControl
-from amp_studio.families.num.lines.driver import PeripheralDriver
+from amp_studio.families.num.lines.driver import CheckingPeripheralDriver, PeripheralDriver
 from amp_studio.transfer.emulated.line_device import DeviceSetup
 from amp_studio.transfer.emulated.memory import Memory
 from amp_studio.transfer.links.link import Link
@@ -32,13 +32,9 @@ class NumBench:
         self.lines: list[DeviceLine] = []
         self.control = self.switch_on()
         self.press(f"parity {parity}")
-        self.driver = PeripheralDriver(
-            self._open,
-            is_checked=is_checked,
-            has_checked=has_checked,
-            clock=self.clock,
-            sleep=self.clock.sleep,
-        )
+        kind = CheckingPeripheralDriver if has_checked else PeripheralDriver
+        self.driver = kind(self._open, clock=self.clock, sleep=self.clock.sleep)
+        self.driver.is_checked = is_checked
 
     def switch_on(self) -> NumControl:
         self.control = NumControl(DeviceSetup("num", Memory(self.folder), self.screen.append))

@@ -19,7 +19,7 @@ from amp_studio.families.num.lines.driver import (
 from amp_studio.files import ParameterFile, new_file
 from amp_studio.schema import load_schema
 from amp_studio.schema.storage import value_of_stored
-from amp_studio.transfer.client.exchange import Outcome, download, upload
+from amp_studio.transfer.client.exchange import Outcome, WantedContent, download, upload
 from amp_studio.transfer.emulated.faults import Faults, FaultyLink
 from amp_studio.transfer.errors import (
     CancelledError,
@@ -30,6 +30,7 @@ from amp_studio.transfer.errors import (
     TransferError,
     WrongFamilyError,
 )
+from amp_studio.transfer.exchange import Exchange, Replacement
 from amp_studio.transfer.image import ImageError
 from amp_studio.transfer.links.endpoint import parse_endpoint
 from amp_studio.transfer.links.link import Link
@@ -60,14 +61,13 @@ def send(
         kept.append(old)
         return "kept"
 
-    return download(bench.driver, partial(bench.driver.encode, file), keep, signature=file.schema.signature,
-                    progress=bench.progress, cancel=cancel)  # fmt: skip
+    return download(bench.driver, WantedContent(partial(bench.driver.encode, file), file.schema.signature), keep, Exchange(bench.progress, cancel))  # fmt: skip
 
 
 @pytest.mark.parametrize("parity", ["none", "even", "odd"])
 def test_a_download_is_an_unload_a_load_and_an_unload(tmp_path: Path, parity: str) -> None:
     bench = NumBench(tmp_path, parity=parity, is_checked=True)
-    before, kept = upload(bench.driver, bench.progress), list[bytes]()
+    before, kept = upload(bench.driver, Exchange(bench.progress)), list[bytes]()
     bench.told.clear()
     outcome = send(bench, small_file("P9N0=07", "P9N31=08"), kept)
     assert outcome.verified
@@ -76,7 +76,7 @@ def test_a_download_is_an_unload_a_load_and_an_unload(tmp_path: Path, parity: st
     assert kept == [before]
     assert before.startswith(b"NUM table 1\n%00000000;09\nP0N0:t6n1;09\n")
     assert before.endswith(b"\n\x13")
-    after = upload(bench.driver, bench.progress)
+    after = upload(bench.driver, Exchange(bench.progress))
     assert after == before.replace(
         b"#0 0 0 0 0 0 0 0 0 0;14\nP9N10:", b"#7 0 0 0 0 0 0 0 0 0;14\nP9N10:"
     ).replace(b"P9N30:t0n32;0B\n#0 0;04", b"P9N30:t0n32;0B\n#0 8;04")
@@ -86,22 +86,21 @@ def test_a_copy_that_was_kept_goes_back(bench: NumBench) -> None:
     kept: list[bytes] = []
     send(bench, small_file("P9N0=07"), kept)
     driver, signature = bench.driver, load_schema("num").signature
-    outcome = download(driver, partial(driver.refit, kept[0]), lambda _: "again", signature=signature, is_return=True,
-                       progress=bench.progress)  # fmt: skip
+    outcome = download(driver, WantedContent(partial(driver.refit, kept[0]), signature, is_return=True), lambda _: "again", Exchange(bench.progress))  # fmt: skip
     assert outcome.verified
     assert bench.words(9)[0] == "0"
 
 
 def test_without_parity_on_a_serial_line_two_unloads_are_compared(tmp_path: Path) -> None:
     bench = NumBench(tmp_path, parity="none")
-    upload(bench.driver, bench.progress)
+    upload(bench.driver, Exchange(bench.progress))
     assert len(bench.told) == 2
     assert bench.told[1].startswith("Nothing on this line (no parity) shows a damaged character")
 
 
 def test_the_control_checks_each_unload_where_the_person_asks_for_it(tmp_path: Path) -> None:
     bench = NumBench(tmp_path, parity="none", has_checked=True)
-    upload(bench.driver, bench.progress)
+    upload(bench.driver, Exchange(bench.progress))
     assert [text[:52] for text in bench.told] == [UNLOAD_TEXT[:52], CHECK_TEXT[:52]]
     assert bench.screen[-3:] == ["(VERI) P119", "(VERI) P120", "MACHINE SETUP DATA"]
 
@@ -109,23 +108,22 @@ def test_the_control_checks_each_unload_where_the_person_asks_for_it(tmp_path: P
 def test_a_check_that_stops_at_a_word_has_the_table_unloaded_again(tmp_path: Path) -> None:
     bench = NumBench(tmp_path, parity="none", has_checked=True)
     bench.wrap = lambda link: OneFault(link, 9_003, 1)
-    content = upload(bench.driver, bench.progress)
+    content = upload(bench.driver, Exchange(bench.progress))
     assert bench.told[2].startswith("The control has stopped the table.")
     assert bench.told[3].startswith("The control has found another table than its own: unload it once more. ")
     assert [line for line in bench.screen if "FILE ERROR" in line] == [
         "dialogue line: FILE ERROR (INCORRECT TAPE?)  [line 445: P89N12 differs]"
     ]
-    bench.driver = bench.driver.__class__(
-        bench._open, is_checked=True, clock=bench.clock, sleep=bench.clock.sleep
-    )
+    bench.driver = PeripheralDriver(bench._open, clock=bench.clock, sleep=bench.clock.sleep)
+    bench.driver.is_checked = True
     bench.wrap = lambda link: link
-    assert upload(bench.driver, bench.progress) == content
+    assert upload(bench.driver, Exchange(bench.progress)) == content
 
 
 def test_what_the_operator_types_behind_the_job_reference_is_no_content(bench: NumBench) -> None:
-    plain = upload(bench.driver, bench.progress)
+    plain = upload(bench.driver, Exchange(bench.progress))
     bench.unload_keys = ["comment machine 7"]
-    assert upload(bench.driver, bench.progress) == plain
+    assert upload(bench.driver, Exchange(bench.progress)) == plain
 
 
 def test_a_load_that_another_job_reference_holds_goes_on_when_the_operator_has_corrected_it(
@@ -248,7 +246,7 @@ class OneFault(FaultyLink):
 
 def test_a_damaged_unload_is_asked_for_again(bench: NumBench) -> None:
     bench.wrap = lambda link: OneFault(link, 9_000, 4)
-    upload(bench.driver, bench.progress)
+    upload(bench.driver, Exchange(bench.progress))
     assert bench.told == [
         UNLOAD_TEXT,
         "the table has arrived damaged: a character with a parity error in line 445: unload it once more. "
@@ -258,7 +256,7 @@ def test_a_damaged_unload_is_asked_for_again(bench: NumBench) -> None:
 
 def test_a_lost_byte_is_found_by_the_length_of_its_line(bench: NumBench) -> None:
     bench.wrap = lambda link: OneFault(link, 9_000, 0)
-    upload(bench.driver, bench.progress)
+    upload(bench.driver, Exchange(bench.progress))
     assert (
         "the table has arrived damaged (the parameter table of the control: line 445, column" in bench.told[1]
     )
@@ -310,20 +308,20 @@ def test_a_hostile_other_end_is_bounded(
 
 
 def test_a_control_that_holds_a_load_for_ever_is_left(bench: NumBench) -> None:
-    content = upload(bench.driver, bench.progress)
+    content = upload(bench.driver, Exchange(bench.progress))
 
     def open_link(_look: Callable[[], None]) -> Link:
         return Hostile(bench, lambda n: b"\x11" if n == 2 else b"\x13")
 
     driver = PeripheralDriver(open_link, clock=bench.clock, sleep=bench.clock.sleep)
     with pytest.raises(TransferError) as caught:
-        driver.send(content, signature="", expected=b"", held=content)
+        driver.send(Replacement(content, content))
     assert caught.value.at_control == "old", "no data line was sent"
     assert bench.clock.now < 5_000
 
 
 def test_what_the_control_does_not_have_is_named(bench: NumBench) -> None:
-    held = upload(bench.driver, bench.progress)
+    held = upload(bench.driver, Exchange(bench.progress))
     shorter = held.replace(b"P9N30:t0n32;0B\n#0 0;04\n", b"")
     assert b"P9N30" not in shorter
     with pytest.raises(ImageError, match="the control does not have P9N31, which the file sets"):
@@ -331,7 +329,7 @@ def test_what_the_control_does_not_have_is_named(bench: NumBench) -> None:
 
 
 def test_a_file_of_another_cnc_is_refused_as_the_control_would(bench: NumBench) -> None:
-    held = upload(bench.driver, bench.progress)
+    held = upload(bench.driver, Exchange(bench.progress))
     other = held.replace(b"%00000000", b"%00000002")
     file = bench.driver.decode(other)
     with pytest.raises(ImageError, match="job reference 00000002, and this one has 00000000"):
@@ -341,7 +339,7 @@ def test_a_file_of_another_cnc_is_refused_as_the_control_would(bench: NumBench) 
 
 
 def test_a_new_file_is_loaded_under_the_job_reference_of_the_control(bench: NumBench) -> None:
-    held = upload(bench.driver, bench.progress).replace(b"%00000000", b"%00000003")
+    held = upload(bench.driver, Exchange(bench.progress)).replace(b"%00000000", b"%00000003")
     assert bench.driver.encode(new_file("num"), held).startswith(b"NUM table 1\n%00000003;09\n")
 
 

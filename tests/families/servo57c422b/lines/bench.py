@@ -22,7 +22,7 @@ class RackBench:
         self.wrap: Callable[[Link], Link] = lambda link: link
         self.is_up = True
         self.rack = Rack(DeviceSetup("57c422b", Memory(folder), print))
-        self.driver = RegisterDriver(self._open, self.clock, self.clock.sleep)
+        self.driver = RegisterDriver(self._open, clock=self.clock, sleep=self.clock.sleep)
 
     @property
     def words(self) -> list[int]:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import threading
 from pathlib import Path
+from typing import Any
 
 import pytest
 
@@ -17,7 +18,7 @@ from amp_studio.families.servo57c422b.lines.content import (
 from amp_studio.families.servo57c422b.lines.register_line import framed, unframed
 from amp_studio.files import ParameterFile, new_file
 from amp_studio.schema import Value
-from amp_studio.transfer.client.exchange import Outcome, download
+from amp_studio.transfer.client.exchange import Outcome, WantedContent, download
 from amp_studio.transfer.content import decode_content, kind_of
 from amp_studio.transfer.errors import (
     CancelledError,
@@ -28,6 +29,7 @@ from amp_studio.transfer.errors import (
     TransferError,
     WrongFamilyError,
 )
+from amp_studio.transfer.exchange import Exchange
 from amp_studio.transfer.image import ImageError
 from amp_studio.transfer.links.endpoint import parse_endpoint
 
@@ -49,9 +51,8 @@ def gains(x: int = 17595, y: int = 4000) -> ParameterFile:
     return file
 
 
-def loaded(bench: RackBench, file: ParameterFile, **how: object) -> Outcome:
-    return download(bench.driver, lambda held: bench.driver.encode(file, held), lambda _: "kept",
-                    signature=file.schema.signature, **how)  # fmt: skip
+def loaded(bench: RackBench, file: ParameterFile, **how: Any) -> Outcome:
+    return download(bench.driver, WantedContent(lambda held: bench.driver.encode(file, held), file.schema.signature), lambda _: "kept", Exchange(**how))  # fmt: skip
 
 
 def test_the_rack_names_itself_and_the_version_in_99_to_103(bench: RackBench) -> None:
@@ -179,9 +180,8 @@ def test_a_copy_is_recognised_decoded_and_put_back(bench: RackBench) -> None:
     bench.rack.command("power")
     outcome = download(
         bench.driver,
-        lambda held: bench.driver.refit(content, held),
+        WantedContent(lambda held: bench.driver.refit(content, held), gains().schema.signature),
         lambda _: "kept",
-        signature=gains().schema.signature,
     )
     assert (outcome.verified, bench.driver.fetch()) == (True, content)
 
