@@ -35,7 +35,21 @@ def test_a_short_choice_is_a_code_that_no_other_has() -> None:
     )
     assert short_labels(outputs)["Output axis Mod 2 or Aout2"] == "… 2 or Aout2"
     signs = ("Primary axis positive", "Primary axis negative", "None")
-    assert short_labels(signs) == dict(zip(signs, signs, strict=True)), "words are no codes"
+    assert short_labels(signs)["None"] == "None"
+    assert short_labels(signs)["Primary axis positive"] == "Primary axis positive", "words are no codes"
+
+
+def test_what_is_left_of_a_choice_is_what_differs() -> None:
+    switches = ("Negative direction off switch", "Positive direction off switch")
+    assert list(short_labels(switches).values()) == ["Neg", "Pos"]
+    devices = ("INC Encoder (Z < A)", "INC Encoder (Z > A)", "1326HR HIPERFACE Absolute (1326 only)",
+               "1326HR HIPERFACE Incremental (1326 only)")  # fmt: skip
+    assert list(short_labels(devices).values()) == [
+        "INC Encoder (Z < A)",
+        "INC Encoder (Z > A)",
+        "HIPERFACE Abs",
+        "HIPERFACE Inc",
+    ]
 
 
 @pytest.mark.parametrize("family", family_ids())

@@ -28,7 +28,6 @@ def shown(window: MainWindow, width: int, height: int) -> None:
 def test_a_narrow_window_has_the_parameter_beside_the_findings(window: MainWindow) -> None:
     shown(window, 1024, 700)
     assert not window.findChild(QDockWidget, "Parameter").isVisible()
-    assert window.findings.isVisible()
     assert window.table_view.width() > 700
     window.docks.chooser.buttons["Parameter"].click()
     assert window.detail.isVisible()

@@ -64,7 +64,7 @@ class ViewActions(Translated):
             ),
             2,
         ):
-            panels.addAction(act(title, partial(window.show_panel, panel), f"Ctrl+{n}"))
+            panels.addAction(act(title, partial(window.docks.toggle, panel), f"Ctrl+{n}"))
         panels.insertAction(panels.actions()[0], act(self.tr("&Table"), self._to_table, "Ctrl+1"))
         menu.addSeparator()
         tabs = window.tabs

@@ -23,11 +23,11 @@ from PySide6.QtWidgets import (
 
 from amp_studio.report import finding_axes
 from amp_studio.ui.base.modal import pop_up
-from amp_studio.ui.base.theme import FINDING_ROW, GAP2, GAP3, colour, font, icon, paint_icon, severity_icon
+from amp_studio.ui.base.theme import FINDING_ROW, GAP2, colour, font, icon, paint_icon, severity_icon
 from amp_studio.ui.base.translated import counted
 from amp_studio.ui.base.workspace import Workspace
 from amp_studio.ui.forms.segment import Segment, chip
-from amp_studio.validate import SEVERITIES, Finding, not_set
+from amp_studio.validate import NOT_SET, SEVERITIES, Finding, not_set
 
 from .delegate import FindingsDelegate, Part
 from .model import FindingsModel
@@ -94,6 +94,8 @@ class FindingsPanel(QWidget):
     """A finding is to be suppressed."""
     not_set_requested = Signal()
     """The values that are not set are to be shown."""
+    fold_wanted = Signal(bool)
+    """The head was clicked: True to show it alone, False to open the list."""
     current_changed = Signal(object)
     """The selected finding, or None."""
 
@@ -132,15 +134,22 @@ class FindingsPanel(QWidget):
         layout = QVBoxLayout(self)
         layout.setContentsMargins(0, 0, 0, 0)
         layout.addWidget(self._pages)
+        self.is_folded = False
         self.head = self._make_head()
         workspace.changed.connect(self._refresh)
         self._refresh()
 
     def _make_head(self) -> QWidget:
         head = QWidget()
+        self.fold = QToolButton()
+        self.fold.setAutoRaise(True)
+        self.fold.clicked.connect(lambda: self.fold_wanted.emit(not self.is_folded))
         title = QLabel(self.tr("Findings"))
         title.setObjectName("title")
         title.setFont(font("text", own=True))
+        self.summary = QLabel()
+        self.summary.setFont(font("small"))
+        self.summary.linkActivated.connect(self._follow)
         self.chips: dict[str, QToolButton] = {}
         for severity in SEVERITIES:
             self.chips[severity] = made = chip("0")
@@ -161,13 +170,47 @@ class FindingsPanel(QWidget):
         self.several.setIcon(icon("magic-wand"))
         self.several.clicked.connect(self.several_requested)
         row = QHBoxLayout(head)
-        row.setContentsMargins(GAP3, 0, GAP2, 0)
+        row.setContentsMargins(GAP2, 0, GAP2, 0)
         row.setSpacing(GAP2)
-        for widget in (title, *self.chips.values(), self.scope, self.suppressed, self.note):
+        for widget in (
+            self.fold,
+            title,
+            self.summary,
+            *self.chips.values(),
+            self.scope,
+            self.suppressed,
+            self.note,
+        ):
             row.addWidget(widget)
         row.addStretch(1)
         row.addWidget(self.several)
         return head
+
+    @property
+    def has_findings(self) -> bool:
+        """Whether the file has findings that are not held back, besides values that are not set."""
+        return any(f.rule != NOT_SET and not self._held_back(f) for f in self._workspace.findings)
+
+    def follow_fold(self, is_folded: bool) -> None:
+        """Show in the head what there is, where it is all that is seen; the filters come with the list."""
+        self.is_folded = is_folded
+        self.fold.setIcon(icon("caret-right" if is_folded else "caret-down", "dim"))
+        text = self.tr("Open the findings") if is_folded else self.tr("Show the head of the findings alone")
+        self.fold.setToolTip(text)
+        self.fold.setAccessibleName(text)
+        self.scope.setVisible(not is_folded)
+        self.several.setVisible(not is_folded)
+        self._sum_up()
+
+    def _sum_up(self) -> None:
+        """Say in one line what there is where nothing is found."""
+        dim, link = colour("dim").name(), colour("sel").name()
+        text = f'<span style="color:{dim}">{self.tr("none in this file")}'
+        if count := len(not_set(self._workspace.findings)):
+            text += " · " + self.tr("{number} active parameters are not set").format(number=count)
+            text += f'</span> <a style="color:{link}" href="unset">{self.tr("Show")}</a>'
+        self.summary.setText(text)
+        self.summary.setVisible(self.is_folded and not self.has_findings)
 
     # -- which findings are listed ---------------------------------------------------
 
@@ -218,6 +261,7 @@ class FindingsPanel(QWidget):
             listed += [replace(s.finding, fix=(), message=self.tr("{message} Suppressed by {name}: {reason}").format(
                 message=s.finding.message, name=s.suppression.by, reason=s.suppression.reason)) for s in suppressed]  # fmt: skip
         self._count(reached, len(waiting), len(suppressed))
+        self._sum_up()
         self._delegate.may_edit = workspace.may_edit
         opened = {
             g.key for n, g in enumerate(self.model.groups) if self.view.isExpanded(self.model.index(n, 0))

@@ -38,6 +38,8 @@ class FilePage(QWidget):
     """Values, findings or the state on disk of this page's file are new."""
     selected = Signal(object)
     """The address of the current cell."""
+    listed = Signal()
+    """The table shows another group, step or search."""
     noted = Signal(str)
     """A short text for the status bar."""
     conflict = Signal()
@@ -118,6 +120,7 @@ class FilePage(QWidget):
             self._update_title()
         else:
             self.table.show_parameters(parameters)
+            self.listed.emit()
 
     def _outline(self, *_: object) -> None:
         """Outline the cells that the selected finding reads besides those at fault, which are coloured anyway."""
@@ -155,6 +158,8 @@ class FilePage(QWidget):
         if self.filters.active:
             more += self.tr(", filtered (Ctrl+0 shows all)")
         what = counted(count, "parameter", none="no")
+        if self.table.common_command:
+            more += self.tr(", read by {command}").format(command=self.table.common_command)
         self.list_title.show_title(self._title, f"{what}{more}")
         self.filters.fit()
 

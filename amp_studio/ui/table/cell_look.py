@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import math
 import re
-from collections.abc import Collection
+from collections import Counter
+from collections.abc import Collection, Iterable
 from dataclasses import dataclass
 from functools import lru_cache
 from typing import Literal
@@ -22,6 +24,8 @@ CellKind = Literal["value", "not set", "absent"]
 THIN = "\u202f"
 """A narrow space that no line breaks at, between groups of three digits on the screen."""
 _BRACKETS = re.compile(r"\s*\([^()]*\)")
+_DIGITS_OF_DEFAULT, _CONVERTED = 5, 1e-5
+"""Digits of a default that a person wrote, and how far the printed conversion to another unit is from it at most."""
 _WHOLE = re.compile(r"(-?)([0-9]{5,})(.*)")
 
 
@@ -35,6 +39,8 @@ class CellLook:
     """What is painted in the slot of units: the unit of a number, the number of a mask."""
     short: str = ""
     """A shorter text that no other choice of the parameter has, for where the whole one has no room."""
+    is_unit_in_head: bool = False
+    """Whether the head of the row has the unit, because all its values have this one."""
     is_number: bool = False
     is_own: bool = False
     """Not the printed default."""
@@ -53,12 +59,40 @@ class CellLook:
 def short_labels(labels: tuple[str, ...]) -> dict[str, str]:
     """Return shorter texts for the choices of a parameter, each of which no other one has.
 
-    What is in brackets is left out, and so are the words that several begin with, where a code is what remains: ``Feedback
-    Connector J1`` is ``J1`` where all but one begin so, else ``… J1``.
+    First the words go that all begin or end with, then a bracket that tells nothing apart, then the words before a code
+    (``Feedback Connector J1`` is ``J1`` where all but one begin so, else ``… J1``), at last long words become short ones.
     """
-    short = {label: _BRACKETS.sub("", label).strip() or label for label in labels}
-    if len({text.casefold() for text in short.values()}) < len(short):
-        short = {label: label for label in labels}
+    short = _kept_apart(dict.fromkeys(labels, ""), dict(zip(labels, labels, strict=True)))
+    for step in (_without_common_words, _without_brackets, _codes_alone, _with_short_words):
+        short = _kept_apart(short, step(short))
+    return short
+
+
+def _kept_apart(before: dict[str, str], after: dict[str, str]) -> dict[str, str]:
+    """Return the shorter texts, and where two would look alike both as they were."""
+    count = Counter(text.casefold() for text in after.values())
+    found = {
+        label: text if count[text.casefold()] == 1 and text else before[label]
+        for label, text in after.items()
+    }
+    return found if len({text.casefold() for text in found.values()}) == len(found) else before
+
+
+def _without_common_words(short: dict[str, str]) -> dict[str, str]:
+    words = [text.split() for text in short.values()]
+    if len(words) < 2:
+        return short
+    first = _common(words)
+    last = _common([list(reversed(text[first:])) for text in words])
+    return {label: " ".join(text[first : len(text) - last]) for label, text in zip(short, words, strict=True)}
+
+
+def _without_brackets(short: dict[str, str]) -> dict[str, str]:
+    return {label: _BRACKETS.sub("", text).strip() for label, text in short.items()}
+
+
+def _codes_alone(short: dict[str, str]) -> dict[str, str]:
+    """Leave the words out that several begin with, where a code remains."""
     families: dict[str, list[str]] = {}
     for label, text in short.items():
         families.setdefault(text.split()[0].casefold(), []).append(label)
@@ -68,9 +102,30 @@ def short_labels(labels: tuple[str, ...]) -> dict[str, str]:
         length = _common(words)
         rests = [" ".join(found[length:]) for found in words]
         if len(alike) > 1 and length and all(any(c.isdigit() for c in rest) for rest in rests):
-            mark = "" if len(alike) >= len(labels) - 1 else "… "
+            mark = "" if len(alike) >= len(short) - 1 else "… "
             cut |= {label: mark + rest for label, rest in zip(alike, rests, strict=True)}
-    return cut if len({text.casefold() for text in cut.values()}) == len(cut) else short
+        elif (
+            len(alike) > 1 and length == 2 and any(map(str.isdigit, words[0][0]))
+        ):  # an order number before a name
+            cut |= {label: short[label].split(maxsplit=1)[1] for label in alike}
+    return cut
+
+
+_SHORT_WORDS = {
+    "Incremental": "Inc",
+    "Absolute": "Abs",
+    "Negative": "Neg",
+    "Positive": "Pos",
+    "Maximum": "Max",
+    "Minimum": "Min",
+}
+
+
+def _with_short_words(short: dict[str, str]) -> dict[str, str]:
+    return {
+        label: " ".join(_SHORT_WORDS.get(word, word) for word in text.split())
+        for label, text in short.items()
+    }
 
 
 def _common(texts: list[list[str]]) -> int:
@@ -78,6 +133,20 @@ def _common(texts: list[list[str]]) -> int:
     most = min(map(len, texts)) - 1
     alike = (len({text[n].casefold() for text in texts}) == 1 for n in range(most))
     return next((n for n, same in enumerate(alike) if not same), most)
+
+
+def as_written(default: Value) -> Value:
+    """Return a default as a person writes it: 254 for the 253.9998 that a conversion made of 10 inches a minute."""
+    number = default.value
+    if not isinstance(number, float) or not math.isfinite(number) or number == 0:
+        return default
+    simple = float(f"{number:.{_DIGITS_OF_DEFAULT}g}")
+    is_simpler = len(repr(simple)) < len(repr(number)) - 1
+    return (
+        Value(simple, default.unit)
+        if is_simpler and math.isclose(simple, number, rel_tol=_CONVERTED)
+        else default
+    )
 
 
 def grouped(figure: str) -> str:
@@ -89,6 +158,15 @@ def grouped(figure: str) -> str:
     head = len(whole) % 3
     groups = [whole[:head]] * bool(head) + [whole[n : n + 3] for n in range(head, len(whole), 3)]
     return sign + THIN.join(groups) + rest
+
+
+def say_unit_once(looks: Iterable[CellLook]) -> None:
+    """Leave the unit of the cells of a row to its head where all values have the same."""
+    numbers = [look for look in looks if look.is_number]
+    units = {look.unit for look in numbers}
+    if len(units) == 1 and "" not in units:
+        for look in numbers:
+            look.is_unit_in_head = True
 
 
 class ShownValues(Translated):
@@ -201,6 +279,8 @@ class ShownValues(Translated):
         else:
             here = self.in_units(address, value)
             assert here is not None
+            if not look.is_own:
+                here = as_written(here)
             plain = show_value(parameter, Value(here.value, ""), secrets=True)
             look.text = grouped(plain) if look.is_number else plain.replace("\n", " ⏎ ")
             look.unit = shown(here.unit)

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from math import ceil
+
 from PySide6.QtCore import QPoint, QRect, QRectF, Qt
 from PySide6.QtGui import QBrush, QColor, QFont, QFontMetricsF, QPainter, QPen
 
@@ -33,8 +35,8 @@ class CellPainter:
     """Fonts, colours and measured texts of one table."""
 
     def __init__(self) -> None:
-        self.unit_slot = 0
-        """Width of the slot of units: that of the widest unit of the view."""
+        self.unit_slots: list[int] = []
+        """Width of the slot of units of each column: that of its widest unit."""
         self.is_active = True
         """Whether the table has the focus."""
         self._own, self._plain, self._small = font("text", own=True), font("text"), font("small")
@@ -55,9 +57,36 @@ class CellPainter:
         self._hatch = QBrush(self._inks["line2"], Qt.BrushStyle.BDiagPattern)
         self._dots = QPen(self._inks["dim"], 1, Qt.PenStyle.DotLine)
 
-    def unit_width(self, unit: str) -> float:
-        """Return the width of a unit."""
-        return self._width(self._small, unit)
+    def slot(self, look: CellLook) -> int:
+        """Return the width that the unit of a number needs beside it."""
+        has_unit = look.is_number and look.unit and not look.is_unit_in_head
+        return ceil(self._width(self._small, look.unit)) if has_unit else 0
+
+    def needed(self, look: CellLook, slot: int, *, is_short: bool = False) -> int:
+        """Return the width at which a cell is painted whole, with room for the mark of one finding.
+
+        With ``is_short`` a choice has its shorter text, and the names of a mask what they must have.
+        """
+        marks = (
+            1 + look.is_locked + look.has_note
+            if look.is_number
+            else bool(look.severity) + look.is_locked + look.has_note
+        )
+        room = 2 * _ASIDE + marks * (SMALL_ICON + 3) + 1
+        if look.kind == "not set":
+            return room + ceil(self._width(self._italic, self.not_set))
+        letters = self._own if look.is_own else self._plain
+        if look.is_number:
+            return room + ceil(self._width(letters, look.text)) + (slot + 4 if slot else 0)
+        width = self._width(letters, (look.short if is_short else "") or look.text)
+        if look.unit:
+            return (
+                room
+                + ceil(min(_NAMES, width) if is_short else width)
+                + ceil(self._width(self._small, look.unit))
+                + 8
+            )
+        return room + ceil(width)
 
     def _width(self, letters: QFont, text: str) -> float:
         key = (id(letters), text)
@@ -82,9 +111,13 @@ class CellPainter:
             painter.fillRect(place.right(), place.top(), 1, place.height(), line)
 
     def paint(
-        self, painter: QPainter, place: QRect, look: CellLook, *, is_selected: bool, is_hovered: bool
-    ) -> None:
-        """Paint a cell: ground, tint, hatch, bar, icon, marks, value, unit."""
+        self, painter: QPainter, place: QRect, look: CellLook, slot: int, number_room: int = 0,
+        *, is_selected: bool, is_hovered: bool,
+    ) -> None:  # fmt: skip
+        """Paint a cell: ground, tint, hatch, bar, icon, marks, value, unit in a slot.
+
+        A number stands in the first ``number_room`` pixels of a cell that is wider than a column.
+        """
         inks = self._inks
         if look.kind == "absent":
             painter.fillRect(place, inks["panel"])
@@ -102,6 +135,8 @@ class CellPainter:
         if look.is_changed:
             painter.fillRect(place.left(), place.top(), 3, place.height() - 1, inks["chg"])
         inner = place.adjusted(_ASIDE, 0, -_ASIDE, -1)
+        if number_room and (look.is_number or look.kind == "not set"):
+            inner.setWidth(number_room - 2 * _ASIDE)
         if severity:
             self._icon(painter, inner, severity[2], severity[0])
         if look.is_locked:
@@ -113,7 +148,7 @@ class CellPainter:
             painter.setPen(inks["dim"])
             painter.drawText(inner, _RIGHT, self.not_set)
         elif look.is_number:
-            self._number(painter, inner, look)
+            self._number(painter, inner, look, slot)
         else:
             self._words(painter, inner, look)
 
@@ -125,19 +160,17 @@ class CellPainter:
         paint_icon(painter, QRect(inner.left(), top, SMALL_ICON, SMALL_ICON), name, self._inks[ink])
         inner.setLeft(inner.left() + SMALL_ICON + 3)
 
-    def _number(self, painter: QPainter, inner: QRect, look: CellLook) -> None:
-        slot, letters = float(self.unit_slot), self._own if look.is_own else self._plain
-        room = inner.width() - (slot + 4 if slot else 0)
+    def _number(self, painter: QPainter, inner: QRect, look: CellLook, slot: int) -> None:
+        letters = self._own if look.is_own else self._plain
         text, width = look.text, self._width(letters, look.text)
-        if width > room:  # digits are worth more than units that are in line
-            slot = self._width(self._small, look.unit)
-            room = inner.width() - (slot + 4 if slot else 0)
-        if width > room and width <= inner.width():
-            slot, room = 0, inner.width()
-        elif width > room:
-            text = self._metrics[id(letters)].elidedText(text, Qt.TextElideMode.ElideMiddle, room)
+        own_slot = self.slot(look)
+        if width > inner.width() - (slot + 4 if slot else 0):
+            slot = own_slot  # whole figures are worth more than units in line
+        room = inner.width() - (slot + 4 if slot else 0)
+        if width > room:  # a column drawn together by hand: no figure without its last digits or its unit
+            text, slot, room = "…", 0, inner.width()
             width = self._width(letters, text)
-        if look.unit and slot:
+        if own_slot and slot:
             painter.setFont(self._small)
             painter.setPen(self._inks["dim"])
             left = round(inner.right() + 1 - slot)

@@ -1,50 +1,109 @@
-"""How wide the columns of the parameter table are: no value is measured, so that a list of all parameters is there at once."""
+"""How wide the columns of the parameter table are: as wide as their widest content, while there is room.
+
+Where there is not, choices take their shorter texts first, then names are elided in the middle, and then whole columns
+leave at the right: no digit and no unit is ever cut.
+"""
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from heapq import nlargest
 
 from PySide6.QtGui import QFontMetrics
 
-from amp_studio.ui.base.theme import font
+from amp_studio.ui.base.theme import GAP3, font
 
-from .parameter_table import CONTROL, ParameterTable
-from .table_heads import NUMBER
+from .cell_look import CellLook
+from .cell_painter import CellPainter
+from .parameter_table import ParameterTable
 
-LEAST_NAMES = 240
-"""Width of the numbers and names in a narrow table."""
-_NAMES, _MOST_NAMES, _WIDE = 302, 420, 600
-"""The same in a wide table, at most, and the width of a wide table."""
-_AXIS, _MOST_AXIS = 92, 150
-_ALONE, _MOST_ALONE = 240, 460
-"""Width of the control's column where it is the only one."""
-_BESIDE, _MOST_BESIDE = 120, 190
-"""Width of the control's column beside axes."""
-_COMMAND = 230
-_PLACE = 110
-"""Room behind a name for the gear or process."""
+LEAST_COLUMN = 84
+LEAST_NAMES = 150
+"""Width of the names in a table that is too narrow for its axes."""
+MOST_FROZEN = 1 / 3
+"""Share of the table that numbers and names have at most: what stays while the axes scroll."""
+_MOST_TEXT, _LEAST_TEXT = 300, 120
+"""Width of a column of texts that anybody may have typed, which may be a page long."""
+_MOST_COMMAND = 300
 
 
-def column_widths(table: ParameterTable, room: int) -> tuple[int, list[int]]:
-    """Return the width of the names and of each column, in logical pixels, for a table that is ``room`` wide."""
-    least = _NAMES if room > _WIDE else LEAST_NAMES
-    command = [_COMMAND] if table.shows_commands else []
-    widths = [*_of_values(table.columns, room - least - sum(command)), *command]
-    return max(least, min(_wanted_names(table), _MOST_NAMES, room - sum(widths))), widths
+@dataclass(frozen=True, slots=True)
+class ColumnWidths:
+    """Widths in logical pixels."""
+
+    number: int
+    """Of the numbers; 0 where no row has one."""
+    frozen: int
+    """Of numbers and names together."""
+    columns: list[int]
+    slots: list[int]
+    """Of the units, for each column."""
+    block: int
+    """Of the numbers in the block of the whole control, which is above the axes; 0 without it."""
 
 
-def _of_values(columns: list[str], room: int) -> list[int]:
-    if columns == [CONTROL]:
-        return [max(_ALONE, min(_MOST_ALONE, room))]
-    axes = len(columns) - (CONTROL in columns)
-    control = _BESIDE if CONTROL in columns else 0
-    each = max(_AXIS, min(_MOST_AXIS, (room - control) // max(1, axes)))
-    control = max(_BESIDE, min(_MOST_BESIDE, room - each * axes))
-    return [control if column == CONTROL else each for column in columns]
+def column_widths(table: ParameterTable, painter: CellPainter, room: int) -> ColumnWidths:
+    """Return the widths for a table that is ``room`` wide."""
+    looks = _looks(table)
+    slots = [max(map(painter.slot, column), default=0) for column in looks]
+    block = _widest(painter, looks[0], slots[0]) if table.has_block else 0
+    full = [_widest(painter, column, slot) for column, slot in zip(looks, slots, strict=True)]
+    short = [_widest(painter, column, slot, is_short=True) for column, slot in zip(looks, slots, strict=True)]
+    if table.has_block:
+        full[0] = short[0] = 1  # its cells lie across all columns
+    if table.shows_commands:
+        command = _widest_text([table.command(n) for n in range(len(table.rows))]) + 2 * GAP3
+        full.append(min(command, _MOST_COMMAND))
+        short.append(min(command, _LEAST_TEXT))
+    number = _number_width(table)
+    wanted = min(number + _names_width(table), int(room * MOST_FROZEN))
+    frozen = max(min(wanted, room - sum(short)), min(wanted, number + LEAST_NAMES))
+    return ColumnWidths(number, frozen, _shared(full, short, room - frozen), slots, block)
 
 
-def _wanted_names(table: ParameterTable) -> int:
-    """Return the width of the longest name, with its gear, which is at its end."""
-    longest = nlargest(8, {row.parameter.name for row in table.rows}, len)
-    widest = max(map(QFontMetrics(font("text")).horizontalAdvance, longest), default=0)
-    return widest + NUMBER + 20 + _PLACE * any(row.instance for row in table.rows)
+def _shared(full: list[int], short: list[int], room: int) -> list[int]:
+    """Return the width of each column between its short and its full one, each getting the same part of what it lacks."""
+    lacking = sum(full) - sum(short)
+    left = room - sum(short)
+    share = 1.0 if not lacking or left >= lacking else max(0.0, left / lacking)
+    return [few + int((most - few) * share) for most, few in zip(full, short, strict=True)]
+
+
+def _looks(table: ParameterTable) -> list[list[CellLook]]:
+    """Return the looks of the cells of each column that exist."""
+    return [
+        [
+            look
+            for row in range(len(table.rows))
+            if (look := table.look(row, column)) and look.kind != "absent"
+        ]
+        for column in range(len(table.columns))
+    ]
+
+
+def _widest(painter: CellPainter, looks: list[CellLook], slot: int, *, is_short: bool = False) -> int:
+    most = LEAST_COLUMN
+    for look in looks:
+        needed = painter.needed(look, slot, is_short=is_short)
+        if not look.is_number and look.kind == "value" and not (is_short and look.short):
+            needed = min(needed, _LEAST_TEXT if is_short else _MOST_TEXT)
+        most = max(most, needed)
+    return most
+
+
+def _widest_text(texts: list[str], kind: str = "text") -> int:
+    metrics = QFontMetrics(font("small" if kind == "small" else "text"))
+    return max(map(metrics.horizontalAdvance, nlargest(8, set(texts), len)), default=0)
+
+
+def _number_width(table: ParameterTable) -> int:
+    if not table.has_numbers:
+        return 0
+    return max(42, _widest_text([table.number(n) for n in range(len(table.rows))], "small") + GAP3)
+
+
+def _names_width(table: ParameterTable) -> int:
+    """Return the width of the longest name, with the unit of its row."""
+    names = _widest_text([table.row_name(n) for n in range(len(table.rows))])
+    units = _widest_text([table.unit_of_row(n) for n in range(len(table.rows))], "small")
+    return names + (units + GAP3 if units else 0) + 2 * GAP3

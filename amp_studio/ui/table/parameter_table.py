@@ -8,9 +8,10 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from itertools import groupby
 from typing import Any
 
-from PySide6.QtCore import QAbstractTableModel, QModelIndex, QPersistentModelIndex, Qt
+from PySide6.QtCore import QAbstractTableModel, QModelIndex, QPersistentModelIndex, Qt, Signal
 
 from amp_studio.files import axis_head, shown_axes
 from amp_studio.schema import Address, Parameter
@@ -18,7 +19,7 @@ from amp_studio.schema.address import whole_of
 from amp_studio.ui.base.translated import worded
 from amp_studio.ui.base.workspace import Workspace
 
-from .cell_look import CellLook, ShownValues
+from .cell_look import CellLook, ShownValues, say_unit_once
 
 Index = QModelIndex | QPersistentModelIndex
 AddressRole = Qt.ItemDataRole.UserRole + 1
@@ -28,6 +29,7 @@ _LEFT = Qt.AlignmentFlag.AlignLeft | Qt.AlignmentFlag.AlignVCenter
 _RIGHT = Qt.AlignmentFlag.AlignRight | Qt.AlignmentFlag.AlignVCenter
 _READABLE = Qt.ItemFlag.ItemIsEnabled | Qt.ItemFlag.ItemIsSelectable
 _EDITABLE = _READABLE | Qt.ItemFlag.ItemIsEditable
+_NO_NUMBER = "–"
 _FEWEST_A_SECTION = 2
 """Rows that a section has at least on average; a search that finds one here and one there has none."""
 
@@ -45,12 +47,19 @@ class TableRow:
     """What the rows below are, for the head of a section, which has no values."""
 
 
+def _is_of_axes(row: TableRow) -> bool:
+    return CONTROL not in row.cells
+
+
 RowFilter = Callable[[TableRow, list[Address]], bool]
 """Whether a row is shown, given it and its cells in the columns that are shown."""
 
 
 class ParameterTable(QAbstractTableModel):
     """The parameters of one group or search with the values of the open file. Numbers and names are the row heads."""
+
+    values_changed = Signal()
+    """Values in the same rows are new; after this they are painted."""
 
     def __init__(self, workspace: Workspace) -> None:
         super().__init__()
@@ -67,7 +76,8 @@ class ParameterTable(QAbstractTableModel):
         self._filter: RowFilter | None = None
         self._unfiltered: list[list[Address]] | None = None
         """What ``unfiltered`` returns, until rows or columns may be others."""
-        self._shows_commands = False
+        self._commands: frozenset[str] = frozenset()
+        """The commands that make the control read the values of the rows; empty text where none is needed."""
         self._axis_heads: dict[str, tuple[str, str]] = {}
         """Column -> its head, until a value changes."""
         self._heads: dict[int, str] = {}
@@ -131,9 +141,7 @@ class ParameterTable(QAbstractTableModel):
         self.beginResetModel()
         self.columns = columns
         self.rows = self._rows(columns) if rows is None else rows
-        family = self.workspace.file.schema.family
-        effects = {id(e): e for row in self.rows for e in [row.parameter.effect or family.effect]}
-        self._shows_commands = any(e.level == "command" for e in effects.values())
+        self._commands = frozenset(self.command(n) for n, row in enumerate(self.rows) if not row.section)
         self._forget_heads()
         self._axis_heads.clear()
         self._looks.clear()
@@ -183,20 +191,47 @@ class ParameterTable(QAbstractTableModel):
 
     def _with_sections(self, rows: list[TableRow]) -> list[TableRow]:
         groups = self.workspace.file.schema.group_of
-        found: list[TableRow] = []
-        last, sections = None, 0
-        for row in rows:
-            group = groups[row.parameter.id]
-            if group is not last:
-                found.append(TableRow(row.parameter, {}, "", group.section or group.name))
-                last, sections = group, sections + 1
-            found.append(row)
-        return found if 1 < sections <= len(rows) / _FEWEST_A_SECTION else rows
+        blocks = [list(block) for _, block in groupby(rows, lambda row: id(groups[row.parameter.id]))]
+        of_control = [row for row in rows if CONTROL in row.cells]
+        if 1 < len(blocks) <= len(rows) / _FEWEST_A_SECTION:
+            found: list[TableRow] = []
+            for block in blocks:
+                group = groups[block[0].parameter.id]
+                found.append(TableRow(block[0].parameter, {}, "", group.section or group.name))
+                found += sorted(block, key=_is_of_axes)
+            return found
+        if not 0 < len(of_control) < len(rows):
+            return rows
+        of_axes = [row for row in rows if CONTROL not in row.cells]
+        control = worded(self.workspace.file.schema.family.scopes["global"].label) or self.tr("Control")
+        return [
+            TableRow(of_control[0].parameter, {}, "", control), *of_control,
+            TableRow(of_axes[0].parameter, {}, "", self.tr("Axes")), *of_axes,
+        ]  # fmt: skip
 
     @property
     def shows_commands(self) -> bool:
-        """Whether the last column shows the command that makes the control read a value."""
-        return bool(self.columns) and self._shows_commands
+        """Whether the last column shows the command that makes the control read a value: where rows differ in it."""
+        return bool(self.columns) and len(self._commands) > 1
+
+    @property
+    def common_command(self) -> str:
+        """The command that makes the control read every row; empty where there is none, or not one for all."""
+        return next(iter(self._commands)) if len(self._commands) == 1 else ""
+
+    @property
+    def has_block(self) -> bool:
+        """Whether values of the whole control are a block above those of the axes; each of its cells has the whole width."""
+        return len(self.columns) > 1 and CONTROL in self.columns
+
+    def is_in_block(self, row: int) -> bool:
+        """Return whether a row belongs to the block of the whole control."""
+        return self.has_block and CONTROL in self.rows[row].cells
+
+    @property
+    def has_numbers(self) -> bool:
+        """Whether any row has a number; a family may have names alone."""
+        return any(self.number(n) not in ("", _NO_NUMBER) for n in range(len(self.rows)))
 
     def command(self, row: int) -> str:
         """Return the command that makes the control read the values of a row."""
@@ -237,9 +272,19 @@ class ParameterTable(QAbstractTableModel):
         found = self._looks.get(address)
         if found is None:
             here = set(self.columns)
-            self._looks |= self.values.row_looks([a for c, a in self.rows[row].cells.items() if c in here])
-            found = self._looks[address]
+            looks = self.values.row_looks([a for c, a in self.rows[row].cells.items() if c in here])
+            if len(self.columns) > 1 and CONTROL not in self.rows[row].cells:
+                say_unit_once(looks.values())
+            self._looks |= looks
+            found = looks[address]
         return found
+
+    def unit_of_row(self, row: int) -> str:
+        """Return the unit of all values of a row, for its head; empty where they differ or say it themselves."""
+        if self.rows[row].section:
+            return ""
+        looks = (self.look(row, column) for column in range(len(self.columns)))
+        return next((look.unit for look in looks if look is not None and look.is_unit_in_head), "")
 
     def cell_text(self, address: Address) -> str:
         """Return the text of a cell for a person who does not see it: ``11 mm``, ``not set``, nothing where it does not exist."""
@@ -332,8 +377,8 @@ class ParameterTable(QAbstractTableModel):
         first = self.first_of(row)
         address = self.address_at(row, first.column()) if first.isValid() else None
         if address is None or here.is_disputed(address[0]):
-            return "–"
-        return here.number(address) or "–"
+            return _NO_NUMBER
+        return here.number(address) or _NO_NUMBER
 
     def data(self, index: Index, role: int = Qt.ItemDataRole.DisplayRole) -> Any:
         if not index.isValid():
@@ -383,6 +428,7 @@ class ParameterTable(QAbstractTableModel):
             self._forget_heads()  # the number of a row is that of its first value that exists
         self.headerDataChanged.emit(Qt.Orientation.Horizontal, 0, max(0, len(columns) - 1))
         self._forget_looks()
+        self.values_changed.emit()
 
     def _forget_heads(self) -> None:
         self._heads.clear()

@@ -20,6 +20,11 @@ class SelectedCells:
         """Return the addresses of the selected cells, row by row; those that do not exist are left out."""
         return [address for row in self.block() for address in row if address is not None]
 
+    @property
+    def is_block(self) -> bool:
+        """Whether the selected cells are one block without gaps; cells that Ctrl+click added may be anywhere."""
+        return self._view.selectionModel().selection().count() < 2
+
     def block(self) -> list[list[Address | None]]:
         """Return the selected cells as rows; None where a cell does not exist, without the heads of sections."""
         ends = self.ends()
@@ -28,7 +33,12 @@ class SelectedCells:
         first, last = ends
         rows = range(first.row(), last.row() + 1)
         columns = range(first.column(), min(last.column(), len(self._table.columns) - 1) + 1)
-        return [[self.existing(r, c) for c in columns] for r in rows if not self._table.rows[r].section]
+        here = self._view.selectionModel().isSelected
+        is_block, index = self.is_block, self._table.index
+        return [
+            [self.existing(r, c) if is_block or here(index(r, c)) else None for c in columns]
+            for r in rows if not self._table.rows[r].section
+        ]  # fmt: skip
 
     def block_from(self, rows: int, columns: int) -> list[list[Address | None]]:
         """Return a block of cells that begins at the first selected one, as far as the table goes."""

@@ -3,15 +3,13 @@
 from __future__ import annotations
 
 from PySide6.QtCore import QRect, QSize, Qt
-from PySide6.QtGui import QFontMetrics, QPainter, QPaintEvent
+from PySide6.QtGui import QFontMetrics, QPainter, QPaintEvent, QResizeEvent
 from PySide6.QtWidgets import QHeaderView, QLabel, QTableView, QWidget
 
 from amp_studio.ui.base.theme import COLUMN_HEAD, GAP3, ROW, colour, font
 
 from .parameter_table import ParameterTable
 
-NUMBER = 54
-"""Width of the column of numbers."""
 _MOST_REMEMBERED = 10_000
 _LEFT = Qt.AlignmentFlag.AlignLeft | Qt.AlignmentFlag.AlignVCenter
 
@@ -27,6 +25,8 @@ class RowHeads(QHeaderView):
         fonts = {"head": head, "text": font("text"), "dim": font("small")}
         self._fonts = {ink: (letters, QFontMetrics(letters)) for ink, letters in fonts.items()}
         self._elided: dict[tuple[str, str, int], str] = {}
+        self.number_width = 0
+        """Width of the column of numbers; 0 where no row has one."""
         self.row_height = max(ROW, QFontMetrics(font("text")).height() + 6)
         self.setMinimumSectionSize(self.row_height)
         self.setDefaultSectionSize(self.row_height)
@@ -55,13 +55,15 @@ class RowHeads(QHeaderView):
             self._write(painter, place, table.rows[section].section, "dim", is_head=True)
             return
         painter.fillRect(rect.right(), rect.top(), 1, rect.height(), colour("line"))
-        self._write(
-            painter,
-            QRect(place.left(), place.top(), NUMBER - GAP3, place.height()),
-            table.number(section),
-            "dim",
-        )
-        self._write(painter, place.adjusted(NUMBER - GAP3 + 2, 0, 0, 0), table.row_name(section), "text")
+        number = QRect(place.left(), place.top(), self.number_width, place.height())
+        if self.number_width:
+            self._write(painter, number, table.number(section), "dim")
+        name = place.adjusted(self.number_width, 0, 0, 0)
+        if unit := table.unit_of_row(section):
+            wide = self._fonts["dim"][1].horizontalAdvance(unit)
+            self._write(painter, QRect(name.right() - wide, name.top(), wide + 1, name.height()), unit, "dim")
+            name.setRight(name.right() - wide - GAP3)
+        self._write(painter, name, table.row_name(section), "text")
 
     def paintEvent(self, event: QPaintEvent) -> None:
         super().paintEvent(event)
@@ -80,7 +82,7 @@ class RowHeads(QHeaderView):
         if shown is None:
             if len(self._elided) > _MOST_REMEMBERED:
                 self._elided.clear()
-            shown = metrics.elidedText(text, Qt.TextElideMode.ElideRight, place.width())
+            shown = metrics.elidedText(text, Qt.TextElideMode.ElideMiddle, place.width())
             self._elided[key] = shown
         painter.drawText(place, _LEFT, shown)
 
@@ -134,11 +136,11 @@ class Corner(QWidget):
 
     def __init__(self, parent: QWidget) -> None:
         super().__init__(parent)
+        self.number_width = 0
         self._number, self._name = QLabel(self.tr("No."), self), QLabel(self.tr("Parameter"), self)
-        for label, left in ((self._number, GAP3), (self._name, NUMBER + 2)):
+        for label in (self._number, self._name):
             label.setFont(font("caption"))
             label.setForegroundRole(self.foregroundRole())
-            label.move(left, 0)
         self.setAttribute(Qt.WidgetAttribute.WA_TransparentForMouseEvents)
 
     def paintEvent(self, event: object) -> None:
@@ -146,5 +148,14 @@ class Corner(QWidget):
         painter.fillRect(self.rect(), colour("panel"))
         painter.fillRect(0, self.height() - 1, self.width(), 1, colour("line2"))
         painter.fillRect(self.width() - 1, 0, 1, self.height(), colour("line"))
-        for label in (self._number, self._name):
-            label.resize(self.width() - label.x(), self.height() - 1)
+
+    def place_words(self) -> None:
+        """Put the words over their columns; that of the numbers is there where any row has one."""
+        self._number.setVisible(self.number_width > 0)
+        self._number.setGeometry(GAP3, 0, self.number_width, self.height() - 1)
+        left = GAP3 + self.number_width
+        self._name.setGeometry(left, 0, max(0, self.width() - left), self.height() - 1)
+
+    def resizeEvent(self, event: QResizeEvent) -> None:
+        super().resizeEvent(event)
+        self.place_words()

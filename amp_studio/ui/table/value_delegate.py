@@ -10,6 +10,7 @@ from PySide6.QtCore import (
     QModelIndex,
     QObject,
     QPersistentModelIndex,
+    QPoint,
     QRect,
     Qt,
     QTimer,
@@ -75,6 +76,8 @@ class ValueDelegate(QStyledItemDelegate):
         self._table, self._workspace, self._commit = table, table.workspace, commit
         self.painter = CellPainter()
         self.painter.not_set = self.tr("not set")
+        self.number_room = 0
+        """Width of the numbers in the block of the whole control; 0 without it."""
         self.refusal: Refusal | None = None
         """Why the last text was refused."""
         self.to_mend: tuple[Address, str, Refusal] | None = None
@@ -88,7 +91,8 @@ class ValueDelegate(QStyledItemDelegate):
         if look is not None:
             state = option.state
             self.painter.paint(
-                painter, place, look,
+                painter, place, look, self.painter.unit_slots[column] if column < len(self.painter.unit_slots) else 0,
+                self.number_room if self._table.is_in_block(row) else 0,
                 is_selected=bool(state & QStyle.StateFlag.State_Selected),
                 is_hovered=bool(state & QStyle.StateFlag.State_MouseOver),
             )  # fmt: skip
@@ -97,6 +101,17 @@ class ValueDelegate(QStyledItemDelegate):
         else:
             self.painter.ground(painter, place, "panel")
         self.painter.grid(painter, place, is_section=bool(self._table.rows[row].section))
+
+    def cell_place(self, place: QRect, index: Index) -> QRect:
+        """Return where the value of a cell is; a number of the whole control has not the whole width of its cell."""
+        row = index.row()
+        look = self._table.look(row, index.column()) if self._table.is_in_block(row) else None
+        is_number = look is not None and (look.is_number or look.kind == "not set")
+        return (
+            QRect(place.topLeft(), place.bottomLeft() + QPoint(self.number_room - 1, 0))
+            if is_number
+            else place
+        )
 
     # -- editors -----------------------------------------------------------------
 
@@ -218,7 +233,7 @@ class ValueDelegate(QStyledItemDelegate):
 
     def updateEditorGeometry(self, editor: QWidget, option: QStyleOptionViewItem, index: Index) -> None:
         """Make a list as wide as its longest choice, and a field as wide as its text."""
-        rectangle = option.rect
+        rectangle = self.cell_place(option.rect, index)
         wanted = editor.sizeHint().width() if isinstance(editor, ChoiceBox) else _NARROWEST_EDITOR
         rectangle.setWidth(max(rectangle.width(), wanted))
         editor.setGeometry(rectangle)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
+from dataclasses import replace
 
 from PySide6.QtCore import QItemSelection, QItemSelectionModel, QModelIndex, QPoint, QRect, Qt, QTimer, Signal
 from PySide6.QtGui import (
@@ -17,11 +18,12 @@ from PySide6.QtGui import (
 from PySide6.QtWidgets import QAbstractItemView, QTableView, QWidget
 
 from amp_studio.files import RangeError
-from amp_studio.schema import Address, InvalidValueError, Parameter, shown
+from amp_studio.schema import Address, InvalidValueError, Parameter
 from amp_studio.ui.base.theme import font
 
 from .cell_editor import CellEditor, Refusal
-from .column_widths import LEAST_NAMES, column_widths
+from .column_widths import LEAST_NAMES, ColumnWidths, column_widths
+from .more_columns import MoreColumns
 from .parameter_table import AddressRole, ParameterTable
 from .selected_cells import SelectedCells
 from .table_heads import AxisHeads, Corner, RowHeads
@@ -29,7 +31,6 @@ from .value_delegate import ValueDelegate, allowed_text
 
 _MARGIN = 18
 """Room for the scroll bar."""
-_WIDEST_UNIT = 64
 _HANDLE = 6
 
 
@@ -54,10 +55,12 @@ class ValueTable(QTableView):
         self.last: Address | None = None
         self._shown: list[Parameter] = []
         self._chosen: list[Address] = []
+        self._was_block = True
         self._top = 0
         self.setVerticalHeader(RowHeads(model, self))
         self.setHorizontalHeader(AxisHeads(model, self))
         self._corner = Corner(self)
+        self._more = MoreColumns(self, model)
         self.setModel(model)
         self.cells = SelectedCells(self, model)
         self._delegate = ValueDelegate(model, self._commit, self)
@@ -68,8 +71,8 @@ class ValueTable(QTableView):
         self.setShowGrid(False)
         self.setFrameShape(QTableView.Shape.NoFrame)
         self.setCornerButtonEnabled(False)
-        self.setSelectionMode(QAbstractItemView.SelectionMode.ContiguousSelection)
-        self.setHorizontalScrollMode(QAbstractItemView.ScrollMode.ScrollPerPixel)
+        self.setSelectionMode(QAbstractItemView.SelectionMode.ExtendedSelection)
+        self.setHorizontalScrollMode(QAbstractItemView.ScrollMode.ScrollPerItem)  # a column is shown whole
         self.setWordWrap(False)
         self.viewport().setMouseTracking(True)
         triggers = QAbstractItemView.EditTrigger
@@ -83,6 +86,7 @@ class ValueTable(QTableView):
         self.selectionModel().selectionChanged.connect(self._emit_range)
         model.modelAboutToBeReset.connect(self._before_reset)
         model.modelReset.connect(self._after_reset)
+        model.values_changed.connect(self._grow)
 
     def address(self) -> Address | None:
         """Return the address of the current cell."""
@@ -94,6 +98,7 @@ class ValueTable(QTableView):
         if address is not None:
             self.last = address
             self.selected.emit(address)
+        self._more.uncover(index.column())
         self.verticalHeader().viewport().update()
         self.horizontalHeader().viewport().update()
         self.viewport().update()
@@ -229,6 +234,16 @@ class ValueTable(QTableView):
     def keyboardSearch(self, search: str) -> None:
         """Look for nothing: letters are for values, and the find box looks through all of the file."""
 
+    def moveCursor(self, move: QAbstractItemView.CursorAction, held: Qt.KeyboardModifier) -> QModelIndex:
+        """Go on below the block of the whole control in the first axis, and from there up into it again."""
+        here, found = self.currentIndex(), super().moveCursor(move, held)
+        by = {self.CursorAction.MoveDown: 1, self.CursorAction.MoveUp: -1}.get(move, 0)
+        if by and self._table.has_block and here.isValid() and found.row() == here.row():
+            rows = range(here.row() + by, len(self._table.rows) if by > 0 else -1, by)
+            beyond = (index for row in rows if (index := self._table.first_of(row)).isValid())
+            return next(beyond, found)
+        return found
+
     def _is_end(self, move: QAbstractItemView.CursorAction) -> bool:
         """Return whether Tab would begin again at the other end."""
         here, there = self.currentIndex(), self.moveCursor(move, Qt.KeyboardModifier.NoModifier)
@@ -250,11 +265,13 @@ class ValueTable(QTableView):
             if index.isValid():
                 painter.outline(over, self.visualRect(index), self._table.outline_severity)
         ends = self.cells.ends()
-        if ends is not None and ends[0] != ends[1]:
+        if ends is not None and ends[0] != ends[1] and self.cells.is_block:
             handle = self._handle() if self._table.workspace.may_edit else QRect()
             painter.range_edge(over, self._place_of(*ends), handle)
         if self.currentIndex().isValid():
-            painter.current(over, self.visualRect(self.currentIndex()))
+            painter.current(
+                over, self._delegate.cell_place(self.visualRect(self.currentIndex()), self.currentIndex())
+            )
         over.end()
 
     def _place_of(self, first: QModelIndex, last: QModelIndex) -> QRect:
@@ -267,7 +284,7 @@ class ValueTable(QTableView):
     def _handle(self) -> QRect:
         """Return the place of the fill handle."""
         ends = self.cells.ends()
-        if ends is None:
+        if ends is None or not self.cells.is_block:
             return QRect()
         corner = self._place_of(*ends).bottomRight()
         return QRect(corner.x() - _HANDLE + 1, corner.y() - _HANDLE + 1, _HANDLE, _HANDLE)
@@ -324,12 +341,13 @@ class ValueTable(QTableView):
     def _before_reset(self) -> None:
         self._shown = self._table.asked
         self._top = self.verticalScrollBar().value()
-        self._chosen = self.cells.addresses()
+        self._chosen, self._was_block = self.cells.addresses(), self.cells.is_block
 
     def _after_reset(self) -> None:
         """Show the new list; one that is the old one with other rows stays where it was, with what was selected."""
         is_same = self._shown is self._table.asked
         self._is_dragged = self._is_dragged and is_same
+        self._lay_block()
         self._fit_columns()
         index = self._table.index_of(self.last) if self.last else QModelIndex()
         if not index.isValid() or not index.flags() & Qt.ItemFlag.ItemIsEnabled:
@@ -347,30 +365,52 @@ class ValueTable(QTableView):
 
     def _select_again(self) -> None:
         """Select the range again that was selected before the list changed."""
-        if len(self._chosen) > 1:
+        if len(self._chosen) > 1 and self._was_block:
             ends = [self._table.index_of(a) for a in (self._chosen[0], self._chosen[-1])]
             if all(end.isValid() for end in ends):
                 self._select(*ends)
+        elif len(self._chosen) > 1:
+            for index in map(self._table.index_of, self._chosen):
+                self.selectionModel().select(index, QItemSelectionModel.SelectionFlag.Select)
 
     def _fit_columns(self) -> None:
-        """Give the axes the room there is; no value is measured, so that a list of all parameters is there at once."""
-        painter, schema = self._delegate.painter, self._table.workspace.file.schema
-        units = {
-            shown(u)
-            for row in self._table.rows
-            if not row.parameter.choices
-            for u in schema.units_of(row.parameter)
-        }
-        painter.unit_slot = round(min(_WIDEST_UNIT, max(map(painter.unit_width, units), default=0)))
+        """Make each column as wide as its contents, as far as there is room; the rest of the room stays empty at the right."""
         if self._is_dragged:
             return
-        self._is_fitting = True
         room = self.width() - _MARGIN
-        names, widths = column_widths(self._table, room)
-        for column, width in enumerate(widths):
-            self.setColumnWidth(column, width)
-        self.verticalHeader().setFixedWidth(names)
+        self._take_widths(column_widths(self._table, self._delegate.painter, room))
+
+    def _take_widths(self, widths: ColumnWidths) -> None:
+        self._is_fitting = True
+        heads, names = self.horizontalHeader(), self.verticalHeader()
+        assert isinstance(names, RowHeads)
+        self._delegate.painter.unit_slots = widths.slots
+        self._delegate.number_room = widths.block
+        for column, width in enumerate(widths.columns):
+            heads.resizeSection(column, width)
+        names.number_width = self._corner.number_width = widths.number
+        names.setFixedWidth(widths.frozen)
+        self._corner.place_words()
         self._is_fitting = False
+
+    def _lay_block(self) -> None:
+        """Let the values of the whole control have the width of all columns."""
+        self.clearSpans()
+        if self._table.has_block:
+            for row in range(len(self._table.rows)):
+                if self._table.is_in_block(row):
+                    self.setSpan(row, 0, 1, self._table.columnCount())
+
+    def _grow(self, *_: object) -> None:
+        """Widen the columns for which a new value is too wide; none becomes narrower under the hand."""
+        if self._is_dragged or not self._table.rows:
+            return
+        wanted = column_widths(self._table, self._delegate.painter, self.width() - _MARGIN)
+        present = [self.horizontalHeader().sectionSize(n) for n in range(len(wanted.columns))]
+        columns = [max(now, new) for now, new in zip(present, wanted.columns, strict=True)]
+        frozen = max(self.verticalHeader().width(), wanted.frozen)
+        self._take_widths(replace(wanted, columns=columns, frozen=frozen))
+        self._more.place()
 
     def _note_drag(self, *_: object) -> None:
         """Keep the widths when the user has set one, until another list is shown."""
@@ -381,6 +421,7 @@ class ValueTable(QTableView):
         heads = self.horizontalHeader()
         self._corner.setGeometry(0, 0, self.verticalHeader().width(), heads.height())
         self._corner.raise_()
+        self._more.place()
 
     def resizeEvent(self, event: QResizeEvent) -> None:
         super().resizeEvent(event)

@@ -677,6 +677,10 @@ Woher ist bekannt, was sie enthält?</translation>
             <translation>leer:</translation>
         </message>
         <message>
+            <source>none in this file</source>
+            <translation>keine in dieser Datei</translation>
+        </message>
+        <message>
             <source>page</source>
             <translation>Seite</translation>
         </message>
@@ -2027,6 +2031,10 @@ Die ungespeicherte Arbeit wiederherstellen? Das lässt sich zurücknehmen.</tran
             <source>, filtered (Ctrl+0 shows all)</source>
             <translation>, gefiltert (Strg+0 zeigt alle)</translation>
         </message>
+        <message>
+            <source>, read by {command}</source>
+            <translation>, gelesen durch {command}</translation>
+        </message>
         <message numerus="yes">
             <source>%n cells</source>
             <translation>
@@ -2211,6 +2219,18 @@ Die ungespeicherte Arbeit wiederherstellen? Das lässt sich zurücknehmen.</tran
         <message>
             <source>Fi&amp;x Several…</source>
             <translation>&amp;Mehrere beheben…</translation>
+        </message>
+        <message>
+            <source>Open the findings</source>
+            <translation>Befunde öffnen</translation>
+        </message>
+        <message>
+            <source>Show the head of the findings alone</source>
+            <translation>Nur den Kopf der Befunde zeigen</translation>
+        </message>
+        <message>
+            <source>{number} active parameters are not set</source>
+            <translation>{number} aktive Parameter sind nicht gesetzt</translation>
         </message>
         <message>
             <source>Axis {letter}</source>
@@ -3609,6 +3629,13 @@ Die nummerierten Parameter von Maschinensteuerungen: bearbeiten, prüfen, drucke
         </message>
     </context>
     <context>
+        <name>MoreColumns</name>
+        <message>
+            <source>Show {column}</source>
+            <translation>{column} zeigen</translation>
+        </message>
+    </context>
+    <context>
         <name>MotionView</name>
         <message>
             <source>Motion — {name}</source>
@@ -3861,6 +3888,14 @@ Die nummerierten Parameter von Maschinensteuerungen: bearbeiten, prüfen, drucke
     </context>
     <context>
         <name>ParameterTable</name>
+        <message>
+            <source>Control</source>
+            <translation>Steuerung</translation>
+        </message>
+        <message>
+            <source>Axes</source>
+            <translation>Achsen</translation>
+        </message>
         <message>
             <source>Read by</source>
             <translation>Gelesen von</translation>

@@ -7,10 +7,19 @@ goes, the findings fold to their head. It all comes back with the room.
 from __future__ import annotations
 
 from PySide6.QtCore import QByteArray, QSize, Qt
-from PySide6.QtWidgets import QDockWidget, QHBoxLayout, QLabel, QMainWindow, QStackedWidget, QWidget
+from PySide6.QtWidgets import (
+    QDockWidget,
+    QHBoxLayout,
+    QLabel,
+    QMainWindow,
+    QStackedWidget,
+    QVBoxLayout,
+    QWidget,
+)
 
 from amp_studio.ui.base.theme import GAP2, HEAD, font
 from amp_studio.ui.base.translated import Translated, tr
+from amp_studio.ui.findings.panel import FindingsPanel
 from amp_studio.ui.forms.segment import Segment
 from amp_studio.ui.page.file_page import FilePage
 
@@ -18,10 +27,13 @@ from .settings import UserSettings
 
 _PANELS = (
     ("Groups", Qt.DockWidgetArea.LeftDockWidgetArea, 248),
-    ("Parameter", Qt.DockWidgetArea.RightDockWidgetArea, 308),
+    ("Parameter", Qt.DockWidgetArea.RightDockWidgetArea, 292),
     ("Findings", Qt.DockWidgetArea.BottomDockWidgetArea, 202),
 )
 """Name of a dock, where it is and how wide or high, until somebody arranges them."""
+_NARROW = {"Groups": 212, "Parameter": 240}
+"""The same in a window under 1400 pixels."""
+ROOMY = 1400
 PREVIEW = "Preview"
 """Name of the dock of the report, which is closed until somebody opens it."""
 _PREVIEW_SHARE, _PREVIEW_LEAST, _PREVIEW_MOST = 0.36, 384, 560
@@ -65,6 +77,10 @@ class Docks(Translated):
         """Width of the parameter before the preview came beside it."""
         self._taken: set[str] = set()
         """Docks that a small window has taken away."""
+        self._is_low = self._is_folded = False
+        """Whether the window has no room for the findings, and whether their head is all that is wanted of them."""
+        self._open_sizes: dict[str, int] = {}
+        """Size of each panel before it was closed."""
         self.docks: list[QDockWidget] = []
         for title, area, _ in _PANELS:
             dock, stack, head = QDockWidget(_name(title), window), QStackedWidget(), _Heads()
@@ -116,7 +132,12 @@ class Docks(Translated):
         below = self._dock("Findings")
         self._bottom = QStackedWidget()
         self._bottom.addWidget(self._stacks["Findings"])
-        below.setWidget(self._bottom)
+        inside = QWidget()  # stays when its content is hidden: a dock with nothing in it has no width
+        whole = QVBoxLayout(inside)
+        whole.setContentsMargins(0, 0, 0, 0)
+        whole.addWidget(self._bottom)
+        inside.setFocusProxy(self._bottom)
+        below.setWidget(inside)
         head = QWidget()
         row = QHBoxLayout(head)
         row.setContentsMargins(0, 0, 0, 0)
@@ -125,7 +146,7 @@ class Docks(Translated):
             self.tr("Panel"), [(title, _name(title), "") for title in ("Findings", "Parameter")]
         )
         self.chooser.layout().setContentsMargins(GAP2, 0, GAP2, 0)
-        self.chooser.chosen.connect(self._turn_bottom)
+        self.chooser.chosen.connect(self.show)
         self.chooser.hide()
         self._bottom_heads = _Heads()
         self._bottom_heads.addWidget(self._heads["Findings"])
@@ -139,6 +160,8 @@ class Docks(Translated):
 
     def add(self, page: FilePage) -> None:
         """Take the panels of a page in, each with its head."""
+        page.findings.fold_wanted.connect(self.fold)
+        page.listed.connect(lambda: self.fold(True) if not page.findings.has_findings else None)
         for title, panel in page.panels.items():
             self._stacks[title].addWidget(panel)
             self._heads[title].addWidget(_head_of(panel, title))
@@ -161,6 +184,7 @@ class Docks(Translated):
             for dock in (*self.docks, self.preview):
                 dock.hide()
             return
+        page.findings.follow_fold(self._is_folded)
         for title, panel in page.panels.items():
             self._stacks[title].setCurrentWidget(panel)
             self._heads[title].setCurrentIndex(self._stacks[title].indexOf(panel))
@@ -172,7 +196,10 @@ class Docks(Translated):
             self.reset()
             if kept is not None:
                 self._restore(kept)
+            self.fold(not page.findings.has_findings)
             self.fit(self._size)
+        elif not page.findings.has_findings:
+            self.fold(True)
 
     def _restore(self, kept: QByteArray) -> None:
         """Arrange the docks as they were, unless that leaves the table no room or hides everything off the screen."""
@@ -200,9 +227,15 @@ class Docks(Translated):
         for dock, (_, area, size) in zip(self.docks, _PANELS, strict=True):
             below = area == Qt.DockWidgetArea.BottomDockWidgetArea
             self._window.resizeDocks(
-                [dock], [size], Qt.Orientation.Vertical if below else Qt.Orientation.Horizontal
-            )
+                [dock], [size if below else self._width_of(dock.objectName())],
+                Qt.Orientation.Vertical if below else Qt.Orientation.Horizontal,
+            )  # fmt: skip
         self.fit(self._size)
+
+    def _width_of(self, title: str) -> int:
+        """Return how wide a panel at the side is until somebody arranges it."""
+        wide = next(size for name, _, size in _PANELS if name == title)
+        return wide if self._size.width() >= ROOMY else _NARROW[title]
 
     def keep(self) -> None:
         """Store the arrangement for the next start."""
@@ -223,7 +256,8 @@ class Docks(Translated):
             self._window.resizeDocks([self.preview], [self._preview_width], Qt.Orientation.Horizontal)
         self._take("Parameter", width < WIDE)
         self._take("Groups", width < LEFT_WIDE)
-        self._fold(size.height() < LOW)
+        self._is_low = size.height() < LOW
+        self._fold()
 
     def show(self, title: str) -> None:
         """Show a panel, wherever a small window has put it, and give it the focus."""
@@ -236,10 +270,45 @@ class Docks(Translated):
             self.chooser.show_choice(title)
             self._turn_bottom(title)
         if dock.objectName() == "Findings":
-            self._fold(False)
-        dock.show()
+            self.fold(False)
+        if dock.isHidden():
+            dock.show()
+            self._resize(dock)
         dock.raise_()
         dock.widget().setFocus()
+
+    def toggle(self, title: str) -> None:
+        """Show a panel with the focus; close the one that has it. A panel that opens again is as large as it was."""
+        dock = self._dock("Findings" if title == "Parameter" and title in self._taken else title)
+        inside, focused = dock.widget(), self._window.focusWidget()
+        if dock.isHidden() or focused is None or not (inside is focused or inside.isAncestorOf(focused)):
+            self.show(title)
+        elif dock.objectName() == "Findings":
+            self.fold(True)
+            self._window.centralWidget().setFocus()
+        else:
+            self._open_sizes[title] = dock.width()
+            dock.hide()
+            self._window.centralWidget().setFocus()
+
+    def _resize(self, dock: QDockWidget) -> None:
+        title = dock.objectName()
+        width = self._open_sizes.get(title)
+        if width and not dock.isFloating():
+            self._window.resizeDocks([dock], [width], Qt.Orientation.Horizontal)
+
+    def fold(self, wanted: bool) -> None:
+        """Show the head of the findings alone, or all of them in the height they had; only the user opens them."""
+        below = self._dock("Findings")
+        if wanted and not self._is_folded and below.height() > HEAD + 2:
+            self._open_sizes["Findings"] = below.height()
+        self._is_folded = wanted
+        if not wanted:
+            self._is_low = False
+        self._fold()
+        if not wanted and not below.isFloating():
+            height = self._open_sizes.get("Findings", _PANELS[2][2])
+            self._window.resizeDocks([below], [height], Qt.Orientation.Vertical)
 
     def _take(self, title: str, is_small: bool) -> None:
         if is_small == (title in self._taken):
@@ -284,18 +353,22 @@ class Docks(Translated):
             self._bottom.setCurrentWidget(self._stacks[title])
             self._bottom_heads.setCurrentWidget(self._heads[title])
             self._bottom.setFocusProxy(self._stacks[title])
-            self._fold(False)
 
-    def _fold(self, is_low: bool) -> None:
+    def _fold(self) -> None:
         """Show the head of the findings alone, or all of them."""
-        self._bottom.setVisible(not is_low)
-        self._dock("Findings").setMaximumHeight(HEAD if is_low else 16_777_215)
+        is_folded = self._is_low or self._is_folded
+        self._bottom.setVisible(not is_folded)
+        self._dock("Findings").setMaximumHeight(HEAD if is_folded else 16_777_215)
+        panel = self._stacks["Findings"].currentWidget()
+        if isinstance(panel, FindingsPanel):
+            panel.follow_fold(is_folded)
 
     def _widen(self) -> None:
         """Put back what a small window has taken away, so that an arrangement is that of a large one."""
         for title in tuple(self._taken):
             self._take(title, False)
-        self._fold(False)
+        self._is_low = False
+        self._fold()
 
 
 def _name(title: str) -> str:

@@ -1,0 +1,188 @@
+"""The table has the room: its share of the window, columns as wide as their contents, and nothing that moves by itself."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+from PySide6.QtCore import Qt
+from PySide6.QtTest import QTest
+from PySide6.QtWidgets import QApplication
+
+from amp_studio.schema import Value
+from amp_studio.ui.main_window import MainWindow
+from amp_studio.ui.table.cell_look import as_written
+from amp_studio.ui.table.parameter_table import CONTROL
+
+EXCESS, SPEEDS = ("servo.excess_error", "1"), ("feedrate.rapid", "1")
+EXAMPLES = (
+    "mill-1394",
+    "num-1060-mill",
+    "syntec-mill",
+    "57c422b-label-press",
+    "acromill-router",
+    "grblhal-router",
+)
+
+
+@pytest.fixture
+def opened(checkout: Path, tmp_path: Path, open_window):  # the window of an example
+    def show(folder: str, width: int = 1366, height: int = 768) -> MainWindow:
+        source = next((checkout / "examples" / folder).glob("*.amp"))
+        path = tmp_path / source.name
+        path.write_bytes(source.read_bytes())
+        window = open_window(path)
+        resized(window, width, height)
+        return window
+
+    return show
+
+
+def resized(window: MainWindow, width: int, height: int) -> None:
+    window.resize(width, height)
+    QApplication.processEvents()
+
+
+@pytest.mark.parametrize("folder", EXAMPLES)
+def test_the_table_of_every_family_has_the_room_and_no_figure_is_cut(opened, folder: str) -> None:
+    window = opened(folder)
+    view = window.table_view
+    assert view.width() >= 0.55 * window.width()
+    for group in list(window.workspace.file.schema.groups)[:40]:
+        window.table.show_parameters(list(group.parameters))
+        assert view.verticalHeader().width() <= view.width() / 3, group
+        assert not cut_figures(window), group
+
+
+def cut_figures(window: MainWindow) -> list[str]:
+    """Return the numbers for which their column is too narrow, with their unit and the mark of a finding."""
+    view, table = window.table_view, window.table
+    painter = view._delegate.painter
+    found = []
+    for row in range(len(table.rows)):
+        for column in range(len(table.columns)):
+            look = table.look(row, column)
+            room = view._delegate.number_room if table.is_in_block(row) else view.columnWidth(column)
+            if look is not None and look.is_number and painter.needed(look, painter.slot(look)) > room:
+                found.append(look.text)
+    return found
+
+
+def test_a_unit_that_all_values_of_a_row_have_is_in_its_head_and_else_in_every_cell(opened) -> None:
+    window = opened("mill-1394")
+    window.go_to(("servo.position_counts", "1"))
+    table = window.table
+    row = table.index_of(("servo.position_counts", "1")).row()
+    assert table.unit_of_row(row) == "counts"
+    row = table.index_of(EXCESS).row()
+    assert table.unit_of_row(row) == "", "X is in mm and B in degrees"
+    assert {table.look(row, n).unit for n in range(5)} == {"mm", "°"}
+    assert table.cell_text(("servo.position_counts", "1")).endswith("counts"), "and who hears it hears both"
+
+
+def test_columns_with_nothing_to_say_are_not_shown(opened) -> None:
+    window = opened("acromill-router")
+    view = window.table_view
+    assert not window.table.has_numbers
+    assert view._corner.number_width == 0
+    assert not window.table.shows_commands
+    assert "read by Save" in window.page.list_title.text(), "what holds for every row is said once"
+
+
+def test_values_of_the_control_are_a_block_above_the_axes_and_keys_go_through_both(opened) -> None:
+    window = opened("num-1060-mill")
+    view, table = window.table_view, window.table
+    of_control = [CONTROL in row.cells for row in table.rows if not row.section]
+    assert of_control == sorted(of_control, reverse=True)
+    assert [row.section for row in table.rows if row.section] == ["Control", "Axes"]
+    last = max(n for n in range(len(table.rows)) if table.is_in_block(n))
+    view.setCurrentIndex(table.index(last, 0))
+    QTest.keyClick(view, Qt.Key.Key_Down)
+    assert view.currentIndex().row() == last + 2
+    assert not table.is_in_block(view.currentIndex().row())
+    QTest.keyClick(view, Qt.Key.Key_Up)
+    assert view.currentIndex().row() == last
+
+
+def test_a_column_that_has_no_room_leaves_as_a_whole_and_keys_bring_it(opened) -> None:
+    window = opened("mill-1394", 1024, 700)
+    window.go_to(EXCESS)
+    view = window.table_view
+    more = view._more
+    assert more.isVisible()
+    ends = [view.columnViewportPosition(n) + view.columnWidth(n) for n in range(view.model().columnCount())]
+    assert more.x() - view.verticalHeader().width() in ends, "the strip begins where a column ends"
+    window.go_to((EXCESS[0], "5"))
+    shown = view.visualRect(view.currentIndex())
+    assert shown.left() >= 0
+    assert not more.isVisible() or view.verticalHeader().width() + shown.right() < more.x()
+
+
+def test_ctrl_and_a_click_adds_a_cell_and_all_of_them_take_what_is_typed(opened) -> None:
+    window = opened("mill-1394")
+    window.go_to(EXCESS)
+    view, port = window.table_view, window.table_view.viewport()
+    third = view.visualRect(window.table.index_of((EXCESS[0], "3"))).center()
+    QTest.mouseClick(port, Qt.MouseButton.LeftButton, Qt.KeyboardModifier.ControlModifier, third)
+    assert view.cells.addresses() == [EXCESS, (EXCESS[0], "3")]
+    assert view._fill_typed("9 mm") is None
+    values = [window.workspace.file.get((EXCESS[0], axis)) for axis in "123"]
+    assert values == [Value(9.0, "mm"), Value(11.0, "mm"), Value(9.0, "mm")]
+
+
+def test_a_default_reads_as_a_person_writes_it_and_an_own_value_stays() -> None:
+    assert as_written(Value(253.9998, "mm/min")) == Value(254.0, "mm/min")
+    assert as_written(Value(0.0254, "mm")) == Value(0.0254, "mm")
+    assert as_written(Value(2.54321, "mm")) == Value(2.54321, "mm")
+
+
+def sizes(window: MainWindow) -> list[object]:
+    """Return every size once the layout is at rest."""
+    for _ in range(4):
+        QApplication.processEvents()
+    view = window.table_view
+    parts = [dock for dock in window.docks.docks if dock.isVisible()]
+    return [
+        [(dock.objectName(), dock.geometry().getRect()) for dock in parts], view.geometry().getRect(),
+        [view.columnWidth(n) for n in range(view.model().columnCount())], view.verticalHeader().width(),
+    ]  # fmt: skip
+
+
+@pytest.mark.parametrize("size", [(1366, 768), (1024, 700)])
+def test_panels_that_open_and_close_twice_leave_every_size_as_it_was(opened, size: tuple[int, int]) -> None:
+    window = opened("mill-1394", *size)
+    window.go_to(EXCESS)
+    for panel in ("Findings", "Parameter", "Groups"):
+        window.docks.show(panel)
+        QApplication.processEvents()
+        opened_first = sizes(window)
+        window.docks.toggle(panel)
+        QApplication.processEvents()
+        closed_first = sizes(window)
+        for _ in range(2):
+            window.docks.toggle(panel)
+            QApplication.processEvents()
+            assert sizes(window) == opened_first, panel
+            window.docks.toggle(panel)
+            QApplication.processEvents()
+            assert sizes(window) == closed_first, panel
+        window.docks.show(panel)
+    assert window.table_view.isVisible()
+
+
+def test_findings_never_open_by_themselves_and_fold_with_the_next_group_once_there_are_none(opened) -> None:
+    window = opened("mill-1394")
+    assert not window.findings.isVisible()
+    table = window.table_view.geometry()
+    window.workspace.edit("small", {EXCESS: Value(0.001, "mm")})
+    QApplication.processEvents()
+    assert window.findings.has_findings
+    assert (window.findings.isVisible(), window.table_view.geometry()) == (False, table)
+    window.findings.fold.click()
+    assert window.findings.isVisible()
+    window.edits.undo.trigger()
+    QApplication.processEvents()
+    assert window.findings.isVisible(), "not under the hand"
+    window.go_to(SPEEDS)
+    QApplication.processEvents()
+    assert not window.findings.isVisible()
