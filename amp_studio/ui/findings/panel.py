@@ -188,7 +188,7 @@ class FindingsPanel(QWidget):
 
     @property
     def has_findings(self) -> bool:
-        """Whether the file has findings that are not held back, besides values that are not set."""
+        """Whether the file has findings of steps that are reached, besides values that are not set."""
         return any(f.rule != NOT_SET and not self._held_back(f) for f in self._workspace.findings)
 
     def follow_fold(self, is_folded: bool) -> None:

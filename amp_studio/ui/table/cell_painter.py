@@ -116,7 +116,7 @@ class CellPainter:
     ) -> None:  # fmt: skip
         """Paint a cell: ground, tint, hatch, bar, icon, marks, value, unit in a slot.
 
-        A number stands in the first ``number_room`` pixels of a cell that is wider than a column.
+        A number is painted in the first ``number_room`` pixels of a cell that is wider than a column.
         """
         inks = self._inks
         if look.kind == "absent":
