@@ -19,7 +19,7 @@ from PySide6.QtWidgets import (
 from amp_studio.files import Comparison, ParameterFile
 from amp_studio.report import dangers_of_change
 from amp_studio.report.model import Danger
-from amp_studio.schema import show_value
+from amp_studio.ui.base.figures import show_value
 from amp_studio.ui.base.hazard import hazard_html
 from amp_studio.ui.base.translated import tr, worded
 

@@ -17,7 +17,8 @@ from PySide6.QtWidgets import (
 
 from amp_studio.files import AxisDifference, axis_letter, axis_title, compare_axes, fitted_axes
 from amp_studio.files.axis_values import bits_of_axes
-from amp_studio.schema import Address, Value, show_value
+from amp_studio.schema import Address, Value
+from amp_studio.ui.base.figures import show_value
 from amp_studio.ui.base.theme import ROW
 from amp_studio.ui.page.file_page import FilePage
 

@@ -7,9 +7,10 @@ from typing import NamedTuple
 
 from amp_studio.files import Merge, Row
 from amp_studio.files.diff import in_one_unit
-from amp_studio.schema import MASKED, Parameter, Value, show_value, shown
+from amp_studio.schema import MASKED, Parameter, Value, shown
 from amp_studio.schema.bit_fields import labels_of_word
 from amp_studio.schema.visible import visible
+from amp_studio.ui.base.figures import show_value
 from amp_studio.ui.base.translated import tr
 from amp_studio.ui.table.cell_look import grouped
 

@@ -36,7 +36,8 @@ from amp_studio.calibration import (
     read_measured_file,
 )
 from amp_studio.files import ParameterFile
-from amp_studio.schema import show_value, shown
+from amp_studio.schema import shown
+from amp_studio.ui.base.figures import show_value
 from amp_studio.ui.base.task import in_background
 from amp_studio.ui.base.theme import GAP2, GAP3, colour
 

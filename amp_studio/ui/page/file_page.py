@@ -10,7 +10,8 @@ from PySide6.QtGui import QAction
 from PySide6.QtWidgets import QVBoxLayout, QWidget
 
 from amp_studio.files import axis_letter, describe
-from amp_studio.schema import Address, Parameter, shown, write_figure
+from amp_studio.schema import Address, Parameter, shown
+from amp_studio.ui.base.figures import write_figure
 from amp_studio.ui.base.translated import counted, worded
 from amp_studio.ui.base.workspace import Workspace
 from amp_studio.ui.findings.panel import FindingsPanel

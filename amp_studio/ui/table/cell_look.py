@@ -14,8 +14,9 @@ from amp_studio.files import unlike_axes
 from amp_studio.files.local_time import with_days_and_times
 from amp_studio.files.notes import value_note
 from amp_studio.report.wording import state_name
-from amp_studio.schema import Address, UnitError, Value, convert, show_value, shown, write_value
+from amp_studio.schema import Address, UnitError, Value, convert, shown, write_value
 from amp_studio.schema.bit_fields import labels_of_word
+from amp_studio.ui.base.figures import show_value
 from amp_studio.ui.base.translated import Translated, tr, worded
 from amp_studio.ui.base.workspace import Workspace
 from amp_studio.validate import NOT_SET
@@ -59,7 +60,7 @@ class CellLook:
 def short_labels(labels: tuple[str, ...]) -> dict[str, str]:
     """Return shorter texts for the choices of a parameter, each of which no other one has.
 
-    First the words go that all begin or end with, then a bracket that tells nothing apart, then the words before a code
+    First the words go that all begin or end with, then a bracket without which no two look alike, then the words before a code
     (``Feedback Connector J1`` is ``J1`` where all but one begin so, else ``… J1``), at last long words become short ones.
     """
     short = _kept_apart(dict.fromkeys(labels, ""), dict(zip(labels, labels, strict=True)))

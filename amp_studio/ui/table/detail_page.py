@@ -11,8 +11,9 @@ from amp_studio.files.notes import group_note, value_note
 from amp_studio.files.storage_text import storage_text
 from amp_studio.report import GRADES, facts, help_parts, tables_of
 from amp_studio.report.wording import severity_name, state_name
-from amp_studio.schema import Address, Value, limits, real_value, same_value, show_value, shown
+from amp_studio.schema import Address, Value, limits, real_value, same_value, shown
 from amp_studio.schema.bit_fields import labels_of_word
+from amp_studio.ui.base.figures import show_value
 from amp_studio.ui.base.hazard import hazard_html
 from amp_studio.ui.base.theme import colour, icon_html, severity_html
 from amp_studio.ui.base.translated import Translated, worded

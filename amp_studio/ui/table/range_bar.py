@@ -10,6 +10,7 @@ from PySide6.QtGui import QFontMetrics, QPainter, QPaintEvent, QPolygonF
 from PySide6.QtWidgets import QSizePolicy, QWidget
 
 from amp_studio.schema import shown, write_number
+from amp_studio.ui.base.figures import written
 from amp_studio.ui.base.theme import GAP, RADIUS, Token, colour, font
 
 _BAR, _TOP, _SIDE = 8, 22, 12
@@ -59,7 +60,7 @@ class RangeBar(QWidget):
         if allowed is not None:
             least = (found.high - found.low) * 2e-3
             low, high = allowed[0] - found.low > least, found.high - allowed[1] > least
-            texts = [write_number(_inwards(allowed[0], 1)), write_number(_inwards(allowed[1], -1))]
+            texts = [written(write_number(_inwards(allowed[n], 1 - 2 * n))) for n in (0, 1)]
             if low and high:
                 self.words = self.tr("rules allow {low} to {high}").format(low=texts[0], high=texts[1])
             elif low:
@@ -72,7 +73,9 @@ class RangeBar(QWidget):
         found = self._range
         if found is not None:
             ends = self.tr("{low} to {high} {unit}").format(
-                low=write_number(found.low), high=write_number(found.high), unit=shown(found.unit)
+                low=written(write_number(found.low)),
+                high=written(write_number(found.high)),
+                unit=shown(found.unit),
             )
             self.setAccessibleDescription(", ".join(filter(None, (ends, self.words))))
         self.update()
@@ -95,7 +98,10 @@ class RangeBar(QWidget):
         painter.setFont(letters)
         metrics = QFontMetrics(letters)
         below = int(_TOP + _BAR + GAP)
-        ends = (write_number(found.low), f"{write_number(found.high)} {shown(found.unit)}".rstrip())
+        ends = (
+            written(write_number(found.low)),
+            f"{written(write_number(found.high))} {shown(found.unit)}".rstrip(),
+        )
         painter.setPen(colour("dim"))
         painter.drawText(QPointF(_SIDE, below + metrics.ascent()), ends[0])
         right_at = self.width() - _SIDE - metrics.horizontalAdvance(ends[1])
@@ -114,7 +120,7 @@ class RangeBar(QWidget):
             return
         x = self._at(found.default, whole)
         painter.fillRect(QRectF(x - 1, _TOP - 4, 2, _BAR + 8), colour("text"))
-        text = self.tr("default {value}").format(value=write_number(found.default))
+        text = self.tr("default {value}").format(value=written(write_number(found.default)))
         self._above(painter, x, text, metrics, "dim", right=True)
 
     def _paint_value(self, painter: QPainter, whole: QRectF, metrics: QFontMetrics) -> None:

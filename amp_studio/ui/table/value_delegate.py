@@ -27,17 +27,8 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
-from amp_studio.schema import (
-    Address,
-    InvalidValueError,
-    Limits,
-    Value,
-    fault,
-    limits,
-    show_value,
-    shown,
-    write_value,
-)
+from amp_studio.schema import Address, InvalidValueError, Limits, Value, fault, limits, shown, write_value
+from amp_studio.ui.base.figures import show_value
 from amp_studio.ui.base.workspace import Workspace
 from amp_studio.ui.forms.choice_box import ChoiceBox
 from amp_studio.ui.forms.mask_list import MaskList

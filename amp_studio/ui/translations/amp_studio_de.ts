@@ -89,7 +89,7 @@
         </message>
         <message>
             <source>Reading the last download</source>
-            <translation>Das letzte Laden wird gelesen</translation>
+            <translation>Die letzte Sendung wird gelesen</translation>
         </message>
         <message>
             <source>Select a value in the table first.</source>
@@ -258,11 +258,11 @@
         </message>
         <message>
             <source>Changed since download</source>
-            <translation>Seit dem Laden geändert</translation>
+            <translation>Seit dem Senden geändert</translation>
         </message>
         <message>
             <source>Values that are not as in the last recorded download</source>
-            <translation>Werte, die nicht wie beim letzten aufgezeichneten Laden sind</translation>
+            <translation>Werte, die nicht wie bei der letzten aufgezeichneten Sendung sind</translation>
         </message>
         <message>
             <source>Active after restart</source>
@@ -688,6 +688,11 @@ Woher ist bekannt, was sie enthält?</translation>
             <source>taken</source>
             <translation>übernommen</translation>
         </message>
+        <message>
+            <source>.</source>
+            <comment>decimal sign</comment>
+            <translation>,</translation>
+        </message>
     </context>
     <context>
         <name>AddAxisDialog</name>
@@ -1060,7 +1065,7 @@ Woher ist bekannt, was sie enthält?</translation>
         </message>
         <message>
             <source>This control has no calibration table of an axis, only a reversal error.</source>
-            <translation>Diese Steuerung hat keine Kalibriertabelle einer Achse, nur einen Umkehrfehler.</translation>
+            <translation>Diese Steuerung hat keine Kalibriertabelle einer Achse, nur eine Umkehrspanne.</translation>
         </message>
         <message>
             <source>error that the table takes away</source>
@@ -1184,27 +1189,27 @@ Woher ist bekannt, was sie enthält?</translation>
         </message>
         <message>
             <source>&amp;Download to Control…</source>
-            <translation>In die Steuerung &amp;laden…</translation>
+            <translation>An Steuerung &amp;senden…</translation>
         </message>
         <message>
             <source>Download</source>
-            <translation>Laden</translation>
+            <translation>An Steuerung senden</translation>
         </message>
         <message>
             <source>&amp;Verify With Control…</source>
-            <translation>Mit der Steuerung &amp;prüfen…</translation>
+            <translation>Mit der Steuerung &amp;vergleichen…</translation>
         </message>
         <message>
             <source>Verify</source>
-            <translation>Prüfen</translation>
+            <translation>Vergleichen</translation>
         </message>
         <message>
             <source>&amp;Upload From Control…</source>
-            <translation>Aus der Steuerung &amp;holen…</translation>
+            <translation>Aus der Steuerung ausAus der Steuerung &amp;auslesen…amp;lesen…</translation>
         </message>
         <message>
             <source>Upload</source>
-            <translation>Holen</translation>
+            <translation>Auslesen</translation>
         </message>
         <message>
             <source>&amp;Restore Control From Backup…</source>
@@ -1232,31 +1237,31 @@ Woher ist bekannt, was sie enthält?</translation>
         </message>
         <message>
             <source>Emulated Control in &amp;E-Stop</source>
-            <translation>Übungssteuerung im &amp;Not-Halt</translation>
+            <translation>Nachgebildete Steuerung im &amp;Not-Halt</translation>
         </message>
         <message>
             <source>Sto&amp;p Emulated Control</source>
-            <translation>Übungssteuerung been&amp;den</translation>
+            <translation>Nachgebildete Steuerung been&amp;den</translation>
         </message>
         <message>
             <source>Starting an emulated control …</source>
-            <translation>Eine Übungssteuerung wird gestartet …</translation>
+            <translation>Eine nachgebildete Steuerung wird gestartet …</translation>
         </message>
         <message>
             <source>Emulated control at {address}, in E-stop</source>
-            <translation>Übungssteuerung an {address}, im Not-Halt</translation>
+            <translation>Nachgebildete Steuerung an {address}, im Not-Halt</translation>
         </message>
         <message>
             <source>The emulated control stopped: {output}</source>
-            <translation>Die Übungssteuerung endete: {output}</translation>
+            <translation>Die nachgebildete Steuerung endete: {output}</translation>
         </message>
         <message>
             <source>Emulated control stopped</source>
-            <translation>Übungssteuerung beendet</translation>
+            <translation>Nachgebildete Steuerung beendet</translation>
         </message>
         <message>
             <source>Emulated control: {line}</source>
-            <translation>Übungssteuerung: {line}</translation>
+            <translation>Nachgebildete Steuerung: {line}</translation>
         </message>
         <message>
             <source>{only}: use Control &gt; Enter Values by Hand</source>
@@ -1264,7 +1269,7 @@ Woher ist bekannt, was sie enthält?</translation>
         </message>
         <message>
             <source>{name} has unsaved changes. A download sends the saved file.</source>
-            <translation>{name} hat ungespeicherte Änderungen. Geladen wird die gespeicherte Datei.</translation>
+            <translation>{name} hat ungespeicherte Änderungen. Gesendet wird die gespeicherte Datei.</translation>
         </message>
         <message>
             <source>&amp;Save and Continue</source>
@@ -1288,11 +1293,11 @@ Woher ist bekannt, was sie enthält?</translation>
 Download it anyway?</source>
             <translation>Die Datei hat {count}: {message}
 
-Trotzdem laden?</translation>
+Trotzdem senden?</translation>
         </message>
         <message>
             <source>&amp;Download</source>
-            <translation>&amp;Laden</translation>
+            <translation>&amp;Senden</translation>
         </message>
         <message>
             <source>The control contains parameters for {name}</source>
@@ -1304,15 +1309,15 @@ Trotzdem laden?</translation>
 The control's present parameters are saved as they are. Download anyway?</source>
             <translation>{error}.
 
-Die jetzigen Parameter der Steuerung werden gesichert, wie sie sind. Trotzdem laden?</translation>
+Die jetzigen Parameter der Steuerung werden gesichert, wie sie sind. Trotzdem senden?</translation>
         </message>
         <message>
             <source>Upload cancelled. No file was written.</source>
-            <translation>Holen abgebrochen. Keine Datei wurde geschrieben.</translation>
+            <translation>Auslesen abgebrochen. Keine Datei wurde geschrieben.</translation>
         </message>
         <message>
             <source>The control contains no parameters: there is nothing to upload.</source>
-            <translation>Die Steuerung enthält keine Parameter: es gibt nichts zu holen.</translation>
+            <translation>Die Steuerung enthält keine Parameter: es gibt nichts auszulesen.</translation>
         </message>
         <message>
             <source>{error}.
@@ -1324,7 +1329,7 @@ Byte für Byte sichert es 'amp-studio upload --from {address} -o NAME.img'.</tra
         </message>
         <message>
             <source>Save upload as</source>
-            <translation>Geholtes speichern unter</translation>
+            <translation>Ausgelesenes speichern unter</translation>
         </message>
         <message>
             <source>{error}.
@@ -1354,7 +1359,7 @@ Einen anderen Namen wählen.</translation>
         <name>ControlTarget</name>
         <message>
             <source>Download</source>
-            <translation>Laden</translation>
+            <translation>An Steuerung senden</translation>
         </message>
         <message>
             <source>Put Back</source>
@@ -1444,11 +1449,11 @@ Einen anderen Namen wählen.</translation>
         </message>
         <message>
             <source>Last download, {time}</source>
-            <translation>Letztes Laden, {time}</translation>
+            <translation>Letzte Sendung, {time}</translation>
         </message>
         <message>
             <source>Last download</source>
-            <translation>Letztes Laden</translation>
+            <translation>Letzte Sendung</translation>
         </message>
     </context>
     <context>
@@ -1525,7 +1530,7 @@ Einen anderen Namen wählen.</translation>
         </message>
         <message>
             <source>&amp;Reload</source>
-            <translation>&amp;Neu laden</translation>
+            <translation>&amp;Neu lesen</translation>
         </message>
         <message>
             <source>{name} was changed by another program while you have unsaved changes. Compare both, then save.</source>
@@ -1537,11 +1542,11 @@ Einen anderen Namen wählen.</translation>
         </message>
         <message>
             <source>Reload {name}? Your unsaved changes will be lost.</source>
-            <translation>{name} neu laden? Die ungespeicherten Änderungen gehen verloren.</translation>
+            <translation>{name} neu lesen? Die ungespeicherten Änderungen gehen verloren.</translation>
         </message>
         <message>
             <source>Reload</source>
-            <translation>Neu laden</translation>
+            <translation>Neu lesen</translation>
         </message>
         <message>
             <source>Cancel</source>
@@ -1590,13 +1595,13 @@ Einen anderen Namen wählen.</translation>
         <name>DownloadPreview</name>
         <message>
             <source>Download</source>
-            <translation>Laden</translation>
+            <translation>An Steuerung senden</translation>
         </message>
         <message>
             <source>{counts} The download replaces all parameters in the control. Values that are not set in this file are not sent. The control's present parameters are saved beside the file first.
 
 The control must be in E-stop.</source>
-            <translation>{counts} Das Laden ersetzt alle Parameter in der Steuerung. Werte, die in dieser Datei nicht gesetzt sind, werden nicht gesendet. Die jetzigen Parameter der Steuerung werden erst neben der Datei gesichert.
+            <translation>{counts} Das Senden ersetzt alle Parameter in der Steuerung. Werte, die in dieser Datei nicht gesetzt sind, werden nicht gesendet. Die jetzigen Parameter der Steuerung werden erst neben der Datei gesichert.
 
 Die Steuerung muss im Not-Halt sein.</translation>
         </message>
@@ -2105,7 +2110,7 @@ Die ungespeicherte Arbeit wiederherstellen? Das lässt sich zurücknehmen.</tran
         <name>FileTarget</name>
         <message>
             <source>The file is read-only: another program has it open.</source>
-            <translation>Die Datei ist nur zum Lesen: ein anderes Programm hat sie offen.</translation>
+            <translation>Die Datei ist schreibgeschützt: ein anderes Programm hat sie offen.</translation>
         </message>
     </context>
     <context>
@@ -2352,11 +2357,11 @@ Die ungespeicherte Arbeit wiederherstellen? Das lässt sich zurücknehmen.</tran
         </message>
         <message>
             <source>&amp;Verify</source>
-            <translation>&amp;Prüfen</translation>
+            <translation>&amp;Vergleichen</translation>
         </message>
         <message>
             <source>&amp;Download…</source>
-            <translation>&amp;Laden…</translation>
+            <translation>An Steuerung &amp;senden…</translation>
         </message>
         <message>
             <source>Save &amp;Table…</source>
@@ -2368,11 +2373,11 @@ Die ungespeicherte Arbeit wiederherstellen? Das lässt sich zurücknehmen.</tran
         </message>
         <message>
             <source>Verify</source>
-            <translation>Prüfen</translation>
+            <translation>Vergleichen</translation>
         </message>
         <message>
             <source>Download</source>
-            <translation>Laden</translation>
+            <translation>An Steuerung senden</translation>
         </message>
         <message>
             <source>Save Table</source>
@@ -2388,7 +2393,7 @@ Die ungespeicherte Arbeit wiederherstellen? Das lässt sich zurücknehmen.</tran
         </message>
         <message>
             <source>Download {name} to {count}?</source>
-            <translation>{name} in {count} laden?</translation>
+            <translation>{name} an {count} senden?</translation>
         </message>
         <message>
             <source>{what} All parameters of each are replaced; what it contains now is kept beside the file first.</source>
@@ -2396,7 +2401,7 @@ Die ungespeicherte Arbeit wiederherstellen? Das lässt sich zurücknehmen.</tran
         </message>
         <message>
             <source>&amp;Download</source>
-            <translation>&amp;Laden</translation>
+            <translation>&amp;Senden</translation>
         </message>
         <message>
             <source>Cancel</source>
@@ -2828,6 +2833,10 @@ Importieren und als erzwungen kennzeichnen?</translation>
             <source>Unit system</source>
             <translation>Einheitensystem</translation>
         </message>
+        <message>
+            <source>inch</source>
+            <translation>Zoll</translation>
+        </message>
     </context>
     <context>
         <name>MainWindow</name>
@@ -2999,7 +3008,7 @@ Die nummerierten Parameter von Maschinensteuerungen: bearbeiten, prüfen, drucke
         </message>
         <message>
             <source>&amp;Reversal error</source>
-            <translation>&amp;Umkehrfehler</translation>
+            <translation>&amp;Umkehrspanne</translation>
         </message>
         <message>
             <source>&amp;Positions in</source>
@@ -3370,7 +3379,7 @@ Die nummerierten Parameter von Maschinensteuerungen: bearbeiten, prüfen, drucke
         </message>
         <message>
             <source>Last download</source>
-            <translation>Letztes Laden</translation>
+            <translation>Letzte Sendung</translation>
         </message>
         <message>
             <source>{file} cannot be shown: {why}</source>
@@ -3410,7 +3419,7 @@ Die nummerierten Parameter von Maschinensteuerungen: bearbeiten, prüfen, drucke
         </message>
         <message>
             <source>Last Do&amp;wnload</source>
-            <translation>Letztes &amp;Laden</translation>
+            <translation>Letzte &amp;Sendung</translation>
         </message>
         <message>
             <source>&amp;Kept Copies</source>
@@ -3567,7 +3576,7 @@ Die nummerierten Parameter von Maschinensteuerungen: bearbeiten, prüfen, drucke
         </message>
         <message>
             <source>The file is open read-only.</source>
-            <translation>Die Datei ist nur zum Lesen offen.</translation>
+            <translation>Die Datei ist schreibgeschützt offen.</translation>
         </message>
         <message>
             <source>Nothing has been taken yet.</source>
@@ -3948,7 +3957,7 @@ Die nummerierten Parameter von Maschinensteuerungen: bearbeiten, prüfen, drucke
         </message>
         <message>
             <source>The file is read-only</source>
-            <translation>Die Datei ist nur zum Lesen</translation>
+            <translation>Die Datei ist schreibgeschützt</translation>
         </message>
         <message>
             <source>Dragging {name}: one undo step</source>
@@ -4441,7 +4450,7 @@ Die nummerierten Parameter von Maschinensteuerungen: bearbeiten, prüfen, drucke
         </message>
         <message>
             <source>Control before the download</source>
-            <translation>Steuerung vor dem Laden</translation>
+            <translation>Steuerung vor dem Senden</translation>
         </message>
         <message>
             <source>Recent projects</source>
@@ -4935,7 +4944,7 @@ Hier erlaubt: {allowed}</translation>
         </message>
         <message>
             <source>read-only</source>
-            <translation>nur zum Lesen</translation>
+            <translation>schreibgeschützt</translation>
         </message>
         <message>
             <source>{number} {noun}</source>
@@ -5274,7 +5283,7 @@ Die Arbeit ist noch offen.</translation>
         </message>
         <message>
             <source>Do&amp;wnload Values</source>
-            <translation>Werte &amp;laden</translation>
+            <translation>Werte &amp;senden</translation>
         </message>
         <message>
             <source>Read A&amp;gain</source>
@@ -5302,15 +5311,15 @@ Die Arbeit ist noch offen.</translation>
         </message>
         <message>
             <source>The file is read-only.</source>
-            <translation>Die Datei ist nur zum Lesen.</translation>
+            <translation>Die Datei ist schreibgeschützt.</translation>
         </message>
         <message>
             <source>Do&amp;wnload 1 Value</source>
-            <translation>1 Wert &amp;laden</translation>
+            <translation>1 Wert &amp;senden</translation>
         </message>
         <message>
             <source>Do&amp;wnload {count} Values</source>
-            <translation>{count} Werte &amp;laden</translation>
+            <translation>{count} Werte &amp;senden</translation>
         </message>
         <message>
             <source>It is not known what the control contains.</source>
@@ -5359,7 +5368,7 @@ Die Arbeit ist noch offen.</translation>
         </message>
         <message>
             <source>It is not known what the control contains. Verify it before the machine is used.</source>
-            <translation>Es ist nicht bekannt, was die Steuerung enthält. Vor dem Gebrauch der Maschine prüfen.</translation>
+            <translation>Es ist nicht bekannt, was die Steuerung enthält. Vor dem Gebrauch der Maschine vergleichen.</translation>
         </message>
         <message>
             <source>&amp;Leave</source>
@@ -5383,8 +5392,8 @@ Die Arbeit ist noch offen.</translation>
         <message numerus="yes">
             <source>Values that were not downloaded and will be forgotten: %n.</source>
             <translation>
-                <numerusform>Werte, die nicht geladen wurden und vergessen werden: %n.</numerusform>
-                <numerusform>Werte, die nicht geladen wurden und vergessen werden: %n.</numerusform>
+                <numerusform>Werte, die nicht gesendet wurden und vergessen werden: %n.</numerusform>
+                <numerusform>Werte, die nicht gesendet wurden und vergessen werden: %n.</numerusform>
             </translation>
         </message>
         <message>
@@ -5620,7 +5629,7 @@ Die Arbeit ist noch offen.</translation>
         </message>
         <message>
             <source>Loading the simulator</source>
-            <translation>Der Simulator wird geladen</translation>
+            <translation>Der Simulator wird bereitgestellt</translation>
         </message>
         <message>
             <source>Show File &amp;Beside</source>
@@ -5702,11 +5711,11 @@ Die Arbeit ist noch offen.</translation>
         </message>
         <message>
             <source>Upload…</source>
-            <translation>Holen…</translation>
+            <translation>Auslesen…</translation>
         </message>
         <message>
             <source>No control has been reached yet. Upload reads one into a new file.</source>
-            <translation>Noch keine Steuerung wurde erreicht. Holen liest eine in eine neue Datei.</translation>
+            <translation>Noch keine Steuerung wurde erreicht. Auslesen macht eine neue Datei daraus.</translation>
         </message>
         <message>
             <source>connected</source>
@@ -5714,15 +5723,15 @@ Die Arbeit ist noch offen.</translation>
         </message>
         <message>
             <source>downloaded</source>
-            <translation>geladen</translation>
+            <translation>gesendet</translation>
         </message>
         <message>
             <source>verified</source>
-            <translation>geprüft</translation>
+            <translation>verglichen</translation>
         </message>
         <message>
             <source>uploaded</source>
-            <translation>geholt</translation>
+            <translation>ausgelesen</translation>
         </message>
         <message>
             <source>restored</source>
@@ -5758,7 +5767,7 @@ Die Arbeit ist noch offen.</translation>
         </message>
         <message>
             <source>Upload</source>
-            <translation>Holen</translation>
+            <translation>Auslesen</translation>
         </message>
         <message>
             <source>&amp;Connect</source>
@@ -5766,7 +5775,7 @@ Die Arbeit ist noch offen.</translation>
         </message>
         <message>
             <source>&amp;Upload…</source>
-            <translation>&amp;Holen…</translation>
+            <translation>&amp;Auslesen…</translation>
         </message>
         <message>
             <source>&amp;Remove from the List</source>

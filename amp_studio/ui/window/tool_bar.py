@@ -16,8 +16,6 @@ from .studio_window import StudioWindow
 
 _FIND_WIDTH, _FIND_LEAST = 440, 160
 """Most that the find box takes, in logical pixels, and what it needs."""
-_SYSTEMS = {"metric": "mm"}
-"""Unit system -> the text of its button, if not its name."""
 
 
 class MainToolBar(QToolBar):
@@ -85,7 +83,8 @@ class MainToolBar(QToolBar):
         """Show the unit systems of the file in front, and which one it is shown in; none is pressed for values as entered."""
         workspace = self._window.workspace
         systems = workspace.file.schema.family.units if workspace else ("metric", "inch")
-        self.units.offer([(system, _SYSTEMS.get(system, system), "") for system in systems])
+        words = {"metric": "mm", "inch": self.tr("inch")}
+        self.units.offer([(system, words.get(system, system), "") for system in systems])
         self.units.setEnabled(workspace is not None)
         self._units_action.setVisible(len(systems) > 1)
         shown = workspace is not None and not workspace.as_entered

@@ -1,0 +1,32 @@
+"""Values and figures as the language of the window writes them: a German one with a decimal comma.
+
+What is typed may have either sign; editors and the clipboard have a point.
+"""
+
+from __future__ import annotations
+
+import re
+
+from amp_studio import schema
+from amp_studio.schema import Parameter, Value
+
+from .translated import tr
+
+_POINT = re.compile(r"(?<=\d)\.(?=\d)")
+
+
+def written(figure: str) -> str:
+    """Return a number that has a decimal point with the decimal sign of the language."""
+    return _POINT.sub(tr(".", "decimal sign"), figure)
+
+
+def show_value(parameter: Parameter, value: Value | None, *, secrets: bool = False) -> str:
+    """Write a value for a person; texts, choices and secrets stay as they are, and so do words of a control."""
+    text = schema.show_value(parameter, value, secrets=secrets)
+    is_number = value is not None and isinstance(value.value, (int, float)) and not parameter.choices
+    return written(text) if is_number and (secrets or not parameter.secret) else text
+
+
+def write_figure(number: float) -> str:
+    """Write a calculated number with the digits that matter."""
+    return written(schema.write_figure(number))
