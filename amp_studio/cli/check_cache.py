@@ -8,7 +8,6 @@ wrote or that cannot be read. A cache that cannot be written costs time only.
 
 from __future__ import annotations
 
-import argparse
 import contextlib
 import hashlib
 import json
@@ -28,6 +27,7 @@ from amp_studio.schema.regular_file import read_file
 from amp_studio.validate import RULES_FILE
 
 from .check_formats import CHECK_FORMATS, CheckResult
+from .verb import Options
 
 _OWN_OPTIONS = ("paths", "jobs", "no_cache")
 """Options that change no result of a file."""
@@ -42,7 +42,7 @@ _PATIENCE_S = 5.0
 class CheckCache:
     """The results that are kept for what a run was asked."""
 
-    def __init__(self, options: argparse.Namespace) -> None:
+    def __init__(self, options: Options) -> None:
         given = {name: str(value) for name, value in vars(options).items() if name not in _OWN_OPTIONS}
         here = str(Path.cwd()) if CHECK_FORMATS[options.format].from_here else ""
         self._asked = json.dumps([given, here], sort_keys=True).encode()

@@ -2,17 +2,16 @@
 
 from __future__ import annotations
 
-import json
 import sys
 from collections.abc import Callable, Sequence
 from pathlib import Path
-from typing import Any
-
-from amp_studio.schema import Schema, UnknownFamilyError, family_ids, load_schema
-from amp_studio.schema.quoting import quoted
+from typing import TYPE_CHECKING, Any
 
 from .errors import UsageError
 from .screen import print_notice, print_over
+
+if TYPE_CHECKING:
+    from amp_studio.schema import Schema
 
 
 def note(text: str) -> None:
@@ -28,11 +27,15 @@ def ask(question: str) -> str:
 
 def print_json(data: Any) -> None:
     """Print one JSON document; a terminal without UTF-8 gets it in ASCII."""
+    import json
+
     print(json.dumps(data, ensure_ascii=(sys.stdout.encoding or "").lower() != "utf-8", indent=2))
 
 
 def family(name: str) -> Schema:
     """Return a family's schema; raises UsageError."""
+    from amp_studio.schema import UnknownFamilyError, load_schema
+
     try:
         return load_schema(name)
     except UnknownFamilyError as error:
@@ -41,6 +44,8 @@ def family(name: str) -> Schema:
 
 def is_family(text: str) -> bool:
     """Return whether a text names a family, and not a file; raises UsageError where there is neither."""
+    from amp_studio.schema import family_ids
+
     if text in family_ids():
         return True
     path = Path(text)
@@ -101,6 +106,8 @@ WAITING = {"restart": "waiting for the control to restart"}
 
 def assignments(texts: Sequence[str], form: str = "PARAM=VALUE") -> list[tuple[str, str]]:
     """Part texts of this form; raises UsageError that names all that are none."""
+    from amp_studio.schema.quoting import quoted
+
     pairs, slips = [], []
     for text in texts:
         param, sign, value = text.partition("=")

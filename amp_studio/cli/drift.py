@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import argparse
 from collections.abc import Sequence
 from datetime import datetime
 from pathlib import Path
@@ -18,16 +17,17 @@ from amp_studio.transfer.exchange import Exchange
 from .comparing import difference_json
 from .console import note, print_json, progress
 from .errors import UsageError
+from .exit_codes import FAULT
 from .output import check_new
-from .program import FAULT
 from .stopping import asked_politely
+from .verb import Options
 
 _FIRST = 12
 """Values of a control that are printed; --json and --report have all."""
 _CODES = {"same": 0, "differs": 1, "not reached": FAULT, "no file": FAULT}
 
 
-def verify_all_verb(options: argparse.Namespace) -> int:
+def verify_all_verb(options: Options) -> int:
     """Compare every known control with its file; 1 where one differs, 2 where one could not be compared."""
     folder = options.path or Path()
     if options.control:

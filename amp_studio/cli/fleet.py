@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import argparse
 from collections.abc import Sequence
 from dataclasses import replace
 from pathlib import Path
@@ -28,11 +27,12 @@ from amp_studio.transfer.exchange import Exchange
 
 from .console import note, print_json, progress
 from .errors import UsageError
+from .exit_codes import AT_CONTROL, CHANGED, FAULT, UNKNOWN
 from .output import check_new, write_new
-from .program import AT_CONTROL, CHANGED, FAULT, UNKNOWN
+from .verb import Options
 
 
-def check_fleet(options: argparse.Namespace, addresses: Sequence[str]) -> None:
+def check_fleet(options: Options, addresses: Sequence[str]) -> None:
     """Refuse what cannot be used before anything is begun. Raises UsageError, ValueError."""
     check_addresses(addresses)
     if options.report is not None:
@@ -40,14 +40,12 @@ def check_fleet(options: argparse.Namespace, addresses: Sequence[str]) -> None:
         check_new(options.report, "a table of results")
 
 
-def is_fleet(options: argparse.Namespace, addresses: Sequence[str]) -> bool:
+def is_fleet(options: Options, addresses: Sequence[str]) -> bool:
     """Return whether the results are a table: of several controls, or because one was asked for."""
-    return (
-        len(addresses) > 1 or options.report is not None or (options.json and options.verb == "download_verb")
-    )
+    return len(addresses) > 1 or options.report is not None or (options.json and options.verb == "download")
 
 
-def download_to_several(options: argparse.Namespace, file: ParameterFile, exchange: Exchange) -> int:
+def download_to_several(options: Options, file: ParameterFile, exchange: Exchange) -> int:
     """Send a file to each control; returns the exit code of all."""
     return _end(
         options,
@@ -61,7 +59,7 @@ def download_to_several(options: argparse.Namespace, file: ParameterFile, exchan
     )
 
 
-def verify_several(options: argparse.Namespace, file: ParameterFile, exchange: Exchange) -> int:
+def verify_several(options: Options, file: ParameterFile, exchange: Exchange) -> int:
     """Compare a file with each control; 1 where one differs, 2 where one could not be read."""
     of_each = _one_of_several(exchange)
     return _end(options, verify_each(file, options.control, of_each, stop_on_failure=options.stop_on_failure))
@@ -72,7 +70,7 @@ def _one_of_several(exchange: Exchange) -> ExchangeOf:
     return lambda address: replace(exchange, progress=progress(address))
 
 
-def upload_several(options: argparse.Namespace, exchange: Exchange) -> int:
+def upload_several(options: Options, exchange: Exchange) -> int:
     """Fetch what each control contains into a file of a folder, named by its address; returns the exit code of all."""
     folder: Path = options.output
     if not folder.is_dir():
@@ -124,7 +122,7 @@ def _as_name(address: str) -> str:
     return "-".join(filter(None, "".join(c if c.isalnum() or c in "._" else "-" for c in address).split("-")))
 
 
-def _end(options: argparse.Namespace, rows: list[FleetRow]) -> int:
+def _end(options: Options, rows: list[FleetRow]) -> int:
     """Print the table, write the report and return one code for all."""
     codes = [_code(row) for row in rows]
     if options.json:
@@ -144,7 +142,7 @@ def _end(options: argparse.Namespace, rows: list[FleetRow]) -> int:
     note(f"amp-studio: {len(rows) - len(wrong)} of {counted(len(rows), 'control')} done; {names}")
     if UNKNOWN in codes:
         return UNKNOWN
-    is_partly = options.verb == "download_verb" and any(row.word == "done" for row in rows)
+    is_partly = options.verb == "download" and any(row.word == "done" for row in rows)
     return CHANGED if CHANGED in codes or is_partly else FAULT
 
 

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import argparse
 from collections.abc import Iterator
 from pathlib import Path
 
@@ -14,9 +13,10 @@ from amp_studio.schema.nearest import unknown_name
 from .console import note
 from .errors import UsageError
 from .opened import opened
+from .verb import Options
 
 
-def file_like(options: argparse.Namespace, axes: list[str]) -> ParameterFile:
+def file_like(options: Options, axes: list[str]) -> ParameterFile:
     """Return the file, and print what it does not have of the other; raises UsageError where they cannot be alike."""
     made = _made_like(options, axes)
     for text in _not_taken(made):
@@ -24,7 +24,7 @@ def file_like(options: argparse.Namespace, axes: list[str]) -> ParameterFile:
     return made.file
 
 
-def _made_like(options: argparse.Namespace, axes: list[str]) -> MadeLike:
+def _made_like(options: Options, axes: list[str]) -> MadeLike:
     """Return a file like another file or an example; raises UsageError where they cannot be alike."""
     path = Path(options.like)
     known = {e.path.parent.name: e.path for e in examples()} | {e.path.stem: e.path for e in examples()}

@@ -1,39 +1,21 @@
-"""What comes below the help of a verb, in the man page too.
-
-Nothing here loads a schema: help must come at once.
-"""
+"""What the help has besides the arguments of a verb; in the man page too. Nothing here loads a schema: help must come at once."""
 
 from __future__ import annotations
 
-import sys
-from collections.abc import Iterator
-from pathlib import Path
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 
-from amp_studio.family_places import installed_places, own_formats
-from amp_studio.scenarios import scenario_names
+from .candidates import families
+from .registry import summaries
+from .verb import Verb
 
-from .examples import EXAMPLES
-
+PROGRAM = "amp-studio"
+ABOUT = "Edit, check, print and exchange the parameters of a machine control. Without a verb: the desktop program, on the files that are named."
 EXIT_CODES = (
     "0  done, nothing wrong",
     "1  done; what was checked has errors, or the two sides differ",
     "2  the input cannot be used; nothing was changed",
     "3  something was changed before it failed; the message describes the present state",
     "4  it is not known whether the control changed; the message explains how to find out",
-)
-_FAMILY = ("schema", "show", "tables", "find", "calculate", "new", "guide", "form", "import", "emulate")
-_PARAM = ("show", "set", "get", "note", "guide", "fix", "merge", "sheet", "simulate")
-_ADDRESS = (
-    "diff",
-    "sheet",
-    "emulate",
-    "identify",
-    "download",
-    "verify",
-    "upload",
-    "restore",
-    "send",
-    "receive",
 )
 _PARAMETERS = (
     "1300                 the number in the manual",
@@ -61,39 +43,61 @@ _ADDRESSES = (
 )
 
 
-def families() -> tuple[str, ...]:
-    """Return the families, as ``family_ids`` of the schema does, without loading it."""
-    package = Path(__file__).resolve().parent.parent
-    folders = (package / "parameter_db", package.parent / "parameter_db")
-    own = {p.parent.name for folder in folders for p in folder.glob("*/family.yaml")} | set(
-        installed_places()
-    )
-    registration = sys.modules.get("amp_studio.schema.registration")  # who registers a family has loaded it
-    return tuple(sorted(own | set(registration.added_facts() if registration else ())))
+def _scenarios() -> Sequence[str]:
+    from amp_studio.scenarios import scenario_names
+
+    return (", ".join(scenario_names()),)
 
 
-def example_names() -> tuple[str, ...]:
-    """Return the folders of the example machines, without reading them."""
-    package = Path(__file__).resolve().parent.parent
-    folders = (package / "examples", package.parent / "examples")
-    return tuple(sorted({p.parent.name for folder in folders for p in folder.glob("*/*.amp")}))
+def _formats() -> Sequence[str]:
+    from amp_studio.family_places import own_formats
+
+    formats = {"csv": "table of values, of every family (.csv)", **own_formats()}
+    return tuple(f"{name:20} {what}" for name, what in formats.items())
 
 
-def sections(verb: str) -> Iterator[tuple[str, tuple[str, ...]]]:
-    """Yield what comes below the help of a verb, or of the program (""): a title and its lines."""
-    if verb in ("", *_FAMILY):
-        yield "families", (", ".join(families()),)
-    if verb == "simulate":
-        yield "scenarios", (", ".join(scenario_names()),)
-    if verb in _PARAM:
-        yield "PARAM", _PARAMETERS
-    if verb in ("set", "simulate"):
-        yield "VALUE", _VALUES
-    if verb in ("import", "export"):
-        formats = {"csv": "table of values, of every family (.csv)", **own_formats()}
-        yield "FORMAT", tuple(f"{name:20} {what}" for name, what in formats.items())
-    if verb in _ADDRESS:
-        yield "ADDRESS", _ADDRESSES
-    if verb in EXAMPLES:
-        yield "examples", EXAMPLES[verb]
+SECTIONS: Mapping[str, Callable[[], Sequence[str]]] = {
+    "families": lambda: (", ".join(families()),),
+    "scenarios": _scenarios,
+    "PARAM": lambda: _PARAMETERS,
+    "VALUE": lambda: _VALUES,
+    "FORMAT": _formats,
+    "ADDRESS": lambda: _ADDRESSES,
+}
+"""Title -> its lines, of what several verbs take and their help explains."""
+
+
+def sections(verb: Verb | None = None) -> Iterator[tuple[str, Sequence[str]]]:
+    """Yield what comes below the help of a verb, or of the program: a title and its lines."""
+    for title in verb.sections if verb else ("families",):
+        yield title, SECTIONS[title]()
+    if verb:
+        yield "examples", verb.examples
     yield "exit codes", EXIT_CODES
+
+
+def help_of(arguments: str, verb: Verb) -> str:
+    """Return the help of a verb: its arguments, and what comes below them."""
+    return _joined(arguments, sections(verb))
+
+
+def program_help() -> str:
+    """Return the help of the program: every verb in its group."""
+    from textwrap import wrap
+
+    groups = []
+    for heading, verbs in summaries().items():
+        lines = []
+        for name, summary in verbs.items():
+            first, *more = wrap(summary, 62)
+            lines += [f"{name:14}{first}", *(f"{'':14}{line}" for line in more)]
+        groups.append((heading, lines))
+    usage = f"usage: {PROGRAM} [-h] [--version] VERB ..."
+    options = ("-h, --help    show this help message and exit", "--version     show the version and exit")
+    about = "\n".join(wrap(ABOUT, 78))
+    return _joined(f"{usage}\n\n{about}", [*groups, ("options", options), *sections()])
+
+
+def _joined(text: str, below: Iterable[tuple[str, Sequence[str]]]) -> str:
+    parts = (f"{title}:\n" + "\n".join(f"  {line}" for line in lines) for title, lines in below)
+    return "\n\n".join([text.rstrip(), *parts]) + "\n"

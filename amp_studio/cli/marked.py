@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-import argparse
 from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from amp_studio.files import ParameterFile
 from amp_studio.schema import Meant
+
+from .verb import Options
 
 if TYPE_CHECKING:  # most verbs about files ask for no mark, and start without what finds them
     from amp_studio.find import Mark
@@ -23,7 +24,7 @@ _OPTIONS: dict[str, Mark] = {
 }
 
 
-def marks_asked(options: argparse.Namespace) -> list[Mark]:
+def marks_asked(options: Options) -> list[Mark]:
     """Return the marks that the options name."""
     return [mark for option, mark in _OPTIONS.items() if getattr(options, option)]
 

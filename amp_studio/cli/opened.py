@@ -2,23 +2,25 @@
 
 from __future__ import annotations
 
-import argparse
 from collections.abc import Callable
 from pathlib import Path
-
-from amp_studio.files import ENDING, ParameterFile, open_file
+from typing import TYPE_CHECKING
 
 from .console import note
 from .errors import UsageError
+from .verb import Options
+
+if TYPE_CHECKING:
+    from amp_studio.files import ParameterFile
 
 
-def opened(
-    path: Path, options: argparse.Namespace | None = None, notify: Callable[[str], None] = note
-) -> ParameterFile:
+def opened(path: Path, options: Options | None = None, notify: Callable[[str], None] = note) -> ParameterFile:
     """Return the parameters of a file that is only read; notes about a control's own text go to standard error.
 
-    ``options`` of ``text_options`` name the family and the machine type of such a text. Raises UsageError, ParameterFileError.
+    ``options`` with ``arguments.TEXT`` name the family and the machine type of such a text. Raises UsageError, ParameterFileError.
     """
+    from amp_studio.files import ENDING, open_file
+
     if path.suffix.casefold() == ENDING:
         return open_file(path).file
     from amp_studio.formats.any_file import open_for_reading  # most files are parameter files

@@ -6,11 +6,13 @@ import contextlib
 import os
 from collections.abc import Sequence
 from pathlib import Path
-
-from amp_studio.files import Document, ParameterFile, check_output, is_there, text_of_name
+from typing import TYPE_CHECKING
 
 from .console import note
 from .errors import UsageError
+
+if TYPE_CHECKING:
+    from amp_studio.files import ParameterFile
 
 
 def check_replaced(output: Path, *inputs: Path) -> None:
@@ -18,6 +20,8 @@ def check_replaced(output: Path, *inputs: Path) -> None:
 
     Raises UsageError, SaveError.
     """
+    from amp_studio.files import check_output
+
     check_output(output, *inputs)
     for printed in (1, 2):
         with contextlib.suppress(OSError):
@@ -29,6 +33,8 @@ def check_replaced(output: Path, *inputs: Path) -> None:
 
 def check_new(output: Path, what: str, *inputs: Path) -> None:
     """Refuse an output that is there already, or could not be written; raises UsageError, SaveError."""
+    from amp_studio.files import check_output, is_there
+
     if is_there(output):
         raise UsageError(f"{output} exists already: {what} gets a new name")
     if not output.parent.is_dir():
@@ -38,6 +44,8 @@ def check_new(output: Path, what: str, *inputs: Path) -> None:
 
 def write_new(file: ParameterFile, path: Path) -> None:
     """Save a new file, named as its path; raises FileExistsError, SaveError."""
+    from amp_studio.files import Document, text_of_name
+
     file.header.name = text_of_name(path.stem)
     document = Document.create(file, path)
     document.close()

@@ -1,8 +1,4 @@
-"""Runs a verb and ends with the truth: an exit code and one line on what went wrong and what is true now.
-
-argparse is used because it answers misuse with exit code 2 and costs no start-up time; the module of a verb, with the
-rooms it needs, is loaded when the verb is called.
-"""
+"""Runs a verb and ends with the truth: an exit code and one line on what went wrong and what is true now."""
 
 from __future__ import annotations
 
@@ -16,22 +12,19 @@ from importlib import import_module
 from types import ModuleType
 from typing import TYPE_CHECKING, Any, NoReturn
 
+from amp_studio.version import __version__
+
+from .exit_codes import AT_CONTROL, CHANGED, FAULT
 from .screen import end_results, flush_results, open_streams, print_notice
 from .stopping import answer_once, no_more, was_asked
 
 if TYPE_CHECKING:
     from .outcome import Target
 
-FAULT, CHANGED, UNKNOWN = 2, 3, 4
 BEGINNING, END = 1500, 1500
-"""Signs of a message that are shown at most."""
-AT_CONTROL = {"old": FAULT, "new": CHANGED, "mixed": CHANGED, "defaults": CHANGED, "unknown": UNKNOWN}
-"""The exit code of an exchange by what the control contains after it."""
+"""Characters of a message that are shown at most."""
 
 _PARAMETER_FILE = ".amp"
-
-AT_A_CONTROL = ("control", "identify", "plain_files", "comparing")
-"""Modules of verbs that may connect to a control."""
 
 
 def start(arguments: Sequence[str] | None) -> NoReturn:
@@ -115,22 +108,8 @@ def _complete(words: Sequence[str]) -> int:
 
 def _run(arguments: Sequence[str], replaced: list[Target]) -> int:
     """Run one verb; ``replaced`` takes the files that it may replace."""
-    from .outcome import targets
-    from .parser import parser
-
     try:
-        try:
-            options = parser(arguments[0]).parse_args(arguments)
-        except SystemExit:  # help or the version has been printed
-            flush_results()
-            return 0
-        replaced += targets([path for name in options.writes if (path := getattr(options, name))])
-        if options.module in AT_A_CONTROL and sys.stdin is not None and sys.stdin.isatty():
-            from .asking import ask_at_terminal
-
-            ask_at_terminal()
-        verb = getattr(import_module(f".{options.module}", __package__), options.verb)
-        code = int(verb(options))
+        code = _call(arguments, replaced)
         if was_asked():
             raise KeyboardInterrupt
         flush_results()
@@ -143,6 +122,38 @@ def _run(arguments: Sequence[str], replaced: list[Target]) -> int:
             raise KeyboardInterrupt from None
         return _refuse(_sentence(error), replaced, AT_CONTROL.get(getattr(error, "at_control", ""), FAULT))
     return code
+
+
+def _call(arguments: Sequence[str], replaced: list[Target]) -> int:
+    """Do what the first word names, and return the exit code; each module is loaded when it is needed."""
+    name, *words = arguments
+    if name == "--version":
+        print(f"amp-studio {__version__}")
+        return 0
+    if name in ("-h", "--help"):
+        from .manual import program_help
+
+        print(program_help(), end="")
+        return 0
+    from .parsing import HelpPrinted, parse, refuse_program
+    from .registry import module_of, verb_names
+
+    if name not in verb_names():
+        refuse_program(name, verb_names())
+    module = module_of(name)
+    try:
+        options = parse(name, module.VERB, words)
+    except HelpPrinted:
+        return 0
+    if module.VERB.writes:
+        from .outcome import targets
+
+        replaced += targets([path for each in module.VERB.writes if (path := getattr(options, each))])
+    if module.VERB.at_control and sys.stdin is not None and sys.stdin.isatty():
+        from .asking import ask_at_terminal
+
+        ask_at_terminal()
+    return int(module.run(options))
 
 
 def _sentence(error: BaseException) -> str:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import traceback
 from pathlib import Path
 
 
@@ -10,7 +9,9 @@ def keep_details(error: BaseException) -> str:
     """Keep the traceback of an unforeseen error and return one sentence that names it and the place."""
     message = f"this should not have happened ({type(error).__name__}: {error})"
     try:
-        import platformdirs  # with tempfile and more, for what hardly ever happens
+        import traceback  # these two for what hardly ever happens
+
+        import platformdirs
 
         place = Path(platformdirs.user_log_dir("amp-studio")) / "trouble.txt"
         place.parent.mkdir(parents=True, exist_ok=True)

@@ -10,8 +10,9 @@ from typing import Any
 
 import pytest
 
-from amp_studio.cli import check_cache, checks
+from amp_studio.cli import check_cache
 from amp_studio.cli.check_formats import CHECK_FORMATS
+from amp_studio.cli.verbs.checks import validate
 from amp_studio.files import Document
 
 
@@ -38,13 +39,13 @@ def machines(amp, tmp_path: Path, mill: Path) -> Path:
 def checked(monkeypatch: pytest.MonkeyPatch) -> list[str]:
     """Return a list that gets the name of each file that is checked."""
     names: list[str] = []
-    opened = checks.opened
+    opened = validate.opened
 
     def watched(path: Path, *more: Any) -> Any:
         names.append(path.name)
         return opened(path, *more)
 
-    monkeypatch.setattr(checks, "opened", watched)
+    monkeypatch.setattr(validate, "opened", watched)
     return names
 
 
@@ -160,7 +161,7 @@ def test_the_code_of_another_package_s_family_is_a_part_of_the_program(
 def test_the_digest_of_the_program_has_its_modules_and_its_facts() -> None:
     package, facts, *_ = check_cache._program_folders()
     names = {part for folder in (package, facts) for part in check_cache._contents(folder)}
-    for path in (Path(checks.__file__), facts / "9pc" / "family.yaml"):
+    for path in (Path(validate.__file__), facts / "9pc" / "family.yaml"):
         assert str(path).encode() in names
         assert path.read_bytes() in names
 
@@ -206,7 +207,7 @@ def test_a_cache_that_cannot_be_written_costs_time_only(
 def test_a_file_that_is_changed_while_it_is_checked_is_checked_again(
     amp, cache: Path, machines: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    opened, other = checks.opened, (machines / "1.amp").read_bytes()
+    opened, other = validate.opened, (machines / "1.amp").read_bytes()
 
     def slow(path: Path, *more: Any) -> Any:
         file = opened(path, *more)
@@ -215,7 +216,7 @@ def test_a_file_that_is_changed_while_it_is_checked_is_checked_again(
         return file
 
     with monkeypatch.context() as patch:
-        patch.setattr(checks, "opened", slow)
+        patch.setattr(validate, "opened", slow)
         amp("validate", machines)
     assert amp("validate", machines).out == amp("validate", machines, "--no-cache").out
 

@@ -16,7 +16,7 @@ import jsonschema
 import pytest
 
 from amp_studio.cli.check_formats import CHECK_FORMATS, uri_of
-from amp_studio.cli.options import checks
+from amp_studio.cli.verbs.checks import validate
 from amp_studio.schema.yaml_reader import read_yaml
 
 TEXT = {"type": "string", "minLength": 1}
@@ -108,7 +108,7 @@ def run(machines: Path, capsys: pytest.CaptureFixture[str], form: str) -> tuple[
 
 
 def test_the_formats_of_the_help_are_those_there_are() -> None:
-    assert tuple(CHECK_FORMATS) == checks.CHECK_FORMATS
+    assert tuple(CHECK_FORMATS) == validate.FORMATS
 
 
 def test_sarif_has_the_findings_of_json_where_they_are(

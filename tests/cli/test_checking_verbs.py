@@ -8,7 +8,6 @@ from pathlib import Path
 import pytest
 
 from amp_studio import cli
-from amp_studio.cli import motion
 from amp_studio.files import open_file
 from amp_studio.schema import Value
 
@@ -400,7 +399,7 @@ def test_what_is_drawn_below_a_changed_value_is_the_same_move(
 ) -> None:
     amp("set", mill, "1030=sercos", "1031=digital")
     drawn = []
-    monkeypatch.setattr(motion, "write_trace", lambda trace, *_, before: drawn.append((before, trace)))
+    monkeypatch.setattr("amp_studio.sim.write_trace", lambda trace, *_, before: drawn.append((before, trace)))
     amp(
         "simulate", mill, "step", "--axis", "1", "--set", "servo.initial_gain@1=0.4", "-o", tmp_path / "a.svg"
     )

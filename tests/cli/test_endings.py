@@ -150,7 +150,7 @@ def test_an_interrupt_that_an_expression_has_swallowed_is_not_forgotten(amp, mil
         monkeypatch.setattr(stopping, "_asked", [signal.SIGINT])
         return 0
 
-    monkeypatch.setattr("amp_studio.cli.files.get_verb", swallow)
+    monkeypatch.setattr("amp_studio.cli.verbs.files.get.run", swallow)
     assert (amp("get", mill).code, amp("get", mill).err) == (2, "amp-studio: stopped\n")
 
 
@@ -164,7 +164,7 @@ def test_an_interrupt_while_a_refusal_is_worded_says_what_holds(amp, mill: Path,
         raise ValueError("after the change")
 
     monkeypatch.setattr("amp_studio.cli.program._sentence", stop)
-    monkeypatch.setattr("amp_studio.cli.files.set_verb", fail)
+    monkeypatch.setattr("amp_studio.cli.verbs.files.set.run", fail)
     said = amp("set", mill, "1300=1")
     assert (said.code, said.err) == (
         3,
@@ -178,7 +178,7 @@ def test_what_nobody_has_foreseen_is_one_line_with_the_place_of_the_details(
     def fail(_: object) -> int:
         raise KeyError("never")
 
-    monkeypatch.setattr("amp_studio.cli.files.get_verb", fail)
+    monkeypatch.setattr("amp_studio.cli.verbs.files.get.run", fail)
     said = amp("get", mill)
     assert (said.code, "should not have happened (KeyError: 'never')" in said.err) == (2, True)
     place = Path(said.err.rpartition("the details are in ")[2].strip())

@@ -17,10 +17,13 @@ from pathlib import Path
 import pytest
 
 from amp_studio import cli
-from amp_studio.cli.examples import EXAMPLES, MILL
-from amp_studio.cli.man_page import man_page
-from amp_studio.cli.manual import families, sections
-from amp_studio.cli.parser import parser, verbs_of
+from amp_studio.cli import verbs
+from amp_studio.cli.candidates import families
+from amp_studio.cli.completion import answer
+from amp_studio.cli.manual import SECTIONS, sections
+from amp_studio.cli.parsing import help_text
+from amp_studio.cli.registry import GROUPS, all_verbs, summaries
+from amp_studio.cli.verbs.shell.man import man_page
 from amp_studio.formats.import_export import all_formats
 from amp_studio.scenarios import scenario_names
 from amp_studio.schema import family_ids
@@ -35,6 +38,9 @@ from tests.docs.stage import Stage
 
 KNOWN = ", ".join(family_ids())
 
+VERBS = all_verbs()
+MILL = "MILL_1394.amp"
+"""The machine of the examples of every verb."""
 EXAMPLE = Path(__file__).parents[2] / "examples" / "mill-1394" / MILL
 AT_A_CONTROL = ("emulate", "identify", "download", "verify", "upload", "restore")
 
@@ -100,43 +106,64 @@ def test_checking_a_file_loads_nothing_of_printing_saving_and_explaining() -> No
 
 
 def test_help_names_the_families_and_scenarios_that_there_are() -> None:
-    assert families() == family_ids()
+    assert tuple(families()) == family_ids()
     assert set(SIMULATED) <= set(scenario_names())
 
 
-@pytest.mark.parametrize("verb", verbs_of(parser()))
+@pytest.mark.parametrize("verb", VERBS)
 def test_help_of_every_verb_has_examples_and_exit_codes_and_explains_every_argument(verb: str) -> None:
-    sub = verbs_of(parser())[verb]
-    told = sub.format_help()
-    assert all(line in told for line in EXAMPLES[verb])
-    assert "exit codes:\n  0  done" in told
-    assert [action.dest for action in sub._actions if not action.help] == []
+    printed = help_text(verb, VERBS[verb])
+    assert VERBS[verb].examples
+    assert all(line in printed for line in VERBS[verb].examples)
+    assert "exit codes:\n  0  done" in printed
+    assert [each.names for each in VERBS[verb].arguments if not each.help] == []
+
+
+def test_the_help_of_the_program_has_the_sentence_of_every_verb() -> None:
+    listed = {verb: text for group in summaries().values() for verb, text in group.items()}
+    assert listed == {name: f"{v.about[0].lower()}{v.about[1:-1]}" for name, v in VERBS.items()}
+    assert all(verb.about.endswith(".") for verb in VERBS.values())
+    folders = {p.name for p in Path(verbs.__file__).parent.iterdir() if (p / "__init__.py").exists()}
+    assert folders == set(GROUPS)
+    assert {title for verb in VERBS.values() for title in verb.sections} == set(SECTIONS)
+
+
+def test_the_file_in_contributing_is_all_that_a_new_verb_needs(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    page = (Path(__file__).parents[2] / "CONTRIBUTING.md").read_text(encoding="utf-8")
+    (text,) = re.findall(r"^```python\n(.*?)^```$", page, re.DOTALL | re.MULTILINE)
+    for group in GROUPS:
+        (tmp_path / group).mkdir()
+    (tmp_path / "files/count_axes.py").write_text(text, encoding="utf-8")
+    monkeypatch.setattr("amp_studio.cli.registry._FOLDER", str(tmp_path))
+    monkeypatch.setattr(verbs.files, "__path__", [str(tmp_path / "files")])
+    assert cli.run(["--help"]) == 0
+    assert "  count-axes    the axes of a machine, counted\n" in capsys.readouterr().out
+    assert cli.run(["count-axes", "--help"]) == 0
+    assert "  amp-studio count-axes MILL_1394.amp\n" in capsys.readouterr().out
+    assert cli.run(["count-axes", str(EXAMPLE)]) == 0
+    assert capsys.readouterr().out == "5\n"
+    answer(["count-axes", "--h"], "")
+    assert capsys.readouterr().out == "--help\n"
 
 
 def test_help_names_the_text_formats_that_there_are() -> None:
-    shown = dict(sections("import"))["FORMAT"]
-    assert dict(sections("export"))["FORMAT"] == shown
+    shown = dict(sections(VERBS["import"]))["FORMAT"]
+    assert dict(sections(VERBS["export"]))["FORMAT"] == shown
     for line, each in zip(sorted(shown), sorted(all_formats(), key=lambda each: each.key), strict=True):
         assert line.split()[0] == each.key
         assert each.title in line
         assert line.endswith(f"({' '.join((each.ending, *each.other_endings))})")
 
 
-def test_the_parser_of_one_verb_is_the_one_among_all() -> None:
-    for verb, sub in verbs_of(parser()).items():
-        alone = verbs_of(parser(verb))
-        assert list(alone) == [verb]
-        assert alone[verb].format_help() == sub.format_help()
-    assert list(verbs_of(parser("vlidate"))) == list(verbs_of(parser()))
-
-
 def offline() -> Iterator[str]:
     """Yield the examples that need no control, in their order."""
     yield from (
         line
-        for verb, lines in EXAMPLES.items()
+        for verb in VERBS
         if verb not in (*AT_A_CONTROL, "send", "receive")
-        for line in lines
+        for line in VERBS[verb].examples
     )
 
 
@@ -150,7 +177,7 @@ def test_an_example_works_word_for_word(line: str, here: Path, capsys: pytest.Ca
 def test_the_examples_at_a_control_work_word_for_word_one_after_the_other(here: Path) -> None:
     stage = Stage(here)
     try:
-        for line in (line for verb in AT_A_CONTROL for line in EXAMPLES[verb]):
+        for line in (line for verb in AT_A_CONTROL for line in VERBS[verb].examples):
             assert stage.run(line) == 0, line
     finally:
         stage.close()
@@ -166,7 +193,7 @@ def test_the_examples_of_plain_files_work_word_for_word(here: Path) -> None:
         send_batch(BlockSender(line, long_blocks=True), [PlainFile("received.txt", b"N1")])
 
     for verb, port, end in (("send", 8194, receive), ("receive", 8195, send)):
-        (example,) = EXAMPLES[verb]
+        (example,) = VERBS[verb].examples
         try:
             listening = socket.create_server(("127.0.0.1", port))
         except OSError:  # somebody else listens there
@@ -262,7 +289,7 @@ def test_one_is_one_and_two_are_several(amp, here: Path) -> None:
 
 def test_the_man_page_has_every_verb_and_troff_finds_nothing_wrong_in_it() -> None:
     page = man_page()
-    for verb in verbs_of(parser()):
+    for verb in VERBS:
         assert f"\n.SS {verb}\n" in page
     if shutil.which("groff") is None:
         pytest.skip("there is no groff")

@@ -12,7 +12,7 @@ from pathlib import Path
 import pytest
 
 from amp_studio import cli
-from amp_studio.cli import checks
+from amp_studio.cli.verbs.checks import validate
 from amp_studio.files import atomic
 
 ODD = ("pipe", "folder", "zero", "loop", "nowhere")
@@ -160,7 +160,7 @@ def test_a_folder_that_cannot_be_read_is_told_after_the_rest(mill: Path, tmp_pat
             raise PermissionError(13, "Permission denied", str(path))
         return scandir(path)
 
-    monkeypatch.setattr(checks.os, "scandir", denied)
+    monkeypatch.setattr(validate.os, "scandir", denied)
     code, unread, out = _validated(tmp_path)
     assert (code, unread) == (2, ["shut"])
     assert "mill.amp: " in out

@@ -10,8 +10,7 @@ from pathlib import Path
 import pytest
 
 from amp_studio.cli import run
-from amp_studio.cli.options.exchanges import RECEIVING as OFFERED_RECEIVING
-from amp_studio.cli.options.exchanges import SENDING as OFFERED_SENDING
+from amp_studio.cli.verbs.controls import receive, send
 from amp_studio.transfer.links.endpoint import Endpoint
 from amp_studio.transfer.links.tcp import TcpLink
 from amp_studio.transfer.plain.files import RECEIVING, SENDING
@@ -187,4 +186,4 @@ def test_what_cannot_be_sent_is_refused_before_anything_is_opened(
 
 
 def test_the_parser_offers_every_protocol_of_plain_files() -> None:
-    assert (OFFERED_SENDING, OFFERED_RECEIVING) == (SENDING, RECEIVING)
+    assert (send.PROTOCOLS, receive.PROTOCOLS) == (SENDING, RECEIVING)

@@ -94,7 +94,7 @@ def test_a_fault_in_the_facts_is_told_in_one_line(amp, mill: Path, tmp_path: Pat
     def broken(_: str) -> None:
         raise DatabaseError(tmp_path / "family.yaml", 3, "colour: there is no such key")
 
-    monkeypatch.setattr("amp_studio.cli.console.load_schema", broken)
+    monkeypatch.setattr("amp_studio.schema.load_schema", broken)
     for arguments in (("families",), ("schema", "9pc"), ("new", "9pc", tmp_path / "x.amp")):
         refused = amp(*arguments)
         assert (refused.code, "family.yaml, line 3: colour" in refused.err) == (2, True)
@@ -104,5 +104,5 @@ def test_stopping_it_is_told_and_ends_with_2(amp, mill: Path, monkeypatch) -> No
     def stop(*_: object) -> int:
         raise KeyboardInterrupt
 
-    monkeypatch.setattr("amp_studio.cli.files.opened", stop)
+    monkeypatch.setattr("amp_studio.cli.verbs.files.get.opened", stop)
     assert (amp("get", mill).code, amp("get", mill).err) == (2, "amp-studio: stopped\n")

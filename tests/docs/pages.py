@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import argparse
 import re
 import shlex
 from collections.abc import Iterator
@@ -10,7 +9,9 @@ from functools import cache
 from pathlib import Path
 
 from amp_studio.cli.errors import UsageError
-from amp_studio.cli.parser import parser, verbs_of
+from amp_studio.cli.parsing import HelpPrinted, parse
+from amp_studio.cli.registry import all_verbs
+from amp_studio.cli.verb import Verb
 
 ROOT = Path(__file__).parents[2]
 PROGRAMS = ("amp-studio", ".venv/bin/amp-studio")
@@ -72,8 +73,8 @@ def without_comment(line: str) -> str:
 
 
 @cache
-def verbs() -> dict[str, argparse.ArgumentParser]:
-    return verbs_of(parser())
+def verbs() -> dict[str, Verb]:
+    return all_verbs()
 
 
 def is_form(line: str) -> bool:
@@ -83,6 +84,10 @@ def is_form(line: str) -> bool:
         return True
     verb = verbs().get(words[1]) if words[0] in PROGRAMS else None
     try:
-        return verb is not None and verb.parse_args(words[2:]) is None
+        if verb is not None:
+            parse(words[1], verb, words[2:])
+        return False
+    except HelpPrinted:
+        return False
     except UsageError as error:
         return "Missing: " in str(error)

@@ -20,7 +20,6 @@ from page_pictures import BEGINS_WITH, files_of
 
 from amp_studio import cli
 from amp_studio.cli import console
-from amp_studio.cli.parser import parser
 from amp_studio.schema.yaml_reader import read_yaml
 from amp_studio.transfer.links.endpoint import parse_endpoint
 from amp_studio.transfer.links.opening import listen
@@ -256,15 +255,8 @@ def test_forms_name_verbs_and_options_that_there_are() -> None:
     forms = [line.split() for page in documents() for line in lines_of(page) if is_form(line)]
     assert len(forms) > 10
     for _, verb, *words in (form for form in forms if form[0] in PROGRAMS and form[1] != "VERB"):
-        known = verbs()[verb]._option_string_actions
+        known = verbs()[verb].options
         assert [word for word in words if word.startswith("-") and word not in known] == [], (verb, words)
-
-
-def test_every_verb_is_on_the_page_of_commands_with_the_text_of_its_help() -> None:
-    (made,) = (action for action in parser()._actions if isinstance(action.choices, dict))
-    table = text_of("docs/commands.md").partition("## All verbs")[2].partition("## ")[0]
-    listed = re.findall(r"^\| `(\w+)` \| (.+) \|$", table, re.MULTILINE)
-    assert listed == [(verb.dest, verb.help) for verb in made._choices_actions]
 
 
 def keys_of(found: object) -> list[str]:

@@ -17,7 +17,8 @@ from pydantic import ValidationError
 
 from amp_studio.cli.check_cache import CheckCache
 from amp_studio.cli.check_formats import CheckResult
-from amp_studio.cli.parser import parser
+from amp_studio.cli.parsing import parse
+from amp_studio.cli.verbs.checks.validate import VERB
 from amp_studio.files import ParameterFileError, new_file, recover_backup, save_file
 from amp_studio.files.atomic import SaveError
 from amp_studio.files.lock import EditLock, InUseError
@@ -181,7 +182,7 @@ def fuzz_check_caches(folder: Path, seed: int, count: int) -> list[str]:
     chance, path = random.Random(seed), folder / "x.amp"
     path.write_text(SMALL, encoding="utf-8")
     with mock.patch("amp_studio.cli.check_cache.cache_folder", return_value=folder / "cache"):
-        cache = CheckCache(parser("validate").parse_args(["validate", str(path)]))
+        cache = CheckCache(parse("validate", VERB, [str(path)]))
     (key,) = cache.keys([path])
     assert key is not None
     kept = CheckResult(path, 2, "1300: out of range\n" * 40, ("a note",))

@@ -27,13 +27,13 @@ READERS = {
     "calibration/reading.py": "damaged points of a laser",
     "cli/check_cache.py": "damaged results of checks",
     "cli/check_formats.py": "",  # what the program itself has printed
-    "cli/checks.py": "damaged parameter file",
-    "cli/comparing.py": "damaged control image",
     "cli/console.py": "odd values",
-    "cli/control.py": "damaged control image",
-    "cli/identify.py": "damaged control image",
+    "cli/verbs/checks/diff.py": "damaged control image",
+    "cli/verbs/checks/validate.py": "damaged parameter file",
+    "cli/verbs/controls/identify.py": "damaged control image",
+    "cli/verbs/controls/upload.py": "damaged control image",
     "cli/out_of_range.py": "",  # whether somebody is at the terminal
-    "cli/plain_files.py": "",  # carries any bytes as they are
+    "cli/verbs/controls/send.py": "",  # carries any bytes as they are
     "cli/program.py": "odd command lines",
     "cli/screen.py": "",  # gives the streams, reads nothing
     "dossier.py": "",  # what the program itself has written for its other process
@@ -85,7 +85,7 @@ READERS = {
     "schema/file_error.py": "damaged YAML",
     "schema/load.py": "damaged facts",
     "schema/regular_file.py": "",  # the gate itself: gives bytes
-    "cli/sheet.py": "damaged lists of a control's screen",
+    "cli/verbs/documents/sheet.py": "damaged lists of a control's screen",
     "sheet/read_back.py": "damaged lists of a control's screen",
     "sheet/ticks.py": "damaged ticks of a sheet",
     "sim/machine_file.py": "damaged machines of an axis",

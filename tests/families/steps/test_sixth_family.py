@@ -11,8 +11,8 @@ from pathlib import Path
 import pytest
 
 from amp_studio.cli import run
-from amp_studio.cli.completion import candidates
-from amp_studio.cli.manual import families
+from amp_studio.cli.candidates import families
+from amp_studio.cli.completion import answer
 from amp_studio.files import open_file
 from amp_studio.schema.registration import register, unregister
 from amp_studio.sim import simulate
@@ -44,9 +44,10 @@ def test_it_is_listed_with_the_others(capsys: pytest.CaptureFixture[str]) -> Non
     assert len(listed) > 5
 
 
-def test_help_and_completion_name_it() -> None:
+def test_help_and_completion_name_it(capsys: pytest.CaptureFixture[str]) -> None:
     assert FAMILY in families()
-    assert FAMILY in candidates(["new"], "st")
+    answer(["new", "st"], "")
+    assert capsys.readouterr().out.split() == [FAMILY]
 
 
 def test_its_rule_resolves_blu_through_the_increment_system(

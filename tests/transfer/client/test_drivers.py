@@ -10,7 +10,7 @@ from typing import Any
 
 import pytest
 
-from amp_studio.cli.program import AT_CONTROL
+from amp_studio.cli.exit_codes import AT_CONTROL
 from amp_studio.files import ParameterFile, new_file
 from amp_studio.schema.registration import Registration, register, unregister
 from amp_studio.transfer.client.drivers import open_driver, protocols_of

@@ -1,0 +1,26 @@
+"""What an import or an export brought across, printed."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from amp_studio.cli.console import note, print_json
+from amp_studio.cli.verb import Options
+
+if TYPE_CHECKING:
+    from amp_studio.files import ParameterFile
+    from amp_studio.formats import Account
+
+
+def print_account(
+    options: Options, file: ParameterFile, account: Account, written: str, named: str = ""
+) -> None:
+    """Print what went across, and name what did not."""
+    from amp_studio.formats import account_json, account_lines
+
+    if options.json:
+        print_json(account_json(file, account))
+        return
+    for line in account_lines(file, account, named):
+        note(line)
+    print(f"{options.output}: {written}")

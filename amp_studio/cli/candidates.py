@@ -1,0 +1,129 @@
+"""What a shell offers in a place of the command line: names of the facts, and of the file that the line names.
+
+Each function takes the first word behind the verb and the word that is typed; the rooms are loaded when one is called.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from amp_studio.files import ParameterFile
+
+
+def families(named: str = "", current: str = "") -> Sequence[str]:  # noqa: ARG001  # every completion takes both
+    """Return the families, as ``family_ids`` of the schema does, without loading it."""
+    import sys
+
+    from amp_studio.family_places import installed_places
+
+    package = Path(__file__).resolve().parent.parent
+    folders = (package / "parameter_db", package.parent / "parameter_db")
+    own = {p.parent.name for folder in folders for p in folder.glob("*/family.yaml")}
+    registration = sys.modules.get("amp_studio.schema.registration")  # who registers a family has loaded it
+    added = registration.added_facts() if registration else ()
+    return sorted(own | set(installed_places()) | set(added))
+
+
+def family_first(named: str, current: str) -> Sequence[str]:
+    """Return the families where nothing is named yet."""
+    return () if named else families(named, current)
+
+
+def example_names(named: str = "", current: str = "") -> Sequence[str]:  # noqa: ARG001  # every completion takes both
+    """Return the folders of the example machines, without reading them."""
+    package = Path(__file__).resolve().parent.parent
+    folders = (package / "examples", package.parent / "examples")
+    return sorted({p.parent.name for folder in folders for p in folder.glob("*/*.amp")})
+
+
+def scenarios(named: str, current: str) -> Sequence[str]:  # noqa: ARG001  # every completion takes both
+    """Return what can be simulated."""
+    from amp_studio.scenarios import IDENTIFY, scenario_names
+
+    return (*scenario_names(), IDENTIFY)
+
+
+def groups(named: str, current: str) -> Sequence[str]:  # noqa: ARG001  # every completion takes both
+    """Return the groups of parameters."""
+    return [group.name for file in _files(named) for group in file.schema.groups]
+
+
+def tables(named: str, current: str) -> Sequence[str]:  # noqa: ARG001  # every completion takes both
+    """Return the printed tables."""
+    return [table for file in _files(named) for table in file.schema.tables]
+
+
+def formulas(named: str, current: str) -> Sequence[str]:  # noqa: ARG001  # every completion takes both
+    """Return the published formulas."""
+    from amp_studio.validate import calculators
+
+    return [name for file in _files(named) for name in calculators(file.schema.family.family)]
+
+
+def machines(named: str, current: str) -> Sequence[str]:  # noqa: ARG001  # every completion takes both
+    """Return the machine types."""
+    return [machine.key for file in _files(named) for machine in file.schema.family.machines]
+
+
+def steps(named: str, current: str) -> Sequence[str]:  # noqa: ARG001  # every completion takes both
+    """Return the steps of commissioning."""
+    from amp_studio.guide import steps_of
+
+    return [step.id for file in _files(named) for step in steps_of(file.schema)]
+
+
+def rules(named: str, current: str) -> Sequence[str]:  # noqa: ARG001  # every completion takes both
+    """Return the rules."""
+    return [rule.id for file in _files(named) for rule in file.schema.rules]
+
+
+def axes(named: str, current: str) -> Sequence[str]:  # noqa: ARG001  # every completion takes both
+    """Return the axes, by letter where they have one."""
+    from amp_studio.files import axis_letter, fitted_axes
+
+    return [axis_letter(file, axis) or axis for file in _files(named) for axis in fitted_axes(file)]
+
+
+def parameters(named: str, current: str) -> Iterator[str]:
+    """Yield numbers and ids, those of active parameters; an instance only once its ``@`` is typed."""
+    for file in _files(named):
+        for address in file.addresses():
+            if file.evaluation.state(address).state == "hidden":
+                continue
+            number = file.machine_schema.number(address)
+            if number and number.casefold().startswith(current.casefold()):
+                yield number
+            if "@" in current or not address[1]:
+                yield "@".join(filter(None, address))
+            else:
+                yield address[0]
+
+
+def assignments(named: str, current: str) -> Iterator[str]:
+    """Yield parameters with ``=``, and behind it the values of a choice that can be typed without quotes."""
+    from amp_studio.schema import label_of
+
+    name, sign, _ = current.partition("=")
+    if not sign:
+        yield from (f"{param}=" for param in parameters(named, current))
+        return
+    for file in _files(named):
+        address, bit = file.evaluation.find_bit(name)
+        parameter = file.schema.parameters[address[0]]
+        for choice in (parameter.choices or ()) if bit is None else ():
+            label = label_of(parameter, choice.key)
+            yield f"{name}={label if ' ' not in label else choice.code or choice.key}"
+
+
+def _files(named: str) -> list[ParameterFile]:
+    """Return the file that is named, or a new one of the family; none where it cannot be opened."""
+    from amp_studio.files import new_file, open_file
+    from amp_studio.schema import family_ids
+
+    try:
+        return [new_file(named) if named in family_ids() else open_file(Path(named)).file] if named else []
+    except (ValueError, OSError):
+        return []

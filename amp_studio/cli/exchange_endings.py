@@ -1,0 +1,59 @@
+"""How a download or a restore begins and ends at the command line: the errors of the file, and the result."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from amp_studio.cli.console import note, progress
+from amp_studio.cli.exit_codes import AT_CONTROL, CHANGED, FAULT
+from amp_studio.cli.screen import end_results, flush_results
+from amp_studio.cli.verb import Options
+
+if TYPE_CHECKING:
+    from amp_studio.files import ParameterFile
+    from amp_studio.transfer.client.exchange import Outcome
+    from amp_studio.transfer.exchange import Exchange
+    from amp_studio.transfer.progress import Stop
+
+
+def exchange_of(options: Options, path: Path, stop: Stop) -> Exchange:
+    """Return the exchange of a verb that replaces what a control contains."""
+    from amp_studio.transfer.exchange import Exchange
+
+    keep = options.keep / path.name if options.keep else path
+    return Exchange(progress(), stop, keep, record=path, notify=note)
+
+
+def note_errors(file: ParameterFile, path: Path) -> str:
+    """List the errors of a file, by the rules beside it too; returns how many there are, "" for none."""
+    from amp_studio.report import alike, same_finding_text
+    from amp_studio.report.wording import counted
+    from amp_studio.validate import Validator, rules_beside
+
+    findings = Validator(file, rules_beside(path, file.schema)).run()
+    errors = [finding for finding in findings if finding.severity == "error"]
+    for same in alike(errors):
+        note(same_finding_text(file, same))
+    return counted(len(errors), "error") if errors else ""
+
+
+def print_outcome(outcome: Outcome) -> int:
+    """Print how an exchange ended and return the exit code; where it cannot be printed, that is no full success.
+
+    A reader that has gone wanted no more: the exchange is as complete as it was.
+    """
+    code = 0 if outcome.verified else AT_CONTROL[outcome.at_control]
+    try:  # a terminal takes each line at once, and may be gone
+        print(outcome.text)
+        if outcome.verified:
+            print(f"sha256 {outcome.sha256}")
+        flush_results()
+    except BrokenPipeError:
+        end_results()
+        note(f"amp-studio: nobody reads the results any more; {outcome.text}")
+    except (OSError, ValueError):
+        end_results()
+        note(f"amp-studio: the result cannot be printed; {outcome.text}")
+        code = max(code, CHANGED if outcome.written else FAULT)
+    return code

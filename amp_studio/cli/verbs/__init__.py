@@ -1,0 +1,1 @@
+"""The verbs, a file each, in a folder for each kind (``registry.GROUPS``)."""

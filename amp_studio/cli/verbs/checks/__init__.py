@@ -1,0 +1,1 @@
+"""Verbs about findings, fixes and differences."""

@@ -1,0 +1,133 @@
+"""Make suggested fixes, all or none, and show what changed and what is left."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import nullcontext
+from typing import TYPE_CHECKING, Any
+
+from amp_studio.cli import candidates
+from amp_studio.cli.arguments import DRY_RUN, JSON, PATH
+from amp_studio.cli.console import note, print_json
+from amp_studio.cli.errors import UsageError
+from amp_studio.cli.verb import Argument, Options, Verb
+
+if TYPE_CHECKING:
+    from amp_studio.files import ParameterFile
+    from amp_studio.schema import Parameter, Value
+    from amp_studio.validate import Finding, Fixed, Validator
+
+VERB = Verb(
+    __doc__,
+    PATH,
+    Argument("--rule", metavar="ID", help="only fixes of this rule", completes=candidates.rules),
+    Argument("--param", help="only fixes that set this parameter", completes=candidates.parameters),
+    Argument("--safe", action="store_true", help="only fixes that cannot change motion"),
+    DRY_RUN,
+    JSON,
+    writes=("path",),
+    sections=("PARAM",),
+    examples=("amp-studio fix MILL_1394.amp --dry-run", "amp-studio fix MILL_1394.amp --safe"),
+)
+
+
+def run(options: Options) -> int:
+    """Make suggested fixes, all or none; 1 where errors are left."""
+    from amp_studio.files import Document
+    from amp_studio.validate import Validator, apply_fixes, rules_beside
+
+    dry = options.dry_run
+    with nullcontext(Document.view(options.path)) if dry else Document.open(options.path) as document:
+        file = document.file
+        validator = Validator(file, rules_beside(options.path, file.schema))
+        wanted = _wanted(validator, options)
+        validator.run()
+        done = apply_fixes(validator, wanted)
+        if done and not dry:
+            document.save("fix")
+    findings = validator.findings()
+    left = Counter(finding.severity for finding in findings)
+    if options.json:
+        print_json(
+            {
+                "file": str(options.path),
+                "changes": [_json(file, fixed) for fixed in done],
+                "left": {"errors": left["error"], "warnings": left["warning"], "advice": left["advice"]},
+                "dry_run": dry,
+            }
+        )
+    else:
+        print("\n".join(_lines(options, file, done, findings)))
+    if not done:
+        note(_nothing(options, validator))
+    return int(left["error"] > 0)
+
+
+def _wanted(validator: Validator, options: Options) -> Callable[[Finding], bool]:
+    """Return the function that decides whether the fix of a finding is requested; raises UsageError for an unknown rule or parameter."""
+    from amp_studio.schema import addresses_meant
+    from amp_studio.schema.nearest import unknown_name
+    from amp_studio.validate import GENERAL_RULES
+
+    rules = {*GENERAL_RULES, *(rule.id for rule in (*validator.file.schema.rules, *validator.own.rules))}
+    if options.rule is not None and options.rule not in rules:
+        raise UsageError(unknown_name("rule", options.rule, sorted(rules)))
+    named = None if options.param is None else addresses_meant(validator.file.evaluation, options.param)
+
+    def wanted(finding: Finding) -> bool:
+        return (
+            options.rule in (None, finding.rule)
+            and (finding.safe or not options.safe)
+            and (named is None or any(setting.address in named for setting in finding.fix))
+        )
+
+    return wanted
+
+
+def _nothing(options: Options, validator: Validator) -> str:
+    """Print that there was nothing to fix, and what could be fixed otherwise."""
+    others = sorted({finding.rule for finding in validator.findings() if finding.fix})
+    message = f"{options.path}: nothing to fix"
+    return message + (f" with these options; there are fixes of {', '.join(others)}" if others else "")
+
+
+def _lines(
+    options: Options, file: ParameterFile, done: Sequence[Fixed], findings: Sequence[Finding]
+) -> Iterator[str]:
+    """Yield what was changed, the errors that are left, and how many findings."""
+    from amp_studio.files import describe
+    from amp_studio.report import alike, counted, same_finding_text
+    from amp_studio.schema import show_value
+    from amp_studio.validate import SEVERITIES
+
+    for fixed in done:
+        parameter, change = file.schema.parameters[fixed.change.address[0]], fixed.change
+        yield (
+            f"{describe(file, change.address)}: {show_value(parameter, change.old)} -> "
+            f"{show_value(parameter, change.new)} ({fixed.rule})"
+        )
+    errors = [finding for finding in findings if finding.severity == "error"]
+    yield from (same_finding_text(file, same) for same in alike(errors))
+    left = ", ".join(counted(sum(f.severity == s for f in findings), s) for s in SEVERITIES)
+    changed = counted(len({fixed.change.address for fixed in done}), "value")
+    yield f"{options.path}: {changed} {'would be ' if options.dry_run else ''}changed; left: {left}"
+
+
+def _json(file: ParameterFile, fixed: Fixed) -> dict[str, Any]:
+    address, old, new = fixed.change.address, fixed.change.old, fixed.change.new
+    parameter = file.schema.parameters[address[0]]
+    return {
+        "param": file.machine_schema.short(address),
+        "id": address[0],
+        "instance": address[1],
+        "old": _text(parameter, old),
+        "new": _text(parameter, new),
+        "rule": fixed.rule,
+    }
+
+
+def _text(parameter: Parameter, value: Value | None) -> str | None:
+    from amp_studio.schema import MASKED, write_value
+
+    return None if value is None else MASKED if parameter.secret else write_value(parameter, value)

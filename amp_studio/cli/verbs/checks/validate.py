@@ -1,0 +1,260 @@
+"""Range, choice, state and cross-parameter findings."""
+
+from __future__ import annotations
+
+import gc
+import os
+import signal
+import sys
+from collections.abc import Callable, Iterator, Sequence
+from functools import partial
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from amp_studio.cli.arguments import TEXT, count, path_of
+from amp_studio.cli.console import note, progress
+from amp_studio.cli.errors import UsageError
+from amp_studio.cli.opened import opened
+from amp_studio.cli.trouble import keep_details
+from amp_studio.cli.verb import Argument, Options, Verb
+
+if TYPE_CHECKING:
+    from amp_studio.cli.check_formats import CheckFormat, CheckResult, FileFindings
+    from amp_studio.files import ParameterFile
+    from amp_studio.validate import BuilderRules, Validator
+
+FORMATS = ("text", "json", "sarif", "github", "junit")
+"""What is printed; here, because help loads no room (a test compares them)."""
+
+VERB = Verb(
+    __doc__,
+    Argument("paths", nargs="+", type=path_of, metavar="PATH", help="files, or folders of files"),
+    Argument(
+        "--jobs", type=count, metavar="N", help="processes that share many files (one for each processor)"
+    ),
+    Argument("--rules", type=path_of, help="a builder's own rules instead of the rules.yaml beside the file"),
+    Argument("--why", action="store_true", help="explain each finding: its rule, the values, the page"),
+    Argument("--no-cache", action="store_true", help="check every file, also one whose result is kept"),
+    Argument(
+        "--format",
+        choices=FORMATS,
+        default="text",
+        help="text, JSON, SARIF 2.1.0, GitHub's workflow commands, or JUnit's XML (default: text)",
+    ),
+    Argument("--json", dest="format", action="store_const", const="json", help="the same as --format json"),
+    *TEXT,
+    examples=(
+        "amp-studio validate MILL_1394.amp",
+        "amp-studio validate MILL_1394.amp --why --json",
+        "amp-studio validate MILL_1394.amp --format sarif",
+    ),
+)
+
+
+MANY = 50
+"""From so many files on it pays to start more processes."""
+
+MOST = 61
+"""Processes that Windows lets one wait for."""
+
+AT_A_TIME = 8
+"""Files a process is handed at once."""
+
+WITH_REASONS = ("text", "json")
+"""Formats with a place for what ``--why`` explains."""
+
+
+def run(options: Options) -> int:
+    """Check files, and those in folders: 1 where there are errors, 2 where a file cannot be read, after the others."""
+    from amp_studio.cli.check_formats import CHECK_FORMATS
+    from amp_studio.schema.regular_file import read_file
+
+    form = CHECK_FORMATS[options.format]
+    if options.why and options.format not in WITH_REASONS:
+        raise UsageError(f"--why is for the formats {' and '.join(WITH_REASONS)}")
+    if options.rules:
+        read_file(
+            options.rules
+        )  # a file that is not there is a slip of the hand, one that is wrong a finding
+    paths, unread = _files(options.paths)
+    check = partial(_check, options)
+    counts_shown = len(paths) > 1 and (form.needs_all or not sys.stdout.isatty())
+    show = progress() if counts_shown else None
+    checked = []
+    for n, one in enumerate(_results(options, check, paths), 1):
+        checked.append(one)
+        _print(form, one)
+        if show:
+            show("checked", n, len(paths))
+    for one in unread:
+        checked.append(one)
+        _print(form, one)
+    if form.needs_all and paths:
+        document = checked[0].printed if form.alone and paths == options.paths[:1] else form.all(checked)
+        is_utf8 = (sys.stdout.encoding or "").lower() == "utf-8"
+        if document:
+            print(document if is_utf8 else form.in_ascii(document))
+    is_whole = not any(one.fault for one in checked)
+    return int(any(one.errors for one in checked)) if is_whole else 2
+
+
+def _results(
+    options: Options, check: Callable[[Path], CheckResult], paths: Sequence[Path]
+) -> Iterator[CheckResult]:
+    """Yield the results of files in their order; those of several are kept for the next run."""
+    if len(paths) < 2 or options.no_cache:
+        yield from _each(check, paths, options.jobs)
+        return
+    from amp_studio.cli.check_cache import CheckCache  # a file alone is checked before its database is open
+
+    cache = CheckCache(options)
+    keys = cache.keys(paths)
+    kept = cache.read(keys, paths)
+    left = [path for path in paths if path not in kept]
+    fresh = _each(check, left, options.jobs)
+    made: list[CheckResult] = []
+    for path in paths:
+        if path in kept:
+            yield kept[path]
+        else:
+            made.append(next(fresh))
+            yield made[-1]
+    before = dict(zip(paths, keys, strict=True))
+    cache.write(
+        {
+            key: one
+            for one, key in zip(made, cache.keys(left), strict=True)
+            # A file that was changed while it was checked has the result of one content or the other.
+            if key is not None and key == before[one.path] and not one.fault
+        },
+        used=keys,
+    )
+
+
+def _print(form: CheckFormat, one: CheckResult) -> None:
+    """Print the notes and the fault of a file, and its result where that need not wait for the others."""
+    for text in (*one.notes, *([f"amp-studio: {one.fault}"] if one.fault else [])):
+        note(text)
+    if not form.needs_all and (text := form.shown(one)):
+        print(text)
+
+
+def _files(paths: Sequence[Path]) -> tuple[list[Path], list[CheckResult]]:
+    """Return files as they are named, those in folders in the order of their names, and which folders cannot be read."""
+    from amp_studio.cli.check_formats import CheckResult
+    from amp_studio.files import ENDING
+
+    found: list[Path] = []
+    unread: list[CheckResult] = []
+
+    def skip(error: OSError) -> None:
+        folder = Path(error.filename)
+        unread.append(CheckResult(folder, fault=f"{folder}: cannot be read: {error.strerror}"))
+
+    for path in paths:
+        if not _is_folder(path):
+            found.append(path)
+            continue
+        before = len(unread)
+        names = ((folder, name) for folder, _, names in os.walk(path, onerror=skip) for name in names)
+        inside = sorted(Path(folder, name) for folder, name in names if name.endswith(ENDING))
+        if not inside and before == len(unread):
+            unread.append(CheckResult(path, fault=f"{path}: contains no {ENDING} files"))
+        found += inside
+    return found, unread
+
+
+def _is_folder(path: Path) -> bool:
+    """Return whether a path is a folder; what cannot be read is reported like an unreadable file."""
+    try:
+        return path.is_dir()
+    except OSError:
+        return False
+
+
+def _each(
+    check: Callable[[Path], CheckResult], paths: Sequence[Path], jobs: int | None
+) -> Iterator[CheckResult]:
+    """Yield the results of files, in their order, whichever process is ready first."""
+    from amp_studio.cli.check_formats import CheckResult
+
+    wanted = min(MOST, jobs or (os.cpu_count() or 1 if len(paths) >= MANY else 1))
+    if wanted == 1:
+        yield from map(check, paths)
+        return
+    from concurrent.futures.process import (  # a single file need not wait
+        BrokenProcessPool,
+        ProcessPoolExecutor,
+    )
+
+    left = list(paths)
+    while left:
+        try:
+            with ProcessPoolExecutor(wanted, initializer=_start) as pool:
+                for one in pool.map(check, left, chunksize=AT_A_TIME):
+                    left.pop(0)
+                    yield one
+        except (
+            BrokenProcessPool
+        ):  # one of the next ones ended its process, for want of memory: each gets its own
+            for _ in range(min(AT_A_TIME, len(left))):
+                path = left.pop(0)
+                try:
+                    with ProcessPoolExecutor(1, initializer=_start) as pool:
+                        yield pool.submit(check, path).result()
+                except BrokenProcessPool:
+                    yield CheckResult(path, fault=f"{path}: its check was ended from outside")
+
+
+def _start() -> None:
+    signal.signal(signal.SIGINT, signal.SIG_IGN)  # the code that waits for the processes ends them
+    gc.freeze()
+
+
+def _check(options: Options, path: Path) -> CheckResult:
+    """Check one file; whatever is wrong with it ends no other's check."""
+    from amp_studio.cli.check_formats import CHECK_FORMATS, CheckResult
+    from amp_studio.files import ParameterFileError
+    from amp_studio.validate import Validator
+
+    notes: list[str] = []
+    try:
+        file = opened(path, options, notes.append)
+        validator = Validator(file, _own_rules(options, path, file))
+        checked = _checked(path, validator, options.why)
+        printed = CHECK_FORMATS[options.format].one(checked)
+        return CheckResult(path, checked.counts["error"], printed, tuple(notes))
+    except ParameterFileError as fault:
+        return CheckResult(path, notes=tuple(notes), fault=str(fault), line=fault.line)
+    except UsageError as fault:
+        return CheckResult(path, notes=tuple(notes), fault=str(fault))
+    except KeyboardInterrupt:
+        raise
+    except BaseException as error:  # a panic of the rule engine is no Exception
+        return CheckResult(path, notes=tuple(notes), fault=f"{path}: {keep_details(error)}")
+
+
+def _checked(path: Path, validator: Validator, why: bool) -> FileFindings:
+    """Return the findings of a file, apart from those about values as delivered, of steps that are not reached."""
+    from amp_studio.cli.check_formats import FileFindings
+    from amp_studio.validate import NOT_SET
+
+    findings = validator.run()
+    if not validator.not_set or all(finding.rule == NOT_SET for finding in findings):
+        return FileFindings(path, validator, findings, why)
+    from amp_studio.guide import as_delivered  # most files are complete
+
+    state = as_delivered(validator, findings)
+    deferred = set(map(id, state.findings))
+    shown = tuple(finding for finding in findings if id(finding) not in deferred)
+    return FileFindings(path, validator, shown, why, state.findings, state.steps)
+
+
+def _own_rules(options: Options, path: Path, file: ParameterFile) -> BuilderRules:
+    from amp_studio.validate import rules_beside
+
+    if not options.rules:
+        return rules_beside(path, file.schema)
+    from amp_studio.validate import read_builder_rules
+
+    return read_builder_rules(options.rules, file.schema)

@@ -1,0 +1,1 @@
+"""Verbs at a control or a serial line."""

@@ -1,0 +1,50 @@
+"""Send a file to a control, read it back and compare."""
+
+from __future__ import annotations
+
+from amp_studio.cli.arguments import EXPECT, JSON, PATH, TEXT, kept_in, several_controls
+from amp_studio.cli.errors import UsageError
+from amp_studio.cli.opened import opened
+from amp_studio.cli.stopping import asked_politely
+from amp_studio.cli.verb import Argument, Options, Verb
+
+VERB = Verb(
+    __doc__,
+    PATH,
+    *several_controls("--to", dest="to"),
+    EXPECT,
+    kept_in("beside the file"),
+    JSON,
+    Argument(
+        "--accept-errors", action="store_true", help="send a file that has errors; they are listed anyway"
+    ),
+    *TEXT,
+    sections=("ADDRESS",),
+    at_control=True,
+    examples=(
+        "amp-studio download MILL_1394.amp --to tcp://127.0.0.1:8193",
+        "amp-studio download MILL_1394.amp --to tcp://127.0.0.1:8193 --to tcp://localhost:8193 --stop-on-failure",
+    ),
+)
+
+
+def run(options: Options) -> int:
+    """Send a file to a control; 3 if that is not proved afterwards, 4 where it is not known what it contains."""
+    from amp_studio.cli.by_hand import note_by_hand, sheet_offered
+    from amp_studio.cli.exchange_endings import exchange_of, note_errors, print_outcome
+    from amp_studio.cli.fleet import check_fleet, download_to_several, is_fleet
+    from amp_studio.transfer.client.parameters import download_file
+
+    file, path = opened(options.path, options), options.path
+    errors = note_errors(file, path)
+    if errors and not options.accept_errors:
+        raise UsageError(f"{path} has {errors}: nothing was sent (--accept-errors sends it anyway)")
+    name = file.schema.family.family
+    check_fleet(options, options.to)
+    with asked_politely() as stop, sheet_offered(name):
+        exchange = exchange_of(options, path, stop)
+        if is_fleet(options, options.to):
+            return download_to_several(options, file, exchange)
+        outcome = download_file(file, options.to[0], exchange, expected=options.expect)
+        note_by_hand(name)
+        return print_outcome(outcome)

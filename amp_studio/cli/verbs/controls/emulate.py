@@ -1,0 +1,90 @@
+"""An emulated control that takes downloads and gives uploads, until quit or Ctrl-C."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import TYPE_CHECKING
+
+from amp_studio.cli.arguments import FAMILY, MACHINE, folder, path_of
+from amp_studio.cli.console import assignments, family, note
+from amp_studio.cli.errors import UsageError
+from amp_studio.cli.verb import Argument, Options, Verb
+
+if TYPE_CHECKING:
+    from amp_studio.transfer.links.endpoint import Endpoint
+
+VERB = Verb(
+    __doc__,
+    FAMILY,
+    Argument("--listen", required=True, metavar="ADDRESS", help="where the control is reached"),
+    Argument("--state", type=folder, metavar="DIR", help="where the control keeps its memory"),
+    MACHINE.but(help="machine type of the parameters it starts with"),
+    Argument("--no-estop", action="store_true", help="start out of E-stop"),
+    Argument("--manual-restart", action="store_true", help="do not restart by itself after a download"),
+    Argument(
+        "--faults",
+        default="{}",
+        metavar="JSON",
+        help='what goes wrong, to practise with: {"drop_after_bytes": 9000}',
+    ),
+    Argument(
+        "--option",
+        action="append",
+        default=[],
+        metavar="NAME=VALUE",
+        help="what was ordered with the control, where its family has options: axes=3",
+    ),
+    Argument(
+        "--password-file", type=path_of, metavar="FILE", help="ask clients for the password in its first line"
+    ),
+    Argument(
+        "--certificate",
+        type=path_of,
+        metavar="FILE",
+        help="speak TLS with this certificate (PEM); listen on tls://",
+    ),
+    Argument(
+        "--key", type=path_of, metavar="FILE", help="key of the certificate, where it is in another file"
+    ),
+    sections=("families", "ADDRESS"),
+    at_control=True,
+    examples=("amp-studio emulate 9pc --listen tcp://127.0.0.1:8193 --state control",),
+)
+
+
+def run(options: Options) -> int:
+    """Be a control until stopped."""
+    from amp_studio.transfer.emulated.family_control import EmulatedOptions, emulate
+
+    family(options.family)
+    return emulate(
+        _secured(options),
+        EmulatedOptions(
+            options.family,
+            options.state,
+            machine=options.machine,
+            estop=not options.no_estop,
+            autostart=not options.manual_restart,
+            faults=options.faults,
+            hardware=dict(assignments(options.option, "NAME=VALUE")),
+        ),
+    )
+
+
+def _secured(options: Options) -> Endpoint:
+    """Return where the control listens and what it asks of who connects; notes who else can reach it."""
+    from amp_studio.transfer.links.endpoint import parse_endpoint
+    from amp_studio.transfer.links.security import Security, can_others_read, exposure, read_password
+
+    place = parse_endpoint(options.listen)
+    if (options.key is not None) > (options.certificate is not None):
+        raise UsageError("--key belongs to a --certificate")
+    password = read_password(options.password_file) if options.password_file is not None else ""
+    if options.password_file is not None and can_others_read(options.password_file):
+        note(f"warning: {options.password_file} can be read by other users of this computer")
+    warning = (
+        exposure(place.host, has_tls=place.kind == "tls", has_password=bool(password)) if place.host else ""
+    )
+    if warning:
+        note(f"warning: {warning}")
+    return replace(place, security=Security(password, options.certificate, options.key))

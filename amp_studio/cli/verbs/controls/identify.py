@@ -1,0 +1,86 @@
+"""What answers at an address, and what it contains."""
+
+from __future__ import annotations
+
+from contextlib import closing
+from dataclasses import asdict
+
+from amp_studio.cli import candidates
+from amp_studio.cli.arguments import JSON
+from amp_studio.cli.console import family, print_json, progress
+from amp_studio.cli.verb import Argument, Options, Verb
+
+VERB = Verb(
+    __doc__,
+    Argument("address", metavar="ADDRESS", help="where the control is reached"),
+    Argument("--family", help="the family it must be of", completes=candidates.families),
+    JSON,
+    sections=("ADDRESS",),
+    at_control=True,
+    examples=("amp-studio identify tcp://127.0.0.1:8193",),
+)
+
+
+def run(options: Options) -> int:
+    """Print who answers at an address, and what it contains."""
+    from amp_studio.cli.by_hand import note_by_hand, sheet_offered
+    from amp_studio.files import fitted_axes
+    from amp_studio.report.wording import counted
+    from amp_studio.transfer.client.drivers import open_driver_at
+    from amp_studio.transfer.client.exchange import look_at
+    from amp_studio.transfer.content import decode_content
+    from amp_studio.transfer.exchange import Exchange
+    from amp_studio.transfer.image import ImageError
+
+    if options.family:
+        family(options.family)
+    exchange = Exchange(progress())
+    with (
+        closing(open_driver_at(options.address, options.family or "", exchange)) as driver,
+        sheet_offered(options.family or ""),
+    ):
+        abilities = driver.abilities
+        control, content, digest = look_at(driver, exchange)
+    note_by_hand(control.family)
+    unreadable, axes, values, signature = "", list(control.axes), None, control.signature
+    try:
+        file = decode_content(content)
+        axes, values = axes or list(fitted_axes(file)), len(file.values)
+        signature = signature or file.schema.signature
+    except ImageError as error:
+        unreadable = str(error) if content else "it is empty"
+    if options.json:
+        print_json(
+            {
+                "address": options.address,
+                "protocol": control.protocol,
+                "abilities": asdict(abilities),
+                "family": control.family,
+                "name": control.name,
+                "revision": control.revision,
+                "axes": axes,
+                "signature": signature,
+                "size": len(content),
+                "sha256": digest,
+                "values": values,
+                "unreadable": unreadable or None,
+                "in_estop": control.in_estop,
+                "restart_needed": control.restart_needed,
+            }
+        )
+        return 0
+    print(
+        f"{control.name or 'A control'} of the family {control.family}, revision {control.revision or 'unknown'}"
+    )
+    print(f"protocol {control.protocol}" + ("" if abilities.can_send else ", which takes no download"))
+    if abilities.can_send:
+        print(abilities.lasting_text())
+    print(f"axes {', '.join(axes)}" if axes else "axes unknown")
+    print(
+        f"{len(content)} bytes, "
+        + (f"not readable: {unreadable}" if unreadable else counted(values or 0, "value"))
+    )
+    print(f"sha256 {digest}")
+    if control.restart_needed:
+        print("Its parameters become active after a restart.")
+    return 0

@@ -1,0 +1,49 @@
+"""Put back what a control contained before a download or a restore, byte for byte."""
+
+from __future__ import annotations
+
+from amp_studio.cli.arguments import EXPECT, TO, kept_in, path_of
+from amp_studio.cli.console import note
+from amp_studio.cli.errors import UsageError
+from amp_studio.cli.stopping import asked_politely
+from amp_studio.cli.verb import Argument, Options, Verb
+
+VERB = Verb(
+    __doc__,
+    Argument(
+        "copy",
+        type=path_of,
+        metavar="COPY",
+        help="NAME.before-STAMP.img, which is compared with the digest beside it, or the .amp of that name",
+    ),
+    TO,
+    EXPECT,
+    kept_in("beside the copy"),
+    sections=("ADDRESS",),
+    at_control=True,
+    examples=("amp-studio restore uploaded.img --to tcp://127.0.0.1:8193",),
+)
+
+
+def run(options: Options) -> int:
+    """Put back what a control has contained; codes as of a download."""
+    from amp_studio.cli.exchange_endings import exchange_of, note_errors, print_outcome
+    from amp_studio.transfer.client.kept import digest_path, open_copy
+    from amp_studio.transfer.client.parameters import restore_copy
+
+    path = options.copy
+    copy = open_copy(path)
+    if not copy.is_checked:
+        note(f"{digest_path(path)} is not there: {path.name} goes back unchecked")
+    if copy.file is None:
+        note(f"{path} goes back byte for byte, but this program cannot read it: {copy.fault}")
+    elif errors := note_errors(copy.file, path):
+        if not copy.is_kept:
+            raise UsageError(
+                f"{path} has {errors}, and no image beside it proves that a control contained it: nothing was sent "
+                "(download --accept-errors sends it anyway)"
+            )
+        note(f"{path} goes back with {errors}, as the control contained it")
+    with asked_politely() as stop:
+        outcome = restore_copy(copy, options.to, exchange_of(options, path, stop), expected=options.expect)
+        return print_outcome(outcome)

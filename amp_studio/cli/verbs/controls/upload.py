@@ -1,0 +1,85 @@
+"""Fetch under a new name what a control contains, and print its digest."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from amp_studio.cli.arguments import JSON, ON_FAULT, OUTPUT, several_controls
+from amp_studio.cli.console import print_json, progress
+from amp_studio.cli.errors import UsageError
+from amp_studio.cli.output import check_new, write_new
+from amp_studio.cli.stopping import asked_politely
+from amp_studio.cli.verb import Options, Verb
+
+if TYPE_CHECKING:
+    from amp_studio.files import ParameterFile
+
+VERB = Verb(
+    __doc__,
+    *several_controls("--from", dest="source"),
+    OUTPUT.but(
+        help="a parameter file; or NAME.img for the image byte for byte, whatever it is; of several controls a folder"
+    ),
+    ON_FAULT,
+    JSON,
+    writes=("output",),
+    sections=("ADDRESS",),
+    at_control=True,
+    examples=(
+        "amp-studio upload --from tcp://127.0.0.1:8193 -o uploaded.amp",
+        "amp-studio upload --from tcp://127.0.0.1:8193 -o uploaded.img",
+    ),
+)
+
+
+def run(options: Options) -> int:
+    """Fetch what a control contains under a new name: its file, or byte for byte as an image."""
+    from amp_studio.cli.by_hand import note_by_hand
+    from amp_studio.cli.fleet import check_fleet, is_fleet, record_upload, upload_several
+    from amp_studio.cli.out_of_range import settle_values
+    from amp_studio.report.wording import counted
+    from amp_studio.transfer.client.kept import IMAGE, digest_path, save_image
+    from amp_studio.transfer.client.parameters import fetch_image, sha256
+    from amp_studio.transfer.exchange import Exchange
+
+    output, source = options.output, options.source[0]
+    check_fleet(options, options.source)
+    if is_fleet(options, options.source):
+        with asked_politely() as stop:
+            return upload_several(options, Exchange(cancel=stop))
+    check_new(output, "an upload")
+    image = fetch_image(source, Exchange(progress()))
+    if not image:
+        raise UsageError("the control is empty: there is nothing to upload")
+    values: int | None = None
+    if output.suffix == IMAGE:
+        save_image(image, output)
+        text = f"{output}: {len(image)} bytes, digest in {digest_path(output).name}"
+    else:
+        file = _readable(image, output)
+        note_by_hand(file.schema.family.family)
+        settle_values(file, options.on_fault, "an upload")
+        write_new(file, output)
+        values = len(file.values)
+        text = f"{output}: {counted(values, 'value')}"
+        record_upload(output, file, source, image)
+    if options.json:
+        print_json({"path": str(output), "values": values, "sha256": sha256(image)})
+    else:
+        print(text)
+        print(f"sha256 {sha256(image)}")
+    return 0
+
+
+def _readable(image: bytes, output: Path) -> ParameterFile:
+    from amp_studio.transfer.client.kept import IMAGE
+    from amp_studio.transfer.content import decode_content
+    from amp_studio.transfer.image import ImageError
+
+    try:
+        return decode_content(image)
+    except ImageError as error:
+        raise UsageError(
+            f"{error}; nothing was written (-o {output.with_suffix(IMAGE)} keeps it byte for byte)"
+        ) from None

@@ -1,0 +1,82 @@
+"""Compare values and every byte with what a control contains; print its digest."""
+
+from __future__ import annotations
+
+from dataclasses import asdict
+
+from amp_studio.cli.arguments import JSON, PATH, SECRETS, TEXT, several_controls
+from amp_studio.cli.console import note, print_json, progress
+from amp_studio.cli.errors import UsageError
+from amp_studio.cli.opened import opened
+from amp_studio.cli.stopping import asked_politely
+from amp_studio.cli.verb import Argument, Options, Verb
+
+VERB = Verb(
+    __doc__,
+    PATH.but(nargs="?", help="parameter file (.amp); with --all a folder (default: this one)"),
+    *several_controls("--with", dest="control", required=False),
+    Argument(
+        "--all",
+        action="store_true",
+        help="every control that the folder knows, from its exchanges and projects, against its file",
+    ),
+    JSON,
+    SECRETS,
+    *TEXT,
+    sections=("ADDRESS",),
+    at_control=True,
+    examples=("amp-studio verify MILL_1394.amp --with tcp://127.0.0.1:8193",),
+)
+
+
+def run(options: Options) -> int:
+    """Compare a file with what a control contains, its values and every byte; 1 where they differ."""
+    from amp_studio.cli.by_hand import sheet_offered
+    from amp_studio.cli.comparing import difference_json, print_comparison, print_difference
+    from amp_studio.cli.fleet import check_fleet, is_fleet, verify_several
+    from amp_studio.transfer.client.parameters import fetch_image, sha256
+    from amp_studio.transfer.client.record import record_look
+    from amp_studio.transfer.client.verification import verify_content
+    from amp_studio.transfer.exchange import Exchange
+
+    if options.all:
+        from amp_studio.cli.drift import verify_all_verb  # compares many, and prints papers
+
+        return verify_all_verb(options)
+    if options.path is None or not options.control:
+        raise UsageError("verify takes a file and --with ADDRESS, or --all (see 'amp-studio verify --help')")
+    file = opened(options.path, options)
+    check_fleet(options, options.control)
+    if is_fleet(options, options.control):
+        with asked_politely() as stop:
+            return verify_several(options, file, Exchange(cancel=stop, record=options.path, notify=note))
+    control, name = options.control[0], file.schema.family.family
+    exchange = Exchange(progress(), record=options.path, notify=note)
+    with sheet_offered(name):
+        fetched = fetch_image(control, exchange, family=name)
+    found = verify_content(file, fetched)
+    record_look("verify", exchange, name, control, fetched, found.summary())
+    if options.json:
+        print_json(
+            {
+                "differences": [difference_json(file, d, options.secrets) for d in found.values.differences],
+                "same": found.values.same,
+                "same_bytes": found.is_same,
+                "sha256": sha256(fetched),
+                "unreadable": found.unreadable or None,
+                "absent": found.absent or None,
+                "stays": found.stays or None,
+                "header": [asdict(d) for d in found.head],
+                "other_units": [difference_json(file, d, options.secrets) for d in found.other_units],
+            }
+        )
+        return int(not found.is_same)
+    if not found.unreadable:
+        print_comparison(file, found.values, options.secrets)
+    for difference in found.other_units:
+        print_difference(file, difference, options.secrets)
+    for head in found.head:
+        print(f"{head.line} in the header: '{head.a}'  |  '{head.b}'")
+    print(found.summary())
+    print(f"sha256 {sha256(fetched)}")
+    return int(not found.is_same)

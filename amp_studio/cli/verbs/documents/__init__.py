@@ -1,0 +1,1 @@
+"""Verbs that print, and those that read and write text formats."""

@@ -1,0 +1,38 @@
+"""A parameter file in a text format; the ending shows which."""
+
+from __future__ import annotations
+
+from amp_studio.cli.arguments import JSON, OUTPUT, PATH, SECRETS, TEXT
+from amp_studio.cli.console import note
+from amp_studio.cli.opened import opened
+from amp_studio.cli.output import check_replaced
+from amp_studio.cli.verb import Argument, Options, Verb
+
+VERB = Verb(
+    __doc__,
+    PATH,
+    OUTPUT,
+    Argument("--format", help="format of the text, where the ending of OUTPUT does not show it"),
+    JSON,
+    SECRETS,
+    *TEXT,
+    writes=("output",),
+    sections=("FORMAT",),
+    examples=("amp-studio export MILL_1394.amp -o mill.csv",),
+)
+
+
+def run(options: Options) -> int:
+    """Write a parameter file in a text format."""
+    from amp_studio.cli.accounts import print_account
+    from amp_studio.formats import export_file
+    from amp_studio.report.wording import counted
+
+    check_replaced(options.output, options.path)
+    file = opened(options.path, options)
+    export = export_file(file, options.output, options.format, note, secrets=options.secrets)
+    number = counted(len(file.values), "value")
+    print_account(
+        options, file, export.account, f"{export.format.title}, {export.account.written} of {number}"
+    )
+    return 0

@@ -1,0 +1,48 @@
+"""Tables to fill in by hand, as .pdf, .html, .xlsx or .csv."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from amp_studio.cli import candidates
+from amp_studio.cli.arguments import LANGUAGE, OUTPUT
+from amp_studio.cli.console import is_family, note
+from amp_studio.cli.errors import UsageError
+from amp_studio.cli.opened import opened
+from amp_studio.cli.output import check_replaced
+from amp_studio.cli.verb import Argument, Options, Verb
+
+VERB = Verb(
+    __doc__,
+    Argument(
+        "what",
+        metavar="FAMILY|PATH",
+        help="a control family, or a parameter file for what its machine has",
+        completes=candidates.family_first,
+    ),
+    Argument("--machine", metavar="TYPE", help="machine type of the family", completes=candidates.machines),
+    OUTPUT,
+    LANGUAGE,
+    writes=("output",),
+    sections=("families",),
+    examples=("amp-studio form num -o tables.pdf", "amp-studio form MILL_1394.amp -o form.html"),
+)
+
+
+def run(options: Options) -> int:
+    """Write tables to fill in by hand."""
+    from amp_studio.files import new_file
+    from amp_studio.report.form import form_paper
+    from amp_studio.report.paper import write_paper
+
+    if is_family(options.what):
+        file, everything = new_file(options.what, options.machine), True
+    else:
+        if options.machine is not None:
+            raise UsageError("--machine belongs to a family; a file has its own machine type")
+        path = Path(options.what)
+        check_replaced(options.output, path)
+        file, everything = opened(path), False
+    write_paper(form_paper(file, everything=everything, language=options.language), options.output, note)
+    print(options.output)
+    return 0

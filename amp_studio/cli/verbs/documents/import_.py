@@ -1,0 +1,76 @@
+"""A new parameter file from a control's own text format."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from amp_studio.cli import candidates
+from amp_studio.cli.arguments import JSON, ON_FAULT, OUTPUT, count, path_of
+from amp_studio.cli.console import note
+from amp_studio.cli.errors import UsageError
+from amp_studio.cli.output import check_new, write_new
+from amp_studio.cli.verb import Argument, Options, Verb
+
+if TYPE_CHECKING:
+    from amp_studio.formats import Account
+
+VERB = Verb(
+    __doc__,
+    Argument("text", type=path_of, metavar="FILE", help="a control's own text file"),
+    OUTPUT,
+    Argument(
+        "--family", help="control family, where the text does not show it", completes=candidates.families
+    ),
+    Argument("--format", help="format of the text, where it does not show it"),
+    Argument("--keep-unknown", action="store_true", help="keep what is not understood, to be written back"),
+    Argument("--machine", help="machine type, where the text shall not decide"),
+    Argument(
+        "--listing",
+        type=count,
+        default=0,
+        metavar="N",
+        help="which of several listings in one text, counted from 1; without it the last one",
+    ),
+    ON_FAULT,
+    JSON,
+    writes=("output",),
+    sections=("families", "FORMAT"),
+    examples=("amp-studio import values.csv -o imported.amp --family 9pc",),
+)
+
+
+def run(options: Options) -> int:
+    """Make a parameter file of a text; nothing is written when a part of it cannot be meant."""
+    from amp_studio.cli.accounts import print_account
+    from amp_studio.cli.out_of_range import settle_values
+    from amp_studio.formats import FamilyNotGivenError, import_file
+    from amp_studio.report.wording import counted
+    from amp_studio.schema import UnknownFamilyError
+
+    check_new(options.output, "an import", options.text)
+    accounts: list[Account] = []
+    notes: list[str] = []
+    try:
+        file = import_file(
+            options.text,
+            options.family,
+            format_key=options.format,
+            keep_unknown=options.keep_unknown,
+            machine=options.machine or "",
+            listing=options.listing,
+            notify=notes.append,
+            take_account=accounts.append,
+        )
+    except FamilyNotGivenError as error:
+        raise UsageError(f"{options.text}: {error} (name it with --family)") from None
+    except UnknownFamilyError as error:
+        raise UsageError(str(error)) from None
+    except ValueError as error:
+        raise UsageError(f"{options.text}: {error}") from None
+    for message in notes:
+        note(message)
+    settle_values(file, options.on_fault, "an import")
+    write_new(file, options.output)
+    (account,) = accounts
+    print_account(options, file, account, counted(account.written, "value"), " ".join(notes))
+    return 0

@@ -1,0 +1,77 @@
+"""Documentation as .pdf, .html, .xlsx, .csv, .json or .txt."""
+
+from __future__ import annotations
+
+from amp_studio.cli.arguments import LANGUAGE, OUTPUT, PATH, TEXT
+from amp_studio.cli.console import note
+from amp_studio.cli.opened import opened
+from amp_studio.cli.output import check_replaced
+from amp_studio.cli.verb import Argument, Options, Verb
+
+VERB = Verb(
+    __doc__,
+    PATH,
+    OUTPUT,
+    Argument(
+        "--sort",
+        choices=("axis", "number", "group", "steps"),
+        default="group",
+        help="order of the values (default: group)",
+    ),
+    Argument(
+        "--changed-only",
+        action="store_true",
+        help="only values that differ from the printed default, or have none",
+    ),
+    Argument(
+        "--without",
+        action="append",
+        choices=("pictures", "motion", "exchanges", "signatures"),
+        help="leave out a chapter; again for more",
+    ),
+    LANGUAGE,
+    Argument("--inactive", action="store_true", help="also what the control ignores on this machine"),
+    Argument(
+        "--units",
+        choices=("file", "metric", "inch", "both"),
+        default="file",
+        help="units of the figures; both: those of the file, with the other system's beside them (default: file)",
+    ),
+    Argument("--paper", choices=("a4", "letter"), default="a4", help="paper of a PDF (default: a4)"),
+    *TEXT,
+    writes=("output",),
+    examples=(
+        "amp-studio report MILL_1394.amp -o mill.pdf",
+        "amp-studio report MILL_1394.amp -o changed.csv --changed-only --sort axis",
+    ),
+)
+
+
+def run(options: Options) -> int:
+    """Write the documentation of a file; 1 where the project's template failed and the standard report was written."""
+    from amp_studio.dossier import write_report
+    from amp_studio.files import real_path
+    from amp_studio.report import Contents
+    from amp_studio.validate import RULES_FILE, rules_beside
+
+    check_replaced(options.output, options.path, real_path(options.path).with_name(RULES_FILE))
+    file = opened(options.path, options)
+    own = rules_beside(options.path, file.schema)
+    as_wanted = write_report(
+        file,
+        options.output,
+        Contents(
+            options.sort,
+            options.changed_only,
+            options.inactive,
+            options.units,
+            options.language,
+            frozenset(options.without or ()),
+            options.paper,
+        ),
+        source=options.path,
+        own=own,
+        notify=note,
+    )
+    print(options.output)
+    return 0 if as_wanted else 1

@@ -1,0 +1,240 @@
+"""The values to key in at a control by hand: in its own numbers, in a safe order, to tick and to read
+back.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from amp_studio.cli import candidates
+from amp_studio.cli.arguments import JSON, LANGUAGE, OUTPUT, PATH, SECRETS, file_or_address, path_of
+from amp_studio.cli.console import note, print_json, progress
+from amp_studio.cli.errors import UsageError
+from amp_studio.cli.opened import opened
+from amp_studio.cli.output import check_replaced
+from amp_studio.cli.verb import Argument, Options, Verb
+
+if TYPE_CHECKING:
+    from amp_studio.files import ParameterFile
+    from amp_studio.sheet import ReadBack, Sheet, SheetEntry, Ticks
+
+VERB = Verb(
+    __doc__,
+    PATH,
+    Argument(
+        "--against",
+        required=True,
+        type=file_or_address,
+        metavar="OTHER",
+        help="what the control contains: a file, a kept copy, or the control's address",
+    ),
+    OUTPUT.but(required=False, help="the sheet as .pdf, .html, .csv or .txt (default: as text here)"),
+    LANGUAGE,
+    Argument(
+        "--tick",
+        action="append",
+        metavar="PARAM",
+        help="remember that this value is keyed in; beside the file",
+        completes=candidates.parameters,
+    ),
+    Argument(
+        "--untick",
+        action="append",
+        metavar="PARAM",
+        help="forget that again",
+        completes=candidates.parameters,
+    ),
+    Argument(
+        "--check",
+        type=path_of,
+        metavar="LIST",
+        help="lines of number and what the screen shows, or the sheet's .csv filled in: compare exactly",
+    ),
+    JSON,
+    SECRETS,
+    writes=("output",),
+    sections=("PARAM", "ADDRESS"),
+    examples=(
+        "amp-studio sheet MILL_1394.amp --against other.amp -o sheet.pdf",
+        "amp-studio sheet MILL_1394.amp --against other.amp --tick 1300",
+        "amp-studio sheet MILL_1394.amp --against other.amp --check screen.txt",
+    ),
+)
+
+
+_LARGEST = 1 << 20  # bytes of a list of what the screen shows
+
+
+def run(options: Options) -> int:
+    """Print or write the sheet; with ``--check`` compare what the screen shows: 1 where something is not as keyed in."""
+    from amp_studio.report.wording import counted
+    from amp_studio.sheet import SheetError, Ticks, TicksError, make_sheet, ticks_path
+    from amp_studio.validate import rules_beside
+
+    path: Path = options.path
+    file = opened(path)
+    inputs = [path, ticks_path(path), *([options.check] if options.check else [])]
+    if options.output:
+        check_replaced(options.output, *inputs)
+    present, against = _present(options.against)
+    try:
+        sheet = make_sheet(
+            file,
+            present,
+            of=path.name,
+            against=against,
+            own=rules_beside(path, file.schema),
+            secrets=options.secrets,
+        )
+        ticks = Ticks(ticks_path(path), sheet)
+    except (SheetError, TicksError) as error:
+        raise UsageError(str(error)) from None
+    _tick(options, file, sheet, ticks)
+    if ticks.forgotten:
+        note(f"{counted(ticks.forgotten, 'tick')} left out: the values have changed since")
+    for warning in sheet.warnings:
+        note(warning)
+    if options.check:
+        return _check(options, file, sheet, ticks)
+    _print(options, sheet, ticks, {})
+    return 0
+
+
+def _present(text: str) -> tuple[ParameterFile, str]:
+    """Return what a control contains and its source: a file, a kept copy, or the control itself."""
+    from amp_studio.transfer.links.endpoint import is_endpoint
+
+    if is_endpoint(text):
+        from amp_studio.transfer.client.parameters import fetch_image, sha256
+        from amp_studio.transfer.content import decode_content
+        from amp_studio.transfer.exchange import Exchange
+
+        content = fetch_image(text, Exchange(progress()))
+        return decode_content(content), f"{text}, sha256 {sha256(content)}"
+    from amp_studio.transfer.client.kept import open_copy
+
+    path = Path(text)
+    if path.suffix != ".img":
+        return opened(path), path.name
+    copy = open_copy(path)
+    if copy.file is None:
+        raise UsageError(f"{path}: {copy.fault}")
+    return copy.file, path.name
+
+
+def _tick(options: Options, file: ParameterFile, sheet: Sheet, ticks: Ticks) -> None:
+    for names, on in ((options.tick, True), (options.untick, False)):
+        if names:
+            ticks.tick(_named(names, file, sheet), on)
+
+
+def _named(names: Iterable[str], file: ParameterFile, sheet: Sheet) -> list[SheetEntry]:
+    """Return the entries of numbers or ids; raises UsageError, UnknownParameterError."""
+    entries, found = {entry.address: entry for entry in sheet.entries}, []
+    for name in names:
+        entry = entries.get(file.find(name))
+        if entry is None:
+            raise UsageError(f"{name} is not on this sheet")
+        found.append(entry)
+    return found
+
+
+def _check(options: Options, file: ParameterFile, sheet: Sheet, ticks: Ticks) -> int:
+    from amp_studio.schema.regular_file import read_file
+    from amp_studio.sheet import STATES, ReadBackError, compare_shown, read_shown
+
+    content = read_file(options.check, _LARGEST)
+    try:
+        found = compare_shown(sheet, file, read_shown(content.decode("utf-8-sig")))
+    except UnicodeDecodeError:
+        raise UsageError(f"{options.check}: there is a byte that is no UTF-8 text") from None
+    except ReadBackError as error:
+        raise UsageError(f"{options.check}: {error}") from None
+    by_number = {each.entry.number: each for each in found}
+    if options.json or options.output:
+        _print(options, sheet, ticks, by_number)
+    if not options.json:
+        for each in found:
+            if each.state != "same":
+                print(_told(each))
+        counts = [(state, sum(each.state == state for each in found)) for state in STATES]
+        print(", ".join(f"{n} {STATES[state]}" for state, n in counts if n) or "Nothing is on the sheet")
+    return int(any(each.state != "same" for each in found))
+
+
+def _told(each: ReadBack) -> str:
+    from amp_studio.sheet import STATES
+
+    entry = each.entry
+    shown = (
+        ""
+        if each.shown is None
+        else f": the screen shows {each.shown}, it should be {entry.new} {entry.unit}".rstrip()
+    )
+    return f"{entry.number} {entry.name}: {STATES[each.state]}{shown}"
+
+
+def _print(options: Options, sheet: Sheet, ticks: Ticks, found: dict[str, ReadBack]) -> None:
+    from amp_studio.report.sheet import PrintedSheet, text_lines, write_sheet
+    from amp_studio.report.wording import counted
+
+    shown = dict(ticks.shown) | {number: each.shown for number, each in found.items() if each.shown}
+    printed = PrintedSheet(
+        sheet,
+        {e.number for e in sheet.entries if e in ticks},
+        tuple(shown.items()),
+        language=options.language,
+    )
+    if options.output:
+        write_sheet(printed, options.output, note)
+    if options.json:
+        print_json(_json(sheet, ticks, found))
+    elif options.output:
+        print(f"{options.output}: {counted(len(sheet.entries), 'value')} to key in, {ticks.done} ticked")
+    else:
+        print("\n".join(line.rstrip() for line in text_lines(printed)))
+
+
+def _json(sheet: Sheet, ticks: Ticks, found: dict[str, ReadBack]) -> dict[str, Any]:
+    return {
+        "title": sheet.title,
+        "family": sheet.family,
+        "against": sheet.present,
+        "same": sheet.same,
+        "entries": [
+            _entry_json(n, entry, sheet, ticks, found.get(entry.number))
+            for n, entry in enumerate(sheet.entries, 1)
+        ],
+        "left_out": [{"param": each.number, "name": each.name, "why": each.why} for each in sheet.left_out],
+        "before": _instructions(sheet.before),
+        "after": _instructions(sheet.after),
+        "warnings": list(sheet.warnings),
+    }
+
+
+def _instructions(steps: Sequence[Any]) -> list[dict[str, str]]:
+    return [{"text": each.text, "page": each.page} for each in steps]
+
+
+def _entry_json(
+    step: int, entry: SheetEntry, sheet: Sheet, ticks: Ticks, read: ReadBack | None
+) -> dict[str, Any]:
+    stage = sheet.stages[entry.stage]
+    return {
+        "step": step,
+        "param": entry.number,
+        "id": entry.address[0],
+        "instance": entry.address[1],
+        "name": entry.name,
+        "old": entry.old or None,
+        "new": entry.new,
+        "unit": entry.unit,
+        "meaning": entry.meaning,
+        "page": entry.page,
+        "stage": {"title": stage.title, "why": stage.why, "page": stage.page},
+        "order": entry.order or None,
+        "until": list(entry.until),
+        "ticked": entry in ticks,
+    } | ({} if read is None else {"read_back": read.shown, "state": read.state})

@@ -1,0 +1,233 @@
+"""Find parameters, values, choices and messages of the control by what one remembers of them; typing errors
+are forgiven.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from amp_studio.cli import candidates
+from amp_studio.cli.arguments import JSON, count
+from amp_studio.cli.console import family, print_json
+from amp_studio.cli.errors import UsageError
+from amp_studio.cli.opened import opened
+from amp_studio.cli.verb import Argument, Options, Verb
+
+if TYPE_CHECKING:
+    from amp_studio.files import ParameterFile
+    from amp_studio.find import Hit, MessagePage
+    from amp_studio.schema import Schema
+    from amp_studio.validate import Finding
+
+VERB = Verb(
+    __doc__,
+    Argument(
+        "words",
+        nargs="+",
+        metavar="FAMILY|FILE WORDS",
+        help="where to look (every family), and what for",
+        completes=candidates.family_first,
+    ),
+    Argument("--family", help="look in this family", completes=candidates.families),
+    Argument("--limit", type=count, metavar="N", default=20, help="most hits (default: 20)"),
+    JSON,
+    sections=("families",),
+    examples=(
+        'amp-studio find 9pc "exess error"',
+        'amp-studio find "SERVO AMP FE LIMITS"',
+        "amp-studio find MILL_1394.amp 12.7 mm --json",
+    ),
+)
+
+
+_NAMED = {
+    "parameter": "",
+    "value": "value",
+    "choice": "choice",
+    "message": "message",
+    "group": "group",
+    "note": "note",
+}
+
+
+class _Source:
+    """A family, or a file of it, that is searched."""
+
+    def __init__(self, schema: Schema, file: ParameterFile | None = None, path: Path | None = None) -> None:
+        from amp_studio.find import Finder
+
+        self.schema, self.file, self._path = schema, file, path
+        self.machine = file.machine if file is not None else schema.family.default_machine
+        self.finder = Finder(schema, self.machine, file)
+        self._findings: tuple[Finding, ...] | None = None
+
+    def page(self, hit: Hit) -> MessagePage:
+        """Return the page of a message; its rules are checked in the file, where there is one."""
+        from amp_studio.find import message_page
+
+        if self._findings is None:
+            self._findings = self._checked()
+        message = self.schema.messages[hit.key]
+        return message_page(self.schema, self.machine, message, self.file, self._findings)
+
+    def _checked(self) -> tuple[Finding, ...]:
+        from amp_studio.validate import Validator, rules_beside
+
+        if self.file is None or self._path is None:
+            return ()
+        return Validator(self.file, rules_beside(self._path, self.schema)).run()
+
+
+def run(options: Options) -> int:
+    """Find what has the words, or nearly; print the best first, with the reason."""
+    from amp_studio.schema.quoting import quoted
+
+    sources, words = _sources(options)
+    query = " ".join(words)
+    if not query.strip():
+        raise UsageError("Nothing to find: give a number, a word, a value or a message of the control")
+    found = [(hit, source) for source in sources for hit in source.finder.find(query, options.limit)]
+    found.sort(key=lambda each: -each[0].score)
+    if len(sources) > 1:  # what one family has exactly is not buried by what five have nearly
+        found = [each for each in found if each[0].score >= found[0][0].score / 3]
+    found = found[: options.limit]
+    nearest = "" if found else next(filter(None, (s.finder.nearest(query) for s in sources)), "")
+    if options.json:
+        hits = [_as_json(hit, source) for hit, source in found]
+        print_json({"query": query, "hits": hits, "nearest": nearest})
+    elif found:
+        _print(found, named=len(sources) > 1)
+    else:
+        print(f"Nothing found for {quoted(query)}" + (f". Nearest: {nearest}" if nearest else ""))
+    return 0
+
+
+def _sources(options: Options) -> tuple[list[_Source], list[str]]:
+    """Return what is searched and for which words: the first may be a family or a file; else it is every family."""
+    from amp_studio.files import ENDING
+    from amp_studio.schema import family_ids
+
+    first, *words = options.words
+    if options.family is not None:
+        return [_Source(family(options.family))], options.words
+    if first in family_ids():
+        return [_Source(family(first))], words
+    path = Path(first)
+    if path.suffix.casefold() == ENDING or (words and path.is_file()):
+        file = opened(path)
+        return [_Source(file.schema, file, path)], words
+    return [_Source(family(name)) for name in family_ids()], options.words
+
+
+def _as_json(hit: Hit, source: _Source) -> dict[str, Any]:
+    from amp_studio.schema import written
+
+    schema = source.schema
+    data: dict[str, Any] = {
+        "family": schema.family.family,
+        "kind": hit.kind,
+        "id": hit.key,
+        "title": hit.title,
+        "detail": hit.detail,
+        "why": hit.why,
+        "score": round(hit.score, 2),
+    }
+    if hit.address is not None:
+        data["param"] = schema.on(source.machine).short(hit.address)
+        data["instance"] = hit.address[1]
+    if hit.others:
+        data["others"] = [written(address) for address in hit.others]
+    if hit.key in schema.parameters:
+        data["source"] = schema.parameters[hit.key].page
+    if hit.kind == "message":
+        data |= _message_json(source.page(hit))
+    return data
+
+
+def _message_json(page: MessagePage) -> dict[str, Any]:
+    from amp_studio.schema import written
+
+    message = page.message
+    return {
+        "code": message.code,
+        "text": message.text,
+        "reaction": message.reaction,
+        "means": message.means,
+        "causes": message.causes,
+        "cures": message.cures,
+        "note": message.note,
+        "params": [
+            {
+                "id": p.id,
+                "name": p.name,
+                "number": p.number,
+                "values": [{"param": written(v.address), "value": v.text} for v in p.values],
+            }
+            for p in page.parameters
+        ],
+        "rules": [
+            {
+                "rule": linked.rule.id,
+                "title": linked.rule.title,
+                "broken": bool(linked.findings),
+                "messages": [finding.message for finding in linked.findings],
+            }
+            for linked in page.rules
+        ],
+        "source": message.page,
+        "pages": message.pages,
+    }
+
+
+def _print(found: list[tuple[Hit, _Source]], named: bool) -> None:
+    best, source = found[0]
+    if best.kind == "message":
+        print(_where(source, named) + best.title)
+        print(*_page_lines(source.page(best), best), sep="\n")
+        found = found[1:]
+        if found:
+            print()
+    for hit, source in found:
+        kind = f"{_NAMED.get(hit.kind, hit.kind)} " if _NAMED.get(hit.kind, hit.kind) else ""
+        print(f"{_where(source, named)}{kind}{hit.title}: {hit.detail} ({hit.why})")
+
+
+def _where(source: _Source, named: bool) -> str:
+    return f"{source.schema.family.family:8} " if named else ""
+
+
+def _page_lines(page: MessagePage, hit: Hit) -> Iterator[str]:
+    """Yield a message as a person reads it: what it means, where to look, what helps."""
+    from amp_studio.report.wording import counted
+
+    message = page.message
+    if message.means:
+        yield f"  {message.means}"
+    if hit.detail.startswith("axis"):
+        yield f"  Here: {hit.detail.partition(',')[0]}"
+    yield from _listed("Causes", message.causes)
+    yield from _listed("What helps", message.cures)
+    yield from _listed("Parameters", (_parameter_line(page, n) for n in range(len(page.parameters))))
+    for linked in page.rules:
+        for finding in linked.findings:
+            yield f"  Broken in this file: {finding.message}"
+    if page.rules and page.broken == ():
+        yield f"  Checked by {counted(len(page.rules), 'rule')}: {', '.join(linked.rule.id for linked in page.rules)}"
+    if message.note:
+        yield f"  {' '.join(message.note.split())}"
+    yield f"  Page {', '.join(message.every_page)}"
+
+
+def _parameter_line(page: MessagePage, n: int) -> str:
+    linked = page.parameters[n]
+    values = ", ".join(f"{v.place} {v.text}".lstrip() for v in linked.values)
+    return f"{linked.number} {linked.name}".strip() + (f" = {values}" if values else "")
+
+
+def _listed(title: str, texts: Iterable[str]) -> Iterator[str]:
+    lines = tuple(texts)
+    if lines:
+        yield f"  {title}:"
+        yield from (f"    - {line}" for line in lines)

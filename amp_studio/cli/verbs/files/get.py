@@ -1,0 +1,127 @@
+"""Values with unit, default, and whether changed."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from amp_studio.cli import candidates
+from amp_studio.cli.arguments import JSON, PATH, SECRETS, TEXT
+from amp_studio.cli.console import note, print_json
+from amp_studio.cli.opened import opened
+from amp_studio.cli.verb import Argument, Options, Verb
+
+if TYPE_CHECKING:
+    from amp_studio.files import ParameterFile
+    from amp_studio.schema import Address
+
+VERB = Verb(
+    __doc__,
+    PATH,
+    Argument(
+        "params",
+        nargs="*",
+        metavar="PARAM",
+        help="numbers or ids of parameters",
+        completes=candidates.parameters,
+    ),
+    Argument("--all", action="store_true", help="also what is hidden or not set"),
+    Argument("--changed", action="store_true", help="only values that are not the printed default"),
+    Argument("--axes-differ", action="store_true", help="only parameters whose axes have different values"),
+    Argument("--with-findings", action="store_true", help="only values that cause a finding"),
+    Argument(
+        "--since-download", action="store_true", help="only what is not as in the last recorded download"
+    ),
+    Argument("--restart", action="store_true", help="only values that take effect after a restart"),
+    Argument("--with-notes", action="store_true", help="only values with a note"),
+    Argument(
+        "--not-set",
+        action="store_true",
+        help="only active values that are not set, step by step of the guide",
+    ),
+    JSON,
+    SECRETS,
+    *TEXT,
+    sections=("PARAM",),
+    examples=(
+        "amp-studio get MILL_1394.amp 1300 home.calibration@Y",
+        "amp-studio get MILL_1394.amp --all --json",
+        "amp-studio get MILL_1394.amp --changed --axes-differ",
+        "amp-studio get MILL_1394.amp --not-set",
+    ),
+)
+
+
+def _print_not_set(options: Options, file: ParameterFile, only: set[Address] | None) -> int:
+    """Print the active values that are not set, those of the first step first; ``only`` these addresses, where given."""
+    from amp_studio.guide import progress
+    from amp_studio.machine import value_row
+    from amp_studio.schema import shown as unit_shown
+    from amp_studio.validate import Validator, rules_beside
+
+    validator, rows = Validator(file, rules_beside(options.path, file.schema)), []
+    for each in progress(validator, validator.run()).steps:
+        found = [address for address in each.open if only is None or address in only]
+        rows += [value_row(file, address, options.secrets) | {"step": each.step.number} for address in found]
+        if found and not options.json:
+            print(f"Step {each.step.number}: {each.step.title}")
+            for address in found:
+                unit = file.evaluation.unit(address, file.header.units)
+                print(
+                    f"  {file.machine_schema.named(address):50} not set"
+                    + (f" (in {unit_shown(unit)})" if unit else "")
+                )
+    if options.json:
+        print_json({"values": rows})
+    elif not rows:
+        print("Every active value is set.")
+    return 0
+
+
+def run(options: Options) -> int:
+    """Print values."""
+    from amp_studio.cli.marked import marks_asked, with_marks
+    from amp_studio.machine import bit_row, value_row
+    from amp_studio.report.wording import state_name
+    from amp_studio.schema import Meant, all_meant, real_value, show_value
+    from amp_studio.schema import shown as unit_shown
+
+    file = opened(options.path, options)
+    if options.params:
+        found = [m for p in options.params for m in all_meant(file.evaluation, p)]
+    else:
+        found = [
+            Meant(a)
+            for a in file.addresses()
+            if options.all or (a in file.values and file.evaluation.state(a).state != "hidden")
+        ]
+    if options.not_set:
+        return _print_not_set(options, file, {m.address for m in found} if options.params else None)
+    if marks := marks_asked(options):
+        found = with_marks(file, options.path, found, marks)
+    for message in dict.fromkeys(message for m in found if (message := m.remark(file.schema))):
+        note(message)
+    rows = []
+    for address, bit in ((m.address, m.bit) for m in found):
+        if bit is not None:
+            rows.append(bit_row(file, address, bit))
+            if not options.json:
+                shown = "not set" if rows[-1]["value"] is None else rows[-1]["value"]
+                print(f"{rows[-1]['param']} {rows[-1]['label']:40} {shown}")
+            continue
+        rows.append(value_row(file, address, options.secrets))
+        if not options.json:
+            mark = "" if rows[-1]["default"] else " *"
+            state = (
+                "" if rows[-1]["state"] == "in-force" else f"  (inactive: {state_name(rows[-1]['state'])})"
+            )
+            parameter = file.schema.parameters[address[0]]
+            shown = show_value(parameter, file.get(address), secrets=options.secrets)
+            if file.get(address) is None and rows[-1]["unit"]:
+                shown += f" (in {unit_shown(rows[-1]['unit'])})"
+            real = real_value(file.evaluation, address, file.get(address))
+            shown += f" = {show_value(parameter, real)}" if real else ""
+            shown += f" ({rows[-1]['labels']})" if "labels" in rows[-1] else ""
+            print(f"{file.machine_schema.named(address):52} {shown}{mark}{state}")
+    if options.json:
+        print_json({"values": rows})
+    return 0

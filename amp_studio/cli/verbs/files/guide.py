@@ -1,0 +1,370 @@
+"""The steps of commissioning in the manual's order: what is set, what is not, what is next."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import replace
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from amp_studio.cli import candidates
+from amp_studio.cli.arguments import JSON, LANGUAGE, OUTPUT, path_of
+from amp_studio.cli.console import family, is_family, note, print_json
+from amp_studio.cli.errors import UsageError
+from amp_studio.cli.opened import opened
+from amp_studio.cli.output import check_replaced, note_all
+from amp_studio.cli.verb import Argument, Options, Verb
+
+if TYPE_CHECKING:
+    from amp_studio.files import ParameterFile
+    from amp_studio.guide import GuideProgress, SetupStep, StepProgress
+    from amp_studio.report.check_list import OpenValue
+    from amp_studio.schema import Address, Schema
+
+VERB = Verb(
+    __doc__,
+    Argument(
+        "path", type=path_of, metavar="FILE", help="parameter file (.amp), or a family for its steps alone"
+    ),
+    Argument(
+        "step",
+        nargs="?",
+        metavar="STEP",
+        help="only this step, by number or id, with its values",
+        completes=candidates.steps,
+    ),
+    Argument("--step", dest="at", metavar="STEP", help="the same", completes=candidates.steps),
+    Argument("--next", action="store_true", help="the next value that is not set, with its help"),
+    Argument(
+        "--after",
+        metavar="PARAM",
+        help="with --next: the one that comes after this parameter",
+        completes=candidates.parameters,
+    ),
+    Argument(
+        "--done",
+        action="append",
+        metavar="STEP",
+        help="tick a step as done; it is kept in the file",
+        completes=candidates.steps,
+    ),
+    Argument(
+        "--not-done", action="append", metavar="STEP", help="take that tick away", completes=candidates.steps
+    ),
+    Argument(
+        "--keep-defaults",
+        metavar="STEP",
+        help="set what is not set in a step to the printed defaults",
+        completes=candidates.steps,
+    ),
+    OUTPUT.but(required=False, help="write the check list as .pdf, .html or .txt"),
+    LANGUAGE,
+    JSON,
+    writes=("path", "output"),
+    sections=("families", "PARAM"),
+    examples=(
+        "amp-studio guide 9pc",
+        "amp-studio guide MILL_1394.amp",
+        "amp-studio guide MILL_1394.amp home",
+        "amp-studio guide MILL_1394.amp --next --json",
+        "amp-studio guide MILL_1394.amp --done dual",
+        "amp-studio guide MILL_1394.amp -o list.pdf",
+    ),
+)
+
+
+_MARKS = {"not begun": " ", "begun": "~", "done": "x", "not needed": "-"}
+
+_CHANGING = ("done", "not_done", "keep_defaults")
+
+_MOST = 12
+"""Open values that the overview lists; the step alone lists all of them."""
+
+
+def run(options: Options) -> int:
+    """Print the steps of a family, or how far a file has come in them; tick a step, keep its defaults, print the check list."""
+    from amp_studio.files import Document
+    from amp_studio.guide import progress
+    from amp_studio.validate import Validator, rules_beside
+
+    asked_for = options.step or options.at
+    if is_family(str(options.path)):
+        if any(getattr(options, key) for key in (*_CHANGING, "next", "output")):
+            raise UsageError(
+                f"{options.path} is a family: only the guide of a file has ticks and open values"
+            )
+        return _family(options, family(str(options.path)), asked_for)
+    path = options.path
+    if options.output:
+        check_replaced(options.output, path)
+    if any(getattr(options, key) for key in _CHANGING):
+        with Document.open(path) as document:
+            _change(options, document.file)
+            if document.is_dirty:
+                document.save("guide")
+                note_all(document.notes)
+            file = document.file
+    else:
+        file = opened(path)
+    step = _step(file.schema, asked_for) if asked_for else None
+    validator = Validator(file, rules_beside(path, file.schema))
+    come = progress(validator, validator.run())
+    if options.output:
+        return _write(options, file, come, path)
+    if options.next:
+        return _next(options, file, come, step)
+    if options.json:
+        print_json(_as_json(file, come, path, step))
+    elif changed := [
+        *(options.done or ()),
+        *(options.not_done or ()),
+        *filter(None, [options.keep_defaults]),
+    ]:
+        print("\n".join(_step_line(come.of(_step(file.schema, name)), 0) for name in changed))
+    elif step is not None:
+        print("\n".join(_step_lines(file, come.of(step))))
+    else:
+        print("\n".join(_overview(file, come, path)))
+    return 0
+
+
+def _step(schema: Schema, text: str) -> SetupStep:
+    from amp_studio.guide import find_step
+
+    try:
+        return find_step(schema, text)
+    except ValueError as error:
+        raise UsageError(str(error)) from None
+
+
+def _family(options: Options, schema: Schema, asked_for: str | None) -> int:
+    from amp_studio.guide import steps_of
+
+    steps = (_step(schema, asked_for),) if asked_for else steps_of(schema)
+    if options.json:
+        print_json({"family": schema.family.family, **_order(schema), "steps": [_facts(s) for s in steps]})
+        return 0
+    order = _order(schema)
+    if not asked_for and order["order"]:
+        page = f" (page {order['page']})" if order["order"] == "manual" else ""
+        print(f"{order['why']}{page}")
+    for step in steps:
+        print(f"{step.number:>3}  {step.title}" + (f" (page {step.page})" if step.page else ""))
+        if asked_for:
+            here = schema.on(schema.family.default_machine)
+            instances = ((p, here.instances(p)) for p in step.parameters)
+            print("\n".join(f"     {here.label((p.id, each[0]))}" for p, each in instances if each))
+    return 0
+
+
+def _order(schema: Schema) -> dict[str, Any]:
+    """Return whose order the steps have, and where it comes from."""
+    order = schema.commissioning
+    if order is None:
+        return {"order": None, "why": None, "page": None}
+    return {"order": order.order, "why": order.why, "page": order.page}
+
+
+def _facts(step: SetupStep) -> dict[str, Any]:
+    return {
+        "step": step.number,
+        "id": step.id,
+        "title": step.title,
+        "what": step.what,
+        "page": step.page or None,
+        "parameters": [p.id for p in step.parameters],
+        "again": [p.id for p in step.again],
+    }
+
+
+def _change(options: Options, file: ParameterFile) -> None:
+    """Tick steps, take ticks away, and set open values to their defaults."""
+    from amp_studio.files.lock import now as stamp
+    from amp_studio.files.lock import user
+    from amp_studio.guide import progress, tick
+    from amp_studio.report.wording import counted
+    from amp_studio.validate import Validator
+
+    for names, by in ((options.done, f"{stamp()} by {user()}"), (options.not_done, None)):
+        for name in names or ():
+            tick(file, _step(file.schema, name), by)
+    if not options.keep_defaults:
+        return
+    step = _step(file.schema, options.keep_defaults)
+    validator = Validator(file)
+    come = progress(validator, validator.run())
+    wanted = {a: value for a in come.of(step).open if (value := file.default(a)) is not None}
+    file.set_many(wanted)
+    note(f"{step.title}: {counted(len(wanted), 'value')} set to the default")
+
+
+def _write(options: Options, file: ParameterFile, come: GuideProgress, path: Path) -> int:
+    from amp_studio.report.check_list import build_check_list, write_check_list
+
+    write_check_list(build_check_list(file, come, path, language=options.language), options.output, note)
+    print(options.output)
+    return 0
+
+
+def _next(options: Options, file: ParameterFile, come: GuideProgress, only: SetupStep | None) -> int:
+    """Print the next open value, of the file or of one step, and what is known about it."""
+    from amp_studio.guide import next_open, step_of
+    from amp_studio.report.check_list import open_value
+    from amp_studio.schema import addresses_meant
+
+    behind = addresses_meant(file.evaluation, options.after)[-1] if options.after else None
+    if only is not None:
+        come = replace(come, steps=tuple(each for each in come.steps if each.step is only))
+    found = next_open(come, behind)
+    if options.json:
+        print_json({"next": None if found is None else _open_json(file, found)})
+    elif found is None:
+        print("Every active value is set." if only is None else f"Every active value of {only.title} is set.")
+    else:
+        step, value = step_of(file.schema)[found[0]], open_value(file, found)
+        print(f"Step {step.number} {step.title}: {_shown(value)}")
+        parameter = file.schema.parameters[found[0]]
+        for text in (parameter.help.what, parameter.help.find):
+            if text:
+                print(text)
+        print(f"Set it with: {file.machine_schema.short(found)}=…")
+    return 0
+
+
+def _shown(value: OpenValue) -> str:
+    about = "; ".join(filter(None, (value.allowed, f"page {value.page}")))
+    return f"{' '.join(filter(None, (value.number, value.name, value.place)))} ({about})"
+
+
+def _overview(file: ParameterFile, come: GuideProgress, path: Path) -> Iterator[str]:
+    from amp_studio.report.check_list import open_value
+    from amp_studio.report.wording import counted
+
+    yield f"{path}: {come.done} of {len(come.needed)} steps done, {come.set} of {come.total} values set"
+    order = file.schema.commissioning
+    if order is not None and order.order == "ours":
+        yield order.why
+    width = max(len(each.step.title) for each in come.steps)
+    for each in come.steps:
+        yield _step_line(each, width)
+        if each is come.current:
+            for value in (open_value(file, address) for address in each.open[:_MOST]):
+                yield f"        {' '.join(filter(None, (value.number, value.name, value.place)))}"
+            if len(each.open) > _MOST:
+                yield f"        and {len(each.open) - _MOST} more"
+    if come.deferred:
+        yield f"{counted(len(come.deferred), 'finding')} of later steps left out here; validate --json lists them"
+
+
+def _step_line(each: StepProgress, width: int) -> str:
+    from amp_studio.files.local_time import with_local_times
+    from amp_studio.report.wording import counted
+    from amp_studio.validate import SEVERITIES
+
+    parts = [f"{each.set} of {each.total} set"] if each.total else []
+    parts += [counted(n, severity) for severity in SEVERITIES if (n := each.count(severity))]
+    parts += ["not needed on this machine"] if each.state == "not needed" else []
+    parts += [f"ticked {with_local_times(each.ticked)}"] if each.ticked else []
+    step = each.step
+    text = (
+        f"[{_MARKS[each.state]}] {step.number:>2}  {step.title:{width}}  {step.page:>7}  {', '.join(parts)}"
+    )
+    return text.rstrip()
+
+
+def _step_lines(file: ParameterFile, each: StepProgress) -> Iterator[str]:
+    """Yield a step with every value of it that is active."""
+    from amp_studio.files.local_time import with_local_times
+    from amp_studio.report.check_list import open_value
+    from amp_studio.schema import show_value
+
+    step, here = each.step, file.machine_schema
+    yield f"Step {step.number}: {step.title}" + (f" (page {step.page})" if step.page else "")
+    if step.what:
+        yield step.what
+    ticked = f", ticked {with_local_times(each.ticked)}" if each.ticked else ""
+    yield f"{each.state}, {each.set} of {each.total} set{ticked}"
+    open_values = set(each.open)
+    for parameter in step.parameters:
+        for instance in here.instances(parameter):
+            address = (parameter.id, instance)
+            if address in open_values:
+                yield f"  {here.named(address):52} not set  {open_value(file, address).allowed}".rstrip()
+            elif address in file.values and file.evaluation.state(address).is_active:
+                mark = "" if file.is_default(address) else " *"
+                yield f"  {here.named(address):52} {show_value(parameter, file.get(address))}{mark}"
+    if step.again:
+        yield f"Check again: {', '.join(parameter.name for parameter in step.again)}"
+    for finding in each.findings:
+        yield f"{finding.severity}: {finding.message}" + (f" ({finding.cited})" if finding.cited else "")
+
+
+def _as_json(file: ParameterFile, come: GuideProgress, path: Path, only: SetupStep | None) -> dict[str, Any]:
+    from amp_studio.guide import next_open
+    from amp_studio.validate import SEVERITIES
+
+    following = next_open(come)
+    return {
+        "file": str(path),
+        "family": file.schema.family.family,
+        **_order(file.schema),
+        "steps_done": come.done,
+        "steps_needed": len(come.needed),
+        "set": come.set,
+        "total": come.total,
+        "current": come.current.step.id if come.current else None,
+        "next": None if following is None else _open_json(file, following),
+        "later": {
+            f"{key}s" if key != "advice" else key: sum(f.severity == key for f in come.deferred)
+            for key in SEVERITIES
+        },
+        "steps": [
+            _step_json(file, each) | ({} if only is None else {"values": _values_json(file, each)})
+            for each in come.steps
+            if only in (None, each.step)
+        ],
+    }
+
+
+def _values_json(file: ParameterFile, each: StepProgress) -> list[dict[str, Any]]:
+    """Return every active value of a step, set or not, in the form of ``get --json``."""
+    from amp_studio.machine import value_row
+
+    instances = ((p.id, file.machine_schema.instances(p)) for p in each.step.parameters)
+    every = [(name, instance) for name, places in instances for instance in places]
+    return [value_row(file, a, secrets=False) for a in every if file.evaluation.state(a).is_active]
+
+
+def _step_json(file: ParameterFile, each: StepProgress) -> dict[str, Any]:
+    from amp_studio.report.finding_lines import finding_json
+
+    return _facts(each.step) | {
+        "state": each.state,
+        "set": each.set,
+        "total": each.total,
+        "active": each.active,
+        "own": each.own,
+        "ticked": each.ticked or None,
+        "errors": each.count("error"),
+        "warnings": each.count("warning"),
+        "advice": each.count("advice"),
+        "open": [_open_json(file, address) for address in each.open],
+        "findings": [finding_json(file, finding) for finding in each.findings],
+    }
+
+
+def _open_json(file: ParameterFile, address: Address) -> dict[str, Any]:
+    from amp_studio.guide import step_of
+    from amp_studio.report.check_list import open_value
+
+    value = open_value(file, address)
+    return {
+        "param": file.machine_schema.short(address),
+        "id": address[0],
+        "instance": address[1],
+        "name": value.name,
+        "step": step_of(file.schema)[address[0]].number,
+        "unit": value.unit,
+        "allowed": value.allowed,
+        "page": value.page,
+    }

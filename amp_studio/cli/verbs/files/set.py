@@ -1,0 +1,65 @@
+"""Change values, all or none; the previous file becomes the backup."""
+
+from __future__ import annotations
+
+from amp_studio.cli import candidates
+from amp_studio.cli.arguments import PATH
+from amp_studio.cli.console import assignments, note
+from amp_studio.cli.errors import UsageError
+from amp_studio.cli.output import note_all
+from amp_studio.cli.verb import Argument, Options, Verb
+
+VERB = Verb(
+    __doc__,
+    PATH,
+    Argument(
+        "assignments",
+        nargs="+",
+        metavar="PARAM=VALUE",
+        help="parameter and its new value",
+        completes=candidates.assignments,
+    ),
+    Argument("--force", action="store_true", help="take values out of range, and mark them"),
+    writes=("path",),
+    sections=("PARAM", "VALUE"),
+    examples=(
+        "amp-studio set MILL_1394.amp 1300=1.5",
+        'amp-studio set MILL_1394.amp home.calibration@X="0.05 in" 1350=300',
+        "amp-studio set MILL_1394.amp 1300=not-set",
+        "amp-studio set MILL_1394.amp 1340==25.4/5000 1750='=Y*1.1'",
+    ),
+)
+
+
+def run(options: Options) -> int:
+    """Change values, all or none."""
+    from amp_studio.files import Document, RangeError
+    from amp_studio.files.lock import now
+    from amp_studio.machine import read_assignments
+    from amp_studio.report.wording import state_name
+    from amp_studio.schema import show_value
+
+    with Document.open(options.path) as document:
+        file = document.file
+        notes: list[str] = []
+        values = read_assignments(file, assignments(options.assignments), notes.append)
+        marks = dict(file.forced)
+        try:
+            changes = file.set_many(values, force=f"on {now()} by 'set --force'" if options.force else "")
+        except RangeError as error:
+            raise UsageError(f"{error}; nothing was changed (--force takes it and marks it)") from None
+        if changes or file.forced != marks:
+            document.save("set --force" if options.force else "set")
+        for message in notes:
+            note(message)
+        note_all(document.notes)
+        if not changes:
+            note("no change")
+        for change in changes:
+            parameter = file.schema.parameters[change.address[0]]
+            name = file.machine_schema.named(change.address)
+            print(f"{name}: {show_value(parameter, change.old)} -> {show_value(parameter, change.new)}")
+            state = file.evaluation.state(change.address)
+            if not state.is_active:
+                note(f"{name} is inactive ({state_name(state.state)}): {state.why}")
+    return 0

@@ -1,0 +1,1 @@
+"""Verbs about the machine in motion, its pictures and its errors."""

@@ -1,0 +1,442 @@
+"""The calibration table and the reversal error of an axis, from measured points or by hand; without either,
+show them.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from contextlib import nullcontext
+from dataclasses import asdict
+from fractions import Fraction
+from typing import TYPE_CHECKING, Any
+
+from amp_studio.cli.arguments import AXIS, DRY_RUN, JSON, OUTPUT, PATH, path_of
+from amp_studio.cli.console import note, print_json
+from amp_studio.cli.errors import UsageError
+from amp_studio.cli.output import check_replaced
+from amp_studio.cli.verb import Argument, Options, Verb
+
+if TYPE_CHECKING:
+    from amp_studio.calibration import CalibrationTable, Compensation, Measurement, Proposal, TableForm
+    from amp_studio.files import Change, ParameterFile
+    from amp_studio.schema import Address, Value
+
+VERB = Verb(
+    __doc__,
+    PATH,
+    AXIS.but(required=True, help="axis by its letter or number"),
+    Argument(
+        "--from",
+        dest="measured",
+        type=path_of,
+        metavar="FILE",
+        help="points measured by a laser interferometer or a ball-bar: columns as CSV, or Renishaw .rtl",
+    ),
+    Argument("--unit", metavar="UNIT", help="unit of the positions: mm, in, um, deg, counts"),
+    Argument("--error-unit", metavar="UNIT", help="unit of the errors: mm, in, um, deg, arcsec, counts"),
+    Argument(
+        "--sign",
+        choices=("measured-target", "target-measured"),
+        help="what an error is: measured less target (ISO 230-2), or the correction",
+    ),
+    Argument("--decimal", choices=("point", "comma"), help="decimal sign of the points"),
+    Argument(
+        "--compensation",
+        choices=("on", "off"),
+        help="whether the axis was measured with its compensation on; points are then added to it",
+    ),
+    Argument(
+        "--circle",
+        choices=("first", "second"),
+        help="which axis of the circle of a ball-bar (angle, deviation) it is",
+    ),
+    Argument("--only", choices=("table", "reversal"), help="make only one of both"),
+    Argument("--input", choices=("measurement", "deviation"), help="how the control has its points"),
+    Argument("--start", choices=("positive", "negative"), help="end of the travel at which the table starts"),
+    Argument(
+        "--insert",
+        action="append",
+        metavar="POSITION=FIGURE",
+        help="one more point of the table",
+        signed=True,
+    ),
+    Argument(
+        "--replace",
+        action="append",
+        metavar="POSITION=FIGURE",
+        help="another figure at a point",
+        signed=True,
+    ),
+    Argument("--delete", action="append", metavar="POSITION", help="a point that goes", signed=True),
+    Argument("--clear", action="store_true", help="delete all points of the axis"),
+    OUTPUT.but(required=False, help="the errors before and after as a picture (.svg)"),
+    DRY_RUN,
+    JSON,
+    writes=("path", "output"),
+    examples=(
+        "amp-studio calibrate MILL_1394.amp --axis X",
+        "amp-studio calibrate MILL_1394.amp --axis X --from laser.csv --dry-run -o errors.svg",
+        "amp-studio calibrate MILL_1394.amp --axis X --from laser.csv --sign measured-target",
+        "amp-studio calibrate MILL_1394.amp --axis X --compensation on --from laser.csv --sign measured-target --json --dry-run",
+    ),
+)
+
+
+_STARTS = {"positive": "+", "negative": "-"}
+
+_OPTIONS = {"unit": "--unit", "error_unit": "--error-unit", "sign": "--sign", "decimal": "--decimal"}
+
+_LONGEST = 64
+"""Signs of a value that is printed whole."""
+
+
+def run(options: Options) -> int:
+    """Show or change the calibration of one axis; all or nothing."""
+    from amp_studio.calibration import CalibrationError, compensation_of
+    from amp_studio.files import Document, RangeError
+    from amp_studio.schema import InvalidValueError, axis_meant
+
+    by_hand = bool(options.insert or options.replace or options.delete or options.clear)
+    if by_hand and options.measured:
+        raise UsageError(
+            "points are measured (--from) or changed by hand (--insert, --replace, --delete, --clear)"
+        )
+    if options.output:
+        _check_picture(options)
+    writes = (by_hand or bool(options.measured)) and not options.dry_run
+    with Document.open(options.path) if writes else nullcontext(Document.view(options.path)) as document:
+        file = document.file
+        offered = compensation_of(file.schema.family.family)
+        if not offered.reversal and offered.table is None:
+            raise UsageError(
+                f"{file.schema.family.name} has neither a calibration table nor a reversal error"
+            )
+        axis = axis_meant(file.evaluation, _instances(file, offered), options.axis)
+        try:
+            found = _wanted(options, file, offered, axis, by_hand)
+            changes = file.set_many(found.settings)
+        except (CalibrationError, RangeError, InvalidValueError) as error:
+            raise UsageError(f"{error}; nothing was changed") from None
+        if writes:
+            _demand_answers(found.measurement)
+            if changes:
+                document.save("calibrate")
+    if options.output and found.proposal is not None:
+        _draw(options, file, found.proposal)
+    if options.json:
+        print_json(_json(options, file, offered, axis, found, changes))
+    else:
+        print("\n".join(_lines(options, file, offered, axis, found, changes)))
+    return 0
+
+
+def _check_picture(options: Options) -> None:
+    if not options.measured:
+        raise UsageError("a picture is drawn of measured points: --from FILE")
+    if options.output.suffix.lower() != ".svg":
+        raise UsageError(f"A picture is drawn as SVG: name the file {options.output.stem}.svg")
+    check_replaced(options.output, options.path)
+    check_replaced(options.output, options.measured)
+
+
+def _draw(options: Options, file: ParameterFile, proposal: Proposal) -> None:
+    from amp_studio.cli.calibration_picture import proposal_scene
+    from amp_studio.files import write_atomic
+    from amp_studio.pictures import scene_svg
+    from amp_studio.schema import axis_name
+
+    letter = axis_name(file.evaluation, proposal.axis) or proposal.axis
+    scene = proposal_scene(proposal, f"Axis {letter}: mean errors")
+    write_atomic(options.output, scene_svg(scene).encode(), keep_backup=False, notify=note)
+    note(f"Written: {options.output}")
+
+
+def _instances(file: ParameterFile, offered: Compensation) -> tuple[str, ...]:
+    parameter = file.schema.parameters[offered.table.parameter if offered.table else offered.reversal]
+    instances = file.machine_schema.instances(parameter)
+    if not instances:
+        raise UsageError(f"{file.machine} has neither a calibration table nor a reversal error")
+    return instances
+
+
+class _Found:
+    """What the options come to: values to set, and what was measured where it was."""
+
+    def __init__(self, settings: dict[Address, Value | None]) -> None:
+        self.settings = settings
+        self.measurement: Measurement | None = None
+        self.proposal: Proposal | None = None
+
+
+def _wanted(options: Options, file: ParameterFile, offered: Compensation, axis: str, by_hand: bool) -> _Found:
+    from amp_studio.calibration import MeasurementAnswers, Wish, base_unit, propose, read_measured_file
+
+    if by_hand:
+        return _Found(_edited(options, file, offered, axis))
+    if not options.measured:
+        return _Found({})
+    answers = MeasurementAnswers(
+        options.unit or "", options.error_unit or "", options.sign or "", options.decimal or ""
+    )
+    measurement = read_measured_file(options.measured, answers, base_unit(file, offered, axis))
+    was_on = None if options.compensation is None else options.compensation == "on"
+    wish = Wish(
+        was_on,
+        options.input or "",
+        _STARTS.get(options.start or "", ""),
+        table=options.only != "reversal",
+        reversal=options.only != "table",
+        circle=options.circle or "",
+    )
+    proposal = propose(file, axis, measurement, wish)
+    found = _Found(dict(proposal.settings))
+    found.measurement, found.proposal = measurement, proposal
+    return found
+
+
+def _demand_answers(measurement: Measurement | None) -> None:
+    """Refuse to write what rests on an assumption; the dry run shows it."""
+    if measurement is not None and measurement.assumed:
+        used = asdict(measurement.answers)
+        asked = ", ".join(f"{_OPTIONS[name]} {used[name]}" for name in measurement.assumed)
+        raise UsageError(
+            f"the points do not name everything: look at it with --dry-run and confirm with {asked}, or give what is true; "
+            "nothing was changed"
+        )
+
+
+def _edited(
+    options: Options, file: ParameterFile, offered: Compensation, axis: str
+) -> dict[Address, Value | None]:
+    from amp_studio.calibration import present_table, shown_unit
+    from amp_studio.calibration.edit import deleted, inserted, rechosen, replaced
+    from amp_studio.schema import Value
+
+    form = offered.table
+    if form is None:
+        raise UsageError(f"{file.schema.family.name} has no calibration table of an axis")
+    start = _STARTS.get(options.start or "", "")
+    table = None if options.clear else present_table(file, offered, axis)
+    if table is None:
+        table = form.empty(file, axis, options.input or "", start)
+    else:
+        table = rechosen(table, options.input or table.input, start or table.start)
+    _, size = shown_unit(file, table)
+    for text in options.delete or ():
+        table = deleted(table, _number(text) * size)
+    for text in options.replace or ():
+        at, figure = (number * size for number in _pair(text))
+        table = replaced(table, at, _error(options, form, table, at, figure))
+    for text in options.insert or ():
+        at, figure = (number * size for number in _pair(text))
+        if form.is_even:
+            raise UsageError("the positions of this table are fixed: --replace changes a figure")
+        table = inserted(table, at, _error(options, form, table, at, figure))
+    text = "" if options.clear and not (options.insert or options.replace) else form.write(file, axis, table)
+    return {(form.parameter, axis): Value(text) if text else None}
+
+
+def _error(
+    options: Options, form: TableForm, table: CalibrationTable, at: Fraction, figure: Fraction
+) -> Fraction:
+    """Return the error that a figure means; measured with the calibration on it comes on top of the table's."""
+    from amp_studio.calibration.edit import left_over
+
+    error = form.error(table, at, figure)
+    return left_over(table, at, error) if options.compensation == "on" else error
+
+
+def _pair(text: str) -> tuple[Fraction, Fraction]:
+    at, sign, figure = text.partition("=")
+    if not sign:
+        raise UsageError(f"{text[:40]} is not POSITION=FIGURE")
+    return _number(at), _number(figure)
+
+
+def _number(text: str) -> Fraction:
+    from amp_studio.schema.values import read_exact
+
+    number, rest = read_exact(text)
+    if rest.strip():
+        raise UsageError(f"{text[:40]} is no bare number: positions and figures are in the unit of the table")
+    return number
+
+
+def _lines(
+    options: Options,
+    file: ParameterFile,
+    offered: Compensation,
+    axis: str,
+    found: _Found,
+    changes: list[Change],
+) -> Iterator[str]:
+    from amp_studio.calibration import present_table
+    from amp_studio.files import describe
+    from amp_studio.schema import show_value
+
+    proposal = found.proposal
+    if proposal is not None and found.measurement is not None:
+        yield from _measured(found.measurement, proposal)
+    yield from _table_lines(file, offered, axis, present_table(file, offered, axis))
+    would = "would be " if options.dry_run else ""
+    for change in changes:
+        parameter = file.schema.parameters[change.address[0]]
+        old, new = (_short(show_value(parameter, value)) for value in (change.old, change.new))
+        yield f"{describe(file, change.address)}: {old} -> {new}"
+    if found.settings:
+        yield f"{options.path}: {len(changes)} value{'' if len(changes) == 1 else 's'} {would}changed"
+    if found.measurement is not None and found.measurement.assumed:
+        used = asdict(found.measurement.answers)
+        for name in found.measurement.assumed:
+            note(f"assumed, because nothing names it: {_OPTIONS[name]} {used[name]}")
+
+
+def _measured(measurement: Measurement, proposal: Proposal) -> Iterator[str]:
+    """Yield what was read, its figures, and what error is expected to remain."""
+    from amp_studio.report.wording import counted
+    from amp_studio.schema import shown
+
+    figures, unit = proposal.figures, shown(proposal.unit)
+    used = measurement.answers
+    for text in proposal.notes:
+        note(text)
+    if measurement.is_circle:
+        yield f"{counted(len(measurement.runs), 'circle')} of a ball-bar; errors of the radius in {shown(used.error_unit)}, {used.sign}"
+        return
+    yield (
+        f"{len(measurement.targets)} targets, {figures.runs_rising} runs rising and {figures.runs_falling} falling; "
+        f"positions in {shown(used.unit)}, errors in {shown(used.error_unit)}, {used.sign}"
+    )
+    rows = (
+        ("Systematic deviation E", figures.systematic),
+        ("Range of the mean errors M", figures.mean_range),
+        ("Reversal value B", figures.reversal),
+        ("Mean reversal value", figures.mean_reversal),
+        ("Repeatability R", figures.repeatability),
+        ("Accuracy A", figures.accuracy),
+    )
+    for name, value in rows:
+        if value is not None:
+            yield f"{name}: {value:.5f} {unit}"
+    yield f"Error of both directions: {float(proposal.span_before):.5f} {unit} measured, {float(proposal.span_after):.5f} {unit} expected"
+
+
+def _table_lines(
+    file: ParameterFile, offered: Compensation, axis: str, table: CalibrationTable | None
+) -> Iterator[str]:
+    from amp_studio.calibration import shown_unit
+    from amp_studio.files import describe
+    from amp_studio.schema import show_value, shown
+
+    if offered.reversal:
+        value = file.get((offered.reversal, axis))
+        parameter = file.schema.parameters[offered.reversal]
+        yield f"{describe(file, (offered.reversal, axis))}: {show_value(parameter, value)}"
+    form = offered.table
+    if form is None:
+        return
+    if table is None:
+        yield "No calibration table"
+    else:
+        how = (
+            f", {table.input}, starts at the most {'negative' if table.start == '-' else 'positive'} position"
+            if table.input
+            else ""
+        )
+        unit, size = shown_unit(file, table)
+        yield f"Calibration table: {len(table.points)} points in {shown(unit)}{how}"
+        for at, by in table.points:
+            yield f"{float(at / size):14.5f} {float(form.figure(table, at, by) / size):14.5f}"
+        for remark in form.remarks(file, axis, table):
+            note(remark)
+    yield from form.limits(file, axis)
+    yield form.switching
+
+
+def _short(text: str) -> str:
+    return text if len(text) <= _LONGEST else f"{text[: _LONGEST - 1]}…"
+
+
+def _json(
+    options: Options,
+    file: ParameterFile,
+    offered: Compensation,
+    axis: str,
+    found: _Found,
+    changes: list[Change],
+) -> dict[str, Any]:
+    from amp_studio.calibration import base_unit, present_table, shown_unit
+
+    table = present_table(file, offered, axis)
+    form = offered.table
+    data: dict[str, Any] = {
+        "file": str(options.path),
+        "axis": axis,
+        "unit": base_unit(file, offered, axis),
+        "reversal": _value(file, (offered.reversal, axis)) if offered.reversal else None,
+        "table": None,
+        "changes": [
+            {
+                "param": file.machine_schema.short(c.address),
+                "old": _written(file, c.address, c.old),
+                "new": _written(file, c.address, c.new),
+            }
+            for c in changes
+        ],
+        "dry_run": options.dry_run,
+    }
+    if form is not None and table is not None:
+        unit, size = shown_unit(file, table)
+        data["table"] = {
+            "param": file.machine_schema.short((form.parameter, axis)),
+            "unit": unit,
+            "input": table.input,
+            "start": table.start,
+            "points": [
+                {
+                    "position": float(at / size),
+                    "figure": float(form.figure(table, at, by) / size),
+                    "error": float(by / size),
+                }
+                for at, by in table.points
+            ],
+        }
+    if form is not None:
+        data["limits"] = list(form.limits(file, axis))
+        data["remarks"] = list(form.remarks(file, axis, table)) if table is not None else []
+    if found.proposal is not None and found.measurement is not None:
+        data |= _proposal_json(found.measurement, found.proposal)
+    return data
+
+
+def _proposal_json(measurement: Measurement, proposal: Proposal) -> dict[str, Any]:
+    figures = asdict(proposal.figures)
+    targets = [asdict(t) | {"mean": t.mean, "reversal": t.reversal} for t in proposal.figures.targets]
+    names = {True: "rising", False: "falling"}
+    if measurement.is_circle:
+        asked = [_OPTIONS[name] for name in measurement.assumed]
+        return {"answers": asdict(measurement.answers), "assumed": asked, "notes": list(proposal.notes)}
+    return {
+        "answers": asdict(measurement.answers),
+        "assumed": [_OPTIONS[name] for name in measurement.assumed],
+        "figures": figures | {"targets": targets},
+        "residual": {"before": float(proposal.span_before), "after": float(proposal.span_after)},
+        "curves": {
+            when: {
+                names[side]: [[float(at), float(by)] for at, by in curve.points]
+                for side, curve in sides.items()
+            }
+            for when, sides in (("before", proposal.before), ("after", proposal.after))
+        },
+        "notes": list(proposal.notes),
+    }
+
+
+def _value(file: ParameterFile, address: Address) -> dict[str, str | None]:
+    return {"param": file.machine_schema.short(address), "value": _written(file, address, file.get(address))}
+
+
+def _written(file: ParameterFile, address: Address, value: Value | None) -> str | None:
+    from amp_studio.schema import write_value
+
+    return None if value is None else write_value(file.schema.parameters[address[0]], value)

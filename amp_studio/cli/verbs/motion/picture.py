@@ -1,0 +1,83 @@
+"""Draw zones, ramps, jog speeds, gears and gains of a file."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from amp_studio.cli.arguments import JSON, OUTPUT, PATH
+from amp_studio.cli.console import note, print_json
+from amp_studio.cli.errors import UsageError
+from amp_studio.cli.opened import opened
+from amp_studio.cli.output import check_replaced
+from amp_studio.cli.verb import Argument, Options, Verb
+
+if TYPE_CHECKING:
+    from amp_studio.files import ParameterFile
+    from amp_studio.pictures import Scene
+
+VERB = Verb(
+    __doc__,
+    PATH,
+    Argument("name", nargs="?", help="the picture; without one the pictures of the file are listed"),
+    Argument("--part", help="the axes (X,Y), the axis or the spindle; default: the first one"),
+    OUTPUT.but(required=False, help="file to write (.svg)"),
+    JSON,
+    writes=("output",),
+    examples=(
+        "amp-studio picture MILL_1394.amp",
+        "amp-studio picture MILL_1394.amp travel --part X,Y -o travel.svg",
+    ),
+)
+
+
+def run(options: Options) -> int:
+    """List the pictures of a file, or draw one."""
+    from amp_studio.files import write_atomic
+    from amp_studio.pictures import draw, scene_json, scene_svg
+
+    if options.output:
+        check_replaced(options.output, options.path)
+        if options.output.suffix.lower() != ".svg":
+            raise UsageError(f"A picture is drawn as SVG: name the file {options.output.stem}.svg")
+    file = opened(options.path)
+    if options.name is None:
+        if options.output:
+            raise UsageError("Name a picture; amp-studio picture PATH lists them")
+        return _list(file, as_json=options.json)
+    try:
+        scene = draw(file, options.name, options.part or "")
+    except KeyError as error:
+        raise UsageError(str(error.args[0])) from None
+    if options.output:
+        write_atomic(options.output, scene_svg(scene).encode(), keep_backup=False, notify=note)
+        note(f"Written: {options.output}")
+    if options.json:
+        print_json(scene_json(scene))
+    elif not options.output:
+        print(_told(scene))
+    return 0
+
+
+def _list(file: ParameterFile, *, as_json: bool) -> int:
+    from amp_studio.pictures import pictures_of
+
+    pictures = pictures_of(file)
+    if as_json:
+        entries = [
+            {"picture": p.name, "title": p.title, "parts": [name for _, name in p.parts if name]}
+            for p in pictures
+        ]
+        print_json({"pictures": entries})
+        return 0
+    for picture in pictures:
+        parts = ", ".join(name for _, name in picture.parts if name)
+        print(f"{picture.name:13}{picture.title}{f': {parts}' if parts else ''}")
+    return 0
+
+
+def _told(scene: Scene) -> str:
+    """Return what a picture is drawn from, a line for each value, and what it does not draw."""
+    lines = [f"{scene.title}: {scene.subtitle}"]
+    lines += [f"  {handle.label:52}{handle.value}" for handle in scene.handles if len(handle.drags) == 1]
+    lines += [f"{'wrong' if note.wrong else 'note'}: {note.text}" for note in scene.notes]
+    return "\n".join(lines)

@@ -1,0 +1,218 @@
+"""Check settings in motion."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import asdict
+from typing import TYPE_CHECKING
+
+from amp_studio.cli import candidates
+from amp_studio.cli.arguments import AXIS, JSON, OUTPUT, PATH, path_of
+from amp_studio.cli.console import assignments, note, print_json
+from amp_studio.cli.errors import UsageError
+from amp_studio.cli.opened import opened
+from amp_studio.cli.output import check_replaced
+from amp_studio.cli.verb import Argument, Options, Verb
+from amp_studio.scenarios import IDENTIFY
+
+if TYPE_CHECKING:
+    from amp_studio.files import ParameterFile
+    from amp_studio.sim import Trace
+
+VERB = Verb(
+    __doc__,
+    PATH,
+    Argument(
+        "scenario",
+        nargs="?",
+        help="what is simulated; or identify: inertia, friction and weight from a record",
+        completes=candidates.scenarios,
+    ),
+    Argument(
+        "record",
+        nargs="?",
+        type=path_of,
+        help="identify: CSV of a drive with time, velocity or position, and torque; units in the heads",
+    ),
+    Argument(
+        "--list", action="store_true", help="list the scenarios of this family, its axes, and what can be set"
+    ),
+    AXIS,
+    Argument(
+        "--set",
+        action="append",
+        default=[],
+        metavar="PARAM=VALUE",
+        dest="assignments",
+        help="parameter and its new value",
+        completes=candidates.assignments,
+    ),
+    Argument(
+        "--machine",
+        dest="machine_file",
+        type=path_of,
+        metavar="FILE.yaml",
+        help="the machine that identify has written; --set model.… has precedence",
+    ),
+    Argument(
+        "--scale",
+        metavar="TORQUE",
+        help="identify: torque of the record for 1 % (or 1 V) of the axis, as '0.056 A'",
+    ),
+    Argument(
+        "--units", metavar="SYSTEM", help="metric or inch, for settings and result (default: as the file)"
+    ),
+    OUTPUT.but(required=False, help="file to write: .csv, .svg, .png; of identify also .yaml, the machine"),
+    JSON,
+    writes=("output",),
+    sections=("scenarios", "PARAM", "VALUE"),
+    examples=(
+        "amp-studio simulate MILL_1394.amp --list",
+        "amp-studio simulate MILL_1394.amp step --axis X",
+        "amp-studio simulate MILL_1394.amp step --axis X --set move.distance=50 -o trace.csv",
+        "amp-studio simulate MILL_1394.amp identify record.csv --axis X -o machine.yaml",
+        "amp-studio simulate MILL_1394.amp step --axis X --machine machine.yaml",
+    ),
+)
+
+
+PICTURES = (".svg", ".png")
+
+SETTING_GROUPS = ("move", "model", "tune", "gear", "cam")
+"""First words of settings that are no parameters."""
+
+
+def run(options: Options) -> int:
+    """Move the machine; 1 where it raised an alarm."""
+    from amp_studio.machine import read_assignments
+    from amp_studio.sim import (
+        machine_for,
+        named_parameter,
+        read_machine,
+        simulate,
+        trace_summary,
+        trace_text,
+        write_trace,
+    )
+
+    if options.output:
+        beside = (each for each in (options.record, options.machine_file) if each)
+        check_replaced(options.output, options.path, *beside)
+    file = opened(options.path)
+    if options.list:
+        return _list(file, options.units, as_json=options.json)
+    if options.scenario is None:
+        raise UsageError("Name a scenario; amp-studio simulate PATH --list lists them")
+    if options.scenario == IDENTIFY:
+        return _identify(options, file)
+    if options.record or options.scale:
+        raise UsageError(f"a record and its scale belong to {IDENTIFY}, not to {options.scenario}")
+    settings, own = _settings(options.assignments)
+    told: list[str] = []
+    before = file.copy()
+    for address, value in read_assignments(file, assignments(own), told.append).items():
+        file.set(address, value)
+    axis = _axis(options, file)
+    if options.machine_file:
+        axis, machine = machine_for(file, read_machine(options.machine_file), axis)
+        settings = {**machine, **settings}
+    system = options.units or file.header.units
+    trace = simulate(file, options.scenario, axis, settings, system)
+    for said in told:
+        note(said)
+    if options.output:
+        is_picture = options.output.suffix.lower() in PICTURES
+        earlier = _earlier(before, trace, settings, system) if own and is_picture else None
+        write_trace(trace, options.output, note, before=earlier)
+    if options.json:
+        print_json(trace_summary(trace, lambda parameter: named_parameter(file, parameter, trace.axis)))
+    else:
+        print(trace_text(trace))
+    return 1 if trace.alarms else 0
+
+
+def _axis(options: Options, file: ParameterFile) -> str | None:
+    from amp_studio.files import axis_instances
+    from amp_studio.schema import axis_meant
+    from amp_studio.sim import simulated_axes
+
+    if not options.axis:
+        return None
+    return axis_meant(file.evaluation, axis_instances(file) or simulated_axes(file), options.axis)
+
+
+def _identify(options: Options, file: ParameterFile) -> int:
+    """Find the machine of an axis in a record of its drive."""
+    from amp_studio.sim import (
+        identified_text,
+        identify,
+        machine_settings,
+        named_parameter,
+        trace_summary,
+        write_machine,
+        write_trace,
+    )
+
+    if options.record is None:
+        raise UsageError(
+            f"Name the record: amp-studio simulate {options.path} {IDENTIFY} RECORD.csv --axis X"
+        )
+    if options.assignments or options.machine_file:
+        raise UsageError(f"{IDENTIFY} takes neither --set nor --machine: it finds the machine")
+    trace = identify(file, options.record, _axis(options, file), options.scale, options.units)
+    if options.output and options.output.suffix.lower() in (".yaml", ".yml"):
+        write_machine(trace, file.schema.family.family, options.output, note)
+    elif options.output:
+        write_trace(trace, options.output, note)
+    if options.json:
+        machine = {"machine": machine_settings(trace)}
+        print_json(
+            trace_summary(trace, lambda parameter: named_parameter(file, parameter, trace.axis)) | machine
+        )
+    else:
+        print(identified_text(trace))
+    return 0
+
+
+def _earlier(
+    file: ParameterFile, trace: Trace, settings: dict[str, float | str], system: str
+) -> Trace | None:
+    """Return the same move with the values in the file, to draw under that of the changed ones; None where it has none."""
+    from amp_studio.sim import SimulationError, simulate
+
+    try:
+        return simulate(file, trace.scenario, trace.axis, settings, system, like=trace)
+    except SimulationError:
+        return None
+
+
+def _settings(texts: Sequence[str]) -> tuple[dict[str, float | str], list[str]]:
+    """Part the settings of the scenario and its model (``move.feedrate=3000``) from parameters."""
+    settings: dict[str, float | str] = {}
+    own = []
+    for param, text in assignments(texts):
+        if param.partition(".")[0] in SETTING_GROUPS:
+            settings[param] = text
+        else:
+            own.append(f"{param}={text}")
+    return settings, own
+
+
+def _list(file: ParameterFile, system: str | None, *, as_json: bool) -> int:
+    """Print what can be simulated with a file."""
+    from amp_studio.sim import listing, titled
+
+    found = listing(file, system)
+    if as_json:
+        print_json(asdict(found))
+        return 0
+    print(f"axes: {', '.join(map(titled, found.axes, found.letters)) or 'none'}")
+    for scenario in found.scenarios:
+        print(f"{scenario.name}: {scenario.title}")
+        for name, text in scenario.settings.items():
+            print(f"  {name:24}{text}")
+    print(f"{IDENTIFY} RECORD.csv: inertia, friction and weight of an axis, from a record of its drive")
+    print("the machine, in every scenario:")
+    for name, text in found.model.items():
+        print(f"  {name:32}{text}")
+    return 0
