@@ -7,7 +7,7 @@ import re
 from pathlib import Path
 
 from . import candidates
-from .verb import Argument
+from .verb import VerbArgument
 
 # -- kinds of values: a function that raises ValueError with what is wrong ---------------------------------------------
 
@@ -58,39 +58,41 @@ def seconds(text: str) -> float:
 
 # -- what is named -----------------------------------------------------------------------------------------------
 
-PATH = Argument("path", type=path_of, help="parameter file (.amp)")
-PATHS = Argument(
+PATH = VerbArgument("path", type=path_of, help="parameter file (.amp)")
+PATHS = VerbArgument(
     "paths", type=path_of, nargs="+", metavar="PATH", help="parameter files (.amp) of one family"
 )
-OUTPUT = Argument("-o", "--output", type=path_of, required=True, help="file to write")
-FAMILY = Argument("family", help="control family", completes=candidates.families)
-MACHINE = Argument("--machine", help="machine type: mill, lathe, …", completes=candidates.machines)
-AXIS = Argument("--axis", help="axis by its letter or number (default: the first)", completes=candidates.axes)
+OUTPUT = VerbArgument("-o", "--output", type=path_of, required=True, help="file to write")
+FAMILY = VerbArgument("family", help="control family", completes=candidates.families)
+MACHINE = VerbArgument("--machine", help="machine type: mill, lathe, …", completes=candidates.machines)
+AXIS = VerbArgument(
+    "--axis", help="axis by its letter or number (default: the first)", completes=candidates.axes
+)
 
 # -- how results are printed -------------------------------------------------------------------------------------
 
-JSON = Argument("--json", action="store_true", help="print one JSON document")
-SECRETS = Argument("--secrets", action="store_true", help="passwords in clear; they are masked otherwise")
-LANGUAGE = Argument(
+JSON = VerbArgument("--json", action="store_true", help="print one JSON document")
+SECRETS = VerbArgument("--secrets", action="store_true", help="passwords in clear; they are masked otherwise")
+LANGUAGE = VerbArgument(
     "--language",
     choices=("en", "de"),
     default="en",
     help="language of the report's own words (default: en)",
 )
-DRY_RUN = Argument("--dry-run", action="store_true", help="change nothing, show what would change")
-BY_LETTER = Argument(
+DRY_RUN = VerbArgument("--dry-run", action="store_true", help="change nothing, show what would change")
+BY_LETTER = VerbArgument(
     "--by-letter", action="store_true", help="match axes by their letters instead of their numbers"
 )
 
 # -- what is read ------------------------------------------------------------------------------------------------
 
 TEXT = (
-    Argument(
+    VerbArgument(
         "--family",
         help="of a control's own text: its family, where the text does not show it",
         completes=candidates.families,
     ),
-    Argument(
+    VerbArgument(
         "--machine",
         metavar="TYPE",
         help="of a control's own text: its machine type, where the text shall not decide",
@@ -98,7 +100,7 @@ TEXT = (
     ),
 )
 """What is known of a control's own text that is named in place of a parameter file."""
-ON_FAULT = Argument(
+ON_FAULT = VerbArgument(
     "--on-fault",
     choices=("ask", "keep", "quit"),
     default="ask",
@@ -108,10 +110,10 @@ ON_FAULT = Argument(
 # -- controls ----------------------------------------------------------------------------------------------------
 
 
-def several_controls(*names: str, dest: str, required: bool = True) -> tuple[Argument, ...]:
+def several_controls(*names: str, dest: str, required: bool = True) -> tuple[VerbArgument, ...]:
     """Return the addresses of one control or several, and what is for several only."""
     return (
-        Argument(
+        VerbArgument(
             *names,
             dest=dest,
             required=required,
@@ -119,12 +121,12 @@ def several_controls(*names: str, dest: str, required: bool = True) -> tuple[Arg
             metavar="ADDRESS",
             help="address of a control; named again for several, side by side",
         ),
-        Argument(
+        VerbArgument(
             "--stop-on-failure",
             action="store_true",
             help="several controls one after the other; none is begun after the first failure",
         ),
-        Argument(
+        VerbArgument(
             "--report",
             type=path_of,
             metavar="FILE",
@@ -133,41 +135,43 @@ def several_controls(*names: str, dest: str, required: bool = True) -> tuple[Arg
     )
 
 
-EXPECT = Argument(
+EXPECT = VerbArgument(
     "--expect",
     metavar="SHA256",
     help="only where the control contains the image with this digest, as verify and upload print it",
 )
-TO = Argument("--to", required=True, metavar="ADDRESS", help="where the control is reached")
+TO = VerbArgument("--to", required=True, metavar="ADDRESS", help="where the control is reached")
 
 
-def kept_in(where: str) -> Argument:
+def kept_in(where: str) -> VerbArgument:
     """Return where a copy is kept of what a control contained before."""
-    return Argument(
+    return VerbArgument(
         "--keep", type=folder, metavar="DIR", help=f"where to keep what the control contained ({where})"
     )
 
 
-def line_options(protocols: tuple[str, ...]) -> tuple[Argument, ...]:
+def line_options(protocols: tuple[str, ...]) -> tuple[VerbArgument, ...]:
     """Return how a plain file is carried."""
     return (
-        Argument("--protocol", choices=protocols, help=f"how the file is carried (default: {protocols[0]})"),
-        Argument(
+        VerbArgument(
+            "--protocol", choices=protocols, help=f"how the file is carried (default: {protocols[0]})"
+        ),
+        VerbArgument(
             "--wait",
             type=seconds,
             default=60.0,
             metavar="SECONDS",
             help="how long the other end may take to begin (default: 60)",
         ),
-        Argument("--percent", action="store_true", help="raw: % before and after the text"),
-        Argument(
+        VerbArgument("--percent", action="store_true", help="raw: % before and after the text"),
+        VerbArgument(
             "--leader",
             type=count,
             default=0,
             metavar="N",
             help="raw: blank characters before and after",
         ),
-        Argument(
+        VerbArgument(
             "--blank",
             choices=("nul", "space"),
             default="nul",

@@ -10,7 +10,7 @@ import shlex
 from collections.abc import Iterator, Sequence
 
 from .registry import module_of, verb_names
-from .verb import Argument, Verb
+from .verb import Verb, VerbArgument
 
 ASKED = "__complete"
 """The hidden verb that the scripts call: ``__complete WORD…``, the last word being the one that is typed."""
@@ -67,10 +67,10 @@ def _found(before: Sequence[str], current: str) -> Iterator[str]:
         yield from _values(places[at], values, current)
 
 
-def _parted(verb: Verb, words: Sequence[str]) -> tuple[Argument | None, list[str]]:
+def _parted(verb: Verb, words: Sequence[str]) -> tuple[VerbArgument | None, list[str]]:
     """Return the option that waits for its value, if one does, and the words that are no options or values of some."""
     options = {name: argument for argument in verb.arguments if argument.is_option for name in argument.names}
-    waiting: Argument | None = None
+    waiting: VerbArgument | None = None
     values = []
     for word in words:
         if waiting is not None:
@@ -85,7 +85,7 @@ def _parted(verb: Verb, words: Sequence[str]) -> tuple[Argument | None, list[str
     return waiting, values
 
 
-def _values(argument: Argument, values: Sequence[str], current: str) -> Sequence[str]:
+def _values(argument: VerbArgument, values: Sequence[str], current: str) -> Sequence[str]:
     if argument.choices or argument.completes is None:
         return argument.choices
     return tuple(argument.completes(values[0] if values else "", current))

@@ -13,7 +13,7 @@ from typing import Any, NoReturn
 
 from .errors import UsageError
 from .manual import PROGRAM, help_of
-from .verb import Argument, Options, Verb
+from .verb import Options, Verb, VerbArgument
 
 _PLAIN = (
     (r"the following arguments are required: (.*)", r"Missing: \1"),
@@ -46,7 +46,7 @@ class _Parser(argparse.ArgumentParser):
         for argument in verb.arguments:
             self.add_argument(*argument.names, help=argument.help.replace("%", "%%"), **self._how(argument))
 
-    def _how(self, argument: Argument) -> dict[str, Any]:
+    def _how(self, argument: VerbArgument) -> dict[str, Any]:
         """Return the arguments of ``add_argument``; a choice is read here, because an unknown one is answered with the nearest."""
         how = dict(argument.how)
         if "type" in how:
@@ -55,7 +55,7 @@ class _Parser(argparse.ArgumentParser):
             how |= {"type": self._one_of(argument, choices), "metavar": f"{{{','.join(choices)}}}"}
         return how
 
-    def _one_of(self, argument: Argument, choices: Sequence[str]) -> Callable[[str], str]:
+    def _one_of(self, argument: VerbArgument, choices: Sequence[str]) -> Callable[[str], str]:
         def read(text: str) -> str:
             if text not in choices:
                 self.error(_unknown(argument.label.rpartition(" ")[2].lstrip("-").lower(), text, choices))

@@ -25,7 +25,7 @@ class Options:
         def __getattr__(self, name: str) -> Any: ...
 
 
-class Argument:
+class VerbArgument:
     """A word of a verb (``path``) or an option of it (``-o``, ``--output``).
 
     ``how`` are arguments of ``ArgumentParser.add_argument``; ``completes`` gives what a shell offers, ``signed`` is true where
@@ -50,13 +50,13 @@ class Argument:
 
     @property
     def label(self) -> str:
-        """What the man page calls it: its options, or what stands in its place."""
+        """What the man page calls it: its options, or the name of its place."""
         return ", ".join(self.names) if self.is_option else str(self.how.get("metavar", self.dest))
 
-    def but(self, **changes: Any) -> Argument:
+    def but(self, **changes: Any) -> VerbArgument:
         """Return the same argument with other properties."""
         mine = {"help": self.help, "completes": self.completes, "signed": self.signed, **self.how}
-        return Argument(*self.names, **{**mine, **changes})
+        return VerbArgument(*self.names, **{**mine, **changes})
 
 
 class Verb:
@@ -69,7 +69,7 @@ class Verb:
     def __init__(
         self,
         about: str | None,
-        *arguments: Argument,
+        *arguments: VerbArgument,
         examples: tuple[str, ...],
         sections: tuple[str, ...] = (),
         writes: tuple[str, ...] = (),

@@ -6,12 +6,12 @@ from amp_studio.cli.arguments import BY_LETTER, JSON, LANGUAGE, OUTPUT, PATHS, T
 from amp_studio.cli.console import note, print_json
 from amp_studio.cli.errors import UsageError
 from amp_studio.cli.opened import opened
-from amp_studio.cli.verb import Argument, Options, Verb
+from amp_studio.cli.verb import Options, Verb, VerbArgument
 
 VERB = Verb(
     __doc__,
     PATHS,
-    Argument("--everything", action="store_true", help="also what is the same on all of them"),
+    VerbArgument("--everything", action="store_true", help="also what is the same on all of them"),
     BY_LETTER,
     OUTPUT.but(required=False, help="the table, as .pdf, .html, .xlsx or .csv"),
     LANGUAGE,

@@ -9,26 +9,28 @@ from amp_studio.cli.arguments import BY_LETTER, JSON, LANGUAGE, OUTPUT, SECRETS,
 from amp_studio.cli.console import note, print_json, progress
 from amp_studio.cli.errors import UsageError
 from amp_studio.cli.opened import opened
-from amp_studio.cli.verb import Argument, Options, Verb
+from amp_studio.cli.verb import Options, Verb, VerbArgument
 
 if TYPE_CHECKING:
     from amp_studio.files import Comparison, Difference, Merge, ParameterFile
 
 VERB = Verb(
     __doc__,
-    Argument("a", type=file_or_address, help="file, or address of a control"),
-    Argument("b", type=file_or_address, nargs="?", help="file, or address of a control"),
-    Argument("--defaults", action="store_true", help="compare with the printed defaults"),
-    Argument("--backup", action="store_true", help="compare with the backup beside the file"),
-    Argument(
+    VerbArgument("a", type=file_or_address, help="file, or address of a control"),
+    VerbArgument("b", type=file_or_address, nargs="?", help="file, or address of a control"),
+    VerbArgument("--defaults", action="store_true", help="compare with the printed defaults"),
+    VerbArgument("--backup", action="store_true", help="compare with the backup beside the file"),
+    VerbArgument(
         "--last-download",
         action="store_true",
         help="compare with what the last recorded download put into a control",
     ),
-    Argument(
+    VerbArgument(
         "--axes", nargs=2, metavar=("AXIS", "OTHER"), help="compare one axis of A with another one of it"
     ),
-    Argument("--base", type=file_or_address, help="what both come from: shows which side changed a value"),
+    VerbArgument(
+        "--base", type=file_or_address, help="what both come from: shows which side changed a value"
+    ),
     BY_LETTER,
     OUTPUT.but(required=False, help="the report of them, as .pdf, .html, .xlsx or .csv"),
     LANGUAGE,

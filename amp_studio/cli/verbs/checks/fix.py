@@ -11,7 +11,7 @@ from amp_studio.cli import candidates
 from amp_studio.cli.arguments import DRY_RUN, JSON, PATH
 from amp_studio.cli.console import note, print_json
 from amp_studio.cli.errors import UsageError
-from amp_studio.cli.verb import Argument, Options, Verb
+from amp_studio.cli.verb import Options, Verb, VerbArgument
 
 if TYPE_CHECKING:
     from amp_studio.files import ParameterFile
@@ -21,9 +21,9 @@ if TYPE_CHECKING:
 VERB = Verb(
     __doc__,
     PATH,
-    Argument("--rule", metavar="ID", help="only fixes of this rule", completes=candidates.rules),
-    Argument("--param", help="only fixes that set this parameter", completes=candidates.parameters),
-    Argument("--safe", action="store_true", help="only fixes that cannot change motion"),
+    VerbArgument("--rule", metavar="ID", help="only fixes of this rule", completes=candidates.rules),
+    VerbArgument("--param", help="only fixes that set this parameter", completes=candidates.parameters),
+    VerbArgument("--safe", action="store_true", help="only fixes that cannot change motion"),
     DRY_RUN,
     JSON,
     writes=("path",),

@@ -10,7 +10,7 @@ from amp_studio.cli.console import note, print_json
 from amp_studio.cli.errors import UsageError
 from amp_studio.cli.opened import opened
 from amp_studio.cli.output import check_new
-from amp_studio.cli.verb import Argument, Options, Verb
+from amp_studio.cli.verb import Options, Verb, VerbArgument
 
 if TYPE_CHECKING:
     from amp_studio.files import Merge, ParameterFile, Row
@@ -19,11 +19,11 @@ if TYPE_CHECKING:
 
 VERB = Verb(
     __doc__,
-    Argument("base", type=path_of, help="what both sides began with"),
-    Argument("ours", type=path_of, help="our side, which is kept in a conflict that is not settled"),
-    Argument("theirs", type=path_of, help="the other side"),
+    VerbArgument("base", type=path_of, help="what both sides began with"),
+    VerbArgument("ours", type=path_of, help="our side, which is kept in a conflict that is not settled"),
+    VerbArgument("theirs", type=path_of, help="the other side"),
     OUTPUT.but(required=False, help="file to write; not needed with --dry-run"),
-    Argument(
+    VerbArgument(
         "--take",
         metavar="[PARAM=]SIDE",
         action="append",
@@ -31,8 +31,8 @@ VERB = Verb(
         help="settle conflicts: ours, theirs or base, for all or for one parameter",
     ),
     DRY_RUN.but(help="write nothing, list the conflicts"),
-    Argument("--git", action="store_true", help="be git's merge driver: OUTPUT may be OURS"),
-    Argument("--window", action="store_true", help="merge in a window of the desktop program"),
+    VerbArgument("--git", action="store_true", help="be git's merge driver: OUTPUT may be OURS"),
+    VerbArgument("--window", action="store_true", help="merge in a window of the desktop program"),
     JSON,
     SECRETS,
     *TEXT,

@@ -16,7 +16,7 @@ from amp_studio.cli.console import note, progress
 from amp_studio.cli.errors import UsageError
 from amp_studio.cli.opened import opened
 from amp_studio.cli.trouble import keep_details
-from amp_studio.cli.verb import Argument, Options, Verb
+from amp_studio.cli.verb import Options, Verb, VerbArgument
 
 if TYPE_CHECKING:
     from amp_studio.cli.check_formats import CheckFormat, CheckResult, FileFindings
@@ -28,20 +28,24 @@ FORMATS = ("text", "json", "sarif", "github", "junit")
 
 VERB = Verb(
     __doc__,
-    Argument("paths", nargs="+", type=path_of, metavar="PATH", help="files, or folders of files"),
-    Argument(
+    VerbArgument("paths", nargs="+", type=path_of, metavar="PATH", help="files, or folders of files"),
+    VerbArgument(
         "--jobs", type=count, metavar="N", help="processes that share many files (one for each processor)"
     ),
-    Argument("--rules", type=path_of, help="a builder's own rules instead of the rules.yaml beside the file"),
-    Argument("--why", action="store_true", help="explain each finding: its rule, the values, the page"),
-    Argument("--no-cache", action="store_true", help="check every file, also one whose result is kept"),
-    Argument(
+    VerbArgument(
+        "--rules", type=path_of, help="a builder's own rules instead of the rules.yaml beside the file"
+    ),
+    VerbArgument("--why", action="store_true", help="explain each finding: its rule, the values, the page"),
+    VerbArgument("--no-cache", action="store_true", help="check every file, also one whose result is kept"),
+    VerbArgument(
         "--format",
         choices=FORMATS,
         default="text",
         help="text, JSON, SARIF 2.1.0, GitHub's workflow commands, or JUnit's XML (default: text)",
     ),
-    Argument("--json", dest="format", action="store_const", const="json", help="the same as --format json"),
+    VerbArgument(
+        "--json", dest="format", action="store_const", const="json", help="the same as --format json"
+    ),
     *TEXT,
     examples=(
         "amp-studio validate MILL_1394.amp",

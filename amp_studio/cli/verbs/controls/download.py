@@ -6,7 +6,7 @@ from amp_studio.cli.arguments import EXPECT, JSON, PATH, TEXT, kept_in, several_
 from amp_studio.cli.errors import UsageError
 from amp_studio.cli.opened import opened
 from amp_studio.cli.stopping import asked_politely
-from amp_studio.cli.verb import Argument, Options, Verb
+from amp_studio.cli.verb import Options, Verb, VerbArgument
 
 VERB = Verb(
     __doc__,
@@ -15,7 +15,7 @@ VERB = Verb(
     EXPECT,
     kept_in("beside the file"),
     JSON,
-    Argument(
+    VerbArgument(
         "--accept-errors", action="store_true", help="send a file that has errors; they are listed anyway"
     ),
     *TEXT,

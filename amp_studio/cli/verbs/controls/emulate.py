@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 from amp_studio.cli.arguments import FAMILY, MACHINE, folder, path_of
 from amp_studio.cli.console import assignments, family, note
 from amp_studio.cli.errors import UsageError
-from amp_studio.cli.verb import Argument, Options, Verb
+from amp_studio.cli.verb import Options, Verb, VerbArgument
 
 if TYPE_CHECKING:
     from amp_studio.transfer.links.endpoint import Endpoint
@@ -16,34 +16,34 @@ if TYPE_CHECKING:
 VERB = Verb(
     __doc__,
     FAMILY,
-    Argument("--listen", required=True, metavar="ADDRESS", help="where the control is reached"),
-    Argument("--state", type=folder, metavar="DIR", help="where the control keeps its memory"),
+    VerbArgument("--listen", required=True, metavar="ADDRESS", help="where the control is reached"),
+    VerbArgument("--state", type=folder, metavar="DIR", help="where the control keeps its memory"),
     MACHINE.but(help="machine type of the parameters it starts with"),
-    Argument("--no-estop", action="store_true", help="start out of E-stop"),
-    Argument("--manual-restart", action="store_true", help="do not restart by itself after a download"),
-    Argument(
+    VerbArgument("--no-estop", action="store_true", help="start out of E-stop"),
+    VerbArgument("--manual-restart", action="store_true", help="do not restart by itself after a download"),
+    VerbArgument(
         "--faults",
         default="{}",
         metavar="JSON",
         help='what goes wrong, to practise with: {"drop_after_bytes": 9000}',
     ),
-    Argument(
+    VerbArgument(
         "--option",
         action="append",
         default=[],
         metavar="NAME=VALUE",
         help="what was ordered with the control, where its family has options: axes=3",
     ),
-    Argument(
+    VerbArgument(
         "--password-file", type=path_of, metavar="FILE", help="ask clients for the password in its first line"
     ),
-    Argument(
+    VerbArgument(
         "--certificate",
         type=path_of,
         metavar="FILE",
         help="speak TLS with this certificate (PEM); listen on tls://",
     ),
-    Argument(
+    VerbArgument(
         "--key", type=path_of, metavar="FILE", help="key of the certificate, where it is in another file"
     ),
     sections=("families", "ADDRESS"),

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 from amp_studio.cli.arguments import JSON, PATH, count
 from amp_studio.cli.console import print_json
 from amp_studio.cli.errors import UsageError
-from amp_studio.cli.verb import Argument, Options, Verb
+from amp_studio.cli.verb import Options, Verb, VerbArgument
 
 if TYPE_CHECKING:
     from amp_studio.transfer.client.record import RecordedExchange
@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 VERB = Verb(
     __doc__,
     PATH.but(metavar="PATH", help="a parameter file, or the folder of a project"),
-    Argument("--show", type=count, metavar="N", help="exchange N of the list with what it changed"),
+    VerbArgument("--show", type=count, metavar="N", help="exchange N of the list with what it changed"),
     JSON,
     examples=("amp-studio history MILL_1394.amp",),
 )

@@ -8,12 +8,12 @@ from dataclasses import asdict
 from amp_studio.cli import candidates
 from amp_studio.cli.arguments import JSON
 from amp_studio.cli.console import family, print_json, progress
-from amp_studio.cli.verb import Argument, Options, Verb
+from amp_studio.cli.verb import Options, Verb, VerbArgument
 
 VERB = Verb(
     __doc__,
-    Argument("address", metavar="ADDRESS", help="where the control is reached"),
-    Argument("--family", help="the family it must be of", completes=candidates.families),
+    VerbArgument("address", metavar="ADDRESS", help="where the control is reached"),
+    VerbArgument("--family", help="the family it must be of", completes=candidates.families),
     JSON,
     sections=("ADDRESS",),
     at_control=True,

@@ -11,7 +11,7 @@ from amp_studio.cli.errors import UsageError
 from amp_studio.cli.output import check_new
 from amp_studio.cli.screen import print_over
 from amp_studio.cli.stopping import asked_politely
-from amp_studio.cli.verb import Argument, Options, Verb
+from amp_studio.cli.verb import Options, Verb, VerbArgument
 
 if TYPE_CHECKING:
     from amp_studio.transfer.plain.ymodem import PlainFile
@@ -22,11 +22,13 @@ PROTOCOLS = ("xmodem", "xmodem-1k", "xmodem-checksum", "ymodem", "raw")
 
 VERB = Verb(
     __doc__,
-    Argument("--from", dest="source", required=True, metavar="ADDRESS", help="where the control is reached"),
+    VerbArgument(
+        "--from", dest="source", required=True, metavar="ADDRESS", help="where the control is reached"
+    ),
     OUTPUT.but(help="new file; with ymodem also a folder, which gets every file"),
     *line_options(PROTOCOLS),
-    Argument("--keep-padding", action="store_true", help="leave the 1Ah that fill the last block up"),
-    Argument(
+    VerbArgument("--keep-padding", action="store_true", help="leave the 1Ah that fill the last block up"),
+    VerbArgument(
         "--idle",
         type=seconds,
         default=5.0,

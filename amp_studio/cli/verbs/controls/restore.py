@@ -6,11 +6,11 @@ from amp_studio.cli.arguments import EXPECT, TO, kept_in, path_of
 from amp_studio.cli.console import note
 from amp_studio.cli.errors import UsageError
 from amp_studio.cli.stopping import asked_politely
-from amp_studio.cli.verb import Argument, Options, Verb
+from amp_studio.cli.verb import Options, Verb, VerbArgument
 
 VERB = Verb(
     __doc__,
-    Argument(
+    VerbArgument(
         "copy",
         type=path_of,
         metavar="COPY",

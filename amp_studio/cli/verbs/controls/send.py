@@ -9,7 +9,7 @@ from amp_studio.cli.arguments import TO, line_options, path_of
 from amp_studio.cli.console import progress
 from amp_studio.cli.errors import UsageError
 from amp_studio.cli.stopping import asked_politely
-from amp_studio.cli.verb import Argument, Options, Verb
+from amp_studio.cli.verb import Options, Verb, VerbArgument
 
 if TYPE_CHECKING:
     from amp_studio.transfer.plain.ymodem import PlainFile
@@ -19,7 +19,7 @@ PROTOCOLS = ("xmodem", "xmodem-1k", "ymodem", "raw")
 
 VERB = Verb(
     __doc__,
-    Argument("files", nargs="+", type=path_of, metavar="FILE", help="several with ymodem only"),
+    VerbArgument("files", nargs="+", type=path_of, metavar="FILE", help="several with ymodem only"),
     TO,
     *line_options(PROTOCOLS),
     sections=("ADDRESS",),

@@ -9,13 +9,13 @@ from amp_studio.cli.console import note, print_json, progress
 from amp_studio.cli.errors import UsageError
 from amp_studio.cli.opened import opened
 from amp_studio.cli.stopping import asked_politely
-from amp_studio.cli.verb import Argument, Options, Verb
+from amp_studio.cli.verb import Options, Verb, VerbArgument
 
 VERB = Verb(
     __doc__,
     PATH.but(nargs="?", help="parameter file (.amp); with --all a folder (default: this one)"),
     *several_controls("--with", dest="control", required=False),
-    Argument(
+    VerbArgument(
         "--all",
         action="store_true",
         help="every control that the folder knows, from its exchanges and projects, against its file",

@@ -6,13 +6,13 @@ from amp_studio.cli.arguments import JSON, OUTPUT, PATH, SECRETS, TEXT
 from amp_studio.cli.console import note
 from amp_studio.cli.opened import opened
 from amp_studio.cli.output import check_replaced
-from amp_studio.cli.verb import Argument, Options, Verb
+from amp_studio.cli.verb import Options, Verb, VerbArgument
 
 VERB = Verb(
     __doc__,
     PATH,
     OUTPUT,
-    Argument("--format", help="format of the text, where the ending of OUTPUT does not show it"),
+    VerbArgument("--format", help="format of the text, where the ending of OUTPUT does not show it"),
     JSON,
     SECRETS,
     *TEXT,

@@ -10,17 +10,19 @@ from amp_studio.cli.console import is_family, note
 from amp_studio.cli.errors import UsageError
 from amp_studio.cli.opened import opened
 from amp_studio.cli.output import check_replaced
-from amp_studio.cli.verb import Argument, Options, Verb
+from amp_studio.cli.verb import Options, Verb, VerbArgument
 
 VERB = Verb(
     __doc__,
-    Argument(
+    VerbArgument(
         "what",
         metavar="FAMILY|PATH",
         help="a control family, or a parameter file for what its machine has",
         completes=candidates.family_first,
     ),
-    Argument("--machine", metavar="TYPE", help="machine type of the family", completes=candidates.machines),
+    VerbArgument(
+        "--machine", metavar="TYPE", help="machine type of the family", completes=candidates.machines
+    ),
     OUTPUT,
     LANGUAGE,
     writes=("output",),

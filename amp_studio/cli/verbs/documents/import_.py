@@ -9,22 +9,24 @@ from amp_studio.cli.arguments import JSON, ON_FAULT, OUTPUT, count, path_of
 from amp_studio.cli.console import note
 from amp_studio.cli.errors import UsageError
 from amp_studio.cli.output import check_new, write_new
-from amp_studio.cli.verb import Argument, Options, Verb
+from amp_studio.cli.verb import Options, Verb, VerbArgument
 
 if TYPE_CHECKING:
     from amp_studio.formats import Account
 
 VERB = Verb(
     __doc__,
-    Argument("text", type=path_of, metavar="FILE", help="a control's own text file"),
+    VerbArgument("text", type=path_of, metavar="FILE", help="a control's own text file"),
     OUTPUT,
-    Argument(
+    VerbArgument(
         "--family", help="control family, where the text does not show it", completes=candidates.families
     ),
-    Argument("--format", help="format of the text, where it does not show it"),
-    Argument("--keep-unknown", action="store_true", help="keep what is not understood, to be written back"),
-    Argument("--machine", help="machine type, where the text shall not decide"),
-    Argument(
+    VerbArgument("--format", help="format of the text, where it does not show it"),
+    VerbArgument(
+        "--keep-unknown", action="store_true", help="keep what is not understood, to be written back"
+    ),
+    VerbArgument("--machine", help="machine type, where the text shall not decide"),
+    VerbArgument(
         "--listing",
         type=count,
         default=0,

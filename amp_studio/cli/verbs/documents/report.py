@@ -6,38 +6,38 @@ from amp_studio.cli.arguments import LANGUAGE, OUTPUT, PATH, TEXT
 from amp_studio.cli.console import note
 from amp_studio.cli.opened import opened
 from amp_studio.cli.output import check_replaced
-from amp_studio.cli.verb import Argument, Options, Verb
+from amp_studio.cli.verb import Options, Verb, VerbArgument
 
 VERB = Verb(
     __doc__,
     PATH,
     OUTPUT,
-    Argument(
+    VerbArgument(
         "--sort",
         choices=("axis", "number", "group", "steps"),
         default="group",
         help="order of the values (default: group)",
     ),
-    Argument(
+    VerbArgument(
         "--changed-only",
         action="store_true",
         help="only values that differ from the printed default, or have none",
     ),
-    Argument(
+    VerbArgument(
         "--without",
         action="append",
         choices=("pictures", "motion", "exchanges", "signatures"),
         help="leave out a chapter; again for more",
     ),
     LANGUAGE,
-    Argument("--inactive", action="store_true", help="also what the control ignores on this machine"),
-    Argument(
+    VerbArgument("--inactive", action="store_true", help="also what the control ignores on this machine"),
+    VerbArgument(
         "--units",
         choices=("file", "metric", "inch", "both"),
         default="file",
         help="units of the figures; both: those of the file, with the other system's beside them (default: file)",
     ),
-    Argument("--paper", choices=("a4", "letter"), default="a4", help="paper of a PDF (default: a4)"),
+    VerbArgument("--paper", choices=("a4", "letter"), default="a4", help="paper of a PDF (default: a4)"),
     *TEXT,
     writes=("output",),
     examples=(

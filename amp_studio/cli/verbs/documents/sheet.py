@@ -14,7 +14,7 @@ from amp_studio.cli.console import note, print_json, progress
 from amp_studio.cli.errors import UsageError
 from amp_studio.cli.opened import opened
 from amp_studio.cli.output import check_replaced
-from amp_studio.cli.verb import Argument, Options, Verb
+from amp_studio.cli.verb import Options, Verb, VerbArgument
 
 if TYPE_CHECKING:
     from amp_studio.files import ParameterFile
@@ -23,7 +23,7 @@ if TYPE_CHECKING:
 VERB = Verb(
     __doc__,
     PATH,
-    Argument(
+    VerbArgument(
         "--against",
         required=True,
         type=file_or_address,
@@ -32,21 +32,21 @@ VERB = Verb(
     ),
     OUTPUT.but(required=False, help="the sheet as .pdf, .html, .csv or .txt (default: as text here)"),
     LANGUAGE,
-    Argument(
+    VerbArgument(
         "--tick",
         action="append",
         metavar="PARAM",
         help="remember that this value is keyed in; beside the file",
         completes=candidates.parameters,
     ),
-    Argument(
+    VerbArgument(
         "--untick",
         action="append",
         metavar="PARAM",
         help="forget that again",
         completes=candidates.parameters,
     ),
-    Argument(
+    VerbArgument(
         "--check",
         type=path_of,
         metavar="LIST",

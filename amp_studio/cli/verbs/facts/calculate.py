@@ -6,13 +6,13 @@ from amp_studio.cli import candidates
 from amp_studio.cli.arguments import FAMILY
 from amp_studio.cli.console import assignments, family
 from amp_studio.cli.errors import UsageError
-from amp_studio.cli.verb import Argument, Options, Verb
+from amp_studio.cli.verb import Options, Verb, VerbArgument
 
 VERB = Verb(
     __doc__,
     FAMILY,
-    Argument("formula", nargs="?", help="the formula to calculate", completes=candidates.formulas),
-    Argument("arguments", nargs="*", metavar="NAME=VALUE", help="the values the formula needs"),
+    VerbArgument("formula", nargs="?", help="the formula to calculate", completes=candidates.formulas),
+    VerbArgument("arguments", nargs="*", metavar="NAME=VALUE", help="the values the formula needs"),
     sections=("families",),
     examples=(
         "amp-studio calculate 9pc",

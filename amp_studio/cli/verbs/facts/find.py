@@ -13,7 +13,7 @@ from amp_studio.cli.arguments import JSON, count
 from amp_studio.cli.console import family, print_json
 from amp_studio.cli.errors import UsageError
 from amp_studio.cli.opened import opened
-from amp_studio.cli.verb import Argument, Options, Verb
+from amp_studio.cli.verb import Options, Verb, VerbArgument
 
 if TYPE_CHECKING:
     from amp_studio.files import ParameterFile
@@ -23,15 +23,15 @@ if TYPE_CHECKING:
 
 VERB = Verb(
     __doc__,
-    Argument(
+    VerbArgument(
         "words",
         nargs="+",
         metavar="FAMILY|FILE WORDS",
         help="where to look (every family), and what for",
         completes=candidates.family_first,
     ),
-    Argument("--family", help="look in this family", completes=candidates.families),
-    Argument("--limit", type=count, metavar="N", default=20, help="most hits (default: 20)"),
+    VerbArgument("--family", help="look in this family", completes=candidates.families),
+    VerbArgument("--limit", type=count, metavar="N", default=20, help="most hits (default: 20)"),
     JSON,
     sections=("families",),
     examples=(

@@ -6,12 +6,12 @@ from amp_studio.cli import candidates
 from amp_studio.cli.arguments import FAMILY, JSON
 from amp_studio.cli.console import family, print_json
 from amp_studio.cli.errors import UsageError
-from amp_studio.cli.verb import Argument, Options, Verb
+from amp_studio.cli.verb import Options, Verb, VerbArgument
 
 VERB = Verb(
     __doc__,
     FAMILY,
-    Argument("--group", help="only the parameters of this group", completes=candidates.groups),
+    VerbArgument("--group", help="only the parameters of this group", completes=candidates.groups),
     JSON,
     sections=("families",),
     examples=('amp-studio schema 9pc --group "Home Parameters"', "amp-studio schema num --json"),

@@ -6,12 +6,12 @@ from amp_studio.cli import candidates
 from amp_studio.cli.arguments import FAMILY, JSON
 from amp_studio.cli.console import family, print_json
 from amp_studio.cli.errors import UsageError
-from amp_studio.cli.verb import Argument, Options, Verb
+from amp_studio.cli.verb import Options, Verb, VerbArgument
 
 VERB = Verb(
     __doc__,
     FAMILY,
-    Argument("table", nargs="?", help="the table to print", completes=candidates.tables),
+    VerbArgument("table", nargs="?", help="the table to print", completes=candidates.tables),
     JSON,
     sections=("families",),
     examples=("amp-studio tables 9pc", "amp-studio tables 9pc accdec-codes"),

@@ -10,7 +10,7 @@ from amp_studio.cli.console import note, print_json
 from amp_studio.cli.errors import UsageError
 from amp_studio.cli.opened import opened
 from amp_studio.cli.output import note_all
-from amp_studio.cli.verb import Argument, Options, Verb
+from amp_studio.cli.verb import Options, Verb, VerbArgument
 
 if TYPE_CHECKING:
     from amp_studio.files import AxisDifference, Change, ParameterFile
@@ -31,14 +31,14 @@ OPERATIONS = {
 VERB = Verb(
     __doc__,
     PATH,
-    Argument(
+    VerbArgument(
         "operation",
         nargs="?",
         choices=tuple(OPERATIONS),
         default="list",
         help="compare A B, copy FROM TO, swap A B, name A LETTER, type A TYPE, add LETTER [PLACE], remove A",
     ),
-    Argument(
+    VerbArgument(
         "arguments",
         nargs="*",
         metavar="ARGUMENT",

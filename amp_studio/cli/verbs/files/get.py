@@ -8,7 +8,7 @@ from amp_studio.cli import candidates
 from amp_studio.cli.arguments import JSON, PATH, SECRETS, TEXT
 from amp_studio.cli.console import note, print_json
 from amp_studio.cli.opened import opened
-from amp_studio.cli.verb import Argument, Options, Verb
+from amp_studio.cli.verb import Options, Verb, VerbArgument
 
 if TYPE_CHECKING:
     from amp_studio.files import ParameterFile
@@ -17,23 +17,25 @@ if TYPE_CHECKING:
 VERB = Verb(
     __doc__,
     PATH,
-    Argument(
+    VerbArgument(
         "params",
         nargs="*",
         metavar="PARAM",
         help="numbers or ids of parameters",
         completes=candidates.parameters,
     ),
-    Argument("--all", action="store_true", help="also what is hidden or not set"),
-    Argument("--changed", action="store_true", help="only values that are not the printed default"),
-    Argument("--axes-differ", action="store_true", help="only parameters whose axes have different values"),
-    Argument("--with-findings", action="store_true", help="only values that cause a finding"),
-    Argument(
+    VerbArgument("--all", action="store_true", help="also what is hidden or not set"),
+    VerbArgument("--changed", action="store_true", help="only values that are not the printed default"),
+    VerbArgument(
+        "--axes-differ", action="store_true", help="only parameters whose axes have different values"
+    ),
+    VerbArgument("--with-findings", action="store_true", help="only values that cause a finding"),
+    VerbArgument(
         "--since-download", action="store_true", help="only what is not as in the last recorded download"
     ),
-    Argument("--restart", action="store_true", help="only values that take effect after a restart"),
-    Argument("--with-notes", action="store_true", help="only values with a note"),
-    Argument(
+    VerbArgument("--restart", action="store_true", help="only values that take effect after a restart"),
+    VerbArgument("--with-notes", action="store_true", help="only values with a note"),
+    VerbArgument(
         "--not-set",
         action="store_true",
         help="only active values that are not set, step by step of the guide",

@@ -13,7 +13,7 @@ from amp_studio.cli.console import family, is_family, note, print_json
 from amp_studio.cli.errors import UsageError
 from amp_studio.cli.opened import opened
 from amp_studio.cli.output import check_replaced, note_all
-from amp_studio.cli.verb import Argument, Options, Verb
+from amp_studio.cli.verb import Options, Verb, VerbArgument
 
 if TYPE_CHECKING:
     from amp_studio.files import ParameterFile
@@ -23,35 +23,35 @@ if TYPE_CHECKING:
 
 VERB = Verb(
     __doc__,
-    Argument(
+    VerbArgument(
         "path", type=path_of, metavar="FILE", help="parameter file (.amp), or a family for its steps alone"
     ),
-    Argument(
+    VerbArgument(
         "step",
         nargs="?",
         metavar="STEP",
         help="only this step, by number or id, with its values",
         completes=candidates.steps,
     ),
-    Argument("--step", dest="at", metavar="STEP", help="the same", completes=candidates.steps),
-    Argument("--next", action="store_true", help="the next value that is not set, with its help"),
-    Argument(
+    VerbArgument("--step", dest="at", metavar="STEP", help="the same", completes=candidates.steps),
+    VerbArgument("--next", action="store_true", help="the next value that is not set, with its help"),
+    VerbArgument(
         "--after",
         metavar="PARAM",
         help="with --next: the one that comes after this parameter",
         completes=candidates.parameters,
     ),
-    Argument(
+    VerbArgument(
         "--done",
         action="append",
         metavar="STEP",
         help="tick a step as done; it is kept in the file",
         completes=candidates.steps,
     ),
-    Argument(
+    VerbArgument(
         "--not-done", action="append", metavar="STEP", help="take that tick away", completes=candidates.steps
     ),
-    Argument(
+    VerbArgument(
         "--keep-defaults",
         metavar="STEP",
         help="set what is not set in a step to the printed defaults",

@@ -6,17 +6,17 @@ from amp_studio.cli import candidates
 from amp_studio.cli.arguments import FAMILY, MACHINE, PATH
 from amp_studio.cli.console import family
 from amp_studio.cli.output import check_new, write_new
-from amp_studio.cli.verb import Argument, Options, Verb
+from amp_studio.cli.verb import Options, Verb, VerbArgument
 
 VERB = Verb(
     __doc__,
     FAMILY,
     PATH,
     MACHINE,
-    Argument(
+    VerbArgument(
         "--axes", help="axis names in order, with commas; where axes are in groups, X.2 is X of group 2"
     ),
-    Argument(
+    VerbArgument(
         "--like",
         metavar="FILE|EXAMPLE",
         help="with the values of this file or example, except what was measured on that machine, and passwords",

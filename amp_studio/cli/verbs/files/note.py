@@ -9,7 +9,7 @@ from amp_studio.cli.console import note, print_json
 from amp_studio.cli.errors import UsageError
 from amp_studio.cli.opened import opened
 from amp_studio.cli.output import note_all
-from amp_studio.cli.verb import Argument, Options, Verb
+from amp_studio.cli.verb import Options, Verb, VerbArgument
 
 if TYPE_CHECKING:
     from amp_studio.files import ParameterFile
@@ -18,14 +18,14 @@ if TYPE_CHECKING:
 VERB = Verb(
     __doc__,
     PATH,
-    Argument(
+    VerbArgument(
         "about",
         nargs="?",
         metavar="PARAM|group:KEY|machine",
         help="what it is about; KEY of a group, or its name; without it all notes are listed",
     ),
-    Argument("text", nargs="?", help="the note; without it the present one is printed"),
-    Argument("--remove", action="store_true", help="remove the note"),
+    VerbArgument("text", nargs="?", help="the note; without it the present one is printed"),
+    VerbArgument("--remove", action="store_true", help="remove the note"),
     JSON,
     writes=("path",),
     sections=("PARAM",),

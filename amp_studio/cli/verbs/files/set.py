@@ -7,19 +7,19 @@ from amp_studio.cli.arguments import PATH
 from amp_studio.cli.console import assignments, note
 from amp_studio.cli.errors import UsageError
 from amp_studio.cli.output import note_all
-from amp_studio.cli.verb import Argument, Options, Verb
+from amp_studio.cli.verb import Options, Verb, VerbArgument
 
 VERB = Verb(
     __doc__,
     PATH,
-    Argument(
+    VerbArgument(
         "assignments",
         nargs="+",
         metavar="PARAM=VALUE",
         help="parameter and its new value",
         completes=candidates.assignments,
     ),
-    Argument("--force", action="store_true", help="take values out of range, and mark them"),
+    VerbArgument("--force", action="store_true", help="take values out of range, and mark them"),
     writes=("path",),
     sections=("PARAM", "VALUE"),
     examples=(

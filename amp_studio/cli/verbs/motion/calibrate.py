@@ -14,7 +14,7 @@ from amp_studio.cli.arguments import AXIS, DRY_RUN, JSON, OUTPUT, PATH, path_of
 from amp_studio.cli.console import note, print_json
 from amp_studio.cli.errors import UsageError
 from amp_studio.cli.output import check_replaced
-from amp_studio.cli.verb import Argument, Options, Verb
+from amp_studio.cli.verb import Options, Verb, VerbArgument
 
 if TYPE_CHECKING:
     from amp_studio.calibration import CalibrationTable, Compensation, Measurement, Proposal, TableForm
@@ -25,50 +25,52 @@ VERB = Verb(
     __doc__,
     PATH,
     AXIS.but(required=True, help="axis by its letter or number"),
-    Argument(
+    VerbArgument(
         "--from",
         dest="measured",
         type=path_of,
         metavar="FILE",
         help="points measured by a laser interferometer or a ball-bar: columns as CSV, or Renishaw .rtl",
     ),
-    Argument("--unit", metavar="UNIT", help="unit of the positions: mm, in, um, deg, counts"),
-    Argument("--error-unit", metavar="UNIT", help="unit of the errors: mm, in, um, deg, arcsec, counts"),
-    Argument(
+    VerbArgument("--unit", metavar="UNIT", help="unit of the positions: mm, in, um, deg, counts"),
+    VerbArgument("--error-unit", metavar="UNIT", help="unit of the errors: mm, in, um, deg, arcsec, counts"),
+    VerbArgument(
         "--sign",
         choices=("measured-target", "target-measured"),
         help="what an error is: measured less target (ISO 230-2), or the correction",
     ),
-    Argument("--decimal", choices=("point", "comma"), help="decimal sign of the points"),
-    Argument(
+    VerbArgument("--decimal", choices=("point", "comma"), help="decimal sign of the points"),
+    VerbArgument(
         "--compensation",
         choices=("on", "off"),
         help="whether the axis was measured with its compensation on; points are then added to it",
     ),
-    Argument(
+    VerbArgument(
         "--circle",
         choices=("first", "second"),
         help="which axis of the circle of a ball-bar (angle, deviation) it is",
     ),
-    Argument("--only", choices=("table", "reversal"), help="make only one of both"),
-    Argument("--input", choices=("measurement", "deviation"), help="how the control has its points"),
-    Argument("--start", choices=("positive", "negative"), help="end of the travel at which the table starts"),
-    Argument(
+    VerbArgument("--only", choices=("table", "reversal"), help="make only one of both"),
+    VerbArgument("--input", choices=("measurement", "deviation"), help="how the control has its points"),
+    VerbArgument(
+        "--start", choices=("positive", "negative"), help="end of the travel at which the table starts"
+    ),
+    VerbArgument(
         "--insert",
         action="append",
         metavar="POSITION=FIGURE",
         help="one more point of the table",
         signed=True,
     ),
-    Argument(
+    VerbArgument(
         "--replace",
         action="append",
         metavar="POSITION=FIGURE",
         help="another figure at a point",
         signed=True,
     ),
-    Argument("--delete", action="append", metavar="POSITION", help="a point that goes", signed=True),
-    Argument("--clear", action="store_true", help="delete all points of the axis"),
+    VerbArgument("--delete", action="append", metavar="POSITION", help="a point that goes", signed=True),
+    VerbArgument("--clear", action="store_true", help="delete all points of the axis"),
     OUTPUT.but(required=False, help="the errors before and after as a picture (.svg)"),
     DRY_RUN,
     JSON,

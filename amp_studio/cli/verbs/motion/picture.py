@@ -9,7 +9,7 @@ from amp_studio.cli.console import note, print_json
 from amp_studio.cli.errors import UsageError
 from amp_studio.cli.opened import opened
 from amp_studio.cli.output import check_replaced
-from amp_studio.cli.verb import Argument, Options, Verb
+from amp_studio.cli.verb import Options, Verb, VerbArgument
 
 if TYPE_CHECKING:
     from amp_studio.files import ParameterFile
@@ -18,8 +18,8 @@ if TYPE_CHECKING:
 VERB = Verb(
     __doc__,
     PATH,
-    Argument("name", nargs="?", help="the picture; without one the pictures of the file are listed"),
-    Argument("--part", help="the axes (X,Y), the axis or the spindle; default: the first one"),
+    VerbArgument("name", nargs="?", help="the picture; without one the pictures of the file are listed"),
+    VerbArgument("--part", help="the axes (X,Y), the axis or the spindle; default: the first one"),
     OUTPUT.but(required=False, help="file to write (.svg)"),
     JSON,
     writes=("output",),

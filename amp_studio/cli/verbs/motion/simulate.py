@@ -12,7 +12,7 @@ from amp_studio.cli.console import assignments, note, print_json
 from amp_studio.cli.errors import UsageError
 from amp_studio.cli.opened import opened
 from amp_studio.cli.output import check_replaced
-from amp_studio.cli.verb import Argument, Options, Verb
+from amp_studio.cli.verb import Options, Verb, VerbArgument
 from amp_studio.scenarios import IDENTIFY
 
 if TYPE_CHECKING:
@@ -22,23 +22,23 @@ if TYPE_CHECKING:
 VERB = Verb(
     __doc__,
     PATH,
-    Argument(
+    VerbArgument(
         "scenario",
         nargs="?",
         help="what is simulated; or identify: inertia, friction and weight from a record",
         completes=candidates.scenarios,
     ),
-    Argument(
+    VerbArgument(
         "record",
         nargs="?",
         type=path_of,
         help="identify: CSV of a drive with time, velocity or position, and torque; units in the heads",
     ),
-    Argument(
+    VerbArgument(
         "--list", action="store_true", help="list the scenarios of this family, its axes, and what can be set"
     ),
     AXIS,
-    Argument(
+    VerbArgument(
         "--set",
         action="append",
         default=[],
@@ -47,19 +47,19 @@ VERB = Verb(
         help="parameter and its new value",
         completes=candidates.assignments,
     ),
-    Argument(
+    VerbArgument(
         "--machine",
         dest="machine_file",
         type=path_of,
         metavar="FILE.yaml",
         help="the machine that identify has written; --set model.… has precedence",
     ),
-    Argument(
+    VerbArgument(
         "--scale",
         metavar="TORQUE",
         help="identify: torque of the record for 1 % (or 1 V) of the axis, as '0.056 A'",
     ),
-    Argument(
+    VerbArgument(
         "--units", metavar="SYSTEM", help="metric or inch, for settings and result (default: as the file)"
     ),
     OUTPUT.but(required=False, help="file to write: .csv, .svg, .png; of identify also .yaml, the machine"),

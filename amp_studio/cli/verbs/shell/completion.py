@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from amp_studio.cli.verb import Argument, Options, Verb
+from amp_studio.cli.verb import Options, Verb, VerbArgument
 
 _BASH = r"""# amp-studio completion for bash: amp-studio completion bash > ~/.local/share/bash-completion/completions/amp-studio
 _amp_studio() {
@@ -46,7 +46,7 @@ SCRIPTS = {"bash": _BASH, "zsh": _ZSH, "fish": _FISH}
 
 VERB = Verb(
     __doc__,
-    Argument("shell", choices=tuple(SCRIPTS), help="bash, zsh or fish"),
+    VerbArgument("shell", choices=tuple(SCRIPTS), help="bash, zsh or fish"),
     examples=("amp-studio completion bash",),
 )
 

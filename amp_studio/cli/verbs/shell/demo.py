@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
-from amp_studio.cli.verb import Argument, Options, Verb
+from amp_studio.cli.verb import Options, Verb, VerbArgument
 
 VERB = Verb(
     __doc__,
-    Argument("--terminal", action="store_true", help="stay in the terminal even where there is a display"),
+    VerbArgument(
+        "--terminal", action="store_true", help="stay in the terminal even where there is a display"
+    ),
     examples=("amp-studio demo --terminal",),
 )
 
