@@ -16,7 +16,8 @@ from pathlib import Path
 import pytest
 
 from amp_studio.schema import family_ids
-from amp_studio.schema.load import FurtherFacts, load_compiled
+from amp_studio.schema.load import load_compiled
+from amp_studio.schema.model.compiled_json import text_record
 
 ROOT = Path(__file__).parent.parent
 
@@ -186,7 +187,7 @@ def facts_of(node: object, key: str = "", place: str = "") -> Iterator[tuple[str
 def compiled(family: str) -> dict[str, object]:
     """Return all facts of a family."""
     found = load_compiled(family)
-    return found.model_dump(exclude={"further"}) | FurtherFacts.of(found.further).model_dump()
+    return found.model_dump(exclude={"further"}) | text_record(found.further).model_dump()
 
 
 @pytest.mark.parametrize("family", family_ids())

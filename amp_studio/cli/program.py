@@ -2,15 +2,12 @@
 
 from __future__ import annotations
 
-import atexit
 import gc
 import os
 import sys
-import threading
 from collections.abc import Sequence
 from importlib import import_module
-from types import ModuleType
-from typing import TYPE_CHECKING, Any, NoReturn
+from typing import TYPE_CHECKING, NoReturn
 
 from amp_studio.version import __version__
 
@@ -29,7 +26,6 @@ _PARAMETER_FILE = ".amp"
 
 def start(arguments: Sequence[str] | None) -> NoReturn:
     """Be the program: run one verb on the standard streams and exit with its code."""
-    _leave_out_plugins()
     try:
         answer_once()
         open_streams()
@@ -37,38 +33,13 @@ def start(arguments: Sequence[str] | None) -> NoReturn:
     except KeyboardInterrupt:  # before the verb had begun
         code = FAULT
     no_more()
+    end_results()
     if was_asked():
         # Run by ``python -m`` CPython would end itself by the signal where it interrupted a text given to exec(), a
         # dataclass for one, or whatever else caught the exception; the exit code would be lost.
-        end_results()
         os._exit(code)
-    if "PySide6.QtCore" in sys.modules or threading.active_count() > 1:
-        gc.freeze()  # the end of Python would look through all objects for cycles: a third of the time of a check
-        sys.exit(code)
-    # Python would take its hundred thousand objects apart one by one, for nobody: a thirtieth of a check.
-    atexit._run_exitfuncs()
-    end_results()
-    os._exit(code)
-
-
-def _leave_out_plugins() -> None:
-    """Keep pydantic from searching every installed package for plugins, and from loading what it would search with.
-
-    With all of them switched off it still loads importlib.metadata, with zipfile, email and socket: a twentieth of a check.
-    """
-    os.environ.setdefault("PYDANTIC_DISABLE_PLUGINS", "__all__")
-    none: Any = ModuleType("pydantic.plugin._loader")
-    none.get_plugins = tuple
-
-    def other(name: str) -> object:
-        """Give another pydantic, which asks its loader for more than this, the loader that it has."""
-        if name.startswith("__"):  # Python itself looks for these in every module
-            raise AttributeError(name)
-        sys.modules.pop(none.__name__, None)
-        return getattr(import_module(none.__name__), name)
-
-    none.__getattr__ = other
-    sys.modules.setdefault(none.__name__, none)
+    gc.freeze()  # the end of Python would look through all objects for cycles: a third of the time of a check
+    sys.exit(code)
 
 
 def run_verb(arguments: Sequence[str]) -> int:

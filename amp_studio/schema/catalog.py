@@ -25,6 +25,7 @@ from .model import (
     Rule,
     Table,
 )
+from .model.compiled_json import text_record
 from .units import angular
 
 
@@ -55,7 +56,8 @@ class Schema:
 
     @cached_property
     def _further(self) -> FurtherFacts:
-        return FurtherFacts.of(self.further_text)
+        found: FurtherFacts = text_record(self.further_text)
+        return found
 
     @cached_property
     def errata(self) -> dict[str, Erratum]:

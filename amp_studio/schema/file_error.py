@@ -7,7 +7,10 @@ from pathlib import Path
 from amp_studio.errors import AmpStudioError
 
 from .regular_file import MOST_BYTES, read_file
-from .yaml_reader import YamlDocument, YamlError, read_yaml
+from .yaml_reader import KeyPath, YamlDocument, YamlError, read_yaml
+
+Slip = tuple[KeyPath, str]
+"""Where in the data of a file something is wrong, and what."""
 
 
 class FileError(AmpStudioError, ValueError):
@@ -16,6 +19,14 @@ class FileError(AmpStudioError, ValueError):
     def __init__(self, path: Path, line: int | None, what: str) -> None:
         self.path, self.line, self.what = path, line, what
         super().__init__(f"{path}{f', line {line}' if line else ''}: {what}")
+
+
+class ModelError(ValueError):
+    """Data that do not fit a kind of record; ``slips`` is what is wrong, one a place."""
+
+    def __init__(self, slips: list[Slip]) -> None:
+        super().__init__("; ".join(what for _, what in slips))
+        self.slips = slips
 
 
 def text_of(path: Path, content: bytes, error: type[FileError] = FileError) -> str:

@@ -13,13 +13,11 @@ from functools import cache, partial
 from pathlib import Path
 from typing import Any, NamedTuple, TypeVar
 
-from pydantic import Field, ValidationError
-
 from amp_studio.errors import AmpStudioError
 
 from .compiled_cache import cache_folder, read_cached, report_unusable, write_cached
 from .consistency import faults_between, faults_of_experience, faults_of_messages, faults_of_order
-from .file_error import FileError, read_yaml_file
+from .file_error import FileError, ModelError, Slip, read_yaml_file
 from .folder import database_folder
 from .model import (
     Commissioning,
@@ -38,7 +36,7 @@ from .model import (
     Table,
     Tables,
 )
-from .model_errors import Slip, slips
+from .model.compiled_json import record_text, text_record
 from .nearest import unknown_name
 from .picture_faults import faults_of_pictures
 from .quoting import LONGEST, quoted, short
@@ -75,16 +73,7 @@ class FurtherFacts(Model):
     guides: tuple[Guide, ...] = ()
     messages: tuple[Messages, ...] = ()
     commissioning: Commissioning | None = None
-    pictures: PictureRoles = Field(default_factory=PictureRoles)
-
-    def text(self) -> str:
-        """Return them as JSON."""
-        return self.model_dump_json(exclude_defaults=True)
-
-    @classmethod
-    def of(cls, text: str) -> FurtherFacts:
-        """Return what was compiled."""
-        return cls.model_validate_json(text)
+    pictures: PictureRoles = PictureRoles.model_construct()
 
 
 class Compiled(Model):
@@ -93,8 +82,8 @@ class Compiled(Model):
     family: Family
     groups: tuple[Group, ...]
     rules: tuple[Rule, ...]
-    plausible: Plausible = Field(default_factory=Plausible)
-    further: str = "{}"
+    plausible: Plausible = Plausible.model_construct()
+    further: str
     """``FurtherFacts`` as JSON: to read them takes a twentieth of a start, and most starts never ask for them."""
 
 
@@ -128,11 +117,14 @@ def load_compiled(family_id: str) -> Compiled:
     kept = read_cached(cached)
     if kept is not None:
         try:
-            return Compiled.model_validate_json(kept)
-        except ValidationError:
-            report_unusable(cached, "it contains no facts")
+            found = text_record(kept)
+        except ValueError:
+            found = None
+        if isinstance(found, Compiled):
+            return found
+        report_unusable(cached, "it contains no facts")
     compiled = compile_family(folder)
-    write_cached(cached, compiled.model_dump_json(exclude_defaults=True).encode(), family_id)
+    write_cached(cached, record_text(compiled).encode(), family_id)
     return compiled
 
 
@@ -179,7 +171,9 @@ def compile_family(folder: Path) -> Compiled:
         commissioning=commissioning,
         pictures=pictures,
     )
-    return Compiled(family=family, groups=groups, rules=rules, plausible=plausible, further=further.text())
+    return Compiled(
+        family=family, groups=groups, rules=rules, plausible=plausible, further=record_text(further)
+    )
 
 
 def _of(family: Family, folder: Path) -> list[Path]:
@@ -241,10 +235,12 @@ def _parsed(path: Path) -> YamlDocument:
 
 
 def _valid(path: Path, document: YamlDocument, data: Any, model: type[T], family: Family | None) -> T:
+    from .model_errors import read_model  # a start reads compiled facts, and needs no pydantic
+
     try:
-        return model.model_validate(data, context=family)
-    except ValidationError as error:
-        raise _error_of(path, document, slips(error, data, model)) from None
+        return read_model(model, data, family)
+    except ModelError as error:
+        raise _error_of(path, document, error.slips) from None
     except RecursionError:
         raise DatabaseError(path, 1, "is too deep") from None
 

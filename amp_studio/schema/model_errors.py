@@ -4,12 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from types import UnionType
-from typing import Annotated, Any, Union, get_args, get_origin
+from typing import Annotated, Any, TypeVar, Union, get_args, get_origin, get_type_hints
 
-from pydantic import BaseModel, ValidationError
+from pydantic import ValidationError
 from pydantic_core import ErrorDetails
 
-from .model.record import PAGE_PATTERN
+from .file_error import ModelError, Slip
+from .model.reading import adapter
+from .model.record import PAGE_PATTERN, Model
 from .nearest import did_you_mean
 from .quoting import quoted
 from .yaml_reader import KeyPath
@@ -17,12 +19,20 @@ from .yaml_reader import KeyPath
 _LONGEST = 500
 """Characters of a sentence; a value that it repeats may be of any length."""
 
-Slip = tuple[KeyPath, str]
-"""Where in the data something is wrong, and what."""
+T = TypeVar("T", bound=Model)
 
 
-def slips(error: ValidationError, data: object, model: type[BaseModel]) -> list[Slip]:
-    """Return what is wrong, one slip a place; a key that is mistyped is not missing as well."""
+def read_model(kind: type[T], data: Any, family: object = None) -> T:
+    """Return data from outside as a record; raises ModelError. Names of lists mean those of the family."""
+    try:
+        found: T = adapter(kind).validate_python(data, context=family)
+    except ValidationError as error:
+        raise ModelError(_slips(error, data, kind)) from None
+    return found
+
+
+def _slips(error: ValidationError, data: object, model: type[Model]) -> list[Slip]:
+    """Return what is wrong; a key that is mistyped is not missing as well."""
     wrong = error.errors(include_url=False)
     missing: dict[KeyPath, list[str]] = {}
     for each in wrong:
@@ -32,7 +42,7 @@ def slips(error: ValidationError, data: object, model: type[BaseModel]) -> list[
     meant: set[KeyPath] = set()
     for each in wrong:
         place = each["loc"]
-        if each["type"] == "extra_forbidden":
+        if each["type"] == "unexpected_keyword_argument":
             record, key = place[:-1], str(place[-1])
             lacking = missing.get(record, [])
             meant |= {(*record, name) for name in lacking if did_you_mean(key, [name])}
@@ -53,11 +63,11 @@ def _keys_at(kind: Any, place: KeyPath) -> Iterable[str]:
         return _keys_at(inner[0], place)
     if origin in (Union, UnionType):
         return [key for one in inner for key in _keys_at(one, place)]
-    if isinstance(kind, type) and issubclass(kind, BaseModel):
+    if isinstance(kind, type) and issubclass(kind, Model):
         if not place:
-            return kind.model_fields
-        field = kind.model_fields.get(str(place[0]))
-        return _keys_at(field.annotation, place[1:]) if field else ()
+            return kind.fields
+        field = get_type_hints(kind).get(str(place[0])) if str(place[0]) in kind.fields else None
+        return _keys_at(field, place[1:]) if field else ()
     if origin in (tuple, dict) and place:
         return _keys_at(inner[0 if origin is tuple else 1], place[1:])
     return ()
@@ -97,7 +107,7 @@ def _sentence(error: ErrorDetails) -> str:
             return "must be a number"
         case "int_type" | "int_parsing" | "int_from_float":
             return "must be a whole number"
-        case "dict_type" | "model_type" | "model_attributes_type":
+        case "dict_type" | "dataclass_type":
             return "must be names with what they are: {name: ...}"
         case "tuple_type" | "list_type":
             return "must be a list: [...]"

@@ -11,8 +11,6 @@ from functools import cache
 from types import UnionType
 from typing import Any, Literal, Union, get_args, get_origin, get_type_hints
 
-from pydantic import TypeAdapter, ValidationError
-
 from amp_studio.schema import InvalidValueError, read_number, write_number
 from amp_studio.schema.nearest import unknown_name
 from amp_studio.schema.quoting import quoted
@@ -129,6 +127,8 @@ def calculate(family: str, name: str, texts: Mapping[str, str]) -> Any:
 def _read(argument: Argument, text: str) -> Any:
     if argument.kind is str:
         return text
+    from pydantic import TypeAdapter  # a check uses formulas and reads no arguments
+
     try:
         if argument.kind is bool:
             return _YES_NO[text.casefold()]
@@ -139,7 +139,7 @@ def _read(argument: Argument, text: str) -> Any:
             return TypeAdapter(argument.kind).validate_python(number)
         found = TypeAdapter(argument.kind).validate_python(_several(argument.kind, text))
         return list(found) if isinstance(found, Iterator) else found  # pydantic checks its items only now
-    except (InvalidValueError, ValidationError, KeyError, ValueError, RecursionError):
+    except (InvalidValueError, KeyError, ValueError, RecursionError):
         example = f" ({argument.example})" if argument.example else ""
         raise ValueError(f"{quoted(text)} is no {argument.name}{example}") from None
 

@@ -22,6 +22,7 @@ from amp_studio.schema import (
     UnknownParameterError,
     read_address,
 )
+from amp_studio.schema.model.compiled_json import record_text
 from amp_studio.schema.quoting import quoted
 
 from .expressions import Expressions, RuleError, check_rule, is_list
@@ -195,7 +196,7 @@ class _AskedBy(dict[Address, frozenset[Place]]):
 
 def make_plan(schema: Schema, machine: str, extra: tuple[Rule, ...] = ()) -> Plan:
     """Return the plan for a machine type with the family's rules and further ones; raises RuleError."""
-    return _make(schema, machine, _Further(tuple(rule.model_dump_json() for rule in extra), extra))
+    return _make(schema, machine, _Further(tuple(record_text(rule) for rule in extra), extra))
 
 
 @dataclass(frozen=True)

@@ -5,10 +5,8 @@ from __future__ import annotations
 from collections.abc import Mapping, Sized
 from typing import Any, TypeVar
 
-from pydantic import ValidationError
-
+from amp_studio.schema.file_error import ModelError, Slip
 from amp_studio.schema.model import Model
-from amp_studio.schema.model_errors import Slip, slips
 
 T = TypeVar("T", bound=Model)
 
@@ -35,20 +33,22 @@ def entry_model(data: Any, model: type[T]) -> tuple[T | None, list[Slip]]:
     ]
     long = {place[0] for place, _ in found}
     data = {key: value for key, value in data.items() if key not in long}
+    from amp_studio.schema.model_errors import read_model  # a file without rules of its own needs no pydantic
+
     try:
-        return model.model_validate(data), found
-    except ValidationError as error:
-        found += [slip for slip in slips(error, data, model) if not slip[0] or slip[0][0] not in long]
-        return _left(data, {e["loc"][0] for e in error.errors() if e["loc"]}, model), found
+        return read_model(model, data), found
+    except ModelError as error:
+        found += [slip for slip in error.slips if not slip[0] or slip[0][0] not in long]
+        return _left(data, {place[0] for place, _ in error.slips if place}, model), found
 
 
 def _left(data: Mapping[Any, Any], wrong: set[Any], model: type[T]) -> T | None:
     if "reads" in wrong:
         return None  # every name would be an unknown one
-    neutral: dict[str, Any] = {key: value for key, value in _NEUTRAL.items() if key in model.model_fields}
+    neutral: dict[str, Any] = {key: value for key, value in _NEUTRAL.items() if key in model.fields}
     if "values" in wrong and isinstance(data.get("values"), dict):
         neutral["values"] = {str(name): "null" for name in data["values"]}  # the message may show them
     try:
         return model.model_validate(neutral | {key: value for key, value in data.items() if key not in wrong})
-    except ValidationError:
+    except ValueError:
         return None

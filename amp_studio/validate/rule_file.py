@@ -13,8 +13,6 @@ from functools import cache, lru_cache, partial
 from pathlib import Path
 from typing import Any
 
-from pydantic import ValidationError
-
 from amp_studio.files import write_atomic
 from amp_studio.files.atomic import Notify, SaveError, digest_of
 from amp_studio.files.yaml_text import with_item
@@ -30,7 +28,7 @@ from amp_studio.schema import (
     read_address,
     read_entries,
 )
-from amp_studio.schema.model_errors import Slip
+from amp_studio.schema.file_error import Slip
 from amp_studio.schema.nearest import did_you_mean
 from amp_studio.schema.yaml_reader import KeyPath, YamlError, read_yaml
 
@@ -253,9 +251,9 @@ def suppress(
     """
     try:
         entry = Suppression(rule=rule, params=tuple(params), reason=reason.strip(), by=by.strip())
-    except ValidationError:
+    except ValueError:
         raise ValueError("A suppression needs a reason and a name.") from None
-    item = entry.model_dump(mode="json", exclude_defaults=True)
+    item = entry.model_dump(exclude_defaults=True)
     write_atomic(path, lambda previous: _with_suppression(path, previous or b"", item), notify=notify)
 
 

@@ -69,16 +69,3 @@ def test_a_message_is_one_line_that_can_be_read_whatever_it_repeats(amp) -> None
     assert len(said) < 3100
     said = amp("calculate", "9pc", "x" * 1_000_000).err
     assert len(said) < 3100
-
-
-def test_a_pydantic_that_asks_more_of_its_plugin_loader_gets_it() -> None:
-    """The program leaves that loader out; a later pydantic must still start."""
-    code = (
-        "from amp_studio.cli.program import _leave_out_plugins as leave_out; leave_out()\n"
-        "from pydantic.plugin._loader import get_plugins\n"
-        "import sys; print(list(get_plugins()), 'importlib.metadata' in sys.modules)\n"
-        "from pydantic.plugin._loader import PYDANTIC_ENTRY_POINT_GROUP\n"
-        "print(PYDANTIC_ENTRY_POINT_GROUP)\n"
-    )
-    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
-    assert done.stdout.splitlines() == ["[] False", "pydantic"]

@@ -13,8 +13,6 @@ from collections.abc import Callable, Iterator
 from pathlib import Path
 from unittest import mock
 
-from pydantic import ValidationError
-
 from amp_studio.cli.check_cache import CheckCache
 from amp_studio.cli.check_formats import CheckResult
 from amp_studio.cli.parsing import parse
@@ -25,7 +23,8 @@ from amp_studio.files.lock import EditLock, InUseError
 from amp_studio.files.reading import read_content
 from amp_studio.schema import DatabaseError
 from amp_studio.schema.compiled_cache import read_cached, write_cached
-from amp_studio.schema.load import Compiled, compile_family
+from amp_studio.schema.load import compile_family
+from amp_studio.schema.model.compiled_json import record_text, text_record
 from amp_studio.transfer.client.kept import CopyError, digest_path, keep_image, open_copy
 from amp_studio.transfer.emulated.control import Control
 from amp_studio.transfer.emulated.record import Identity, StateError, to_json, written
@@ -150,9 +149,9 @@ def fuzz_backups(folder: Path, seed: int, count: int) -> list[str]:
 
 
 def fuzz_caches(folder: Path, seed: int, count: int) -> list[str]:
-    """Read a damaged cache: it gives what was kept there or nothing; facts below a right digest are facts or refused."""
+    """Read a damaged cache: it gives what was kept there or nothing; what is below a right digest are records or refused."""
     path = folder / "steps-x.json"
-    write_cached(path, compile_family(FACTS).model_dump_json(exclude_defaults=True).encode(), "steps")
+    write_cached(path, record_text(compile_family(FACTS)).encode(), "steps")
     whole = path.read_bytes().decode("utf-8")
     kept = whole.partition("\n")[2].encode()
 
@@ -164,15 +163,11 @@ def fuzz_caches(folder: Path, seed: int, count: int) -> list[str]:
         path.write_bytes(hashlib.sha256(below).hexdigest().encode() + b"\n" + below)
         found = read_cached(path)
         assert found == below
-        Compiled.model_validate_json(found)
+        text_record(found)
 
     logging.disable(logging.WARNING)
     try:
-        return [
-            v
-            for v in violations(mutants([whole], seed, count), look, ())
-            if not v.startswith(ValidationError.__name__)
-        ]
+        return violations(mutants([whole], seed, count), look, (ValueError,))
     finally:
         logging.disable(logging.NOTSET)
 

@@ -8,15 +8,16 @@ import pytest
 from pydantic import ValidationError
 
 from amp_studio.schema import family_ids, load_schema
-from amp_studio.schema.load import FurtherFacts, load_compiled
+from amp_studio.schema.load import load_compiled
 from amp_studio.schema.model import Table
+from amp_studio.schema.model.compiled_json import text_record
 
 ROW = {"id": "1", "title": "A table", "page": "1-1", "head": ["Axis", "Speed"]}
 
 
 @pytest.mark.parametrize("family", family_ids())
 def test_every_table_has_an_id_of_its_own_and_belongs_to_parameters_that_exist(family: str) -> None:
-    tables = FurtherFacts.of(load_compiled(family).further).tables
+    tables = text_record(load_compiled(family).further).tables
     assert [name for name, times in Counter(table.id for table in tables).items() if times > 1] == []
     known = load_schema(family).parameters
     assert [(table.id, name) for table in tables for name in table.params if name not in known] == []

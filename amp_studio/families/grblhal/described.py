@@ -30,7 +30,9 @@ from amp_studio.schema.model import (
     Numbers,
     StateRule,
     Storage,
+    ValueType,
 )  # fmt: skip
+from amp_studio.schema.model.compiled_json import record_text
 
 from .description import (
     AXES,
@@ -65,8 +67,15 @@ _QUANTITIES = {
     "ms": "time", "us": "time", "s": "time", "%": "percent", "rpm": "rotation", "Hz": "frequency", "V": "voltage",
     "A": "current", "deg": "angle",
 }  # fmt: skip
-_TYPES = {BOOLEAN: "boolean", MASK: "bits", SWITCHED_MASK: "bits", CHOICE: "choice", AXES: "bits", INTEGER: "integer",
-          DECIMAL: "real"}  # fmt: skip
+_TYPES: dict[int, ValueType] = {
+    BOOLEAN: "boolean",
+    MASK: "bits",
+    SWITCHED_MASK: "bits",
+    CHOICE: "choice",
+    AXES: "bits",
+    INTEGER: "integer",
+    DECIMAL: "real",
+}
 
 
 def schema_of(content: bytes) -> Schema:
@@ -116,7 +125,7 @@ class _Maker:
             pictures=known.pictures,
         )  # fmt: skip
         compiled = Compiled(
-            family=self._family(tuple(groups)), groups=made, plausible=known.plausible, further=further.text(),
+            family=self._family(tuple(groups)), groups=made, plausible=known.plausible, further=record_text(further),
             rules=tuple(r for r in known.rules if r.id != AXES_RULE),
         )  # fmt: skip
         return made_of(compiled, description)

@@ -1,8 +1,6 @@
 """What else a manual prints: tables, guides, and where it contradicts itself."""
 
-from typing import Literal, Self
-
-from pydantic import model_validator
+from typing import Literal
 
 from .record import Key, Model, Page, ParameterId
 
@@ -22,14 +20,12 @@ class Table(Model):
     """Parameters for whose values it is looked up."""
     note: str = ""
 
-    @model_validator(mode="after")
-    def _square(self) -> Self:
+    def __post_init__(self) -> None:
         if self.units and len(self.units) != len(self.head):
             raise ValueError(f"{len(self.head)} columns and {len(self.units)} units")
         for n, row in enumerate(self.rows, 1):
             if len(row) != len(self.head):
                 raise ValueError(f"row {n} has {len(row)} cells below {len(self.head)} columns")
-        return self
 
     def column(self, name: str) -> tuple[str | float, ...] | None:
         """Return the cells below a name; a head may contain several of them (``B410G, B410J``)."""
@@ -80,13 +76,11 @@ class ControlMessage(Model):
     """Where else the manual prints it."""
     note: str = ""
 
-    @model_validator(mode="after")
-    def _named(self) -> Self:
+    def __post_init__(self) -> None:
         if bool(self.text) == bool(self.title):
             raise ValueError("a message has either the text that is printed or a title")
         if self.span is not None and (self.span[0] > self.span[1] or not self.code):
             raise ValueError("a span goes upward, and has a code")
-        return self
 
     @property
     def name(self) -> str:

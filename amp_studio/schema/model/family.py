@@ -2,14 +2,12 @@
 
 import re
 from fractions import Fraction
-from typing import Annotated, Self
-
-from pydantic import AfterValidator, model_validator
+from typing import Annotated
 
 from amp_studio.schema.units import UNITS, define_unit
 
 from .parameter import Bit, Choice, Effect
-from .record import Instances, Key, Model, Page, ParameterId, Scope, Unit
+from .record import Instances, Key, Model, Page, ParameterId, Scope, Then, Unit
 
 
 class Condition(Model):
@@ -57,13 +55,11 @@ class AxisProfile(Model):
     hardware: ParameterId | None = None
     loop: ParameterId | None = None
 
-    @model_validator(mode="after")
-    def _one_way(self) -> Self:
+    def __post_init__(self) -> None:
         if (self.unfitted is None) == (self.fitted_by is None):
             raise ValueError(
                 "an axis is left out either by its type ('unfitted') or by a number ('fitted_by')"
             )
-        return self
 
 
 class AxisField(Model):
@@ -138,15 +134,13 @@ class UnitSize(Model):
     otherwise: str | None = None
     """The size with any other value; without it there is none."""
 
-    @model_validator(mode="after")
-    def _are_sizes(self) -> Self:
+    def __post_init__(self) -> None:
         for text in (*self.sizes.values(), *filter(None, [self.otherwise])):
             number, _, unit = text.partition(" ")
             if not re.fullmatch(r"\d+(\.\d+)?", number) or not float(number) or unit not in UNITS:
                 raise ValueError(f"'{text}' is no size: write a number and a unit, as 0.001 mm")
         if self.otherwise is not None and not self.sizes:
             raise ValueError("'otherwise' is for values without an entry in 'sizes', which has none")
-        return self
 
 
 class UnitScale(Model):
@@ -179,7 +173,7 @@ class Area(Model):
 class Family(Model):
     """``family.yaml``: identity, scopes, units and the order of the groups."""
 
-    own_units: Annotated[dict[str, OwnUnit], AfterValidator(_defined)] = {}
+    own_units: Annotated[dict[str, OwnUnit], Then(_defined)] = {}
     """Units that the program does not know by itself. First, because all that follows may use them."""
     family: Key
     name: str

@@ -1,7 +1,5 @@
 """What a group is: a file of parameters, and the states that they share."""
 
-from pydantic import ValidationInfo, field_validator
-
 from .parameter import Parameter, StateRule
 from .record import Key, Model, ParameterId, Scope
 
@@ -29,16 +27,14 @@ class Group(Model):
     """Each parameter gets them behind its own."""
     parameters: tuple[Parameter, ...]
 
-    @field_validator("parameters")
-    @classmethod
-    def _with_states(cls, parameters: tuple[Parameter, ...], info: ValidationInfo) -> tuple[Parameter, ...]:
-        first, last = info.data.get("states", ()), info.data.get("last_states", ())
-        if not first and not last:
-            return parameters
-        return tuple(
-            p.model_copy(update={"states": (*_states_for(p, first), *p.states, *_states_for(p, last))})
-            for p in parameters
-        )
+    def __post_init__(self) -> None:
+        """Give each parameter the states of the group."""
+        if self.states or self.last_states:
+            self.__dict__["parameters"] = tuple(map(self._with_states, self.parameters))
+
+    def _with_states(self, parameter: Parameter) -> Parameter:
+        first, last = _states_for(parameter, self.states), _states_for(parameter, self.last_states)
+        return parameter.model_copy(update={"states": (*first, *parameter.states, *last)})
 
     def own_states(self, parameter: Parameter) -> range:
         """Return which of the states of a parameter of this group are at the parameter itself."""

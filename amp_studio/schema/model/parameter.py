@@ -1,12 +1,10 @@
 """What a parameter is: numbers, values, ranges, states, storage."""
 
-from typing import Annotated, Any, Literal, Self
-
-from pydantic import BeforeValidator, Field, ValidationInfo, model_validator
+from typing import Annotated, Any, Literal
 
 from amp_studio.schema.units import UNITS
 
-from .record import Instances, Key, Model, Page, ParameterId, Scope, Unit
+from .record import First, Instances, Key, Model, Page, ParameterId, Scope, Then, Unit
 
 ValueType = Literal["integer", "real", "choice", "boolean", "bits", "text", "format"]
 ParameterState = Literal["in-force", "ignored", "unusable", "hidden"]
@@ -39,7 +37,7 @@ class BoundRef(Model):
 
 Bound = float | BoundRef | None
 Range = tuple[Bound, Bound]
-Ranges = Annotated[dict[Unit, Range], Field(json_schema_extra={"propertyNames": {"enum": list(UNITS)}})]
+Ranges = Annotated[dict[Unit, Range], Then(dict, propertyNames={"enum": list(UNITS)})]
 
 
 class RangeVariant(Model):
@@ -61,16 +59,16 @@ class Choice(Model):
     note: str | None = None
 
 
-def _choice_list(given: object, info: ValidationInfo) -> object:
-    return _named_list(given, "choice", getattr(info.context, "choice_lists", {}))
+def _choice_list(given: object, family: object) -> object:
+    return _named_list(given, "choice", getattr(family, "choice_lists", {}))
 
 
-def _bit_list(given: object, info: ValidationInfo) -> object:
-    return _named_list(given, "bit", getattr(info.context, "bit_lists", {}))
+def _bit_list(given: object, family: object) -> object:
+    return _named_list(given, "bit", getattr(family, "bit_lists", {}))
 
 
 def _named_list(given: object, kind: str, lists: dict[str, Any]) -> object:
-    """Return the list of the family that a name means; the family is the context of the validation."""
+    """Return the list of the family that a name means."""
     if not isinstance(given, str):
         return given
     if given not in lists:
@@ -78,9 +76,7 @@ def _named_list(given: object, kind: str, lists: dict[str, Any]) -> object:
     return lists[given]
 
 
-Choices = Annotated[
-    tuple[Choice, ...], BeforeValidator(_choice_list, json_schema_input_type=tuple[Choice, ...] | Key)
-]
+Choices = Annotated[tuple[Choice, ...], First(_choice_list, also=Key)]
 """Choices, or the name of one of the ``choice_lists`` of the family."""
 
 
@@ -99,7 +95,7 @@ class Bit(Model):
     """The builds that have it, where the plain one does not: it may be above the width of the plain word."""
 
 
-Bits = Annotated[tuple[Bit, ...], BeforeValidator(_bit_list, json_schema_input_type=tuple[Bit, ...] | Key)]
+Bits = Annotated[tuple[Bit, ...], First(_bit_list, also=Key)]
 """Bits, or the name of one of the ``bit_lists`` of the family."""
 
 
@@ -145,8 +141,7 @@ class Numbers(Model):
     disputed: bool = False
     """The manual prints this number for another parameter too, and that other one is right."""
 
-    @model_validator(mode="after")
-    def _one_way(self) -> Self:
+    def __post_init__(self) -> None:
         ways = [self.start, self.listed, self.starts]
         if ways.count(None) == len(ways) and "{n}" in self.format:
             raise ValueError("numbers need 'start', 'listed', 'starts' or a format without {n}")
@@ -156,7 +151,6 @@ class Numbers(Model):
             raise ValueError(
                 f"the format {self.format!r} may contain {{n}} and {{i}} and nothing else in braces"
             ) from None
-        return self
 
 
 class Layout(Model):
@@ -178,11 +172,9 @@ class StateRule(Model):
     unless: str | None = None
     page: Page | None = None
 
-    @model_validator(mode="after")
-    def _one_condition(self) -> Self:
+    def __post_init__(self) -> None:
         if (self.when is None) == (self.unless is None):
             raise ValueError("a state takes either 'when' or 'unless'")
-        return self
 
 
 class Effect(Model):
@@ -194,11 +186,9 @@ class Effect(Model):
     command: str | None = None
     """The command that makes the device read the value (level ``command``), or the function of the control (level ``online``)."""
 
-    @model_validator(mode="after")
-    def _named(self) -> Self:
+    def __post_init__(self) -> None:
         if (self.command is None) == (self.level in ("command", "online")):
             raise ValueError("'command' belongs to the levels 'command' and 'online', and they need it")
-        return self
 
 
 class HelpNote(Model):
@@ -318,8 +308,7 @@ class Parameter(Model):
         """Every scope it has on some machine type."""
         return (self.scope,) if self.layouts is None else tuple(layout.scope for layout in self.layouts)
 
-    @model_validator(mode="after")
-    def _whole(self) -> Self:
+    def __post_init__(self) -> None:
         if self.secret and self.type not in ("integer", "real", "text"):
             raise ValueError("a secret is a number or a text")  # what shows choices and bits masks nothing
         if self.first_axis is not None and self.type != "bits":
@@ -341,4 +330,3 @@ class Parameter(Model):
             for value in (self.default.value, *(self.default.instances or {}).values()):
                 if value not in keys:
                     raise ValueError(f"default {value!r} is not one of its choices")
-        return self

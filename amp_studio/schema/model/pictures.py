@@ -1,9 +1,7 @@
 """Which parameters a picture is drawn from: their roles in it. No drawing knows a family; it knows these roles."""
 
 from collections.abc import Iterator
-from typing import Literal, Self
-
-from pydantic import model_validator
+from typing import Literal
 
 from .record import Key, Model, Page, ParameterId
 
@@ -18,11 +16,9 @@ class Direction(Model):
     bits: Literal["", "plus", "minus"] = ""
     """What a set bit means; the bit of an axis is its place among the axes."""
 
-    @model_validator(mode="after")
-    def _one_way(self) -> Self:
+    def __post_init__(self) -> None:
         if bool(self.bits) == bool(self.plus and self.minus):
             raise ValueError("a direction has 'plus' and 'minus' choices, or 'bits'")
-        return self
 
 
 class SpanRole(Model):
@@ -62,11 +58,9 @@ class ZoneRole(SpanRole):
     """Axes with the same choice bound one body; a direction whose axis is not among them reaches over the whole travel."""
     group_none: Key | None = None
 
-    @model_validator(mode="after")
-    def _one_side(self) -> Self:
+    def __post_init__(self) -> None:
         if (self.forbidden is None) == (self.forbidden_by is None):
             raise ValueError("a zone has 'forbidden' or 'forbidden_by'")
-        return self
 
 
 class HomePlace(Model):
@@ -242,8 +236,7 @@ def parameters_named(
     model: Model, place: tuple[str | int, ...] = ()
 ) -> Iterator[tuple[tuple[str | int, ...], ParameterId]]:
     """Yield the parameters that a record names, each with its place in the file."""
-    for name in type(model).model_fields:
-        value = getattr(model, name)
+    for name, value in model.items():
         several = isinstance(value, tuple)
         for n, entry in enumerate(value if several else (value,)):
             here = (*place, name, n) if several else (*place, name)

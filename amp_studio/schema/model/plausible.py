@@ -1,9 +1,5 @@
 """What is plausible in a family, which no manual prints: how like axes, usual figures and smooth tables look."""
 
-from typing import Self
-
-from pydantic import Field, model_validator
-
 from .record import Model, ParameterId, Unit
 
 
@@ -17,13 +13,11 @@ class Usual(Model):
     also: tuple[float, ...] = ()
     """Values beside these that mean something else, as 0 for off."""
 
-    @model_validator(mode="after")
-    def _is_one(self) -> Self:
+    def __post_init__(self) -> None:
         if bool(self.between) == bool(self.among):
             raise ValueError("what is usual is 'between' bounds in a unit, or 'among' a few values")
         if any(low >= high for low, high in self.between.values()):
             raise ValueError("the least usual value is below the greatest")
-        return self
 
 
 class Plausible(Model):
@@ -37,5 +31,5 @@ class Plausible(Model):
     """Tables, part after part, whose values run without a single one that jumps out."""
     axis_words: tuple[ParameterId, ...] = ()
     """Words with a bit for each axis, in their order, that mean nothing for an axis that is not there."""
-    usual: dict[ParameterId, Usual] = Field(default_factory=dict)
+    usual: dict[ParameterId, Usual] = {}
     """Parameter -> its usual values."""

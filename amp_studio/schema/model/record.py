@@ -1,16 +1,79 @@
-"""What all models have in common: a frozen record without unknown keys, and the names of things."""
+"""What all models have in common: a frozen record without unknown keys, and the names of things.
+
+A record is a plain object. Data from outside become one through pydantic (``reading``), which is loaded only then: a
+start reads facts that were checked when they were compiled, and pydantic would take a quarter of it.
+"""
+
+from __future__ import annotations
 
 import re
-from typing import Annotated, Literal
-
-from pydantic import AfterValidator, BaseModel, BeforeValidator, ConfigDict, Field, WithJsonSchema
+from collections.abc import Callable, Collection, Iterator, Mapping
+from typing import Annotated, Any, ClassVar, Literal, Self, dataclass_transform
 
 from amp_studio.schema.units import UNITS
 
-ParameterId = Annotated[str, Field(pattern=r"^[a-z0-9_]+(\.[a-z0-9_]+)+$")]
-Key = Annotated[str, Field(pattern=r"^[a-z0-9][a-z0-9_.+-]*$")]
+
+class Pattern:
+    """Of a text in a record: the regular expression that it fits."""
+
+    def __init__(self, pattern: str) -> None:
+        self.pattern = pattern
+
+    def __get_pydantic_core_schema__(self, source: Any, handler: Any) -> Any:
+        from pydantic_core import core_schema
+
+        return core_schema.str_schema(pattern=self.pattern)
+
+
+class NotEmpty:
+    """Of a text in a record: it has at least one character."""
+
+    def __get_pydantic_core_schema__(self, source: Any, handler: Any) -> Any:
+        from pydantic_core import core_schema
+
+        return core_schema.str_schema(min_length=1)
+
+
+class Then:
+    """Of a field of a record: what checks or changes the value that was read; ValueError says what is wrong with it."""
+
+    def __init__(self, check: Callable[[Any], Any], **json_schema: Any) -> None:
+        self.check, self.json_schema = check, json_schema
+
+    def __get_pydantic_core_schema__(self, source: Any, handler: Any) -> Any:
+        from pydantic_core import core_schema
+
+        return core_schema.no_info_after_validator_function(self.check, handler(source))
+
+    def __get_pydantic_json_schema__(self, schema: Any, handler: Any) -> Any:
+        return handler(schema) | self.json_schema
+
+
+class First:
+    """Of a field of a record: what changes the given data before they are read, with the family that is read, if any.
+
+    ``also`` are other kinds of data that are taken, which an editor is told of.
+    """
+
+    def __init__(self, change: Callable[[Any, Any], Any], also: Any = None) -> None:
+        self.change, self.also = change, also
+
+    def __get_pydantic_core_schema__(self, source: Any, handler: Any) -> Any:
+        from pydantic_core import core_schema
+
+        return core_schema.with_info_before_validator_function(
+            lambda given, info: self.change(given, info.context),
+            handler(source),
+            json_schema_input_schema=handler.generate_schema(
+                source if self.also is None else source | self.also
+            ),
+        )
+
+
+ParameterId = Annotated[str, Pattern(r"^[a-z0-9_]+(\.[a-z0-9_]+)+$")]
+Key = Annotated[str, Pattern(r"^[a-z0-9][a-z0-9_.+-]*$")]
 PAGE_PATTERN = r"^[0-9A-Z]+(-[0-9]+)?(\.[0-9]+)*([a-z])?$"
-Page = Annotated[str, Field(pattern=PAGE_PATTERN)]
+Page = Annotated[str, Pattern(PAGE_PATTERN)]
 Scope = Literal["global", "axis", "spindle", "process", "group", "word", "register"]
 
 
@@ -20,10 +83,10 @@ def _known_unit(unit: str) -> str:
     return unit
 
 
-Unit = Annotated[str, AfterValidator(_known_unit), WithJsonSchema({"enum": list(UNITS)})]
+Unit = Annotated[str, Then(_known_unit, enum=list(UNITS))]
 
 
-def _counted_out(instances: object) -> object:
+def _counted_out(instances: object, _family: object) -> object:
     """Write out the spans of a list of instances: ``["1..400"]`` are 400 of them, ``["X.0..9"]`` ten parts of X."""
     if not isinstance(instances, list):
         return instances
@@ -37,11 +100,98 @@ def _counted_out(instances: object) -> object:
     return found
 
 
-Instances = Annotated[tuple[str, ...], BeforeValidator(_counted_out, json_schema_input_type=tuple[str, ...])]
+Instances = Annotated[tuple[str, ...], First(_counted_out)]
 
 
-class Model(BaseModel):
-    """A frozen record that refuses keys it does not know."""
+REQUIRED: Any = object()
+"""The default of a field that has none."""
 
-    # Built when a file is first read into it: a start reads one kind, the compiled family.
-    model_config = ConfigDict(extra="forbid", frozen=True, defer_build=True)
+
+@dataclass_transform(kw_only_default=True, frozen_default=True)
+class Model:
+    """A frozen record that refuses keys it does not know.
+
+    To construct one, or ``model_validate``, checks all of its data and raises pydantic's ValidationError, a ValueError.
+    ``model_construct`` and ``model_copy`` check nothing: they are for data that have been checked. ``__post_init__``
+    is what a kind of record asks of its fields together.
+    """
+
+    fields: ClassVar[Mapping[str, Any]] = {}
+    """Name of each field -> its default, or ``REQUIRED``."""
+
+    def __init_subclass__(cls) -> None:
+        own = {name: cls.__dict__.get(name, REQUIRED) for name in cls.__annotations__}
+        cls.fields = {**cls.fields, **own}
+
+    def __init__(self, **given: Any) -> None:
+        self.__dict__.update(self.model_validate(given).__dict__)
+
+    @classmethod
+    def model_validate(cls, data: Any, context: Any = None) -> Self:
+        """Return the record of data from outside; raises pydantic's ValidationError. ``context`` is the family that is read."""
+        from .reading import adapter
+
+        found: Self = adapter(cls).validate_python(data, context=context)
+        return found
+
+    @classmethod
+    def model_construct(cls, **fields: Any) -> Self:
+        """Return a record of fields that have been checked."""
+        made = object.__new__(cls)
+        made.__dict__.update(fields)
+        return made
+
+    def model_copy(self, *, update: Mapping[str, Any] | None = None) -> Self:
+        """Return a copy with other values in some fields, which are not checked."""
+        return type(self).model_construct(**self.__dict__ | dict(update or {}))
+
+    def model_dump(
+        self, *, exclude: Collection[str] = (), exclude_none: bool = False, exclude_defaults: bool = False
+    ) -> dict[str, Any]:
+        """Return the fields as YAML and JSON have them; without those that are excluded, None or the default."""
+
+        def plain(value: Any) -> Any:
+            if isinstance(value, Model):
+                return value.model_dump(exclude_none=exclude_none, exclude_defaults=exclude_defaults)
+            if isinstance(value, (tuple, list)):
+                return [plain(entry) for entry in value]
+            if isinstance(value, dict):
+                return {key: plain(entry) for key, entry in value.items()}
+            return value
+
+        return {
+            name: plain(value)
+            for name, value in self.items()
+            if name not in exclude
+            and not (exclude_none and value is None)
+            and not (exclude_defaults and value == self.fields[name])
+        }
+
+    def __post_init__(self) -> None:
+        """Raise ValueError where the fields that were read contradict each other."""
+
+    def items(self) -> Iterator[tuple[str, Any]]:
+        """Yield each field with its value, in the order in which they are written."""
+        return ((name, getattr(self, name)) for name in self.fields)
+
+    def __eq__(self, other: object) -> bool:
+        if not isinstance(other, Model) or type(self) is not type(other):
+            return NotImplemented
+        return self.__dict__ == other.__dict__ or all(
+            value == getattr(other, name) for name, value in self.items()
+        )
+
+    def __hash__(self) -> int:
+        return hash((type(self), *(value for _, value in self.items())))
+
+    def __repr__(self) -> str:
+        return f"{type(self).__name__}({', '.join(f'{name}={value!r}' for name, value in self.items())})"
+
+    def __setattr__(self, name: str, _value: object) -> None:
+        raise AttributeError(f"{type(self).__name__}.{name} cannot be changed: a record is frozen")
+
+    @classmethod
+    def __get_pydantic_core_schema__(cls, source: Any, handler: Any) -> Any:
+        from .reading import record_schema
+
+        return record_schema(cls, handler)

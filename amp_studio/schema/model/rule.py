@@ -1,11 +1,9 @@
 """What a rule is: a constraint between parameters, its fix, and a builder's own rules and suppressions."""
 
 import re
-from typing import Annotated, Literal, Self
+from typing import Annotated, Literal
 
-from pydantic import Field, field_validator, model_validator
-
-from .record import Model, Page
+from .record import First, Model, NotEmpty, Page, Pattern, Then
 
 Severity = Literal["error", "warning", "advice"]
 
@@ -25,6 +23,25 @@ class Fix(Assignment):
     """Cannot change motion."""
 
 
+def _each_name(names: object, _family: object) -> object:
+    if isinstance(names, (list, tuple)) and all(isinstance(name, str) for name in names):
+        return dict.fromkeys(names, "true")
+    if isinstance(names, dict):
+        return {name: text for several, text in names.items() for name in str(several).split(", ")}
+    return names
+
+
+Blamed = Annotated[dict[str, str], First(_each_name, also=tuple[str, ...])]
+"""Names, each with the condition in CEL under which it is one; a list of names for always."""
+
+
+def _names(reads: dict[str, str]) -> dict[str, str]:
+    for name in reads:
+        if not re.fullmatch(r"[a-z][a-z0-9_]*", name):
+            raise ValueError(f"{name!r} is not a name")
+    return reads
+
+
 class Rule(Model):
     """A constraint between parameters, in CEL.
 
@@ -35,10 +52,10 @@ class Rule(Model):
     it is used. Numbers arrive in the quantity's canonical unit.
     """
 
-    id: Annotated[str, Field(pattern=r"^[a-z0-9]+(\.[a-z0-9-]+)+$")]
+    id: Annotated[str, Pattern(r"^[a-z0-9]+(\.[a-z0-9-]+)+$")]
     title: str
     severity: Severity
-    reads: dict[str, str]
+    reads: Annotated[dict[str, str], Then(_names)]
     optional: tuple[str, ...] = ()
     """Names that may be not set or inactive: they arrive as null then."""
     any_state: tuple[str, ...] = ()
@@ -54,12 +71,12 @@ class Rule(Model):
     fix: tuple[Fix, ...] = ()
     effective: tuple[Assignment, ...] = ()
     """What the control really uses while the rule is broken: it corrects, clamps or forces the value silently."""
-    blames: dict[str, str] = {}
+    blames: Blamed = {}
     """Names of what is wrong, worst first, each with the condition in CEL under which it is; a list of names for always.
 
     Left out: what ``effective`` replaces, else the first of ``reads``. ``it`` is the value at hand, ``at`` its position in a list.
     """
-    compares: dict[str, str] = {}
+    compares: Blamed = {}
     """The same for what it is compared with. All other single values it names follow, unless ``blames`` names them."""
     page: Page | Literal[""] = ""
     """The page of the manual that states it."""
@@ -76,30 +93,9 @@ class Rule(Model):
         """The source in words."""
         return f"page {self.page}" if self.page else self.source
 
-    @model_validator(mode="after")
-    def _has_one_source(self) -> Self:
+    def __post_init__(self) -> None:
         if bool(self.page) == bool(self.reason):
             raise ValueError("a rule has either the page that states it or the reason why it is so")
-        return self
-
-    @field_validator(
-        "blames", "compares", mode="before", json_schema_input_type=dict[str, str] | tuple[str, ...]
-    )
-    @classmethod
-    def _each_name(cls, names: object) -> object:
-        if isinstance(names, (list, tuple)) and all(isinstance(name, str) for name in names):
-            return dict.fromkeys(names, "true")
-        if isinstance(names, dict):
-            return {name: text for several, text in names.items() for name in str(several).split(", ")}
-        return names
-
-    @field_validator("reads")
-    @classmethod
-    def _names(cls, reads: dict[str, str]) -> dict[str, str]:
-        for name in reads:
-            if not re.fullmatch(r"[a-z][a-z0-9_]*", name):
-                raise ValueError(f"{name!r} is not a name")
-        return reads
 
 
 class Rules(Model):
@@ -126,9 +122,8 @@ class BuilderRule(Rule):
         """The source in words; empty where the builder gives none."""
         return self.source
 
-    @model_validator(mode="after")
-    def _has_one_source(self) -> Self:
-        return self
+    def __post_init__(self) -> None:
+        """A builder's rule needs no source."""
 
 
 class Suppression(Model):
@@ -137,5 +132,5 @@ class Suppression(Model):
     rule: str
     params: tuple[str, ...] = ()
     """The parameters that the finding is about, by number or id; an id without instance is any, none at all whatever."""
-    reason: Annotated[str, Field(min_length=1)]
-    by: Annotated[str, Field(min_length=1)]
+    reason: Annotated[str, NotEmpty()]
+    by: Annotated[str, NotEmpty()]

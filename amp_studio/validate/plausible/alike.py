@@ -7,7 +7,7 @@ changes the counts of its instance only. Facts of the family name what differs a
 from __future__ import annotations
 
 from collections.abc import Hashable, Iterable, Iterator
-from fnmatch import fnmatchcase
+from fnmatch import filter as matching
 from functools import lru_cache
 from itertools import combinations
 from typing import NamedTuple
@@ -52,15 +52,24 @@ def _comparable(schema: Schema) -> dict[str, bool]:
     if family.declared_axes is not None:
         fields = (family.declared_axes.name, family.declared_axes.group)
         own += [field.param for field in fields if field is not None]
-    facts = schema.plausible
+    unlike, may_differ = _named(schema, schema.plausible.unlike), _named(schema, schema.plausible.may_differ)
     return {
-        p.id: not any(fnmatchcase(p.id, pattern) for pattern in facts.may_differ)
+        p.id: p.id not in may_differ
         for p in schema.parameters.values()
         if p.type not in ("text", "format")
         and p.id not in own
         and not p.secret
         and p.access != "read"
-        and not any(fnmatchcase(p.id, pattern) for pattern in facts.unlike)
+        and p.id not in unlike
+    }
+
+
+def _named(schema: Schema, patterns: Iterable[str]) -> set[str]:
+    """Return the parameters that ids, and patterns of ids with ``*``, mean."""
+    return {
+        name
+        for pattern in patterns
+        for name in (matching(schema.parameters, pattern) if "*" in pattern else (pattern,))
     }
 
 

@@ -1,0 +1,55 @@
+"""Records as JSON that is read back without a check: facts that were checked when they were compiled."""
+
+from __future__ import annotations
+
+import json
+from typing import Any
+
+from .record import Model
+
+_KIND = "is"
+"""The key under which an object names its kind of record; no field of a record is called so."""
+
+
+def record_text(record: Model) -> str:
+    """Return a record, and the records in it, as JSON; fields that have their default are left out."""
+    return json.dumps(record, default=_plain, ensure_ascii=False, separators=(",", ":"))
+
+
+def _plain(record: Any) -> dict[str, Any]:
+    return {_KIND: type(record).__name__} | {
+        name: value for name, value in record.items() if value != record.fields[name]
+    }
+
+
+def text_record(text: str | bytes) -> Any:
+    """Return the record of such a text; raises ValueError for what is none."""
+    kinds = _kinds(Model)
+
+    def made(entry: dict[str, Any]) -> Any:
+        for name, value in entry.items():
+            if value.__class__ is list:
+                entry[name] = _tuple(value)
+        kind = entry.pop(_KIND, None)
+        if kind is None:
+            return entry
+        record = object.__new__(kinds[kind])
+        record.__dict__.update(entry)
+        return record
+
+    try:
+        return json.loads(text, object_hook=made)
+    except (LookupError, TypeError, RecursionError) as error:
+        raise ValueError(f"these are no records: {error}") from None
+
+
+def _tuple(values: list[Any]) -> tuple[Any, ...]:
+    return tuple([_tuple(value) if value.__class__ is list else value for value in values])
+
+
+def _kinds(kind: type[Model]) -> dict[str, type[Model]]:
+    return {
+        name: record
+        for below in kind.__subclasses__()
+        for name, record in {below.__name__: below, **_kinds(below)}.items()
+    }
