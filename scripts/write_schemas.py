@@ -14,6 +14,8 @@ from pathlib import Path
 from textwrap import dedent
 from typing import Any
 
+from pydantic import TypeAdapter
+
 from amp_studio.files.project import PROJECT_FORMAT, ProjectInfo
 from amp_studio.schema import database_folder, family_ids, load_schema
 from amp_studio.schema.model import (
@@ -32,7 +34,6 @@ from amp_studio.schema.model import (
     Tables,
     Units,
 )
-from amp_studio.schema.model.reading import adapter
 from amp_studio.schema.units import UNITS_FILE
 from amp_studio.schema.yaml_reader import read_yaml
 
@@ -75,7 +76,7 @@ def schemas() -> dict[str, str]:
 
 def _of_model(model: type[Model]) -> dict[str, Any]:
     schema: dict[str, Any] = _with_own_units(
-        _in_dialect(adapter(model).json_schema(ref_template="#/definitions/{model}"))
+        _in_dialect(TypeAdapter(model).json_schema(ref_template="#/definitions/{model}"))
     )
     models = {kind.__name__: kind for kind in (model, *_below(Model))}
     for name, record in {model.__name__: schema, **schema.get("definitions", {})}.items():

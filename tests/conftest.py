@@ -10,10 +10,10 @@ import sys
 import tempfile
 import time
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import pytest
-from hypothesis import settings
+from hypothesis import HealthCheck, settings
 
 from tests.campaigns import CAMPAIGN, examples
 
@@ -83,10 +83,11 @@ os.umask(0o022)
 sys.dont_write_bytecode = False
 _the_fonts_of_the_tests(_private_folders())
 
-# Two workers on two cores take as long as they take. Generated cases are the same each time, so that a change is judged by
-# what it changed, and what an earlier run found is not remembered; `make campaign` tries new ones and prints how to repeat one.
-settings.register_profile("fixed", deadline=None, derandomize=True, database=None)
-settings.register_profile("campaign", deadline=None, print_blob=True, max_examples=examples(100))
+# Two workers on two cores take as long as they take, and so does what they generate. Generated cases are the same each time, so
+# that a change is judged by what it changed, and what an earlier run found is not remembered; `make campaign` tries new ones and prints how to repeat one.
+_NO_CLOCK: Any = {"deadline": None, "suppress_health_check": [HealthCheck.too_slow]}
+settings.register_profile("fixed", **_NO_CLOCK, derandomize=True, database=None)
+settings.register_profile("campaign", **_NO_CLOCK, print_blob=True, max_examples=examples(100))
 settings.load_profile("campaign" if CAMPAIGN else "fixed")
 
 

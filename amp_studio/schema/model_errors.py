@@ -10,7 +10,6 @@ from pydantic import ValidationError
 from pydantic_core import ErrorDetails
 
 from .file_error import ModelError, Slip
-from .model.reading import adapter
 from .model.record import PAGE_PATTERN, Model
 from .nearest import did_you_mean
 from .quoting import quoted
@@ -25,10 +24,9 @@ T = TypeVar("T", bound=Model)
 def read_model(kind: type[T], data: Any, family: object = None) -> T:
     """Return data from outside as a record; raises ModelError. Names of lists mean those of the family."""
     try:
-        found: T = adapter(kind).validate_python(data, context=family)
+        return kind.model_validate(data, family)
     except ValidationError as error:
         raise ModelError(_slips(error, data, kind)) from None
-    return found
 
 
 def _slips(error: ValidationError, data: object, model: type[Model]) -> list[Slip]:

@@ -1,6 +1,6 @@
 """What all models have in common: a frozen record without unknown keys, and the names of things.
 
-A record is a plain object. Data from outside become one through pydantic (``reading``), which is loaded only then: a
+A record is a plain object. Data from outside become one through pydantic, which is loaded only then: a
 start reads facts that were checked when they were compiled, and pydantic would take a quarter of it.
 """
 
@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable, Collection, Iterator, Mapping
-from typing import Annotated, Any, ClassVar, Literal, Self, dataclass_transform
+from typing import Annotated, Any, ClassVar, Literal, Self, dataclass_transform, get_type_hints
 
 from amp_studio.schema.units import UNITS
 
@@ -118,6 +118,8 @@ class Model:
 
     fields: ClassVar[Mapping[str, Any]] = {}
     """Name of each field -> its default, or ``REQUIRED``."""
+    _adapter: ClassVar[Any] = None
+    """What checks data from outside; made for each kind of record when the first are read."""
 
     def __init_subclass__(cls) -> None:
         own = {name: cls.__dict__.get(name, REQUIRED) for name in cls.__annotations__}
@@ -129,9 +131,12 @@ class Model:
     @classmethod
     def model_validate(cls, data: Any, context: Any = None) -> Self:
         """Return the record of data from outside; raises pydantic's ValidationError. ``context`` is the family that is read."""
-        from .reading import adapter
+        from pydantic import TypeAdapter
 
-        found: Self = adapter(cls).validate_python(data, context=context)
+        adapter = cls.__dict__.get("_adapter")
+        if adapter is None:
+            cls._adapter = adapter = TypeAdapter(cls)
+        found: Self = adapter.validate_python(data, context=context)
         return found
 
     @classmethod
@@ -192,6 +197,21 @@ class Model:
 
     @classmethod
     def __get_pydantic_core_schema__(cls, source: Any, handler: Any) -> Any:
-        from .reading import record_schema
+        """Return pydantic's schema: the fields by name, no others, then ``__post_init__``."""
+        from pydantic_core import core_schema
 
-        return record_schema(cls, handler)
+        hints = get_type_hints(cls, include_extras=True)
+        fields = []
+        for name, default in cls.fields.items():
+            schema = handler.generate_schema(hints[name])
+            if default is not REQUIRED:
+                schema = core_schema.with_default_schema(schema, default=default)
+            fields.append(core_schema.dataclass_field(name, schema, kw_only=True))
+        return core_schema.dataclass_schema(
+            cls,
+            core_schema.dataclass_args_schema(cls.__name__, fields),
+            list(cls.fields),
+            post_init=True,
+            ref=f"{cls.__module__}.{cls.__qualname__}:{id(cls)}",
+            config=core_schema.CoreConfig(extra_fields_behavior="forbid", title=cls.__name__),
+        )
