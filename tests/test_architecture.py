@@ -223,7 +223,7 @@ def test_the_examples_of_contributing_are_facts_the_program_reads(checkout: Path
     assert [number_of(numbers, k, axis) for k, axis in enumerate(axes)] == ["R10", "R2058"]
     shown, held = compiled.groups[0].parameters[0], load_schema("57c422b").parameters
     same = {"name", "scope", "numbers", "type", "quantity", "ranges", "storage", "page"}
-    assert held[shown.id].model_dump(include=same) == shown.model_dump(include=same)
+    assert all(getattr(held[shown.id], name) == getattr(shown, name) for name in same)
     assert load_schema("57c422b").family.title == compiled.family.title
 
 
