@@ -35,7 +35,7 @@ class NotEmpty:
 
 
 class Then:
-    """Of a field of a record: what checks or changes the value that was read; ValueError says what is wrong with it."""
+    """Of a field of a record: what checks or changes the value that was read; the text of a ValueError is what is wrong with it."""
 
     def __init__(self, check: Callable[[Any], Any], **json_schema: Any) -> None:
         self.check, self.json_schema = check, json_schema
@@ -52,7 +52,7 @@ class Then:
 class First:
     """Of a field of a record: what changes the given data before they are read, with the family that is read, if any.
 
-    ``also`` are other kinds of data that are taken, which an editor is told of.
+    ``also`` are the other kinds of data that are taken, for editors.
     """
 
     def __init__(self, change: Callable[[Any, Any], Any], also: Any = None) -> None:
