@@ -33,7 +33,9 @@ def entry_model(data: Any, model: type[T]) -> tuple[T | None, list[Slip]]:
     ]
     long = {place[0] for place, _ in found}
     data = {key: value for key, value in data.items() if key not in long}
-    from amp_studio.schema.model_errors import read_model  # most files have no rules beside them, and need no pydantic
+    from amp_studio.schema.model_errors import (
+        read_model,  # most files have no rules beside them, and need no pydantic
+    )
 
     try:
         return read_model(model, data), found
