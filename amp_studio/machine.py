@@ -30,7 +30,16 @@ from amp_studio.schema import (
 from amp_studio.schema.bit_fields import labels_of_word
 from amp_studio.schema.storage import stored_number
 from amp_studio.schema.values import write_number
-from amp_studio.validate import NO_RULES, BuilderRules, Finding, Fixed, Validator, apply_fixes, rules_beside
+from amp_studio.validate import (
+    NO_RULES,
+    BuilderRules,
+    Finding,
+    Fixed,
+    Validator,
+    apply_fixes,
+    earlier_beside,
+    rules_beside,
+)
 from amp_studio.validate.cell_expression import enter
 
 if TYPE_CHECKING:
@@ -153,7 +162,8 @@ class MachineParameters:
         return compare(self.schema, self.file.values, there.file.values).differences
 
     def _validator(self) -> Validator:
-        return Validator(self.file, self._rules())
+        earlier = earlier_beside(self.path, self.file) if self.path else ()
+        return Validator(self.file, self._rules(), earlier)
 
     def _rules(self) -> BuilderRules:
         return rules_beside(self.path, self.schema) if self.path else NO_RULES

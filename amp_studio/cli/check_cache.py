@@ -1,8 +1,8 @@
 """What ``validate`` printed of files, kept between runs: a file is not checked again while nothing has changed that its result depends on.
 
 A result is found by a digest over all that it depends on: this program with its facts, Python and the installed packages; what
-was asked for; the file and the rules beside it. There is one database for each state of the program, in the user's cache folder. Its
-content is never trusted: a result that is not as it was kept is made again, as is a database that another program
+was asked for; the file, the rules beside it and what it is compared with. There is one database for each state of the program, in
+the user's cache folder. Its content is never trusted: a result that is not as it was kept is made again, as is a database that another program
 wrote or that cannot be read. A cache that cannot be written costs time only.
 """
 
@@ -20,11 +20,12 @@ from pathlib import Path
 
 from amp_studio.family_places import installed_places
 from amp_studio.files import is_there, real_path
+from amp_studio.files.origin import origin_named
 from amp_studio.schema.compiled_cache import cache_folder
 from amp_studio.schema.folder import database_folder
 from amp_studio.schema.registration import added_facts
 from amp_studio.schema.regular_file import read_file
-from amp_studio.validate import RULES_FILE
+from amp_studio.validate import RULES_FILE, companions_of
 
 from .check_formats import CHECK_FORMATS, CheckResult
 from .verb import Options
@@ -47,6 +48,7 @@ class CheckCache:
         here = str(Path.cwd()) if CHECK_FORMATS[options.format].from_here else ""
         self._asked = json.dumps([given, here], sort_keys=True).encode()
         self._rules: Path | None = options.rules
+        self._companions: dict[Path, bytes] = {}
         self._known_rules: dict[str, bytes] = {}
         """Folder, or file of rules -> what its rules add to a key; a folder of machines has one for all."""
         self._path = cache_folder() / f"checks-{_program_digest()}.sqlite"
@@ -54,6 +56,7 @@ class CheckCache:
     def keys(self, paths: Iterable[Path]) -> list[bytes | None]:
         """Return what the result of each file is found by now; None for a file that cannot be read."""
         self._known_rules.clear()
+        self._companions.clear()
         return [self._key(path) for path in paths]
 
     def _key(self, path: Path) -> bytes | None:
@@ -67,9 +70,18 @@ class CheckCache:
                 rules = self._known_rules[folder] = _rules_part(
                     self._rules or real_path(path).parent / RULES_FILE
                 )
+            origin = origin_named(content, real_path(path))
+            compared = [*companions_of(path), *([origin] if origin else [])]
+            beside = [self._companion(other) for other in compared]
         except OSError:
             return None
-        return _digest(self._asked, os.fsencode(text), rules, content)
+        return _digest(self._asked, os.fsencode(text), rules, content, *beside)
+
+    def _companion(self, path: Path) -> bytes:
+        """Return what a file that another one is compared with adds to its key."""
+        if path not in self._companions:
+            self._companions[path] = _digest(read_file(path)) if is_there(path) else b""
+        return self._companions[path]
 
     def read(self, keys: Sequence[bytes | None], paths: Sequence[Path]) -> dict[Path, CheckResult]:
         """Return the results that are kept."""

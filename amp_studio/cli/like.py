@@ -8,6 +8,7 @@ from pathlib import Path
 from amp_studio.files import ParameterFile
 from amp_studio.files.creation import MadeLike, made_like
 from amp_studio.files.examples import examples
+from amp_studio.files.origin import note_origin
 from amp_studio.schema.nearest import unknown_name
 
 from .console import note
@@ -40,9 +41,12 @@ def _made_like(options: Options, axes: list[str]) -> MadeLike:
     if options.machine not in (None, source.machine):
         raise UsageError(f"{options.like} is a {source.machine}: a {options.machine} cannot be made like it")
     try:
-        return made_like(source, options.path.stem, axes)
+        made = made_like(source, options.path.stem, axes)
     except ValueError as error:
         raise UsageError(str(error)) from None
+    if path.exists():
+        note_origin(made.file, options.path, path)
+    return made
 
 
 def _not_taken(made: MadeLike) -> Iterator[str]:

@@ -17,6 +17,7 @@ from amp_studio.schema.regular_file import read_file
 
 from .atomic import append_line, check_output, digest_of, write_atomic
 from .lock import EditLock, InUseError, now, user
+from .origin import note_origin
 from .parameter_file import Change, Header, ParameterFile
 from .paths import backup_path, hidden_path, history_path, is_there, real_path, text_of_name
 from .reading import HEADER_SECTIONS, Opened, open_file, read_content, read_stored
@@ -179,6 +180,7 @@ class Document:
         path = Path(path)
         twin = self.file.copy()
         twin.header.name = text_of_name(path.stem)
+        note_origin(twin, path, self.path)
         return Document.create(twin, path)
 
     def acknowledge(self, on_disk: Opened) -> None:

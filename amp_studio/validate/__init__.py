@@ -6,11 +6,12 @@ What calculates, explains, makes fixes and reads a builder's rules is loaded whe
 from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
-from .beside import rules_beside
+from .beside import companions_of, earlier_beside, rules_beside
 from .builder_rules import NO_RULES, RULES_FILE, BuilderRules, Suppressed
 from .expressions import RuleError
 from .finding import NOT_SET, SEVERITIES, Finding, Setting, not_set
 from .formulas import formulas
+from .plausible import Earlier
 from .validator import Validator
 
 if TYPE_CHECKING:
@@ -55,6 +56,7 @@ __all__ = [
     "Argument",
     "BuilderRules",
     "Calculator",
+    "Earlier",
     "Explanation",
     "Finding",
     "Fixed",
@@ -67,6 +69,8 @@ __all__ = [
     "apply_fixes",
     "calculate",
     "calculators",
+    "companions_of",
+    "earlier_beside",
     "explain",
     "formulas",
     "not_set",

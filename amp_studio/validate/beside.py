@@ -1,13 +1,26 @@
-"""The rules that lie beside a parameter file."""
+"""What lies beside a parameter file and counts when it is checked: rules, and what the file was and others are."""
 
 from __future__ import annotations
 
+import contextlib
+import json
+from collections.abc import Iterator
+from functools import lru_cache
 from pathlib import Path
 
-from amp_studio.files import is_there, real_path
-from amp_studio.schema import Schema
+from amp_studio.files import ENDING, ParameterFile, ParameterFileError, backup_path, is_there, real_path
+from amp_studio.files.local_time import local_time
+from amp_studio.files.origin import origin_of
+from amp_studio.files.paths import history_path, text_of_name
+from amp_studio.schema import Address, Schema, Value
+from amp_studio.schema.regular_file import read_file
 
 from .builder_rules import NO_RULES, RULES_FILE, BuilderRules
+from .plausible import Earlier, values_of_fleet
+
+EXCHANGES = "exchanges.jsonl"
+LARGEST_FLEET = 40
+"""Machines in a folder that are compared; more of them are no fleet that somebody looks after by hand."""
 
 
 def rules_beside(path: Path, schema: Schema) -> BuilderRules:
@@ -18,3 +31,90 @@ def rules_beside(path: Path, schema: Schema) -> BuilderRules:
     from .rule_file import read_builder_rules  # most machines have none
 
     return read_builder_rules(beside, schema)
+
+
+def earlier_beside(path: Path, file: ParameterFile) -> tuple[Earlier, ...]:
+    """Return what a file is compared with: its backup, its last download, what it was made from, other machines in its folder.
+
+    What cannot be read, or is of another family, is left out: none of it is needed to check the file.
+    """
+    with contextlib.suppress(OSError):
+        return tuple(_earlier(real_path(path), file))
+    return ()
+
+
+def _earlier(path: Path, file: ParameterFile) -> Iterator[Earlier]:
+    backup = backup_path(path)
+    if is_there(backup) and (values := _values(backup, file)) is not None:
+        yield Earlier("in the backup", values)
+    when = _last_download(path)
+    if when and (values := _values_at(path, file, when)):
+        yield Earlier(f"in the download of {local_time(when)}", values)
+    origin = origin_of(file, path)
+    if origin is not None and (values := _values(origin, file)) is not None:
+        yield Earlier(f"in {origin.name}, which it was made from", values, is_same_machine=False)
+    others = [values for other in fleet_of(path) if (values := _values(other, file)) is not None]
+    if fleet := values_of_fleet(others):
+        yield Earlier(f"of {len(others)} other machines in its folder", fleet, is_same_machine=False)
+
+
+def companions_of(path: Path) -> list[Path]:
+    """Return what ``earlier_beside`` reads beside what a file names itself; not all of it is there. Raises OSError."""
+    real = real_path(path)
+    return [backup_path(real), history_path(real), real.with_name(EXCHANGES), *fleet_of(real)]
+
+
+def fleet_of(path: Path) -> list[Path]:
+    """Return the other parameter files in the folder of a file; none where there are too few or too many. Raises OSError."""
+    names = _machines_in(path.parent, path.parent.stat().st_mtime_ns)
+    return [path.with_name(name) for name in names if name != path.name]
+
+
+@lru_cache(maxsize=16)
+def _machines_in(folder: Path, changed: int) -> tuple[str, ...]:  # noqa: ARG001  # another one after a change of the folder
+    names = sorted(each.name for each in folder.iterdir() if each.name.endswith(ENDING))
+    return tuple(names) if 4 <= len(names) <= LARGEST_FLEET else ()
+
+
+def _values(path: Path, file: ParameterFile) -> dict[Address, Value] | None:
+    """Return the values of another file of the same family and machine type; None where it is none."""
+    try:
+        about = path.stat()
+        other = _opened(path, about.st_mtime_ns, about.st_size)
+    except (ParameterFileError, OSError):
+        return None
+    same = other.schema.family.family == file.schema.family.family and other.machine == file.machine
+    return other.values if same else None
+
+
+@lru_cache(maxsize=LARGEST_FLEET + 2)
+def _opened(path: Path, changed: int, size: int) -> ParameterFile:  # noqa: ARG001  # another one after a change
+    from amp_studio.files import open_file  # most files are alone
+
+    return open_file(path).file
+
+
+def _last_download(path: Path) -> str:
+    """Return when a control took the content of a file last (UTC); "" for never."""
+    try:
+        content = read_file(path.with_name(EXCHANGES), follow=False, tail=True)
+    except OSError:
+        return ""
+    for line in reversed(content.decode("utf-8", "replace").split("\n")):
+        with contextlib.suppress(ValueError, RecursionError):
+            entry = json.loads(line)
+            if not isinstance(entry, dict) or entry.get("file") != text_of_name(path.name):
+                continue
+            if entry.get("verb") == "download" and entry.get("state") == "new":
+                return str(entry.get("when", ""))
+    return ""
+
+
+def _values_at(path: Path, file: ParameterFile, when: str) -> dict[Address, Value]:
+    """Return the values that a file had at a time and has no more, by its history."""
+    from amp_studio.files.document import Document
+    from amp_studio.files.versions import before_saves
+
+    later = [entry for entry in Document(file, path, None).history() if entry.when > when]
+    was = before_saves(file, later).values
+    return {address: value for address, value in was.items() if file.values.get(address) != value}

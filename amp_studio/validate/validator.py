@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection, Hashable, Iterable, Iterator
+from collections.abc import Callable, Collection, Hashable, Iterable, Iterator, Sequence
 from dataclasses import replace
 
 from amp_studio.files import ParameterFile
@@ -14,7 +14,7 @@ from .builder_rules import NO_RULES, BuilderRules, Suppressed, sort_out
 from .checks import Checks
 from .finding import SEVERITIES, Finding
 from .plan import Place, Plan, RuleCheck, make_plan
-from .plausible import Experience
+from .plausible import Earlier, Experience
 from .trial import Trials
 
 _Order = tuple[int, int, str, int]
@@ -27,12 +27,15 @@ class Validator:
     ``run`` checks everything, ``update`` only what read the changed addresses;
     both leave the same findings. Asked for findings of values that it has not seen yet, it runs by itself. Any value whatever
     may be in the file.
-    ``own`` are a machine builder's rules.
+    ``own`` are a machine builder's rules; ``earlier`` is what the file was, and what others like it are.
     """
 
-    def __init__(self, file: ParameterFile, own: BuilderRules = NO_RULES) -> None:
+    def __init__(
+        self, file: ParameterFile, own: BuilderRules = NO_RULES, earlier: Sequence[Earlier] = ()
+    ) -> None:
         self.file = file
         self.own = own
+        self.earlier = earlier
         self.suppressed: tuple[Suppressed, ...] = ()
         """Findings that the builder leaves as they are."""
         self._circumstances: tuple[str, str, str] | None = None
@@ -51,7 +54,7 @@ class Validator:
         self._plan: Plan = make_plan(self.file.schema, self.file.machine, self.own.rules)
         self._checks = Checks(self.file, self.own.places)
         self._trials = Trials(self.file, self._plan, self.own)
-        self._experience = Experience(self.file)
+        self._experience = Experience(self.file, self.earlier)
 
     def run(self) -> tuple[Finding, ...]:
         """Check everything; returns the findings, errors first, in the manual's order."""
@@ -113,6 +116,12 @@ class Validator:
             if id(finding) not in left_alone and self._trials.offered(place, finding, self._filed).fix:
                 return finding
         return None
+
+    def compare_with(self, earlier: Sequence[Earlier]) -> None:
+        """Compare with other earlier values from now on, as after a save."""
+        self.earlier = earlier
+        self._experience = Experience(self.file, earlier)
+        self._experience.look_at_all()
 
     def prepare_edits(self) -> None:
         """Work out now what the first update would wait for; another thread may do so."""

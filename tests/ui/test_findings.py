@@ -340,3 +340,25 @@ def test_the_outline_of_a_finding_ends_with_it(window: MainWindow) -> None:
     window.workspace.undo_stack.undo()
     assert page.findings.current_findings() == ()
     assert page.table.outlined == frozenset()
+
+
+def test_a_typed_slip_is_asked_about_until_it_is_saved_and_saved_again(window: MainWindow) -> None:
+    workspace, address = window.workspace, ("cycle.peck_retract", "")
+    was = workspace.file.get(address)
+    assert was is not None
+
+    def asked() -> list[str]:
+        return [f.message for f in workspace.findings if f.rule == "plausible.earlier"]
+
+    assert asked() == []
+    workspace.edit("a slip", {address: Value(was.value / 2, was.unit)})
+    assert asked() == []
+    workspace.edit("a slip", {address: Value(was.value * 10, was.unit)})
+    (message,) = asked()
+    assert message.endswith("in the saved file. Is it meant?")
+    workspace.save()
+    (message,) = asked()
+    assert message.endswith("in the backup. Is it meant?")
+    workspace.edit("another", {("axis.name", "1"): Value("Y")}, force="a test")
+    workspace.save()
+    assert asked() == []

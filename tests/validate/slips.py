@@ -19,7 +19,7 @@ from amp_studio.files import ParameterFile, open_file
 from amp_studio.files.examples import examples_folder
 from amp_studio.schema import Address, Value, show_value, written
 from amp_studio.schema.units import dimension
-from amp_studio.validate import Validator
+from amp_studio.validate import Earlier, Validator
 from amp_studio.validate.new_findings import new_findings
 
 KINDS = ("x 10", "/ 10", "x 25.4", "sign", "zero", "x 2", "swapped", "neighbour", "bit", "choice")
@@ -132,17 +132,17 @@ def examples() -> list[Path]:
     return sorted(examples_folder().glob("*/*.amp"))
 
 
-def campaign(share: float = 1.0, seed: int = 1) -> Campaign:
-    """Plant a share of all slips; the same ones for a seed."""
+def campaign(share: float = 1.0, seed: int = 1, *, alone: bool = False) -> Campaign:
+    """Plant a share of all slips; the same ones for a seed. ``alone``: nothing is known of what a file was before."""
     done = Campaign(defaultdict(Count), [])
     for path in examples():
-        plant(open_file(path).file, share, Random(seed), done)
+        plant(open_file(path).file, share, Random(seed), done, alone=alone)
     return done
 
 
-def plant(file: ParameterFile, share: float, random: Random, done: Campaign) -> None:
+def plant(file: ParameterFile, share: float, random: Random, done: Campaign, *, alone: bool) -> None:
     """Plant a share of the slips of one machine, and count."""
-    validator = Validator(file)
+    validator = Validator(file, earlier=() if alone else (Earlier("in the backup", dict(file.values)),))
     before, family = validator.run(), file.schema.family.family
     for slip in list(slips(file, random)):
         if random.random() >= share:
@@ -174,9 +174,10 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--share", type=float, default=1.0, help="of all slips")
     parser.add_argument("--seed", type=int, default=1)
+    parser.add_argument("--alone", action="store_true", help="a file of which no backup is known")
     parser.add_argument("--missed", action="store_true", help="list the slips that bring no finding")
     options = parser.parse_args()
-    done = campaign(options.share, options.seed)
+    done = campaign(options.share, options.seed, alone=options.alone)
     print(table(done))
     if options.missed:
         files = {open_file(path).file.header.name: open_file(path).file for path in examples()}

@@ -10,7 +10,7 @@ from amp_studio.files import open_file
 from amp_studio.schema import Address
 from tests.campaigns import CAMPAIGN
 
-FOUND = {"57c422b": 0.45, "9pc": 0.68, "acromill": 0.75, "grblhal": 0.45, "num": 0.58, "syntec": 0.55}
+FOUND = {"57c422b": 0.65, "9pc": 0.78, "acromill": 0.84, "grblhal": 0.6, "num": 0.7, "syntec": 0.74}
 """Family -> the least share of a sample that is found; the whole campaign finds more."""
 
 

@@ -25,11 +25,12 @@ from amp_studio.files import (
 from amp_studio.files.examples import examples_folder
 from amp_studio.files.local_time import day_and_time
 from amp_studio.files.lock import EditLock
+from amp_studio.files.origin import note_origin
 from amp_studio.ui.base.modal import run_dialog
 from amp_studio.ui.base.questions import ask
 from amp_studio.ui.base.task import in_background
 from amp_studio.ui.base.translated import Translated, counted
-from amp_studio.ui.base.workspace import Workspace
+from amp_studio.ui.base.workspace import Workspace, earlier_of
 from amp_studio.ui.merge.compare_actions import FILTER, CompareActions
 from amp_studio.ui.page.file_page import FilePage
 from amp_studio.ui.window.recent_files import RecentFiles
@@ -96,6 +97,8 @@ class FileActions(Translated):
             self.tr("New parameter file"), Path(file.header.name or "machine")
         )
         if path:
+            if (origin := dialog.source()) is not None:
+                note_origin(file, path, origin)
             self.write_new(path, lambda: Document.create(file, path))
 
     def open_example(self, example: Path) -> None:
@@ -363,7 +366,8 @@ def _opened(how: Callable[[Path], Document], path: Path) -> CheckedDocument:
 
 
 def checked(document: Document) -> Validator:
-    """Return the validator of a document, already run, with the builder's rules beside the file."""
-    validator = Validator(document.file, rules_beside(document.path, document.file.schema))
+    """Return the validator of a document, already run, with the builder's rules beside the file and what it was."""
+    own = rules_beside(document.path, document.file.schema)
+    validator = Validator(document.file, own, earlier_of(document))
     validator.run()
     return validator

@@ -17,7 +17,7 @@ from amp_studio.files.lock import now
 from amp_studio.files.parameter_file import Marks
 from amp_studio.guide import GuideProgress, progress
 from amp_studio.schema import Address, Value, axis_name, show_value
-from amp_studio.validate import NOT_SET, Finding, Validator, rules_beside
+from amp_studio.validate import NOT_SET, Earlier, Finding, Validator, earlier_beside, rules_beside
 from amp_studio.validate.cell_expression import Entered, enter, read_plain
 
 JOURNAL_MS = 500
@@ -51,6 +51,12 @@ class _Edit(QUndoCommand):
         self._workspace.after_edit(list(dict.fromkeys(addresses)))
 
 
+def earlier_of(document: Document) -> tuple[Earlier, ...]:
+    """Return what an open file is compared with: the saved file, and what lies beside it."""
+    saved = Earlier("in the saved file", document.saved)
+    return (saved, *earlier_beside(document.path, document.file))
+
+
 class Workspace(QObject):
     """One open document with its validator and undo stack."""
 
@@ -64,7 +70,7 @@ class Workspace(QObject):
         super().__init__()
         self.document = document
         self.undo_stack = QUndoStack(self)
-        self.validator = validator or Validator(document.file)
+        self.validator = validator or Validator(document.file, earlier=earlier_of(document))
         self.findings: tuple[Finding, ...] = validator.findings() if validator else self.validator.run()
         self._progress: GuideProgress | None = None
         """How far commissioning is, until the findings change."""
@@ -208,7 +214,8 @@ class Workspace(QObject):
 
     def read_own_rules(self) -> None:
         """Check again with the present rules file beside the parameter file."""
-        self.validator = Validator(self.file, rules_beside(self.path, self.file.schema))
+        own = rules_beside(self.path, self.file.schema)
+        self.validator = Validator(self.file, own, earlier_of(self.document))
         self.findings, self._progress = self.validator.run(), None
         self.changed.emit([])
 
@@ -231,11 +238,21 @@ class Workspace(QObject):
         finally:
             self.is_saving = False
         self._saved = (Marks.of(self.file), self.file.header.units)
+        self._compare_again()
         self.saved.emit()
+
+    def _compare_again(self) -> None:
+        """Compare with what the file was before this save, which is the backup now."""
+        self.validator.compare_with(earlier_of(self.document))
+        now = self.validator.findings()
+        if now != self.findings:
+            self.findings, self._progress = now, None
+            self.changed.emit([])
 
     def acknowledge(self, on_disk: Opened) -> None:
         """Take the file on disk, which another program has changed, for known: a save may replace it, and it becomes the backup."""
         self.document.acknowledge(on_disk)
+        self._compare_again()
         self.changed.emit([])
 
     def disk_state(self) -> str | None:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 
 from amp_studio.files import ParameterFile
 from amp_studio.schema import Address
@@ -10,6 +10,7 @@ from amp_studio.validate.finding import Finding
 
 from .alike import ALIKE, Alike
 from .axis_words import NO_AXIS, AxisWords
+from .earlier import EARLIER, Earlier, EarlierValues
 from .rows import ROW, EqualRows
 from .smooth import JUMP, SmoothTables
 from .usual import USUAL, UsualValues
@@ -20,6 +21,7 @@ TITLES = {
     JUMP: "A value that jumps out of its table",
     ROW: "A row that is not like the others",
     NO_AXIS: "A bit of an axis that is not there",
+    EARLIER: "A value that was another one by a slip's factor",
 }
 """Rule -> its title."""
 
@@ -27,15 +29,16 @@ TITLES = {
 class Experience:
     """The recommendations about one file that no manual prints."""
 
-    def __init__(self, file: ParameterFile) -> None:
+    def __init__(self, file: ParameterFile, earlier: Sequence[Earlier] = ()) -> None:
         self._file = file
         self._parts = (Alike(file), UsualValues(file), SmoothTables(file), EqualRows(file), AxisWords(file))
+        self._earlier = EarlierValues(file, earlier)
         self._found: tuple[Finding, ...] | None = None
 
     def look_at_all(self) -> None:
         """Look at the whole file."""
         self._found = None
-        for part in self._parts:
+        for part in (*self._parts, self._earlier):
             part.look_at_all()
 
     def look_again(self, changed: Iterable[Address]) -> None:
@@ -45,12 +48,14 @@ class Experience:
             self.look_at_all()
             return
         for address in addresses:
-            for part in self._parts:
+            for part in (*self._parts, self._earlier):
                 if part.look_again(address):
                     self._found = None
 
     def findings(self) -> tuple[Finding, ...]:
         """Return what there is now, in no order."""
         if self._found is None:
-            self._found = tuple(finding for part in self._parts for finding in part.findings())
+            found = [finding for part in self._parts for finding in part.findings()]
+            asked = {cause for finding in found for cause in finding.causes}
+            self._found = (*found, *self._earlier.findings(asked))
         return self._found

@@ -54,7 +54,6 @@ VERB = Verb(
     ),
 )
 
-
 MANY = 50
 """From so many files on it pays to start more processes."""
 
@@ -219,12 +218,12 @@ def _check(options: Options, path: Path) -> CheckResult:
     """Check one file; whatever is wrong with it ends no other's check."""
     from amp_studio.cli.check_formats import CHECK_FORMATS, CheckResult
     from amp_studio.files import ParameterFileError
-    from amp_studio.validate import Validator
+    from amp_studio.validate import Validator, earlier_beside
 
     notes: list[str] = []
     try:
         file = opened(path, options, notes.append)
-        validator = Validator(file, _own_rules(options, path, file))
+        validator = Validator(file, _own_rules(options, path, file), earlier_beside(path, file))
         checked = _checked(path, validator, options.why)
         printed = CHECK_FORMATS[options.format].one(checked)
         return CheckResult(path, checked.counts["error"], printed, tuple(notes))

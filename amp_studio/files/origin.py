@@ -1,0 +1,36 @@
+"""What a file was made from: written into it, so that a check can compare the two."""
+
+from __future__ import annotations
+
+import contextlib
+import os
+import re
+from pathlib import Path
+
+from .parameter_file import ParameterFile
+from .paths import real_path
+
+MADE_FROM = "made_from"
+"""Key of the header: the other file, as seen from the folder of this one."""
+
+_NAMED = re.compile(rb"^[ \t]+made_from:[ \t]*(['\"]?)([^\r\n]+?)\1[ \t]*\r?$", re.MULTILINE)
+
+
+def note_origin(file: ParameterFile, path: Path, origin: Path) -> None:
+    """Write into a file that will be at ``path`` what it is made from; nothing where no way leads there."""
+    with contextlib.suppress(ValueError, OSError):  # another drive; no such folder
+        file.header.extra[MADE_FROM] = Path(
+            os.path.relpath(real_path(origin), real_path(path).parent)
+        ).as_posix()
+
+
+def origin_of(file: ParameterFile, path: Path) -> Path | None:
+    """Return what a file at ``path`` was made from; None if it is not known."""
+    source = file.header.extra.get(MADE_FROM)
+    return path.parent / source if isinstance(source, str) and source else None
+
+
+def origin_named(content: bytes, path: Path) -> Path | None:
+    """Return the same of the text of a file, without reading all of it."""
+    found = _NAMED.search(content)
+    return path.parent / os.fsdecode(found[2]) if found else None
