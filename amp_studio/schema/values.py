@@ -39,6 +39,8 @@ LONGEST_TEXT = 100_000
 """Signs of a text; the longest there are is a table of ballscrew compensation."""
 _RAW = re.compile(r"[+-]?[0-9]{1,16}")
 _NOT_ZERO = re.compile(r"[^eE]*[1-9]")
+_MINUS = "\u2212"
+"""The minus sign of a printed text: a number that was copied out of a PDF has it."""
 _UNWRITABLE = re.compile("[\ud800-\udfff\ufffe\uffff]")
 
 
@@ -62,6 +64,7 @@ def _digits(text: str) -> tuple[str, str]:
     """Return a number with decimal point and exponent as Python writes it, and what follows; raises InvalidValueError."""
     if len(text) > LONGEST_NUMBER:
         raise InvalidValueError(f"{quoted(text)} is too long for a number")
+    text = text.replace(_MINUS, "-")
     found = _NUMBER.match(text)
     if not found:
         raise InvalidValueError(f"{quoted(text.strip())} is not a number")
@@ -186,6 +189,7 @@ def _read(parameter: Parameter, text: str, unit: str) -> Value:
         return _read_format(parameter, text)
     if len(text) > LONGEST_NUMBER:
         raise InvalidValueError(f"{quoted(text)} is too long for a number")
+    text = text.replace(_MINUS, "-")
     if parameter.type in ("bits", "integer") and (
         hexadecimal := re.fullmatch(r"(?:0[xX]|\$)([0-9a-fA-F]+)", text)
     ):

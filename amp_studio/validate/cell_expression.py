@@ -41,6 +41,8 @@ from .expression_tree import ExpressionError, Node, read_expression
 LONGEST = 300
 """Characters of an expression in a cell."""
 _SHOWN_CANDIDATES = 4
+_LIKE_A_NUMBER = 4
+"""Digits of a whole number from which it is taken for the number of a parameter where one has it; 25, 100 and 1000 are figures."""
 
 UnitOf = Callable[[Address], str]
 """The unit in which the value of an address is shown and typed."""
@@ -225,7 +227,20 @@ class _Reader:
                 word = word.rpartition("/")[0]
         if behind:
             raise InvalidValueError(f"{quoted(behind[1])} behind {digits} is no unit")
+        if len(digits) >= _LIKE_A_NUMBER and digits.isdecimal() and not digits.endswith("000"):
+            self._ask_about(digits)
         return _Quantity(number), at
+
+    def _ask_about(self, digits: str) -> None:
+        """Refuse a bare whole number that is the number of a parameter; raises InvalidValueError with both ways to write it."""
+        try:
+            address = meant(self._file.evaluation, digits).address
+        except UnknownParameterError:
+            return
+        label = self._file.machine_schema.label(address)
+        raise InvalidValueError(
+            f"{digits} is also the number of {label}: write #{digits} for its value, or {digits}.0 for the figure"
+        )
 
     def _referred(self, name: str) -> _Quantity:
         """Return the value of a parameter in the unit in which it is shown."""

@@ -110,6 +110,22 @@ def test_what_cannot_be_meant_is_refused_in_a_sentence(file: ParameterFile, text
         typed(file, text)
 
 
+@pytest.mark.parametrize("text", ["=1310+1", "1310*2", "=(1 + 1310) mm"])
+def test_a_bare_number_that_is_one_of_a_parameter_is_asked_about(file: ParameterFile, text: str) -> None:
+    with pytest.raises(
+        InvalidValueError, match=r"^1310 is also the number of .*: write #1310 .*, or 1310\.0 "
+    ):
+        typed(file, text)
+    assert typed(file, text.replace("1310", "1310.0").replace(" mm", "")).value is not None
+    assert typed(file, "=25*4").value == Value(100.0, "mm")  # 25 is the number of a parameter too
+
+
+def test_the_minus_sign_of_a_pdf_is_a_minus(file: ParameterFile) -> None:
+    assert typed(file, "\u221212,5 mm").value == Value(-12.5, "mm")
+    assert typed(file, "1e\u22123").value == Value(0.001, "mm")
+    assert typed(file, "=3 \u2212 5").value == Value(-2.0, "mm")
+
+
 def test_a_value_that_is_not_set_is_not_0(file: ParameterFile) -> None:
     twin = file.copy()
     twin.set(("servo.excess_error", "2"), None)

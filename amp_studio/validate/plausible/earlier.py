@@ -98,7 +98,7 @@ class EarlierValues:
 
 
 def values_of_fleet(others: Sequence[Mapping[Address, Value]]) -> dict[Address, Value]:
-    """Return the values that all machines of a fleet have that have one; a value of fewer than three is none of the fleet."""
+    """Return the values on which all machines of a fleet agree; fewer than three that have a value are no fleet."""
     found: dict[Address, Value] = {}
     counts: dict[Address, int] = {}
     apart: set[Address] = set()

@@ -73,6 +73,20 @@ FORMS = {
     "element": each("<setting>{s}</setting>"),
     "object": json.dumps({f"${n}": text for n, text in SETTINGS.items()}),
     "object in lines": json.dumps({f"${n}": text for n, text in SETTINGS.items()}, indent=1),
+    "object for each setting": json.dumps(
+        {
+            "firmwareName": "Grbl 1.1f",
+            "settings": [
+                {"key": f"${n}", "value": text, "units": "mm", "description": f"a setting (${n})"}
+                for n, text in SETTINGS.items()
+            ],
+        },
+        indent=2,
+    ),
+    "object for each setting, value first, in one line": json.dumps(
+        [{"value": text, "setting": f"${n}"} for n, text in SETTINGS.items()]
+    ),
+    "minus sign of a PDF": each("{s}").replace("=-", "=\u2212"),
     "object without quotes": "{\n" + each("  '${n}': {v},") + "\n}",
     "array": json.dumps(LINES),
     "program": each('send_line("{s}"); // step pulse'),

@@ -4,6 +4,7 @@
     [12:30:01] > $110=500                           time stamps, marks of a direction, names of programs
     $$ < $0=10; $1=25; ok                           a whole answer in one line
     "$110": "500.000",                              a table or an object of another program
+    {"key": "$110", "value": "500.000", …}          an object for each setting, as UGS exports them
     ; [BOARD:T41U5XBB]                              what the control answers to $I, plain or as a remark
     Kleine CNC, 21.12.2015:                         a heading
 
@@ -50,6 +51,9 @@ _AROUND = re.compile(
 _LEAST, _MOST_LISTINGS, _LOOKED_AT = 8, 1000, 20_000
 _MOST_LINES, _LONGEST, _LONGEST_VALUE = 200_000, 65_536, 400
 """A listing has some hundred lines, a log of a day some ten thousand; the longest value is a macro."""
+_OBJECT = re.compile(r"\{[^{}]{0,4000}\}")
+_NAMED = re.compile(r'"\$(0|[1-9][0-9]{0,4})"\s*[,}]')
+_ITS_VALUE = re.compile(r'"value"\s*:\s*(?:"([^"]*)"|(-?[0-9][-+.0-9eE]*|true|false))', re.IGNORECASE)
 _FACTS = (
     "VER",
     "OPT",
@@ -129,7 +133,7 @@ class Log:
 
 def is_listing(text: str) -> bool:
     """Return whether a text is for the most part settings of a Grbl, or has at least a few of them."""
-    return "$" in text and any(_has_settings(text, anywhere) for anywhere in (False, True))
+    return "$" in text and any(_has_settings(_OBJECT.sub(_in_one_line, text), deep) for deep in (False, True))
 
 
 def _has_settings(text: str, anywhere: bool) -> bool:
@@ -147,11 +151,22 @@ def read_log(text: str) -> Log:
 
     Settings in the middle of a line are read only where the text has no listing otherwise: "then I set $22=1" is none.
     """
+    text = _OBJECT.sub(_in_one_line, text)
     found = _read(text, anywhere=False)
     if max((len(listing.settings) for listing in found.listings), default=0) >= _LEAST:
         return found
     deeper = _read(text, anywhere=True)
     return deeper if sum(len(one.settings) for one in deeper.listings) >= _LEAST else found
+
+
+def _in_one_line(found: re.Match[str]) -> str:
+    """Return an object that names a setting and its value as a setting, on the line of its name; any other as it is."""
+    name, value = _NAMED.search(found[0]), _ITS_VALUE.search(found[0])
+    if name is None or value is None:
+        return found[0]
+    text = value[2] if value[1] is None else value[1]
+    lines = found[0].count("\n", 0, name.start())
+    return "\n" * lines + f'"${name[1]}": "{text}",' + "\n" * (found[0].count("\n") - lines)
 
 
 def _read(text: str, *, anywhere: bool) -> Log:
@@ -313,7 +328,7 @@ def figure(text: str) -> str:
 
     ``26,667`` is 26.667: a control writes no thousands. ``10 usec`` is 10, ``200.000ok`` is 200.000.
     """
-    found = re.fullmatch(rf"({_NUMBER})(?:ok|[^\w.:+-].*)?", text, re.IGNORECASE)
+    found = re.fullmatch(rf"({_NUMBER})(?:ok|[^\w.:+-].*)?", text.replace("\u2212", "-"), re.IGNORECASE)
     if not found:
         return text
     return found[1].replace(",", ".")
