@@ -31,6 +31,8 @@ OPTIONS: dict[str, Any] = {"fastmath": False, "error_model": "numpy", "_nrt": Fa
 nothing here makes one: counting them at every call took more time than a law."""
 
 _loaded: set[tuple[Sample, Sample | None]] = set()
+_plain_steps: dict[tuple[Sample, Sample | None], float] = {}
+"""Physics steps of each law that this process has computed as plain Python."""
 
 
 @lru_cache(maxsize=64)
@@ -86,9 +88,13 @@ def can_compile() -> bool:
     return True
 
 
-def is_loaded(position_sample: Sample, velocity_sample: Sample | None) -> bool:
-    """Return whether the machine code of a law is in this process, so that it costs nothing."""
-    return (position_sample, velocity_sample) in _loaded
+def pays(position_sample: Sample, velocity_sample: Sample | None, steps: float) -> bool:
+    """Return whether machine code is worth its loading for so many physics steps more, after all that this process has computed without it."""
+    law = position_sample, velocity_sample
+    if law in _loaded:
+        return True
+    _plain_steps[law] = _plain_steps.get(law, 0.0) + steps
+    return _plain_steps[law] > PLAIN_STEPS
 
 
 def _own(position_sample: Sample, velocity_sample: Sample | None) -> dict[str, FunctionType]:

@@ -77,7 +77,19 @@ EMERGENCY = 13
 """s: moment of an emergency stop; infinite for none."""
 DRIVEN_ROWS = 14
 """Rows at most before an alarm."""
-TIMING_SIZE = 15
+LAST_SAMPLE = 15
+"""The run is interrupted before this servo sample, and can be taken up there; infinite for never."""
+TO_END = 16
+"""1 to be interrupted before the first servo sample at the end of the command."""
+WATCHES = 17
+"""How many places are watched; a run is interrupted before the servo sample that sees one passed."""
+WATCH = 18
+"""The first place: signal (`AT_LOAD` or `AT_DEVICE`), direction (1 or -1), place (u), and the command (u) beyond which it counts."""
+WATCH_WIDTH, MOST_WATCHES = 4, 4
+TIMING_SIZE = 34
+
+AT_LOAD, AT_DEVICE = 0.0, 1.0
+"""What a watch reads: where the load is (a switch), what the position device measures (a marker, a software limit)."""
 
 STANDSTILL = 1e-9
 """u/s: an axis that runs out is at rest below; a drive with a velocity loop brings it to 0 in no finite time."""
@@ -86,7 +98,13 @@ ENDED, ALARM_ROW = 0, 1
 """Of a run: sample at which the command ended and row of the alarm, both -1 before."""
 PLANT = 2
 """State of the plant: the first of the seven figures of `plant.State`."""
-STATE_SIZE = 9
+SAMPLE, RESTLESS, PIECE, MOMENT, SHARE = 9, 10, 11, 12, 13
+"""Where the run is: servo sample, that of the last motion, piece and moment of the command, share of the feedrate."""
+SLOT, SINCE, COASTING = 14, 15, 16
+"""Place in the delay line, physics steps since the last row, s that the axis may still run out after an alarm."""
+SEEN = 17
+"""Number of the watch that interrupted the run, from 1; 0 for none."""
+STATE_SIZE = 18
 
 BOUNDLESS = 1e12
 """Positions beyond are no motion of a machine any more, u."""
@@ -114,6 +132,16 @@ def fed(timing: Vector, time: float, share: float, wanted: float) -> tuple[float
     return time + 0.5 * (share + after) * timing[SERVO_PERIOD], after
 
 
+def seen(timing: Vector, commanded: float, measured: float, load: float) -> int:
+    """Return the number of the first watch whose place is passed, from 1; 0 for none."""
+    for n in range(int(timing[WATCHES])):
+        k = WATCH + n * WATCH_WIDTH
+        sign, where = timing[k + 1], load if timing[k] == AT_LOAD else measured
+        if sign * (commanded - timing[k + 3]) > 0.0 and sign * (where - timing[k + 2]) >= 0.0:
+            return n + 1
+    return 0
+
+
 def run(
     p: Vector,
     s: Vector,
@@ -128,7 +156,9 @@ def run(
     push: Vector,
     rows: npt.NDArray[np.float64],
 ) -> int:
-    """Run the axis until the command is over and the axis at rest, an alarm, or all rows are filled; return the rows.
+    """Run the axis until the command is over and the axis at rest, an alarm, an interruption, or all rows are filled; return the rows.
+
+    After an interruption the same call goes on where it was, with the profile and the watches that it then gets.
 
     ``p``, ``s`` parameters and state of the law, ``io`` the signals, ``m`` the machine over a physics step, ``before`` and ``after``
     over its two parts where a delayed output arrives in it, ``x`` the state of run and plant, ``line`` the delay line, ``timing`` and ``profile`` as their indices say, ``push`` the torque on the load at each servo sample (as many as there are);
@@ -137,16 +167,16 @@ def run(
     period, h = timing[SERVO_PERIOD], timing[STEP]
     samples, substeps, stride = int(timing[VELOCITY_SAMPLES]), int(timing[SUBSTEPS]), int(timing[STRIDE])
     monitors = int(timing[MONITORS])
-    delay, part, slot = int(m[DELAY_STEPS]), m[DELAY_SHARE], 0
+    delay, part, slot = int(m[DELAY_STEPS]), m[DELAY_SHARE], int(x[SLOT])
     late, arrives = delay > 0 or part > 0.0, part * h
     on_load = m[LOAD_SENSOR] == 1.0
     motor_position, motor, load_position = x[PLANT], x[PLANT + 1], x[PLANT + 2]
     load, torque, error_sum, against = x[PLANT + 3], x[PLANT + 4], x[PLANT + 5], x[PLANT + 6]
-    row, since, coasting = 0, stride, 0.0
+    row, since, coasting = 0, int(x[SINCE]), x[COASTING]
     most, last = int(timing[DRIVEN_ROWS]), len(profile) // WIDTH - 1
     # Servo samples since the start, that of the last motion, that of the end of the command (-1 before).
-    sample, restless, ended = 0, 0, -1
-    piece, moment, share = 0, 0.0, 1.0
+    sample, restless, ended = int(x[SAMPLE]), int(x[RESTLESS]), int(x[ENDED])
+    piece, moment, share = int(x[PIECE]), x[MOMENT], x[SHARE]
     weight, pushed = m[GRAVITY], len(push)
     while True:
         start = sample * period
@@ -164,9 +194,18 @@ def run(
             m, load_position if on_load else motor_position, POSITION_COUNT, POSITION_COUNTS
         )
         io[MOTOR] = counted(m, motor_position, MOTOR_COUNT, MOTOR_COUNTS)
+        passed_by = seen(timing, io[COMMAND], io[POSITION], load_position)
+        if passed_by > 0 or sample >= timing[LAST_SAMPLE] or (piece == last and timing[TO_END] != 0.0):
+            x[PLANT], x[PLANT + 1], x[PLANT + 2] = motor_position, motor, load_position
+            x[PLANT + 3], x[PLANT + 4], x[PLANT + 5], x[PLANT + 6] = load, torque, error_sum, against
+            x[SAMPLE], x[RESTLESS], x[PIECE], x[MOMENT] = float(sample), float(restless), float(piece), begun
+            x[SHARE], x[SLOT], x[SINCE], x[COASTING] = share, float(slot), float(since), coasting
+            x[SEEN] = float(passed_by)
+            return row
         if coasting > 0.0:
             coasting -= period
             if coasting <= 0.0 or (abs(motor) < STANDSTILL and abs(load) < STANDSTILL):
+                x[PLANT], x[PLANT + 2] = motor_position, load_position
                 return row
         else:
             position_sample(p, s, io)

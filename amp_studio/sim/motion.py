@@ -10,7 +10,7 @@ import numpy as np
 import numpy.typing as npt
 
 from . import kernel
-from .compiled import PLAIN_STEPS, can_compile, compiled, is_loaded, plain
+from .compiled import can_compile, compiled, pays, plain
 from .errors import SimulationError
 from .law import AxisLaw
 from .machine import DELAY_SHARE, DELAY_STEPS, machine_array
@@ -143,9 +143,11 @@ def prepared(
     timing[kernel.IN_POSITION_BAND] = max(axis.inposition_band, 1.5 * axis.machine.position_count)
     timing[kernel.SETTLE_TIME], timing[kernel.DRIVEN_ROWS] = until.settle_time, float(driven)
     timing[kernel.SHARE_RATE], timing[kernel.EMERGENCY], timing[kernel.FORWARD] = math.inf, math.inf, 1.0
+    timing[kernel.LAST_SAMPLE] = math.inf
     io, x = [0.0] * (MONITOR + len(axis.monitors)), [0.0] * kernel.STATE_SIZE
     io[FEED_SHARE], io[MODE] = 1.0, POSITION_LOOP
     x[kernel.ENDED] = x[kernel.ALARM_ROW] = -1.0
+    x[kernel.SINCE], x[kernel.SHARE] = float(stride), 1.0
     machine = machine_array(axis.machine, step)
     part = machine[DELAY_SHARE] * step
     before, after = (
@@ -175,7 +177,7 @@ def _run(
 ) -> tuple[int, list[float], list[float]]:
     """Run the kernel for about ``expected`` steps; return the filled rows, the signals and the state at the end."""
     law = axis.position_sample, axis.velocity_sample
-    machine_code = engine == "compiled" or (engine == "auto" and (expected > PLAIN_STEPS or is_loaded(*law)))
+    machine_code = engine == "compiled" or (engine == "auto" and pays(*law, expected))
     if machine_code and can_compile():
         arrays = [np.array(each, dtype=np.float64) for each in vectors]
         filled = compiled(*law)(*arrays, rows)

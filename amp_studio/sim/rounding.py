@@ -9,7 +9,7 @@ from decimal import ROUND_CEILING, ROUND_FLOOR, ROUND_HALF_EVEN, Decimal
 def _rounded(value: float, digits: int, way: str) -> float:
     if value == 0.0 or not math.isfinite(value):
         return value
-    exact = Decimal(repr(value))
+    exact = Decimal(repr(float(value)))
     return float(exact.quantize(Decimal(1).scaleb(exact.adjusted() - digits + 1), rounding=way))
 
 
@@ -31,7 +31,7 @@ def rounded(value: float, digits: int) -> float:
 def shown(value: float, unit: str = "", digits: int = 4) -> str:
     """Return a value with this number of digits and its unit, without trailing zeros and without an exponent."""
     near = rounded(value, digits)
-    text = format(Decimal(repr(near)), "f") if math.isfinite(near) else repr(near)
+    text = format(Decimal(repr(float(near))), "f") if math.isfinite(near) else repr(near)
     if "." in text:
         text = text.rstrip("0").rstrip(".")
     return f"{text} {unit}".rstrip()

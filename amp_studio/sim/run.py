@@ -71,8 +71,10 @@ def simulate(
     trace = chosen.run(bound, own, *second)
     if not advise:
         return in_unit(_named(trace, letter), length)
-    trial = Trial(file, lambda other: bind_axis(other, law, bound.axis, model))
-    found, notes = recommendations(trial, scenario, (*trace.recommendations, *law.advise(bound, trace)))
+    found, notes = (*trace.recommendations, *law.advise(bound, trace)), tuple[str, ...]()
+    if chosen.gains:
+        trial = Trial(file, lambda other: bind_axis(other, law, bound.axis, model))
+        found, notes = recommendations(trial, scenario, found)
     notes, doubtful = (*trace.assumptions, *notes), doubts(file, read, model)
     done = replace(trace, recommendations=found, assumptions=notes, doubts=doubtful)
     return in_unit(_named(done, letter), length)

@@ -25,6 +25,8 @@ class Scenario:
     """Settings of the scenario -> what they are."""
     run: Callable[..., Trace]
     """run(axis, settings in canonical units) -> Trace, with the second axis after them if there is one; raises SimulationError."""
+    gains: bool = True
+    """Whether gains are recommended after it; a homing or a stop asks for its own figures."""
     second: bool = False
     """Whether a second axis takes part: the one of ``move.second_axis``, else the next that can be simulated."""
 

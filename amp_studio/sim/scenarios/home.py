@@ -7,12 +7,12 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from amp_studio.sim.course import Course, Seen
 from amp_studio.sim.errors import SimulationError
 from amp_studio.sim.events import Homing
 from amp_studio.sim.law import AxisLaw, Ramp
 from amp_studio.sim.model import assumptions
 from amp_studio.sim.motion import Motion
+from amp_studio.sim.moving_axis import MovingAxis, Seen, Watch
 from amp_studio.sim.rounding import rounded_up, shown
 from amp_studio.sim.scenario import Scenario, Settings, above_zero, number, refuse_unknown
 from amp_studio.sim.trace import Alarm, Figure, Trace
@@ -63,9 +63,9 @@ def run_home(axis: AxisLaw, settings: Settings) -> Trace:
             "The direction of homing is in the file: leave out move.direction", "move.direction"
         )
     ramp = homing.ramp or (axis.manual_ramp(True) if axis.manual_ramp else next(iter(axis.ramps.values())))
-    course, found = Course(axis), _Found()
+    course, found = MovingAxis(axis), _Found()
     _search(course, homing, ramp, settings, found)
-    motion = course.run()
+    motion = course.motion()
     alarms = alarms_of(axis, motion)
     if found.alarm:
         alarms = (Alarm(found.alarm, float(motion.columns["time_s"][-1]), found.why),)
@@ -108,7 +108,7 @@ def _turned(homing: Homing, settings: Settings) -> Homing:
     return replace(homing, approach=sign * homing.approach, leave=sign * homing.leave)
 
 
-def _search(course: Course, homing: Homing, ramp: Ramp, settings: Settings, found: _Found) -> None:
+def _search(course: MovingAxis, homing: Homing, ramp: Ramp, settings: Settings, found: _Found) -> None:
     """Run the sequence as far as it comes."""
     edge, length = 0.0, number(settings, "move.switch_length")
     if length is not None and length <= 0.0:
@@ -118,10 +118,10 @@ def _search(course: Course, homing: Homing, ramp: Ramp, settings: Settings, foun
         found.switch = above_zero(settings, "move.switch") or _default(course.axis, homing.approach, ramp)
         edge = sign * found.switch
         far = abs(edge) + 2.0 * homing.turn
-        if course.go(homing.approach, ramp, lambda c: sign * (c["position"] - edge) >= 0.0, far) is None:
+        if course.go(homing.approach, ramp, Watch(edge, sign), far) is None:
             return
         course.stop(ramp)
-        found.overrun = float((sign * (course.run().columns["position"] - edge)).max())
+        found.overrun = course.passed(edge, sign)
         end = edge + sign * (math.inf if length is None else length)
         if math.copysign(1.0, homing.leave) == sign:
             if length is None:
@@ -143,7 +143,7 @@ def _search(course: Course, homing: Homing, ramp: Ramp, settings: Settings, foun
 
 
 def _leave(
-    course: Course, homing: Homing, ramp: Ramp, settings: Settings, found: _Found, edge: float
+    course: MovingAxis, homing: Homing, ramp: Ramp, settings: Settings, found: _Found, edge: float
 ) -> None:
     """Leave the switch whose end is at ``edge``, go to the marker and to the home position."""
     sign, far = math.copysign(1.0, homing.leave), MARKERS * homing.turn
@@ -156,7 +156,7 @@ def _leave(
     first = edge + sign * (QUARTER * homing.turn if given is None else given)
     if homing.approach:
         way = abs(course.position - edge) + far
-        found.left = course.go(homing.leave, ramp, lambda c: sign * (c["position"] - edge) >= 0.0, way)
+        found.left = course.go(homing.leave, ramp, Watch(edge, sign), way)
         if found.left is None:
             return
     start = found.left.measured if found.left else 0.0
@@ -168,7 +168,7 @@ def _leave(
         turns = math.floor(sign * (least - first) / homing.turn) + 1
         marker = found.marker = first + sign * turns * homing.turn
         speed = math.copysign(homing.search or abs(homing.leave), homing.leave)
-        if course.go(speed, ramp, lambda c: sign * (c["measured_position"] - marker) >= 0.0, far) is None:
+        if course.go(speed, ramp, Watch(marker, sign, device=True), far) is None:
             return
         course.stop(ramp)
     else:
@@ -211,4 +211,4 @@ def _figures(
     return figures
 
 
-SCENARIO = Scenario("home", "Homing: switch, marker and home position", SETTINGS, run_home)
+SCENARIO = Scenario("home", "Homing: switch, marker and home position", SETTINGS, run_home, gains=False)

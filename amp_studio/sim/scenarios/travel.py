@@ -7,11 +7,11 @@ from dataclasses import replace
 
 import numpy as np
 
-from amp_studio.sim.course import Course
 from amp_studio.sim.errors import SimulationError
 from amp_studio.sim.events import Travel
 from amp_studio.sim.law import AxisLaw, Ramp
 from amp_studio.sim.model import assumptions
+from amp_studio.sim.moving_axis import MovingAxis, Watch
 from amp_studio.sim.rounding import shown
 from amp_studio.sim.scenario import Scenario, Settings, number, refuse_unknown
 from amp_studio.sim.trace import Alarm, Figure, Trace
@@ -60,13 +60,11 @@ def run_travel(axis: AxisLaw, settings: Settings) -> Trace:
         + 5.0 / axis.position_rate
     )
     start = edge - sign * run_up if given is None else given
-    course, limit = Course(axis), edge - start
-    seen = course.go(
-        sign * feedrate, ramp, lambda c: sign * (c["measured_position"] - limit) >= 0.0, abs(limit) + run_up
-    )
+    course, limit = MovingAxis(axis), edge - start
+    seen = course.go(sign * feedrate, ramp, Watch(limit, sign, device=True), abs(limit) + run_up)
     if seen is not None:
         course.stop(Ramp())  # at once
-    motion = course.run()
+    motion = course.motion()
     columns = {key: each.copy() for key, each in per_minute(motion.columns).items()}
     for key in ("command_position", "position", "measured_position"):
         columns[key] += start
@@ -119,4 +117,6 @@ def _zone(travel: Travel, settings: Settings) -> dict[str, tuple[float, float]] 
     return {f"programmable zone {name}": travel.zones[name]}
 
 
-SCENARIO = Scenario("travel", "Against a limit of the travel: where the axis stops", SETTINGS, run_travel)
+SCENARIO = Scenario(
+    "travel", "Against a limit of the travel: where the axis stops", SETTINGS, run_travel, gains=False
+)

@@ -1,0 +1,321 @@
+"""An axis that is stepped in its own time: its command changes while it moves, and places in its way are watched.
+
+One uninterrupted motion over the kernel of every scenario (`kernel.py`): homing, limits, and the machine behind an emulated control
+use this class, so that an axis moves at the desk as it does behind a control.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+from . import kernel
+from .compiled import can_compile, compiled, pays, plain
+from .errors import SimulationError
+from .law import AxisLaw, Ramp
+from .machine import POSITION_COUNT, POSITION_COUNTS
+from .motion import IO, STATE, TIMING, Engine, Motion, Until, prepared, steps
+from .pieces import Piece, change, length
+from .profiles import IN_POSITION, POLYNOMIAL, WIDTH, command, piece_at
+from .ramps import exponential_pieces, leg, profile_of
+from .signals import COMMAND, COMMAND_ACCELERATION, COMMAND_VELOCITY, STOP
+
+LAGS = 5.0
+"""Time constants of the position loop by which a command goes on beyond the farthest place of an event."""
+SETTLE = 20.0
+"""Time constants of the position loop that each wait for in position may take."""
+LONGEST_WAIT = 5.0
+"""s more than that."""
+REST = 0.05
+"""s at rest after the last command of a scenario."""
+POSITIONS = (1, 3, 4)
+"""Columns of the rows that are positions."""
+CHUNK = 4096
+"""Servo samples of one call of the kernel."""
+LONGEST = 3600.0
+"""s of one order that are simulated."""
+LAW_STATE, MACHINE, PROFILE = 1, 3, 9
+"""Places among the vectors of the kernel."""
+
+
+@dataclass(frozen=True)
+class Watch:
+    """A place in u that is reported at the first servo sample at which the axis has passed it in a direction."""
+
+    at: float
+    sign: float
+    """1.0 or -1.0."""
+    device: bool = False
+    """Whether it is a place of the position device (a marker, a software limit), not of the load (a switch)."""
+
+
+@dataclass(frozen=True)
+class Seen:
+    """The servo sample that saw a place passed: number of the watch, s, and in u the actual and the measured position."""
+
+    watch: int
+    time: float
+    position: float
+    measured: float
+
+
+class MovingAxis:
+    """One axis, at rest at position 0 at the start; lengths in u, velocities in u/s with their sign.
+
+    Without ``keep`` no rows are kept: for a machine that lives as long as its control.
+    """
+
+    def __init__(self, axis: AxisLaw, *, engine: Engine = "auto", keep: bool = True, coast: float = 0.0):
+        self.axis = replace(axis, after=None)
+        self.position = self.velocity = 0.0
+        """Of the command, now."""
+        self.speed = 0.0
+        """Of the load, u/s."""
+        self.is_over = False
+        """Whether an alarm ended the motion, or the axis did not get in position in time."""
+        self._engine, self._keep = engine, keep
+        self._origin = 0.0  # where the kernel has its 0
+        samples, substeps = steps(axis)
+        self._steps, self._samples = samples * substeps, samples
+        vectors, self._rows = prepared(self.axis, [], Until(axis.servo_period * CHUNK), substeps)
+        self._vectors: list[Any] = [*vectors]
+        """Lists, or arrays once machine code runs."""
+        self._kept: list[npt.NDArray[np.float64]] = []
+        self._count = 0  # rows that are kept
+        self._alarm_row: int | None = None
+        self._end: float | None = None
+        self._last_steps = 0.0  # physics steps of the last call
+        self._is_compiled = False
+        timing = self._vectors[TIMING]
+        timing[kernel.COAST_TIME] = coast
+        timing[kernel.REST_TIME] = timing[kernel.SETTLE_TIME] = math.inf
+        self._rest()
+
+    # -- what it is doing ---------------------------------------------------------------
+
+    @property
+    def time(self) -> float:
+        """Seconds since it was made."""
+        return float(self._vectors[STATE][kernel.SAMPLE]) * self.axis.servo_period
+
+    @property
+    def load(self) -> float:
+        """Where the load is, u."""
+        return self._origin + float(self._vectors[STATE][kernel.PLANT + 2])
+
+    @property
+    def measured(self) -> float:
+        """What the position device measures, u."""
+        x = self._vectors[STATE]
+        at = float(x[kernel.PLANT + 2 if self.axis.machine.load_sensor else kernel.PLANT])
+        return self._origin + float(
+            kernel.counted(self._vectors[MACHINE], at, POSITION_COUNT, POSITION_COUNTS)
+        )
+
+    @property
+    def stop_number(self) -> int:
+        """Number of the alarm that stopped it; 0 for none."""
+        return int(self._vectors[IO][STOP])
+
+    # -- orders that are carried out at once --------------------------------------------
+
+    def go(self, velocity: float, ramp: Ramp, watch: Watch, farthest: float) -> Seen | None:
+        """Go at a velocity until a place is passed, at most ``farthest`` u; None where that does not come, or an alarm does."""
+        if self.is_over:
+            return None
+        pieces = change(ramp, abs(self.velocity), abs(velocity))
+        # The axis is behind the command, which does not end before the axis is there.
+        behind = LAGS * abs(velocity) / self.axis.position_rate
+        pieces.append(Piece(max(farthest + behind - length(pieces), 0.0) / abs(velocity), abs(velocity)))
+        self.order(pieces, math.copysign(1.0, velocity))
+        return self.run((watch,))
+
+    def stop(self, ramp: Ramp) -> None:
+        """Stop along the ramp, and wait until the axis is in position."""
+        if self.is_over:
+            return
+        pieces = change(ramp, abs(self.velocity), 0.0)
+        if ramp.kind == "exponential" and pieces:
+            pieces = [replace(pieces[0], duration=self._fades(ramp))]
+        self.order(pieces, math.copysign(1.0, self.velocity))
+        self.run()
+        self.wait()
+
+    def to(self, position: float, feedrate: float, ramp: Ramp) -> None:
+        """Move to a position from rest, and wait until the axis is in position."""
+        distance = position - self.position
+        if self.is_over:
+            return
+        if distance != 0.0:
+            self.order(way(distance, feedrate, ramp, self.axis), math.copysign(1.0, distance))
+            self.run()
+            self.position = position
+        self.wait()
+
+    def wait(self) -> None:
+        """Wait until the axis is in position, checked at every servo sample."""
+        if self.is_over:
+            return
+        self.order([Piece(self.axis.servo_period, kind=IN_POSITION)], 1.0)
+        self.run(most=SETTLE / self.axis.position_rate + LONGEST_WAIT)
+        if not self._is_at_end():
+            self.is_over = True
+
+    def motion(self) -> Motion:
+        """Return all that it did so far, with a moment of rest; one that is over ends where it was."""
+        if not self.is_over:
+            self._end = self.time
+            self._rest()
+            self.advance(REST + self.axis.servo_period)
+        whole = np.concatenate(self._kept) if self._kept else self._rows[:0]
+        names = [*kernel.COLUMNS, *(name for name, _ in self.axis.monitors)]
+        return Motion(
+            dict(zip(names, np.ascontiguousarray(whole.T), strict=True)),
+            self.stop_number,
+            self._samples,
+            self._alarm_row,
+            self._end,
+        )
+
+    def passed(self, place: float, sign: float) -> float:
+        """Return how far the load has been beyond a place in a direction so far, u; below 0 where it never was."""
+        return max((float((sign * (rows[:, 3] - place)).max()) for rows in self._kept), default=-math.inf)
+
+    # -- orders that go on while it is stepped ------------------------------------------
+
+    def order(self, pieces: Sequence[Piece], sign: float) -> None:
+        """Put these pieces in the place of the command, from where it is now."""
+        flat = profile_of(pieces, length(pieces), sign)
+        moment = float(self._vectors[STATE][kernel.MOMENT])
+        for k in range(0, len(flat), WIDTH):
+            flat[k] += moment
+            flat[k + 2] += self.position - self._origin
+        self._set_profile(flat)
+
+    def advance(self, duration: float, watches: Sequence[Watch] = ()) -> Seen | None:
+        """Step on for a time, s, or up to the servo sample that sees a watched place passed."""
+        if self.stop_number and self.is_over:
+            return None
+        x = self._vectors[STATE]
+        return self._run(x[kernel.SAMPLE] + round(duration / self.axis.servo_period), watches, 0.0)
+
+    def run(self, watches: Sequence[Watch] = (), most: float = LONGEST) -> Seen | None:
+        """Step on to the end of the command, to a watched place, an alarm, or for ``most`` s."""
+        x = self._vectors[STATE]
+        last = x[kernel.SAMPLE] + math.ceil(most / self.axis.servo_period)
+        found = self._run(last, watches, 1.0)
+        if found is None and not self.is_over and most == LONGEST and not self._is_at_end():
+            raise SimulationError(
+                f"The move of axis {self.axis.axis} takes more than {LONGEST:g} s: give a shorter distance or a higher feedrate"
+            )
+        return found
+
+    def restart(self) -> None:
+        """Take the axis up again where it came to rest after an alarm, the command being where the device measures it."""
+        x, at = self._vectors[STATE], self.measured
+        motor, load = float(x[kernel.PLANT]), float(x[kernel.PLANT + 2])
+        fresh, _ = prepared(self.axis, [], Until(self.axis.servo_period), self._steps // self._samples)
+        for place in (LAW_STATE, IO, MACHINE):  # the brake is open again
+            self._vectors[place][:] = fresh[place]
+        shift, self._origin = at - self._origin, at  # a law begins at 0
+        x[kernel.PLANT : kernel.PLANT + 7] = [motor - shift, 0.0, load - shift, 0.0, 0.0, 0.0, 0.0]
+        x[kernel.COASTING], x[kernel.ALARM_ROW] = 0.0, -1.0
+        self.is_over, self.position = False, at
+        self._rest()
+
+    # -- small parts --------------------------------------------------------------------
+
+    def _rest(self) -> None:
+        """Have the command rest where it is."""
+        self.velocity = 0.0
+        self._set_profile([0.0, math.inf, self.position - self._origin, 0.0, 0.0, 0.0, POLYNOMIAL, 0.0])
+
+    def _set_profile(self, flat: list[float]) -> None:
+        self._profile = flat
+        x = self._vectors[STATE]
+        x[kernel.PIECE], x[kernel.ENDED] = 0.0, -1.0
+        self._vectors[PROFILE] = np.array(flat) if self._is_compiled else flat
+
+    def _is_at_end(self) -> bool:
+        return float(self._vectors[STATE][kernel.MOMENT]) >= self._profile[-WIDTH]
+
+    def _run(self, last: float, watches: Sequence[Watch], to_end: float) -> Seen | None:
+        timing, x = self._vectors[TIMING], self._vectors[STATE]
+        timing[kernel.TO_END], timing[kernel.WATCHES] = to_end, float(len(watches))
+        for n, watch in enumerate(watches):
+            k = kernel.WATCH + n * kernel.WATCH_WIDTH
+            timing[k] = kernel.AT_DEVICE if watch.device else kernel.AT_LOAD
+            timing[k + 1], timing[k + 2] = watch.sign, watch.at - self._origin
+            timing[k + 3] = self.position - self._origin
+        found: Seen | None = None
+        while not self.is_over:
+            before = x[kernel.SAMPLE]
+            timing[kernel.LAST_SAMPLE] = min(last, before + CHUNK)
+            self._call()
+            x, timing = self._vectors[STATE], self._vectors[TIMING]
+            if x[kernel.SEEN]:
+                found = Seen(int(x[kernel.SEEN]) - 1, self.time, self.load, self.measured)
+            if found or x[kernel.SAMPLE] >= last or x[kernel.SAMPLE] < before + CHUNK:
+                break
+        self._take_command()
+        return found
+
+    def _call(self) -> None:
+        law = self.axis.position_sample, self.axis.velocity_sample
+        wanted = self._engine == "compiled" or (self._engine == "auto" and pays(*law, self._last_steps))
+        if not self._is_compiled and wanted and can_compile():
+            self._vectors = [np.array(each, dtype=np.float64) for each in self._vectors]
+            self._is_compiled = True
+        x = self._vectors[STATE]
+        before = x[kernel.SAMPLE]
+        try:
+            filled = (compiled if self._is_compiled else plain)(*law)(*self._vectors, self._rows)
+        except OverflowError:  # a count of a position without bounds
+            raise SimulationError(f"Axis {self.axis.axis} runs away: its loop is not stable") from None
+        self._last_steps = float(x[kernel.SAMPLE] - before) * self._steps
+        self._keep_rows(filled)
+        if self._vectors[IO][STOP] != 0.0:
+            self.is_over = True
+
+    def _keep_rows(self, filled: int) -> None:
+        rows = self._rows[:filled]
+        if not np.isfinite(rows).all():
+            raise SimulationError(
+                f"The figures of axis {self.axis.axis} are too large or too small to be computed with. Check its gains and model.*"
+            )
+        if filled:
+            self.speed = float(rows[-1, 6])
+        if not self._keep:
+            return
+        if self._vectors[STATE][kernel.ALARM_ROW] >= 0.0 and self._alarm_row is None:
+            self._alarm_row = self._count + int(self._vectors[STATE][kernel.ALARM_ROW])
+        kept = rows.copy()
+        kept[:, POSITIONS] += self._origin
+        self._kept.append(kept)
+        self._count += filled
+
+    def _take_command(self) -> None:
+        """Read position and velocity of the command at this moment."""
+        io = [0.0] * (max(COMMAND, COMMAND_VELOCITY, COMMAND_ACCELERATION) + 1)
+        moment = float(self._vectors[STATE][kernel.MOMENT])
+        command(self._profile, piece_at(self._profile, 0, moment), moment, io)
+        self.position, self.velocity = self._origin + io[COMMAND], io[COMMAND_VELOCITY]
+
+    def _fades(self, ramp: Ramp) -> float:
+        """Return how long an exponential stop lasts: until less than a count of it is left, s."""
+        left = abs(self.velocity) * ramp.time
+        count = max(self.axis.machine.position_count, 1e-6 * left)
+        return ramp.time * math.log(max(left / count, 1.0))
+
+
+def way(distance: float, feedrate: float, ramp: Ramp, axis: AxisLaw) -> list[Piece]:
+    """Return the pieces of a move from rest to rest, without its sign."""
+    size, count = abs(distance), axis.machine.position_count
+    if ramp.kind == "exponential":
+        return exponential_pieces(size, [(0.0, feedrate)], ramp, count)
+    return leg(size, feedrate, ramp)
