@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import Literal
 
 RAMPS = ("none", "linear", "exponential", "s-curve", "sine-squared")
@@ -29,13 +29,37 @@ class Ramp:
 
 
 @dataclass(frozen=True)
+class Failure:
+    """An alarm of a homing that fails, as the control shows it."""
+
+    code: str
+    """With a colon at its end where the control shows the name of the axis after it."""
+    message: str
+    reach: float = math.inf
+    """u after which it comes: without a marker, or without leaving the switch."""
+
+
+@dataclass(frozen=True)
+class CodedScale:
+    """Distance-coded markers of a linear scale: odd ones every ``small`` u from its zero, even ones every ``large`` u from ``first`` on."""
+
+    small: float
+    large: float
+    first: float
+    zero: float
+    """Machine position of the zero of the scale."""
+    markers: int = 3
+    """How many in a row are needed."""
+
+
+@dataclass(frozen=True)
 class Homing:
     """One homing sequence. Velocities in u/s with their sign in the direction of the machine, lengths in u."""
 
     approach: float
     """Towards the switch; 0 for a sequence without one."""
     leave: float
-    """Off the switch, or towards the marker where there is no switch."""
+    """Off the switch, or towards the marker where there is no switch; 0 where the axis does not move at all."""
     marker: Literal["nearest", "next", "none"]
     """The marker that counts: the one nearest to the end of the switch, the next one beyond it, or the end of the switch itself."""
     turn: float
@@ -50,16 +74,51 @@ class Homing:
     """From the marker to the home position."""
     skipped: float = 0.0
     """Share of a turn: a next marker that is nearer is not taken."""
-    too_fast: str = ""
-    """Alarm where the axis has passed the whole switch before it stops, and leaves it in the same direction; with a colon at its end
-    where the control shows the name of the axis after it."""
+    through: bool = False
+    """Whether the axis goes on over the switch to the first marker after it comes on, without a stop."""
+    again: float = 0.0
+    """Speed of a second approach, after which the switch counts; the axis backs off by ``pull_off`` before and after it."""
+    pull_off: float = 0.0
+    scale: CodedScale | None = None
+    """For an axis without a switch that goes by distance-coded markers: it leaves, and then goes to ``coordinate``."""
     direction_lost: bool = False
     """Whether ``move.direction`` turns the whole sequence round: the direction is not in the file."""
+    stops_by_switch: bool = False
+    """Whether the switch stops the axis at once, without a ramp."""
+    failures: Mapping[str, Failure] = field(default_factory=dict)
+    """Of: switch (none came), fast (passed before it stopped), moving (not at rest in time), stuck (not left), marker (none came),
+    scatter (another turn than the first time)."""
+    rest_window: float = math.inf
+    """Following error that counts as at rest ``REST_AFTER`` s after the stop on the switch."""
     ramp: Ramp | None = None
     """None for the axis' ramp of manual moves."""
     page: str = ""
     notes: tuple[str, ...] = ()
     """What is printed with its page, and what is assumed."""
+
+    def turned(self) -> Homing:
+        """Return the same sequence the other way."""
+        return replace(self, approach=-self.approach, leave=-self.leave)
+
+
+@dataclass(frozen=True)
+class Around:
+    """What is around an axis: switch, markers and ends of its way, in u of where it stands in the machine."""
+
+    switch: float = math.inf
+    """Where the switch comes on, on the way to it."""
+    length: float = math.inf
+    """How long it stays on, farther on that way."""
+    marker: float = 0.0
+    """One of the markers."""
+    has_markers: bool = True
+    is_stuck: bool = False
+    """Whether the switch never goes off again."""
+    low: float = -math.inf
+    high: float = math.inf
+    """Where the axis can go no farther."""
+    scale: float = 0.0
+    """Place on a distance-coded scale where the machine position is 0."""
 
 
 @dataclass(frozen=True)

@@ -205,7 +205,7 @@ def run(
         if coasting > 0.0:
             coasting -= period
             if coasting <= 0.0 or (abs(motor) < STANDSTILL and abs(load) < STANDSTILL):
-                x[PLANT], x[PLANT + 2] = motor_position, load_position
+                x[PLANT], x[PLANT + 2], x[COASTING] = motor_position, load_position, 0.0
                 return row
         else:
             position_sample(p, s, io)

@@ -7,7 +7,7 @@ use this class, so that an axis moves at the desk as it does behind a control.
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Generator, Sequence
 from dataclasses import dataclass, replace
 from typing import Any
 
@@ -64,6 +64,49 @@ class Seen:
     measured: float
 
 
+@dataclass(frozen=True)
+class Go:
+    """Go at a velocity until a place is passed, at most ``farthest`` u; what was seen is the answer, None for nothing."""
+
+    velocity: float
+    ramp: Ramp
+    watch: Watch
+    farthest: float
+
+
+@dataclass(frozen=True)
+class Stop:
+    """Stop along a ramp, and wait until the axis is in position."""
+
+    ramp: Ramp
+
+
+@dataclass(frozen=True)
+class To:
+    """Move to a position from rest, and wait until the axis is in position."""
+
+    position: float
+    feedrate: float
+    ramp: Ramp
+
+
+@dataclass(frozen=True)
+class Pause:
+    """Wait for a time, s."""
+
+    time: float
+
+
+Order = Go | Stop | To | Pause
+Orders = Generator[Order, Seen | None, None]
+"""A sequence as a control goes through it: each order is answered with what it saw."""
+
+
+def one(order: Order) -> Orders:
+    """Return a sequence of one order."""
+    yield order
+
+
 class MovingAxis:
     """One axis, at rest at position 0 at the start; lengths in u, velocities in u/s with their sign.
 
@@ -79,6 +122,9 @@ class MovingAxis:
         self.is_over = False
         """Whether an alarm ended the motion, or the axis did not get in position in time."""
         self._engine, self._keep = engine, keep
+        self._orders: Orders | None = None
+        self._order: Order | None = None
+        self._patience = math.inf  # moment up to which the order may take
         self._origin = 0.0  # where the kernel has its 0
         samples, substeps = steps(axis)
         self._steps, self._samples = samples * substeps, samples
@@ -126,45 +172,25 @@ class MovingAxis:
 
     def go(self, velocity: float, ramp: Ramp, watch: Watch, farthest: float) -> Seen | None:
         """Go at a velocity until a place is passed, at most ``farthest`` u; None where that does not come, or an alarm does."""
-        if self.is_over:
-            return None
-        pieces = change(ramp, abs(self.velocity), abs(velocity))
-        # The axis is behind the command, which does not end before the axis is there.
-        behind = LAGS * abs(velocity) / self.axis.position_rate
-        pieces.append(Piece(max(farthest + behind - length(pieces), 0.0) / abs(velocity), abs(velocity)))
-        self.order(pieces, math.copysign(1.0, velocity))
-        return self.run((watch,))
+        return self.follow(one(Go(velocity, ramp, watch, farthest)))
 
     def stop(self, ramp: Ramp) -> None:
         """Stop along the ramp, and wait until the axis is in position."""
-        if self.is_over:
-            return
-        pieces = change(ramp, abs(self.velocity), 0.0)
-        if ramp.kind == "exponential" and pieces:
-            pieces = [replace(pieces[0], duration=self._fades(ramp))]
-        self.order(pieces, math.copysign(1.0, self.velocity))
-        self.run()
-        self.wait()
+        self.follow(one(Stop(ramp)))
 
     def to(self, position: float, feedrate: float, ramp: Ramp) -> None:
         """Move to a position from rest, and wait until the axis is in position."""
-        distance = position - self.position
-        if self.is_over:
-            return
-        if distance != 0.0:
-            self.order(way(distance, feedrate, ramp, self.axis), math.copysign(1.0, distance))
-            self.run()
-            self.position = position
-        self.wait()
+        self.follow(one(To(position, feedrate, ramp)))
 
-    def wait(self) -> None:
-        """Wait until the axis is in position, checked at every servo sample."""
-        if self.is_over:
-            return
-        self.order([Piece(self.axis.servo_period, kind=IN_POSITION)], 1.0)
-        self.run(most=SETTLE / self.axis.position_rate + LONGEST_WAIT)
-        if not self._is_at_end():
-            self.is_over = True
+    def follow(self, orders: Orders) -> Seen | None:
+        """Carry out orders to their end, or to an alarm; returns what the last of them saw."""
+        seen: Seen | None = None
+        self.begin(orders)
+        while self.is_busy:
+            seen = self._work(math.inf)
+        while self.stop_number and not self.is_over:
+            self._step(math.inf, (), to_end=False)  # it runs out
+        return seen
 
     def motion(self) -> Motion:
         """Return all that it did so far, with a moment of rest; one that is over ends where it was."""
@@ -183,10 +209,96 @@ class MovingAxis:
         )
 
     def passed(self, place: float, sign: float) -> float:
-        """Return how far the load has been beyond a place in a direction so far, u; below 0 where it never was."""
-        return max((float((sign * (rows[:, 3] - place)).max()) for rows in self._kept), default=-math.inf)
+        """Return how far the load has been beyond a place in a direction, u; where no rows are kept, how far it is."""
+        if not self._kept:
+            return sign * (self.load - place)
+        return max(float((sign * (rows[:, 3] - place)).max()) for rows in self._kept)
 
     # -- orders that go on while it is stepped ------------------------------------------
+
+    @property
+    def is_busy(self) -> bool:
+        """Whether orders are under way."""
+        return self._orders is not None and not self.is_over
+
+    def begin(self, orders: Orders) -> None:
+        """Take orders up in the place of those that are under way."""
+        self._orders = orders
+        self._next(None, first=True)
+
+    def drop(self) -> None:
+        """Forget the orders; the command goes on as it is."""
+        self._orders = self._order = None
+
+    def advance(self, duration: float, watches: Sequence[Watch] = ()) -> Seen | None:
+        """Step on for a time, s, with the orders that are under way; ends at a watched place, which is returned."""
+        last = self.time + duration
+        while not self.is_over and last - self.time > 0.5 * self.axis.servo_period:
+            seen = self._work(last, watches) if self._order else self._step(last, watches, to_end=False)
+            if seen is not None and seen.watch >= 0:
+                return seen
+        return None
+
+    def _work(self, last: float, watches: Sequence[Watch] = ()) -> Seen | None:
+        """Step on to the end of the order or to a moment; what the order watched for is returned with a number below 0."""
+        order = self._order
+        own = (order.watch,) if isinstance(order, Go) else ()
+        limit = min(last, self._patience)
+        seen = self._step(limit, (*own, *watches), to_end=True)
+        if seen is not None and own:
+            seen = replace(seen, watch=seen.watch - 1)
+        if self.is_over or (seen is not None and seen.watch >= 0):
+            return seen
+        if seen is not None or self._is_at_end():
+            self._next(seen)
+        elif self.time > self._patience - 0.5 * self.axis.servo_period:  # not in position in all that time
+            self.is_over, self._orders = True, None
+        return seen
+
+    def _next(self, seen: Seen | None, *, first: bool = False) -> None:
+        """Begin the next order."""
+        assert self._orders is not None
+        try:
+            order = next(self._orders) if first else self._orders.send(seen)
+        except StopIteration:
+            self._orders = self._order = None
+            return
+        self._order = order
+        self._patience = math.inf
+        if isinstance(order, Go):
+            self.order(self._going(order), math.copysign(1.0, order.velocity))
+            return
+        pieces, sign = self._resting(order)
+        if not isinstance(order, Pause):
+            pieces.append(Piece(self.axis.servo_period, kind=IN_POSITION))
+            lasts = sum(piece.duration for piece in pieces)
+            self._patience = self.time + 2.0 * lasts + SETTLE / self.axis.position_rate + LONGEST_WAIT
+        self.order(pieces, sign)
+
+    def _going(self, order: Go) -> list[Piece]:
+        speed = abs(order.velocity)
+        pieces = change(order.ramp, abs(self.velocity), speed)
+        # The axis is behind the command, which does not end before the axis is there.
+        behind = LAGS * speed / self.axis.position_rate
+        far = max(order.farthest + behind - length(pieces), 0.0) / speed
+        if not far < LONGEST:
+            raise SimulationError(
+                f"The move of axis {self.axis.axis} takes more than {LONGEST:g} s: give a shorter distance or a higher speed"
+            )
+        return [*pieces, Piece(far, speed)]
+
+    def _resting(self, order: Stop | To | Pause) -> tuple[list[Piece], float]:
+        if isinstance(order, Pause):
+            return [Piece(order.time)], 1.0
+        if isinstance(order, To):
+            distance = order.position - self.position
+            if distance == 0.0:
+                return [], 1.0
+            return way(distance, order.feedrate, order.ramp, self.axis), math.copysign(1.0, distance)
+        pieces = change(order.ramp, abs(self.velocity), 0.0)
+        if order.ramp.kind == "exponential" and pieces:
+            pieces = [replace(pieces[0], duration=self._fades(order.ramp))]
+        return pieces, math.copysign(1.0, self.velocity)
 
     def order(self, pieces: Sequence[Piece], sign: float) -> None:
         """Put these pieces in the place of the command, from where it is now."""
@@ -196,24 +308,6 @@ class MovingAxis:
             flat[k] += moment
             flat[k + 2] += self.position - self._origin
         self._set_profile(flat)
-
-    def advance(self, duration: float, watches: Sequence[Watch] = ()) -> Seen | None:
-        """Step on for a time, s, or up to the servo sample that sees a watched place passed."""
-        if self.stop_number and self.is_over:
-            return None
-        x = self._vectors[STATE]
-        return self._run(x[kernel.SAMPLE] + round(duration / self.axis.servo_period), watches, 0.0)
-
-    def run(self, watches: Sequence[Watch] = (), most: float = LONGEST) -> Seen | None:
-        """Step on to the end of the command, to a watched place, an alarm, or for ``most`` s."""
-        x = self._vectors[STATE]
-        last = x[kernel.SAMPLE] + math.ceil(most / self.axis.servo_period)
-        found = self._run(last, watches, 1.0)
-        if found is None and not self.is_over and most == LONGEST and not self._is_at_end():
-            raise SimulationError(
-                f"The move of axis {self.axis.axis} takes more than {LONGEST:g} s: give a shorter distance or a higher feedrate"
-            )
-        return found
 
     def restart(self) -> None:
         """Take the axis up again where it came to rest after an alarm, the command being where the device measures it."""
@@ -226,6 +320,7 @@ class MovingAxis:
         x[kernel.PLANT : kernel.PLANT + 7] = [motor - shift, 0.0, load - shift, 0.0, 0.0, 0.0, 0.0]
         x[kernel.COASTING], x[kernel.ALARM_ROW] = 0.0, -1.0
         self.is_over, self.position = False, at
+        self.drop()
         self._rest()
 
     # -- small parts --------------------------------------------------------------------
@@ -242,11 +337,13 @@ class MovingAxis:
         self._vectors[PROFILE] = np.array(flat) if self._is_compiled else flat
 
     def _is_at_end(self) -> bool:
-        return float(self._vectors[STATE][kernel.MOMENT]) >= self._profile[-WIDTH]
+        return int(self._vectors[STATE][kernel.PIECE]) == len(self._profile) // WIDTH - 1
 
-    def _run(self, last: float, watches: Sequence[Watch], to_end: float) -> Seen | None:
+    def _step(self, until: float, watches: Sequence[Watch], *, to_end: bool) -> Seen | None:
+        """Run the kernel to a moment, to the end of the command if asked, to a watched place, or to an alarm."""
         timing, x = self._vectors[TIMING], self._vectors[STATE]
-        timing[kernel.TO_END], timing[kernel.WATCHES] = to_end, float(len(watches))
+        last = until / self.axis.servo_period - 0.25 if math.isfinite(until) else math.inf
+        timing[kernel.TO_END], timing[kernel.WATCHES] = float(to_end), float(len(watches))
         for n, watch in enumerate(watches):
             k = kernel.WATCH + n * kernel.WATCH_WIDTH
             timing[k] = kernel.AT_DEVICE if watch.device else kernel.AT_LOAD
@@ -280,7 +377,8 @@ class MovingAxis:
         self._last_steps = float(x[kernel.SAMPLE] - before) * self._steps
         self._keep_rows(filled)
         if self._vectors[IO][STOP] != 0.0:
-            self.is_over = True
+            self.drop()
+            self.is_over = self._vectors[STATE][kernel.COASTING] == 0.0
 
     def _keep_rows(self, filled: int) -> None:
         rows = self._rows[:filled]

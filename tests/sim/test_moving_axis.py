@@ -79,4 +79,6 @@ def test_after_an_alarm_the_axis_is_taken_up_where_it_came_to_rest() -> None:
     moving.restart()
     assert not moving.is_over
     moving.to(at + 1.0, 5.0, Ramp("linear", 50.0))
-    assert moving.measured == pytest.approx(at + 1.0, abs=0.07)  # friction holds a loop without an integral
+    assert moving.measured == pytest.approx(
+        at + 1.0, abs=0.07
+    )  # friction stays in a loop without an integral

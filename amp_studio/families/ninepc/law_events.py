@@ -6,7 +6,7 @@ import math
 
 from amp_studio.sim.axis_parameters import AxisParameters
 from amp_studio.sim.errors import SimulationError
-from amp_studio.sim.events import Homing, Jogging, Ramp, Travel
+from amp_studio.sim.events import Failure, Homing, Jogging, Ramp, Travel
 
 from .law_feedback import COUNTS, DEVICE, Feedback
 from .law_ramps import SCAN, SCANS
@@ -31,6 +31,10 @@ HOMED = (
     ),
     "The home position is the marker nearest to where the switch goes off, and Home Calibration from there (5-4, 5-10).",
     "ASSUMED: the ramp of homing is that of manual moves, exponential by Manual Delay Constant (10-14 calls homing exponential).",
+)
+TOO_FAST = Failure(
+    "JOGGED HOME TOO FAST:",
+    "The axis passed the whole switch before it stopped: it is too fast for it (page 5-4)",
 )
 STOPPED = (
     "A software overtravel stops all commands of a manual motion at once, without a ramp; the axis moves past it by its following error (10-18). ASSUMED: a"
@@ -75,7 +79,7 @@ def homing(read: AxisParameters, feedback: Feedback) -> Homing:
         coordinate=read.number(POSITION),
         final=speed,
         offset=read.optional(CALIBRATION) or 0.0,
-        too_fast="JOGGED HOME TOO FAST:",
+        failures={"fast": TOO_FAST},
         page="5-4",
         notes=HOMED,
     )

@@ -3,16 +3,18 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, replace
+from collections.abc import Sequence
+from dataclasses import replace
 
 import numpy as np
 
 from amp_studio.sim.errors import SimulationError
-from amp_studio.sim.events import Homing
+from amp_studio.sim.events import Around, Homing
+from amp_studio.sim.homing import Homed, home_axis
 from amp_studio.sim.law import AxisLaw, Ramp
 from amp_studio.sim.model import assumptions
 from amp_studio.sim.motion import Motion
-from amp_studio.sim.moving_axis import MovingAxis, Seen, Watch
+from amp_studio.sim.moving_axis import MovingAxis
 from amp_studio.sim.rounding import rounded_up, shown
 from amp_studio.sim.scenario import Scenario, Settings, above_zero, number, refuse_unknown
 from amp_studio.sim.trace import Alarm, Figure, Trace
@@ -23,35 +25,28 @@ SETTINGS = {
     "move.direction": "plus or minus, where the direction is not in the file; default: plus",
     "move.switch": "distance from the start to the home switch (mm or deg); default: enough to reach the homing speed",
     "move.switch_length": "how long the switch stays on (mm or deg); default: to the end of the travel",
-    "move.marker": "distance from the end of the switch to a marker, in the direction off the switch (mm or deg); default: a quarter turn",
+    "move.marker": "distance from the end of the switch to a marker, in the direction off the switch (mm or deg), or none; default: a quarter turn",
+    "move.dog": "stuck for a switch that never goes off; default: one that works",
+    "move.travel": "how far the axis can go from the start towards the switch (mm or deg); default: as far as the switch",
+    "move.scale": "place of the start on a distance-coded scale (mm or deg); default: 5.3 periods",
+    "move.homings": "how often the axis is homed, for the repeatability; default: 1",
+    "move.scatter": "by how much the switch comes on at another place each time, at most (mm or deg); default: 0",
 }
 QUARTER = 0.25
 DOUBTFUL = 0.45
 """Share of a turn between switch and nearest marker from which a sample more or less may take another marker."""
 MOST_TURNS = 100.0
 """Turns from the switch to the marker that is given."""
-MARKERS = 5.0
-"""Turns after which a marker that does not come is none."""
+MOST_HOMINGS = 100
+ON_SCALE = 5.3
+"""Periods of a coded scale from its zero to the start."""
+GOLDEN = 0.6180339887498949
+"""Shares of the scatter come evenly: the multiples of the golden ratio without their whole part (van der Corput's idea)."""
 SEEN = "ASSUMED: switch and marker are seen at the servo sample after they change; logic and input filters, which no manual here times, come later."
 
 
-@dataclass
-class _Found:
-    """What a homing has met so far, in u from the start."""
-
-    switch: float | None = None
-    """How far the start is from the switch."""
-    overrun: float | None = None
-    """How far beyond the edge of the switch the axis stops."""
-    left: Seen | None = None
-    marker: float | None = None
-    home: float | None = None
-    alarm: str = ""
-    why: str = ""
-
-
 def run_home(axis: AxisLaw, settings: Settings) -> Trace:
-    """Home an axis; raises SimulationError for impossible settings."""
+    """Home an axis, as often as asked; raises SimulationError for impossible settings."""
     refuse_unknown(settings, SETTINGS)
     if axis.homing is None:
         raise SimulationError(f"Axis {axis.axis} is not homed by a sequence that is printed")
@@ -63,120 +58,146 @@ def run_home(axis: AxisLaw, settings: Settings) -> Trace:
             "The direction of homing is in the file: leave out move.direction", "move.direction"
         )
     ramp = homing.ramp or (axis.manual_ramp(True) if axis.manual_ramp else next(iter(axis.ramps.values())))
-    course, found = MovingAxis(axis), _Found()
-    _search(course, homing, ramp, settings, found)
-    motion = course.motion()
+    around = _around(axis, homing, ramp, settings)
+    moving, found = _homed(axis, homing, ramp, around)
+    motion = moving.motion()
     alarms = alarms_of(axis, motion)
+    others = [_homed(axis, homing, ramp, each)[1] for each in _scattered(around, homing, settings)]
+    if not found.alarm:
+        _compare(homing, found, others)
     if found.alarm:
-        alarms = (Alarm(found.alarm, float(motion.columns["time_s"][-1]), found.why),)
-    notes = [SEEN, *homing.notes, *assumptions(axis)]
-    length = number(settings, "move.switch_length")
-    if length is not None and found.overrun is not None and found.overrun > length and not found.alarm:
-        notes.insert(
-            0,
-            f"ASSUMED: the axis runs {shown(found.overrun, axis.unit)} over a switch of {shown(length, axis.unit)}, stops behind it and comes back over it; the"
-            " control waits until it goes off again.",
-        )
-    if homing.marker == "nearest" and found.left and found.marker is not None:
-        away = abs(found.marker - found.left.measured) / homing.turn
-        if away > DOUBTFUL:
-            notes.insert(
-                0,
-                f"The marker is {shown(away, digits=2)} turns from where the switch goes off: half a turn away it may be another one each time"
-                f" (page {homing.page}). Move the switch or the encoder.",
-            )
+        alarms = (Alarm(found.alarm, float(motion.columns["time_s"][-1]), found.why), *alarms)
     return Trace(
         scenario="home",
         axis=axis.axis,
         model=axis.title,
         columns=per_minute(motion.columns),
         units=column_units(axis),
-        result=_figures(axis, homing, found, motion, bool(alarms)),
+        result=_figures(axis, homing, found, others, motion, bool(alarms)),
         alarms=alarms,
         recommendations=(),
-        assumptions=tuple(notes),
+        assumptions=(*_doubts(axis, homing, around, found), SEEN, *homing.notes, *assumptions(axis)),
         limits={"inposition band": (axis.inposition_band, axis.unit)},
-        move={} if found.switch is None else {"move.switch": found.switch},
+        move={"move.switch": abs(around.switch)} if homing.approach else {},
     )
+
+
+def _homed(axis: AxisLaw, homing: Homing, ramp: Ramp, around: Around) -> tuple[MovingAxis, Homed]:
+    moving, found = MovingAxis(axis), Homed()
+    moving.follow(home_axis(moving, homing, ramp, around, found))
+    return moving, found
 
 
 def _turned(homing: Homing, settings: Settings) -> Homing:
     """Return the sequence in the direction that is asked for."""
-    sign = {"plus": 1.0, "minus": -1.0}.get(str(settings.get("move.direction", "plus")))
-    if sign is None:
+    direction = str(settings.get("move.direction", "plus"))
+    if direction not in ("plus", "minus"):
         raise SimulationError("move.direction must be plus or minus", "move.direction")
-    return replace(homing, approach=sign * homing.approach, leave=sign * homing.leave)
+    return homing if direction == "plus" else homing.turned()
 
 
-def _search(course: MovingAxis, homing: Homing, ramp: Ramp, settings: Settings, found: _Found) -> None:
-    """Run the sequence as far as it comes."""
-    edge, length = 0.0, number(settings, "move.switch_length")
-    if length is not None and length <= 0.0:
-        raise SimulationError(f"move.switch_length is {length:g}; it must be above 0", "move.switch_length")
+def _around(axis: AxisLaw, homing: Homing, ramp: Ramp, settings: Settings) -> Around:
+    """Return where switch, markers and the end of the way are, from the start; raises SimulationError for impossible ones."""
+    length, travel = above_zero(settings, "move.switch_length"), above_zero(settings, "move.travel")
+    given, has_markers = _marker(axis, homing, settings)
+    if settings.get("move.dog") not in (None, "stuck"):
+        raise SimulationError("move.dog must be stuck, or be left out", "move.dog")
+    sign = math.copysign(1.0, homing.approach or homing.leave or 1.0)
+    around = Around(
+        length=length or math.inf,
+        has_markers=has_markers,
+        is_stuck=settings.get("move.dog") == "stuck",
+        scale=_on_scale(homing, settings),
+        low=-math.inf if travel is None or sign > 0.0 else -travel,
+        high=math.inf if travel is None or sign < 0.0 else travel,
+    )
+    edge = 0.0
     if homing.approach:
-        sign = math.copysign(1.0, homing.approach)
-        found.switch = above_zero(settings, "move.switch") or _default(course.axis, homing.approach, ramp)
-        edge = sign * found.switch
-        far = abs(edge) + 2.0 * homing.turn
-        if course.go(homing.approach, ramp, Watch(edge, sign), far) is None:
-            return
-        course.stop(ramp)
-        found.overrun = course.passed(edge, sign)
-        end = edge + sign * (math.inf if length is None else length)
-        if math.copysign(1.0, homing.leave) == sign:
-            if length is None:
-                raise SimulationError(
-                    "The axis leaves the switch in the direction in which it came: give move.switch_length",
-                    "move.switch_length",
-                )
-            if found.overrun is not None and found.overrun > length:
-                found.alarm, found.why = (
-                    homing.too_fast or "HOME",
-                    (
-                        f"The axis passed the whole switch of {shown(abs(end - edge), course.axis.unit)} before it stopped: it is too fast for it"
-                        f" (page {homing.page})"
-                    ),
-                )
-                return
-            edge = end
-    _leave(course, homing, ramp, settings, found, edge)
+        asked = above_zero(settings, "move.switch")
+        around = replace(around, switch=sign * (asked or _default(axis, homing.approach, ramp)))
+        edge = around.switch
+        leaves_forward = math.copysign(1.0, homing.leave) == sign and not homing.through and not homing.again
+        if leaves_forward and length is None:
+            raise SimulationError(
+                "The axis leaves the switch in the direction in which it came: give move.switch_length",
+                "move.switch_length",
+            )
+        if leaves_forward:
+            edge += sign * around.length
+    off = math.copysign(1.0, homing.leave)
+    return replace(around, marker=edge + off * (QUARTER * homing.turn if given is None else given))
 
 
-def _leave(
-    course: MovingAxis, homing: Homing, ramp: Ramp, settings: Settings, found: _Found, edge: float
-) -> None:
-    """Leave the switch whose end is at ``edge``, go to the marker and to the home position."""
-    sign, far = math.copysign(1.0, homing.leave), MARKERS * homing.turn
+def _marker(axis: AxisLaw, homing: Homing, settings: Settings) -> tuple[float | None, bool]:
+    """Return the distance to a marker, None if none is given, and whether there are markers."""
+    if settings.get("move.marker") == "none":
+        return None, False
     given = number(settings, "move.marker")
     if given is not None and abs(given) > MOST_TURNS * homing.turn:
         raise SimulationError(
-            f"move.marker is {given:g}; give the distance to a marker near the switch, a turn is {shown(homing.turn, course.axis.unit)}",
+            f"move.marker is {given:g}; give the distance to a marker near the switch, a turn is {shown(homing.turn, axis.unit)}",
             "move.marker",
         )
-    first = edge + sign * (QUARTER * homing.turn if given is None else given)
-    if homing.approach:
-        way = abs(course.position - edge) + far
-        found.left = course.go(homing.leave, ramp, Watch(edge, sign), way)
-        if found.left is None:
+    return given, True
+
+
+def _on_scale(homing: Homing, settings: Settings) -> float:
+    given = number(settings, "move.scale")
+    if homing.scale is None:
+        if given is not None:
+            raise SimulationError("This axis has no distance-coded scale: leave out move.scale", "move.scale")
+        return 0.0
+    return ON_SCALE * homing.scale.small if given is None else given
+
+
+def _scattered(around: Around, homing: Homing, settings: Settings) -> list[Around]:
+    """Return what is around the axis at the further homings: the switch at another place within its scatter."""
+    times, scatter = number(settings, "move.homings") or 1.0, number(settings, "move.scatter") or 0.0
+    if not (times == int(times) and 1 <= times <= MOST_HOMINGS):
+        raise SimulationError(
+            f"move.homings is {times:g}; it must be a whole number from 1 to {MOST_HOMINGS}", "move.homings"
+        )
+    if not (0.0 <= scatter < math.inf) or (scatter and not homing.approach):
+        raise SimulationError(
+            "move.scatter must not be negative, and is of an axis with a home switch", "move.scatter"
+        )
+    shares = [(n * GOLDEN) % 1.0 - 0.5 for n in range(1, int(times))]
+    return [replace(around, switch=around.switch + scatter * share) for share in shares]
+
+
+def _compare(homing: Homing, found: Homed, others: Sequence[Homed]) -> None:
+    """Have the control compare the turn between switch and marker with that of the first homing, where it does."""
+    failure, first = homing.failures.get("scatter"), _grid(homing, found)
+    for other in others:
+        again = _grid(homing, other)
+        if failure and first is not None and again is not None and abs(again - first) > failure.reach * 100.0:
+            found.fail(failure)
             return
-    start = found.left.measured if found.left else 0.0
-    if homing.marker == "nearest":
-        course.stop(ramp)
-        found.marker = first + homing.turn * round((start - first) / homing.turn)
-    elif homing.marker == "next":
-        least = start + sign * homing.skipped * homing.turn
-        turns = math.floor(sign * (least - first) / homing.turn) + 1
-        marker = found.marker = first + sign * turns * homing.turn
-        speed = math.copysign(homing.search or abs(homing.leave), homing.leave)
-        if course.go(speed, ramp, Watch(marker, sign, device=True), far) is None:
-            return
-        course.stop(ramp)
-    else:
-        found.marker = start
-        course.stop(ramp)
-    found.home = found.marker + homing.offset
-    if homing.final:
-        course.to(found.home, homing.final, ramp)
+
+
+def _grid(homing: Homing, found: Homed) -> float | None:
+    """Return the way from switch to marker in % of a turn."""
+    if homing.marker == "none" or found.marker is None or found.left is None:
+        return None
+    return abs(found.marker - found.left.measured) / homing.turn * 100.0
+
+
+def _doubts(axis: AxisLaw, homing: Homing, around: Around, found: Homed) -> list[str]:
+    """Return what is doubtful about this homing."""
+    notes = []
+    if homing.marker == "nearest" and found.left and found.marker is not None:
+        away = abs(found.marker - found.left.measured) / homing.turn
+        if away > DOUBTFUL:
+            notes.append(
+                f"The marker is {shown(away, digits=2)} turns from where the switch goes off: half a turn away it may be another one each time"
+                f" (page {homing.page}). Move the switch or the encoder."
+            )
+    if found.overrun is not None and found.overrun > around.length and not found.alarm:
+        notes.append(
+            f"ASSUMED: the axis runs {shown(found.overrun, axis.unit)} over a switch of {shown(around.length, axis.unit)}, stops behind it and comes back over it; the"
+            " control waits until it goes off again."
+        )
+    return notes
 
 
 def _default(axis: AxisLaw, velocity: float, ramp: Ramp) -> float:
@@ -187,7 +208,7 @@ def _default(axis: AxisLaw, velocity: float, ramp: Ramp) -> float:
 
 
 def _figures(
-    axis: AxisLaw, homing: Homing, found: _Found, motion: Motion, alarmed: bool
+    axis: AxisLaw, homing: Homing, found: Homed, others: Sequence[Homed], motion: Motion, alarmed: bool
 ) -> dict[str, Figure]:
     """Return the named figures; none of the home position where it was not reached."""
     u, columns = axis.unit, motion.columns
@@ -195,11 +216,14 @@ def _figures(
     figures: dict[str, Figure] = {}
     if homing.approach:
         figures["approach_feedrate"] = (abs(homing.approach) * 60.0, f"{u}/min")
-        figures["switch_overrun"] = (found.overrun, u)
-    figures["leave_feedrate"] = (abs(homing.leave) * 60.0, f"{u}/min")
-    if homing.marker != "none":
+        if not homing.through:
+            figures["switch_overrun"] = (found.overrun, u)
+    if homing.leave:
+        figures["leave_feedrate"] = (abs(homing.leave) * 60.0, f"{u}/min")
+    if homing.marker != "none" and homing.scale is None and homing.leave:
         from_end = None if found.marker is None or found.left is None else found.marker - found.left.measured
         figures["marker_distance"] = (from_end, u)
+        figures["home_grid"] = (_grid(homing, found), "%")
     off = None if not reached or found.home is None else float(columns["position"][-1]) - found.home
     figures |= {
         "home_position": (homing.coordinate if reached else None, u),
@@ -208,6 +232,10 @@ def _figures(
         "time": (motion.command_end if reached else None, "s"),
         "peak_following_error": (float(np.abs(columns["following_error"][motion.driven]).max()), u),
     }
+    if others:
+        places = [each.home for each in (found, *others) if each.home is not None]
+        whole = reached and len(places) == len(others) + 1
+        figures["repeatability"] = (max(places) - min(places) if whole else None, u)
     return figures
 
 
