@@ -79,6 +79,8 @@ class Homing:
     again: float = 0.0
     """Speed of a second approach, after which the switch counts; the axis backs off by ``pull_off`` before and after it."""
     pull_off: float = 0.0
+    passes: int = 1
+    """How often the second approach is made."""
     scale: CodedScale | None = None
     """For an axis without a switch that goes by distance-coded markers: it leaves, and then goes to ``coordinate``."""
     direction_lost: bool = False
@@ -149,6 +151,14 @@ class Travel:
     zone_page: str = ""
     zone_note: str = ""
     """Page of the zones, and what is assumed of them."""
+    alarm_negative: str = ""
+    """Of the lower limit, where it is another."""
+    stop: Ramp | None = None
+    """How the command stops at a limit; None for at once."""
+    coasts: bool = False
+    """Whether the loop is switched off at a limit instead."""
+    refuses: bool = False
+    """Whether a move beyond a limit is not begun."""
 
     def nearest(self, start: float, sign: float) -> tuple[str, float] | None:
         """Return name and place of the first limit in a direction from a place inside; None without one."""

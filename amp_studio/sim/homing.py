@@ -7,13 +7,15 @@ from collections.abc import Generator
 from dataclasses import dataclass
 
 from .events import Around, CodedScale, Failure, Homing, Ramp
-from .moving_axis import Go, MovingAxis, Order, Orders, Pause, Seen, Stop, To, Watch
+from .moving_axis import GoOrder, MoveOrder, MovingAxis, Order, Orders, PauseOrder, Seen, StopOrder, Watch
 from .rounding import shown
 
 MARKERS = 5.0
 """Turns after which a marker that does not come is none, where no alarm says how many."""
 REST_AFTER = 0.1
 """s after the stop on the switch at which the following error is compared with the window of zero speed (MOT-030)."""
+LOCATE = 5.0
+"""Pull-offs in which a second approach searches the switch (grblHAL config.h, HOMING_AXIS_LOCATE_SCALAR)."""
 FAR = 1e5
 """Turns in which a coded scale is searched for its next markers."""
 
@@ -55,15 +57,22 @@ def home_axis(axis: MovingAxis, homing: Homing, ramp: Ramp, around: Around, foun
     yield from _off(axis, homing, ramp, around, found, edge)
 
 
-Edge = Generator[Order, Seen | None, float]
+EdgeFound = Generator[Order, Seen | None, float]
 
 
-def _onto(axis: MovingAxis, homing: Homing, ramp: Ramp, around: Around, found: Homed) -> Edge:
+def _onto(axis: MovingAxis, homing: Homing, ramp: Ramp, around: Around, found: Homed) -> EdgeFound:
     """Go onto the switch; returns the edge over which it is left."""
     sign, edge = math.copysign(1.0, homing.approach), around.switch
     end = edge + sign * around.length
     if not sign * (axis.load - edge) >= 0.0 or homing.through:
-        seen = yield Go(homing.approach, ramp, Watch(edge, sign), _way(axis, around, sign, homing.turn))
+        none = homing.failures.get("switch")
+        way = min(_way(axis, around, sign, homing.turn), none.reach if none else math.inf)
+        place = edge
+        if (
+            sign * (edge - axis.position) > way
+        ):  # the axis is at the end of its way when the command has ended
+            place, way = sign * math.inf, max(way - axis.behind(homing.approach), 0.0)
+        seen = yield GoOrder(homing.approach, ramp, Watch(place, sign), way)
         if seen is None:
             if not axis.is_over:
                 yield from _failed(
@@ -73,17 +82,17 @@ def _onto(axis: MovingAxis, homing: Homing, ramp: Ramp, around: Around, found: H
         if homing.through:
             found.left = seen
             return edge
-    yield Stop(Ramp() if homing.stops_by_switch else ramp)
+    yield StopOrder(Ramp() if homing.stops_by_switch else ramp, waits=not math.isfinite(homing.rest_window))
+    if math.isfinite(homing.rest_window):
+        yield PauseOrder(REST_AFTER)
+        if not axis.is_over and abs(axis.position - axis.measured) > homing.rest_window:
+            yield from _failed(homing, "moving", ramp, found, "The axis does not come to rest on the switch")
+            return edge
     if axis.is_over:
         return edge
     found.overrun = axis.passed(edge, sign)
-    if math.isfinite(homing.rest_window):
-        yield Pause(REST_AFTER)
-        if abs(axis.position - axis.measured) > homing.rest_window:
-            yield from _failed(homing, "moving", ramp, found, "The axis does not come to rest on the switch")
-            return edge
     if homing.again:
-        yield from _again(axis, homing, ramp, found, edge)
+        yield from _again(axis, homing, ramp, around, found, edge)
         return edge
     if math.copysign(1.0, homing.leave) != sign:
         return edge
@@ -93,25 +102,20 @@ def _onto(axis: MovingAxis, homing: Homing, ramp: Ramp, around: Around, found: H
     return end
 
 
-def _again(axis: MovingAxis, homing: Homing, ramp: Ramp, found: Homed, edge: float) -> Orders:
-    """Back off, come onto the switch slowly, and stop there at once."""
-    sign = math.copysign(1.0, homing.approach)
-    yield To(axis.position - sign * homing.pull_off, abs(homing.approach), ramp)
-    if sign * (axis.load - edge) >= 0.0:
-        yield from _failed(
-            homing,
-            "stuck",
-            ramp,
-            found,
-            f"The switch does not go off within {shown(homing.pull_off, axis.axis.unit)}",
-        )
-        return
-    seen = yield Go(sign * abs(homing.again), ramp, Watch(edge, sign), 5.0 * homing.pull_off)
-    if seen is None:
-        yield from _failed(homing, "switch", ramp, found, "The switch does not come on again")
-        return
-    found.left = seen
-    yield Stop(Ramp())
+def _again(axis: MovingAxis, homing: Homing, ramp: Ramp, around: Around, found: Homed, edge: float) -> Orders:
+    """Back off, come onto the switch slowly and stop there at once, as often as asked."""
+    sign, back = math.copysign(1.0, homing.approach), homing.pull_off
+    for _ in range(homing.passes):
+        yield MoveOrder(axis.position - sign * back, abs(homing.approach), ramp)
+        if around.is_stuck or sign * (axis.load - edge) >= 0.0:
+            off = f"The switch does not go off within {shown(back, axis.axis.unit)}"
+            yield from _failed(homing, "stuck", ramp, found, off)
+            return
+        found.left = yield GoOrder(sign * abs(homing.again), ramp, Watch(edge, sign), LOCATE * back)
+        if found.left is None:
+            yield from _failed(homing, "switch", ramp, found, "The switch does not come on again")
+            return
+        yield StopOrder(Ramp())
 
 
 def _off(axis: MovingAxis, homing: Homing, ramp: Ramp, around: Around, found: Homed, edge: float) -> Orders:
@@ -124,7 +128,7 @@ def _off(axis: MovingAxis, homing: Homing, ramp: Ramp, around: Around, found: Ho
         if not around.is_stuck and stuck and abs(axis.position - edge) > stuck.reach:
             way = stuck.reach
         place = sign * math.inf if around.is_stuck else edge
-        found.left = yield Go(homing.leave, ramp, Watch(place, sign), way)
+        found.left = yield GoOrder(homing.leave, ramp, Watch(place, sign), way)
         if found.left is None:
             if not axis.is_over:
                 yield from _failed(homing, "stuck", ramp, found, "The axis does not leave the switch")
@@ -132,7 +136,7 @@ def _off(axis: MovingAxis, homing: Homing, ramp: Ramp, around: Around, found: Ho
     start = found.left.measured if found.left else axis.measured
     first = around.marker
     if homing.marker == "nearest":
-        yield Stop(ramp)
+        yield StopOrder(ramp)
         found.marker = first + turn * round((start - first) / turn)
     elif homing.marker == "next":
         least = start + sign * homing.skipped * turn
@@ -141,19 +145,19 @@ def _off(axis: MovingAxis, homing: Homing, ramp: Ramp, around: Around, found: Ho
         far = min(missing.reach if missing else MARKERS * turn, _way(axis, around, sign, turn))
         place = marker if around.has_markers and sign * (marker - start) <= far else sign * math.inf
         speed = math.copysign(homing.search or abs(homing.leave), homing.leave)
-        if (yield Go(speed, ramp, Watch(place, sign, device=True), far)) is None:
+        if (yield GoOrder(speed, ramp, Watch(place, sign, device=True), far)) is None:
             if not axis.is_over:
                 yield from _failed(homing, "marker", ramp, found, "No marker comes")
             return
         found.marker = marker
-        yield Stop(ramp)
+        yield StopOrder(ramp)
     else:
-        found.marker = edge if homing.again else start
+        found.marker = axis.position if homing.again else start
         if not homing.again:
-            yield Stop(ramp)
+            yield StopOrder(ramp)
     found.home = found.marker + homing.offset
     if homing.final:
-        yield To(found.home, homing.final, ramp)
+        yield MoveOrder(found.home, homing.final, ramp)
     found.coordinate = homing.coordinate
 
 
@@ -167,9 +171,8 @@ def _coded(
     place = passed - around.scale
     if sign * (place - (around.high if sign > 0.0 else around.low)) > 0.0 or not around.has_markers:
         place = sign * math.inf
-    seen = yield Go(
-        homing.leave, ramp, Watch(place, sign, device=True), _way(axis, around, sign, scale.large)
-    )
+    way = min(_way(axis, around, sign, scale.large), (scale.markers + 1) * scale.large)
+    seen = yield GoOrder(homing.leave, ramp, Watch(place, sign, device=True), way)
     if seen is None:
         if not axis.is_over:
             yield from _failed(
@@ -177,10 +180,10 @@ def _coded(
             )
         return
     found.marker = place
-    yield Stop(ramp)
+    yield StopOrder(ramp)
     found.home = homing.coordinate - scale.zero - around.scale
     if homing.final:
-        yield To(found.home, homing.final, ramp)
+        yield MoveOrder(found.home, homing.final, ramp)
     found.coordinate = homing.coordinate
 
 
@@ -205,6 +208,6 @@ def _way(axis: MovingAxis, around: Around, sign: float, turn: float) -> float:
 
 
 def _failed(homing: Homing, which: str, ramp: Ramp, found: Homed, text: str) -> Orders:
-    """Stop, and note the alarm of the control for it."""
-    yield Stop(ramp)
+    """StopOrder, and note the alarm of the control for it."""
+    yield StopOrder(ramp)
     found.fail(homing.failures.get(which, Failure("HOME", f"{text}: no alarm is printed for it")))

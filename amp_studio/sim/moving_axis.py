@@ -65,7 +65,7 @@ class Seen:
 
 
 @dataclass(frozen=True)
-class Go:
+class GoOrder:
     """Go at a velocity until a place is passed, at most ``farthest`` u; what was seen is the answer, None for nothing."""
 
     velocity: float
@@ -75,14 +75,16 @@ class Go:
 
 
 @dataclass(frozen=True)
-class Stop:
+class StopOrder:
     """Stop along a ramp, and wait until the axis is in position."""
 
     ramp: Ramp
+    waits: bool = True
+    """Whether it is waited for."""
 
 
 @dataclass(frozen=True)
-class To:
+class MoveOrder:
     """Move to a position from rest, and wait until the axis is in position."""
 
     position: float
@@ -91,13 +93,13 @@ class To:
 
 
 @dataclass(frozen=True)
-class Pause:
+class PauseOrder:
     """Wait for a time, s."""
 
     time: float
 
 
-Order = Go | Stop | To | Pause
+Order = GoOrder | StopOrder | MoveOrder | PauseOrder
 Orders = Generator[Order, Seen | None, None]
 """A sequence as a control goes through it: each order is answered with what it saw."""
 
@@ -172,15 +174,15 @@ class MovingAxis:
 
     def go(self, velocity: float, ramp: Ramp, watch: Watch, farthest: float) -> Seen | None:
         """Go at a velocity until a place is passed, at most ``farthest`` u; None where that does not come, or an alarm does."""
-        return self.follow(one(Go(velocity, ramp, watch, farthest)))
+        return self.follow(one(GoOrder(velocity, ramp, watch, farthest)))
 
     def stop(self, ramp: Ramp) -> None:
         """Stop along the ramp, and wait until the axis is in position."""
-        self.follow(one(Stop(ramp)))
+        self.follow(one(StopOrder(ramp)))
 
     def to(self, position: float, feedrate: float, ramp: Ramp) -> None:
         """Move to a position from rest, and wait until the axis is in position."""
-        self.follow(one(To(position, feedrate, ramp)))
+        self.follow(one(MoveOrder(position, feedrate, ramp)))
 
     def follow(self, orders: Orders) -> Seen | None:
         """Carry out orders to their end, or to an alarm; returns what the last of them saw."""
@@ -242,7 +244,7 @@ class MovingAxis:
     def _work(self, last: float, watches: Sequence[Watch] = ()) -> Seen | None:
         """Step on to the end of the order or to a moment; what the order watched for is returned with a number below 0."""
         order = self._order
-        own = (order.watch,) if isinstance(order, Go) else ()
+        own = (order.watch,) if isinstance(order, GoOrder) else ()
         limit = min(last, self._patience)
         seen = self._step(limit, (*own, *watches), to_end=True)
         if seen is not None and own:
@@ -265,32 +267,31 @@ class MovingAxis:
             return
         self._order = order
         self._patience = math.inf
-        if isinstance(order, Go):
+        if isinstance(order, GoOrder):
             self.order(self._going(order), math.copysign(1.0, order.velocity))
             return
         pieces, sign = self._resting(order)
-        if not isinstance(order, Pause):
+        if not isinstance(order, PauseOrder) and (not isinstance(order, StopOrder) or order.waits):
             pieces.append(Piece(self.axis.servo_period, kind=IN_POSITION))
             lasts = sum(piece.duration for piece in pieces)
             self._patience = self.time + 2.0 * lasts + SETTLE / self.axis.position_rate + LONGEST_WAIT
         self.order(pieces, sign)
 
-    def _going(self, order: Go) -> list[Piece]:
+    def _going(self, order: GoOrder) -> list[Piece]:
         speed = abs(order.velocity)
         pieces = change(order.ramp, abs(self.velocity), speed)
         # The axis is behind the command, which does not end before the axis is there.
-        behind = LAGS * speed / self.axis.position_rate
-        far = max(order.farthest + behind - length(pieces), 0.0) / speed
+        far = max(order.farthest + self.behind(speed) - length(pieces), 0.0) / speed
         if not far < LONGEST:
             raise SimulationError(
                 f"The move of axis {self.axis.axis} takes more than {LONGEST:g} s: give a shorter distance or a higher speed"
             )
         return [*pieces, Piece(far, speed)]
 
-    def _resting(self, order: Stop | To | Pause) -> tuple[list[Piece], float]:
-        if isinstance(order, Pause):
+    def _resting(self, order: StopOrder | MoveOrder | PauseOrder) -> tuple[list[Piece], float]:
+        if isinstance(order, PauseOrder):
             return [Piece(order.time)], 1.0
-        if isinstance(order, To):
+        if isinstance(order, MoveOrder):
             distance = order.position - self.position
             if distance == 0.0:
                 return [], 1.0
@@ -309,6 +310,16 @@ class MovingAxis:
             flat[k + 2] += self.position - self._origin
         self._set_profile(flat)
 
+    def behind(self, velocity: float) -> float:
+        """Return by how much a command at a velocity goes beyond the farthest place of its event, u."""
+        return LAGS * abs(velocity) / self.axis.position_rate
+
+    def switch_off(self) -> None:
+        """Take the output away from the drive, as an emergency stop does, and let the axis run out for the coasting time."""
+        self.drop()
+        self._vectors[TIMING][kernel.EMERGENCY] = self.time
+        self.follow(one(PauseOrder(0.0)))
+
     def restart(self) -> None:
         """Take the axis up again where it came to rest after an alarm, the command being where the device measures it."""
         x, at = self._vectors[STATE], self.measured
@@ -319,6 +330,7 @@ class MovingAxis:
         shift, self._origin = at - self._origin, at  # a law begins at 0
         x[kernel.PLANT : kernel.PLANT + 7] = [motor - shift, 0.0, load - shift, 0.0, 0.0, 0.0, 0.0]
         x[kernel.COASTING], x[kernel.ALARM_ROW] = 0.0, -1.0
+        self._vectors[TIMING][kernel.EMERGENCY] = math.inf
         self.is_over, self.position = False, at
         self.drop()
         self._rest()

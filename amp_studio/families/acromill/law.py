@@ -135,6 +135,7 @@ def bind(read: AxisParameters) -> AxisLaw:
         alarms={1: AlarmText("EXCESS ERROR", _excess(excess))},
         homing=partial(events.homing, read, pulses),
         jogging=partial(events.jogging, read),
+        travel=partial(events.travel, read),
         undamped=UNDAMPED if p[loop.D_GAIN] == p[loop.FBVEL] == 0.0 else "",
         limits={"excess_error": excess} if excess > 0.0 else {},
         sources=_sources(pulses, "speeds.rapid" if rapid else HIGHEST),
@@ -320,6 +321,6 @@ LAW = Law(
     bind=bind,
     axes=axes,
     without_axes="Number of Axes (view.number_of_axes) is 0: set it to simulate an axis",
-    scenarios=(*SCENARIOS, "home", "jog"),
+    scenarios=(*SCENARIOS, "home", "jog", "travel"),
     advise=advise,
 )

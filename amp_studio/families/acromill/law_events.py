@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+import math
+
 from amp_studio.sim.axis_parameters import AxisParameters
 from amp_studio.sim.errors import SimulationError
-from amp_studio.sim.events import Homing, Jogging, Ramp
+from amp_studio.sim.events import Homing, Jogging, Ramp, Travel
 
 LINES = 4096.0
 """Pulses from marker to marker: an encoder of appendix C, after multiplication (page 113)."""
@@ -46,3 +48,15 @@ def jogging(read: AxisParameters) -> Jogging:
     increments = {str(n): read.optional(f"jog.increment_{n}") or 0.0 for n in range(1, 6)}
     ramp = Ramp("linear", _above_zero(read, "jog.acceleration"), _above_zero(read, "jog.deceleration"))
     return Jogging(speeds, {name: way for name, way in increments.items() if way}, ramp=ramp, page="67")
+
+
+def travel(read: AxisParameters) -> Travel:
+    """Return the soft limits from the home position (page 60)."""
+    if read.value("axes.disable_limit") is True:
+        return Travel({}, "SOFT LIMIT", "60", ("Soft limits of this axis are disabled.",))
+    low, high = read.optional("axes.soft_limit_minus"), read.optional("axes.soft_limit_plus")
+    edges = (-math.inf if low is None else low, math.inf if high is None else high)
+    note = (
+        "ASSUMED: a manual move stops at once at a soft limit; the guide prints the limits alone (page 60)."
+    )
+    return Travel({"the soft limit": edges}, "SOFT LIMIT", "60", (note,))

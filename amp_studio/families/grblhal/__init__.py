@@ -13,5 +13,6 @@ REGISTRATION = Registration(
     emulators={"grbl": "amp_studio.families.grblhal.emulated.control:emulate_grbl"},
     recognised="amp_studio.families.grblhal.line:RECOGNISED",
     compensation="amp_studio.families.grblhal.compensation:COMPENSATION",
+    law="amp_studio.families.grblhal.law:LAW",
     describe="amp_studio.families.grblhal.described:schema_of",
 )

@@ -6,7 +6,7 @@ import math
 
 from amp_studio.sim.axis_parameters import AxisParameters
 from amp_studio.sim.errors import SimulationError
-from amp_studio.sim.events import Failure, Homing, Jogging, Ramp, Travel
+from amp_studio.sim.events import CodedScale, Failure, Homing, Jogging, Ramp, Travel
 
 from .law_feedback import COUNTS, DEVICE, Feedback
 from .law_ramps import SCAN, SCANS
@@ -19,6 +19,7 @@ OFF, CALIBRATION, POSITION, OFF_SPEED = (
     "home.speed_off_switch",
 )
 DIRECTION, SPEED = "home.g28_direction", "home.g28_speed"
+SCALE_ZERO, SMALL, LARGE = "home.dcm_scale_zero", "servo.dcm_small_period", "servo.dcm_large_period"
 MANUAL_MODE, MANUAL_DELAY = "accdec.manual_mode", "accdec.manual_delay"
 SIGN = {"plus": 1.0, "positive": 1.0, "minus": -1.0, "negative": -1.0}
 JOGS = ("lowest", "second", "third", "fourth", "highest")
@@ -35,6 +36,14 @@ HOMED = (
 TOO_FAST = Failure(
     "JOGGED HOME TOO FAST:",
     "The axis passed the whole switch before it stopped: it is too fast for it (page 5-4)",
+)
+CODED = (
+    (
+        "Three markers in a row are passed at G28 Home Speed in G28 Direction to Home, then the axis stops, waits for Inposition Band and takes its"
+        " place on the scale plus Machine Pos. at DCM Scale 0 as its position (5-5 to 5-7, 5-14); pages 7-31 and B-1 say two markers."
+    ),
+    "Then it goes to Axis Position after Homing at Home Speed from Limit Switch (5-14); page 5-11 says that this position is not used with such a scale.",
+    "ASSUMED: even markers lie half a smaller period beside the odd ones at the zero of the scale; it is not printed.",
 )
 STOPPED = (
     "A software overtravel stops all commands of a manual motion at once, without a ramp; the axis moves past it by its following error (10-18). ASSUMED: a"
@@ -65,10 +74,7 @@ def manual_ramp(read: AxisParameters, linear: Ramp, homing: bool) -> Ramp:
 def homing(read: AxisParameters, feedback: Feedback) -> Homing:
     """Return the homing sequence, with a marker each turn of the position device. Raises SimulationError for devices that home without a switch."""
     if read.choice(DEVICE) == "dcm":
-        raise SimulationError(
-            f"Axis {read.axis} has distance-coded markers: it is homed by three of them without a switch (5-5), which is not simulated",
-            DEVICE,
-        )
+        return _coded(read)
     off = SIGN[read.choice(OFF)]
     speed = above_zero(read, OFF_SPEED) / 60.0
     return Homing(
@@ -82,6 +88,26 @@ def homing(read: AxisParameters, feedback: Feedback) -> Homing:
         failures={"fast": TOO_FAST},
         page="5-4",
         notes=HOMED,
+    )
+
+
+def _coded(read: AxisParameters) -> Homing:
+    """Return the homing by distance-coded markers (5-5 to 5-7, 5-14): no switch, any three in a row, then to the home position."""
+    small, large = above_zero(read, SMALL), above_zero(read, LARGE)
+    if small == large:
+        raise SimulationError(
+            f"Both periods of the scale of axis {read.axis} are {small:g}: no place is known by them", LARGE
+        )
+    return Homing(
+        approach=0.0,
+        leave=SIGN[read.choice(DIRECTION)] * above_zero(read, SPEED) / 60.0,
+        marker="next",
+        turn=small,
+        coordinate=read.number(POSITION),
+        final=above_zero(read, OFF_SPEED) / 60.0,
+        scale=CodedScale(small, large, 0.5 * small, read.optional(SCALE_ZERO) or 0.0),
+        page="5-5",
+        notes=CODED,
     )
 
 

@@ -10,13 +10,15 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping
 from dataclasses import replace
+from functools import partial
 
 from amp_studio.files import ParameterFile
 from amp_studio.sim.axis_parameters import AxisParameters
 from amp_studio.sim.errors import SimulationError
-from amp_studio.sim.law import AxisLaw, Law, Prediction, Ramp, Source
+from amp_studio.sim.law import SCENARIOS, AxisLaw, Law, Prediction, Ramp, Source
 from amp_studio.sim.machine import Machine
 
+from . import law_events as events
 from . import law_sample as sample
 from .formulas import approach_speed, circle_speed, increments_per_sample, measured_step
 from .formulas.servo import FOLLOWING_ERROR_MARGIN
@@ -111,6 +113,9 @@ def _alone(read: AxisParameters) -> tuple[AxisLaw, float]:
         assumed=assumed,
         linear_parameters=linear,
         sweep_parameters=swept,
+        homing=partial(events.homing, read, words.length),
+        jogging=partial(events.jogging, read, words.unit),
+        travel=partial(events.travel, read, words.length),
     )
     return law, words.length
 
@@ -207,5 +212,6 @@ LAW = Law(
     axes,
     "No axis is servo-controlled. Declare one in P2N0 and P3N0, with its name and group in P9",
     SETTINGS,
+    scenarios=(*SCENARIOS, "home", "jog", "travel"),
     advise=advise,
 )

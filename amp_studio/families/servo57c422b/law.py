@@ -32,7 +32,7 @@ from . import law_plant as plant
 from . import law_sample as loop
 from .law_axis import ModuleAxis
 from .law_commands import COMMANDS
-from .law_home import homing
+from .law_home import homing, travel
 from .law_tune import Scales
 
 AXES = ("X", "Y")
@@ -144,6 +144,7 @@ def bind(read: AxisParameters) -> AxisLaw:
         sweep_parameters=_without_faults(p),
         linear_parameters=_linear(p),
         homing=partial(homing, read),
+        travel=partial(travel, read, _ramps(read)["linear"]),
         read=read,
         names={parameter: _named(parameter, read.axis) for parameter in COMMAND_DATA},
         scales=Scales(*(_scale(read, name) for name in _SCALES)),
@@ -314,5 +315,10 @@ def advise(axis: AxisLaw, trace: Trace) -> Sequence[Recommendation]:
 
 
 LAW = Law(
-    bind=bind, axes=axes, settings=SETTINGS, scenarios=(*SCENARIOS, "home"), advise=advise, own=COMMANDS
+    bind=bind,
+    axes=axes,
+    settings=SETTINGS,
+    scenarios=(*SCENARIOS, "home", "travel"),
+    advise=advise,
+    own=COMMANDS,
 )

@@ -1,36 +1,90 @@
-"""Homing of a 57C422B axis: the fourth of the four sequences of page 4-29, with switch and marker."""
+"""Homing of a 57C422B axis, in the four sequences of page 4-29, and its software overtravel (4-10, 4-6)."""
 
 from __future__ import annotations
 
+import math
+from typing import Literal
+
+from amp_studio.sim import Ramp
 from amp_studio.sim.axis_parameters import AxisParameters
 from amp_studio.sim.errors import SimulationError
-from amp_studio.sim.events import Homing
+from amp_studio.sim.events import Homing, Travel
+
+from . import switch_bits as bits
 
 POSITION, FAST, SLOW = "command.position", "command.velocity", "command.home_speed_low"
+SWITCHES, ENCODER = "setup.switches", "setup.encoder"
+LOW, HIGH = "setup.overtravel_negative", "setup.overtravel_positive"
 TURN = 4000.0
 """Counts from marker to marker: 1000 lines, times 4 (page 4-48)."""
-NOTES = (
-    (
-        "The bits of register 2 are lost with figure 4.3. ASSUMED: the fourth sequence of page 4-29, with home switch and marker, in the direction of"
-        " move.direction, and an encoder of 1000 lines (page 4-48)."
-    ),
-    "At the marker the position becomes that of registers 17 and 18 (page 4-29). ASSUMED: the axis then stops by its deceleration.",
+MARKER = "ASSUMED: an encoder of 1000 lines (page 4-48), if a marker is used; move.turn gives another."
+UNKNOWN = (
+    "Register 2 is not set. ASSUMED: the fourth sequence of page 4-29, with home switch and marker, in the direction of"
+    " move.direction; and an encoder of 1000 lines (page 4-48)."
 )
+PLACE = "At the marker, or where the switch goes off, the position becomes that of registers 17 and 18 (page 4-29). ASSUMED: the axis then stops by its deceleration."
 
 
 def homing(read: AxisParameters) -> Homing:
-    """Return the sequence; raises SimulationError for speeds that are not set."""
-    fast, slow = (read.number(name) for name in (FAST, SLOW))
-    for name, speed in ((FAST, fast), (SLOW, slow)):
-        if not speed > 0.0:
-            raise SimulationError(f"{name} of axis {read.axis} is {speed:g}; it must be above 0", name)
+    """Return the sequence of register 2; raises SimulationError for speeds that are not set."""
+    word = read.optional(SWITCHES)
+    setup = bits.HOME_SWITCH | bits.MARKER if word is None else int(word)
+    switch, marker = bool(setup & bits.HOME_SWITCH), bool(setup & bits.MARKER)
+    sign = -1.0 if setup & bits.HOME_NEGATIVE else 1.0
+    fast = _speed(read, FAST) if switch else 0.0
+    slow = _speed(read, SLOW) if switch or marker else 0.0
+    counts: Literal["next", "none"] = "next" if marker else "none"
     return Homing(
-        approach=fast,
-        leave=-slow,
-        marker="next",
+        approach=sign * fast,
+        leave=-sign * slow if switch else sign * slow,
+        marker=counts,
         turn=TURN,
         coordinate=read.number(POSITION),
         direction_lost=True,
         page="4-29",
-        notes=NOTES,
+        notes=(
+            UNKNOWN if word is None else bits.SWITCHES,
+            *([MARKER] if word is not None and marker else []),
+            PLACE,
+        ),
+    )
+
+
+def _speed(read: AxisParameters, name: str) -> float:
+    speed = read.number(name)
+    if not speed > 0.0:
+        raise SimulationError(f"{name} of axis {read.axis} is {speed:g}; it must be above 0", name)
+    return speed
+
+
+def travel(read: AxisParameters, ramp: Ramp) -> Travel:
+    """Return the software overtravel of registers 11 to 14, of a linear axis that has it enabled in register 2."""
+    setup, encoder = int(read.optional(SWITCHES) or 0.0), int(read.optional(ENCODER) or 0.0)
+    low, high = read.optional(LOW), read.optional(HIGH)
+    notes = (bits.SWITCHES,)
+    if encoder & bits.ROTARY:
+        return Travel({}, "OVERTRAVEL", "4-10", ("A rotary axis has no software overtravel (4-10).", *notes))
+    if not setup & bits.SOFTWARE_OVERTRAVEL:
+        return Travel(
+            {}, "OVERTRAVEL", "4-10", ("Software overtravel is not enabled in register 2 (4-6).", *notes)
+        )
+    edges = (-math.inf if low is None else low, math.inf if high is None else high)
+    if edges[0] >= edges[1]:
+        raise SimulationError(
+            f"The negative overtravel limit {edges[0]:g} is not below the positive one, {edges[1]:g}: a motion fault (4-10)",
+            LOW,
+        )
+    coasts = bool(setup & bits.OVERTRAVEL_COASTS)
+    action = (
+        "At the limit the loop is switched off and the axis coasts (4-6)."
+        if coasts
+        else "At the limit the axis decelerates by registers 23, 24 and is regulated there (4-6)."
+    )
+    return Travel(
+        {"the software overtravel limit": edges},
+        "OVERTRAVEL",
+        "4-10",
+        (action, *notes),
+        stop=None if coasts else ramp,
+        coasts=coasts,
     )

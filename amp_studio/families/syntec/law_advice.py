@@ -11,15 +11,34 @@ from amp_studio.sim.trace import Recommendation, Trace
 
 from . import law_sample as sample
 
+LEAST_GRID, MOST_GRID = 20.0, 80.0
+"""% of a turn between dog and index (2.2)."""
 RECOMMENDED = 2000.0
 """Pr3203 should not be below (1.5.1)."""
 
 
 def advise(axis: AxisLaw, trace: Trace) -> tuple[Recommendation, ...]:
-    """Return the recommendations after the scenario `step`; none after others."""
+    """Return the recommendations after the scenarios `step` and `home`; none after others."""
+    if trace.scenario == "home":
+        return tuple(_grid(trace))
     if trace.scenario != "step":
         return ()
     return (*_pulses(axis, trace), *_ramp(axis, trace))
+
+
+def _grid(trace: Trace) -> Iterator[Recommendation]:
+    """Yield the home grid function where the index is so near to the edge of the dog that it may be missed (2.2)."""
+    grid = trace.result.get("home_grid", (None, "%"))[0]
+    if grid is None or LEAST_GRID <= grid <= MOST_GRID:
+        return
+    yield Recommendation(
+        "home.grid",
+        1.0,
+        "",
+        f"The home grid is {shown(grid, '%', 3)}: below {LEAST_GRID:g} or above {MOST_GRID:g} % the index lies so near to the dog that it may be"
+        " missed once and found the next time (page 2.2).",
+        "An index within half a turn of the dog is passed, and home moves by a turn.",
+    )
 
 
 def _pulses(axis: AxisLaw, trace: Trace) -> Iterator[Recommendation]:

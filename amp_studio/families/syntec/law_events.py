@@ -6,7 +6,7 @@ import math
 
 from amp_studio.sim.axis_parameters import AxisParameters
 from amp_studio.sim.errors import SimulationError
-from amp_studio.sim.events import Homing, Jogging, Travel
+from amp_studio.sim.events import Failure, Homing, Jogging, Travel
 
 METHOD, OFFSET, DIRECTION = "home.search_method", "home.offset", "home.direction"
 FIRST, SECOND, GRID = "home.first_speed", "home.second_speed", "home.grid"
@@ -14,6 +14,11 @@ BLU = 0.001
 """mm or deg (1.2.6)."""
 HALF = 0.5
 """Share of a turn below which home grid passes an index over (2.2)."""
+WINDOW, PROTECTIVE = "home.zero_speed_window", "home.protective_turns"
+PITCHES = 5.0
+"""Turns without an index, or on the dog, after which MOT-029 and MOT-036 come (2.2)."""
+SCATTER = 0.1
+"""Turns between the home grids of two homings from which MOT-022 comes (2.2)."""
 FARTHEST_BLU = 999999999.0
 """The delivered stroke limits: none (3.2)."""
 
@@ -46,6 +51,7 @@ def homing(read: AxisParameters, turn: float) -> Homing:
     offset = (read.optional(OFFSET) or 0.0) * BLU
     second = _above_zero(read, SECOND) / 60.0
     alone, stays = method == "index-only", method == "stay"
+    window = read.optional(WINDOW)
     return Homing(
         approach=0.0 if alone else sign * _above_zero(read, FIRST) / 60.0,
         leave=sign * second * (1.0 if alone else -1.0),
@@ -55,9 +61,33 @@ def homing(read: AxisParameters, turn: float) -> Homing:
         final=second,
         offset=0.0 if stays else offset,
         skipped=HALF if read.value(GRID) is True else 0.0,
+        failures=_failures(read, turn),
+        rest_window=math.inf if not window else window * BLU,
         page="2.2",
         notes=NOTES,
     )
+
+
+def _failures(read: AxisParameters, turn: float) -> dict[str, Failure]:
+    """Return the alarms of a homing (2.2, alarms), lengths in turns of the motor between two indices."""
+    turns = read.optional(PROTECTIVE)
+    far = (turns or PITCHES) * turn
+    given = f"the {turns:g} turns of its protective revolution" if turns else "5 pitches"
+    return {
+        "marker": Failure(
+            "MOT-029", "Miss index in homing: 5 pitches from the dog no index has come (2.2).", PITCHES * turn
+        ),
+        "stuck": Failure("MOT-036", f"Can't leave Home Dog: it is still on after {given} (2.2).", far),
+        "moving": Failure(
+            "MOT-030",
+            "Zero speed timeout in homing: 0.1 s after the command stopped on the dog the error is above the zero-speed window (2.2).",
+        ),
+        "scatter": Failure(
+            "MOT-022",
+            "Home position inaccurate: the home grid differs from that of the first homing by more than 0.1 turn (2.2).",
+            SCATTER,
+        ),
+    }
 
 
 def jogging(read: AxisParameters) -> Jogging:
@@ -71,4 +101,10 @@ def travel(read: AxisParameters) -> Travel:
     for name, none in (("limit.first_negative", -FARTHEST_BLU), ("limit.first_positive", FARTHEST_BLU)):
         value = read.optional(name)
         edges.append(math.copysign(math.inf, none) if value in (None, none) else float(value or 0.0) * BLU)
-    return Travel({"the 1st software stroke limit": (edges[0], edges[1])}, "MOT-017/018", "3.2", (STOPPED,))
+    return Travel(
+        {"the 1st software stroke limit": (edges[0], edges[1])},
+        "MOT-017",
+        "3.2",
+        (STOPPED,),
+        alarm_negative="MOT-018",
+    )

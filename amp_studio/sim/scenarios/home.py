@@ -22,10 +22,11 @@ from amp_studio.sim.trace import Alarm, Figure, Trace
 from .columns import alarms_of, column_units, per_minute
 
 SETTINGS = {
-    "move.direction": "plus or minus, where the direction is not in the file; default: plus",
+    "move.direction": "plus or minus, where no printed parameter gives the direction; default: that of the file, or plus",
     "move.switch": "distance from the start to the home switch (mm or deg); default: enough to reach the homing speed",
     "move.switch_length": "how long the switch stays on (mm or deg); default: to the end of the travel",
     "move.marker": "distance from the end of the switch to a marker, in the direction off the switch (mm or deg), or none; default: a quarter turn",
+    "move.turn": "from one marker to the next (mm or deg); default: that of the file, or the assumed one",
     "move.dog": "stuck for a switch that never goes off; default: one that works",
     "move.travel": "how far the axis can go from the start towards the switch (mm or deg); default: as far as the switch",
     "move.scale": "place of the start on a distance-coded scale (mm or deg); default: 5.3 periods",
@@ -51,6 +52,8 @@ def run_home(axis: AxisLaw, settings: Settings) -> Trace:
     if axis.homing is None:
         raise SimulationError(f"Axis {axis.axis} is not homed by a sequence that is printed")
     homing = axis.homing()
+    turn = above_zero(settings, "move.turn")
+    homing = homing if turn is None else replace(homing, turn=turn)
     if homing.direction_lost:
         homing = _turned(homing, settings)
     elif settings.get("move.direction") is not None:
@@ -90,10 +93,11 @@ def _homed(axis: AxisLaw, homing: Homing, ramp: Ramp, around: Around) -> tuple[M
 
 def _turned(homing: Homing, settings: Settings) -> Homing:
     """Return the sequence in the direction that is asked for."""
-    direction = str(settings.get("move.direction", "plus"))
-    if direction not in ("plus", "minus"):
+    direction = settings.get("move.direction")
+    if direction not in (None, "plus", "minus"):
         raise SimulationError("move.direction must be plus or minus", "move.direction")
-    return homing if direction == "plus" else homing.turned()
+    is_other = ((homing.approach or homing.leave) < 0.0) != (direction == "minus")
+    return homing.turned() if direction is not None and is_other else homing
 
 
 def _around(axis: AxisLaw, homing: Homing, ramp: Ramp, settings: Settings) -> Around:

@@ -9,6 +9,7 @@ import numpy as np
 
 from amp_studio.sim.errors import SimulationError
 from amp_studio.sim.events import Travel
+from amp_studio.sim.kernel import STANDSTILL
 from amp_studio.sim.law import AxisLaw, Ramp
 from amp_studio.sim.model import assumptions
 from amp_studio.sim.moving_axis import MovingAxis, Watch
@@ -17,7 +18,7 @@ from amp_studio.sim.scenario import Scenario, Settings, number, refuse_unknown
 from amp_studio.sim.trace import Alarm, Figure, Trace
 
 from .columns import alarms_of, column_units, per_minute
-from .step import feedrate_of
+from .step import COAST, RUN_OUT, feedrate_of
 
 SETTINGS = {
     "move.start": "where the axis starts in the coordinates of the machine (mm or deg); default: as near to the limit as it reaches its speed",
@@ -60,30 +61,55 @@ def run_travel(axis: AxisLaw, settings: Settings) -> Trace:
         + 5.0 / axis.position_rate
     )
     start = edge - sign * run_up if given is None else given
-    course, limit = MovingAxis(axis), edge - start
-    seen = course.go(sign * feedrate, ramp, Watch(limit, sign, device=True), abs(limit) + run_up)
-    if seen is not None:
-        course.stop(Ramp())  # at once
+    course, limit = MovingAxis(axis, coast=COAST if travel.coasts else 0.0), edge - start
+    if travel.refuses:
+        seen = None
+    else:
+        seen = course.go(sign * feedrate, ramp, Watch(limit, sign, device=True), abs(limit) + run_up)
+    if seen is not None and travel.coasts:
+        course.switch_off()
+    elif seen is not None:
+        course.stop(travel.stop or Ramp())
     motion = course.motion()
     columns = {key: each.copy() for key, each in per_minute(motion.columns).items()}
     for key in ("command_position", "position", "measured_position"):
         columns[key] += start
-    alarms = alarms_of(axis, motion)
-    speed = None
+    alarms = () if travel.coasts else alarms_of(axis, motion)
+    speed, code = None, travel.alarm
+    if sign < 0.0 and travel.alarm_negative:
+        code = travel.alarm_negative
+    if travel.refuses:
+        text = f"A move beyond {name}, {shown(edge, axis.unit)}, is not begun (page {travel.page})"
+        alarms = (*alarms, Alarm(code, 0.0, text))
     if seen is not None:
         at = int(np.searchsorted(motion.columns["time_s"], seen.time))
         speed = abs(float(motion.columns["velocity"][min(at, len(motion.columns["velocity"]) - 1)]))
-        text = f"The axis has passed {name}, {shown(edge, axis.unit)} (page {travel.page}): the command stops at once"
-        alarms = (*alarms, Alarm(travel.alarm, seen.time, text))
+        how = (
+            "the loop is switched off"
+            if travel.coasts
+            else "the command stops along its ramp"
+            if travel.stop
+            else "the command stops at once"
+        )
+        text = f"The axis has passed {name}, {shown(edge, axis.unit)} (page {travel.page}): {how}"
+        alarms = (*alarms, Alarm(code, seen.time, text))
     end = float(columns["position"][-1])
-    reached = seen is not None and motion.command_end is not None
+    at_rest = (
+        abs(float(motion.columns["velocity"][-1])) < STANDSTILL
+        if travel.coasts
+        else motion.command_end is not None
+    )
+    reached = seen is not None and at_rest
     result: dict[str, Figure] = {
         "feedrate": (feedrate * 60.0, f"{axis.unit}/min"),
         "limit": (edge, axis.unit),
         "speed_at_limit": (None if speed is None else speed * 60.0, f"{axis.unit}/min"),
-        "stop_position": (end if reached else None, axis.unit),
+        "stop_position": (end if reached or travel.refuses else None, axis.unit),
         "overrun": (sign * (end - edge) if reached else None, axis.unit),
-        "time": (motion.command_end if reached else None, "s"),
+        "time": (
+            float(motion.columns["time_s"][-1]) if travel.coasts else motion.command_end if reached else None,
+            "s",
+        ),
         "peak_following_error": (float(np.abs(columns["following_error"][motion.driven]).max()), axis.unit),
     }
     return Trace(
@@ -95,7 +121,7 @@ def run_travel(axis: AxisLaw, settings: Settings) -> Trace:
         result=result,
         alarms=alarms,
         recommendations=(),
-        assumptions=(*travel.notes, *assumptions(axis)),
+        assumptions=(*travel.notes, *([RUN_OUT] if travel.coasts else []), *assumptions(axis)),
         limits={},
         move={"move.start": start, "move.feedrate": feedrate * 60.0},
     )

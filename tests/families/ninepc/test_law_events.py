@@ -88,10 +88,22 @@ def test_an_axis_that_passes_a_short_switch_is_jogged_home_too_fast() -> None:
         simulate(through, "home", "1")
 
 
-def test_what_is_not_homed_by_a_switch_is_said() -> None:
+def test_a_coded_scale_is_homed_by_three_markers_and_goes_to_the_home_position() -> None:
+    """5-5 to 5-7, 5-14: no switch; three markers of 20 and 20.02 mm are passed within 30 mm, whatever the start."""
     lathe = open_file(MILL.parents[1] / "lathe-ls176" / "LATHE_LS176.amp").file
-    with pytest.raises(SimulationError, match=r"distance-coded markers.*5-5"):
-        simulate(lathe, "home", "1")
+    for start in (100.5, 104.0, 119.9):
+        trace = simulate(lathe, "home", "1", {"move.scale": start})
+        assert trace.result["home_position"][0] == lathe.evaluation.canonical(("home.position", "1"))
+        assert trace.result["time"][0] is not None
+        slow = trace.columns["command_velocity"]
+        assert not trace.alarms
+        assert np.abs(slow).max() == pytest.approx(
+            lathe.evaluation.canonical(("home.g28_speed", "1")), rel=1e-3
+        )
+    assert any("7-31 and B-1" in note for note in trace.assumptions)
+
+
+def test_what_is_not_homed_by_a_sequence_is_said() -> None:
     opened = mill(servo__position_loop_type=Value("open"))  # 5-1
     with pytest.raises(SimulationError, match="not homed"):
         simulate(opened, "home", "1")

@@ -58,7 +58,7 @@ def test_home_grid_passes_an_index_over_that_is_nearer_than_half_a_turn() -> Non
 def test_beyond_a_stroke_limit_the_axis_runs_on_by_its_following_error() -> None:
     trace = simulate(mill(), "travel", "1", {"move.feedrate": 6000.0})
     assert trace.result["limit"] == (400.0, "mm")
-    assert trace.alarms[0].code == "MOT-017/018"
+    assert trace.alarms[0].code == "MOT-017"
     assert trace.result["overrun"][0] == pytest.approx(
         6000.0 / 60.0 / 30.0, rel=0.1
     )  # speed / loop gain, 1.5.3
@@ -75,9 +75,63 @@ def test_a_jog_goes_at_its_speed_and_has_no_increment() -> None:
 def test_a_first_speed_whose_following_error_is_more_than_two_turns_finds_the_dog() -> None:
     # 20 m/min at a loop gain of 30/s are 11 mm of following error, two turns of 5 mm: the command ended before the axis was there.
     file = mill(home__first_speed=Value(20000, "mm/min"))
-    found = simulate(file, "home", "1").result
-    assert found["home_position"] == (0.0, "mm")
-    assert found["switch_overrun"][0] > 0.0
+    trace = simulate(file, "home", "1")
+    overrun = trace.result["switch_overrun"][0]
+    assert overrun is not None
+    # It stops so far beyond the edge that 5 pitches back do not leave the dog (2.2, alarms).
+    assert overrun > 5.0 * 5.0
+    assert [alarm.code for alarm in trace.alarms] == ["MOT-036"]
+
+
+FAST = 3000.0
+
+
+@pytest.mark.parametrize(
+    ("move", "values", "code"),
+    [
+        ({"move.marker": "none"}, {}, "MOT-029"),
+        ({"move.dog": "stuck"}, {}, "MOT-036"),
+        ({"move.homings": 5.0, "move.scatter": 2.0}, {}, "MOT-022"),
+        ({}, {"home__zero_speed_window": Value(1, "BLU")}, "MOT-030"),
+    ],
+)
+def test_a_homing_fails_as_the_slides_print_it(
+    move: dict[str, float | str], values: dict[str, Value], code: str
+) -> None:
+    """Chapter 2, alarms: no index in 5 pitches, dog not left, home grids 0.1 turn apart, not at rest 0.1 s after the stop."""
+    found = simulate(mill(home__first_speed=Value(FAST, "mm/min"), **values), "home", "1", move)
+    assert [alarm.code for alarm in found.alarms] == [code]
+    assert found.result["home_position"] == (None, "mm")
+
+
+def test_the_protective_revolution_replaces_the_5_pitches() -> None:
+    file = mill(home__first_speed=Value(FAST, "mm/min"), home__protective_turns=Value(2))
+    stuck = simulate(file, "home", "1", {"move.dog": "stuck"})
+    assert "2 turns" in stuck.alarms[0].message
+    travelled = stuck.columns["command_position"]
+    assert abs(travelled[-1] - travelled.max()) == pytest.approx(2.0 * 5.0, abs=5.0)
+
+
+@pytest.mark.parametrize(
+    ("marker", "grid", "passed"), [(1.0, 20.0, 6.0), (1.75, 35.0, 6.75), (4.5, 90.0, 4.5)]
+)
+def test_home_grid_is_shown_and_an_index_below_half_a_turn_is_passed(
+    marker: float, grid: float, passed: float
+) -> None:
+    """Home grid (2.2): 35 becomes 135 with Pr941; advice below 20 and above 80."""
+    plain = simulate(mill(home__first_speed=Value(FAST, "mm/min")), "home", "1", {"move.marker": marker})
+    assert plain.result["home_grid"][0] == pytest.approx(grid, abs=0.1)
+    advised = [each for each in plain.recommendations if each.parameter == "home.grid"]
+    assert bool(advised) == (plain.result["home_grid"][0] < 20.0 or grid > 80.0)
+    with_grid = mill(home__first_speed=Value(FAST, "mm/min"), home__grid=Value(True))
+    gone = simulate(with_grid, "home", "1", {"move.marker": marker}).result["home_grid"][0]
+    assert gone == pytest.approx(passed / 5.0 * 100.0, abs=0.1)
+
+
+def test_repeatability_over_the_scatter_of_the_dog() -> None:
+    file = mill(home__first_speed=Value(FAST, "mm/min"))
+    near = simulate(file, "home", "1", {"move.homings": 6.0, "move.scatter": 0.2, "move.marker": 1.5}).result
+    assert near["repeatability"][0] == 0.0  # the same index each time
 
 
 def test_a_zone_is_not_called_unset_where_zones_are_not_simulated() -> None:

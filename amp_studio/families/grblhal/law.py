@@ -1,0 +1,169 @@
+"""Binds an axis of a Grbl or grblHAL: rates, acceleration, homing and soft limits; no servo. Sources are those of the grblHAL core."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from functools import partial
+
+from amp_studio.files import ParameterFile
+from amp_studio.sim import AxisLaw, AxisParameters, Law, Machine, Prediction, Ramp, SimulationError, Source
+from amp_studio.sim.events import Failure, Homing, Jogging, Travel
+
+from . import law_sample as loop
+
+STEPS, RATE, ACCELERATION, TRAVEL = "axis.steps", "axis.max_rate", "axis.acceleration", "axis.max_travel"
+CYCLE, DIRECTION, PULL_OFF, PASSES = (
+    "homing.cycle",
+    "homing.invert_direction",
+    "homing.pull_off",
+    "homing.passes",
+)
+COMMON = ("homing.seek_rate", "homing.locate_rate")
+OWN = ("axis.homing_seek_rate", "axis.homing_locate_rate")
+ENABLED, ORIGIN, PER_AXIS = 1 << 0, 1 << 3, 1 << 9
+SEARCH, LOCATE = 1.5, 5.0
+"""Times the travel, and times the pull-off, in which a switch is searched (config.h, HOMING_AXIS_SEARCH_SCALAR, _LOCATE_SCALAR)."""
+LETTERS = "XYZABCUV"
+SAMPLE, GAIN, BANDWIDTH = 1e-3, 100.0, 400.0
+"""s, 1/s, Hz: how closely the simulated motor keeps to its steps; an assumption."""
+
+FOLLOWS = "ASSUMED: the motor follows its steps; a stepper has no servo loop, and steps that it loses under load are not simulated."
+SOURCE = "grblHAL machine_limits.c"
+HOMED = (
+    (
+        "At the seek rate to the switch, at once at rest, back by the pull-off at the seek rate, at the locate rate to the switch again, and back by the pull-off"
+        f" ({SOURCE}, homing_cycle). ASSUMED: the axis is homed alone, and the debounce delay passes at rest."
+    ),
+)
+LIMITED = "A move beyond the travel is refused before it begins, with ALARM:2; a jog is refused with error:15, or ends at the travel with $40 (machine_limits.c)."
+
+
+def axes(file: ParameterFile) -> Sequence[str]:
+    """Return the axes that have steps."""
+    named = file.machine_schema.instances(file.schema.parameters[STEPS])
+    return tuple(
+        axis
+        for axis in named
+        if file.get((STEPS, axis)) is not None and file.evaluation.state((STEPS, axis)).is_active
+    )
+
+
+def bind(read: AxisParameters) -> AxisLaw:
+    """Return one axis; raises SimulationError naming the setting that is missing or impossible."""
+    steps, rate, acceleration = (_above(read, name) for name in (STEPS, RATE, ACCELERATION))
+    unit = "deg" if _bit(read, "stepper.rotary_axes", LETTERS.index(read.axis) - 3) else "mm"
+    ramp = Ramp("linear", acceleration=acceleration)
+    return AxisLaw(
+        axis=read.axis,
+        unit=unit,
+        title="Grbl: steps at the commanded speed, straight ramps, no servo loop",
+        position_sample=loop.position_sample,
+        velocity_sample=None,
+        parameters=[GAIN, steps],
+        state_size=1,
+        servo_period=SAMPLE,
+        velocity_period=SAMPLE,
+        machine=Machine(
+            acceleration_per_output=1e4,
+            velocity_per_output=1.0 / 60.0,
+            velocity_bandwidth=BANDWIDTH,
+        ),
+        output_unit=f"{unit}/min",
+        position_rate=GAIN,
+        feedrate=rate / 60.0,
+        inposition_band=1.0 / steps,
+        ramps={"linear": ramp, "none": Ramp()},
+        monitors=(("step_rate", "Hz"),),
+        predict=lambda speed: {"step_rate": Prediction(abs(speed) * steps, "Hz", "protocol")},
+        sources={
+            "feedrate": Source(RATE, 60.0),
+            "acceleration": Source(ACCELERATION),
+        },
+        assumptions=(FOLLOWS,),
+        homing=partial(homing, read),
+        jogging=lambda: Jogging(
+            {"max": rate / 60.0},
+            page="jog",
+            notes=("A sender chooses the speed of a jog; at most $110 of the axis.",),
+        ),
+        travel=partial(travel, read),
+    )
+
+
+def _above(read: AxisParameters, name: str) -> float:
+    value = read.number(name)
+    if not (0.0 < value < 1e9):
+        raise SimulationError(f"{name} of axis {read.axis} is {value:g}; it must be above 0", name)
+    return value
+
+
+def _bit(read: AxisParameters, name: str, bit: int) -> bool:
+    return bit >= 0 and bool(int(read.optional(name, everywhere=True) or 0.0) >> bit & 1)
+
+
+def homing(read: AxisParameters) -> Homing:
+    """Return the homing cycle of one axis; raises SimulationError where it is off."""
+    cycle = int(read.optional(CYCLE, everywhere=True) or 0.0)
+    if not cycle & ENABLED:
+        raise SimulationError("Homing is off ($22): $H is answered with error:5", CYCLE)
+    sign = -1.0 if _bit(read, DIRECTION, LETTERS.index(read.axis)) else 1.0
+    seek, locate = (
+        (read.optional(name) if cycle & PER_AXIS else read.optional(name, everywhere=True)) or 0.0
+        for name in (OWN if cycle & PER_AXIS else COMMON)
+    )
+    if not (seek > 0.0 and locate > 0.0):
+        raise SimulationError(
+            f"The homing rates of axis {read.axis} are {seek:g} and {locate:g}; both must be above 0",
+            COMMON[0],
+        )
+    back, travelled = read.number(PULL_OFF, everywhere=True), read.number(TRAVEL)
+    if not back > 0.0:
+        raise SimulationError(f"Homing pull-off ($27) is {back:g}; it must be above 0", PULL_OFF)
+    home = 0.0 if cycle & ORIGIN else back - travelled if sign < 0.0 else -back
+    none = f"the switch has not been found ({SOURCE}, homing_cycle)"
+    return Homing(
+        approach=sign * seek / 60.0,
+        leave=-sign * seek / 60.0,
+        marker="none",
+        turn=back,
+        coordinate=home,
+        final=seek / 60.0,
+        offset=-sign * back,
+        again=locate / 60.0,
+        pull_off=back,
+        passes=int(read.optional(PASSES, everywhere=True) or 1.0),
+        stops_by_switch=True,
+        failures={
+            "switch": Failure(
+                "ALARM:9", f"Homing fail: within {SEARCH:g} times the travel {none}", SEARCH * travelled
+            ),
+            "stuck": Failure(
+                "ALARM:8", f"Homing fail: the switch is still on after the pull-off ({SOURCE}, homing_cycle)"
+            ),
+        },
+        page=SOURCE,
+        notes=HOMED,
+    )
+
+
+def travel(read: AxisParameters) -> Travel:
+    """Return the soft limits of a homed axis (machine_limits.c, limits_set_work_envelope)."""
+    if read.value("limits.soft", everywhere=True) not in (True, "yes"):
+        return Travel({}, "ALARM:2", SOURCE, ("Soft limits are off ($20): only switches stop an axis.",))
+    length, cycle = read.number(TRAVEL), int(read.optional(CYCLE, everywhere=True) or 0.0)
+    back = (read.optional(PULL_OFF, everywhere=True) or 0.0) if _bit(read, "limits.hard", 0) else 0.0
+    low, high = back - length, -back
+    if cycle & ORIGIN:
+        negative = _bit(read, DIRECTION, LETTERS.index(read.axis))
+        low, high = (0.0, length - back) if negative else (back - length, 0.0)
+    edges = (low, high) if math.isfinite(length) else (-math.inf, math.inf)
+    return Travel({"the soft limit": edges}, "ALARM:2", SOURCE, (LIMITED,), refuses=True)
+
+
+LAW = Law(
+    bind,
+    axes,
+    "No axis has steps. Set $100 of an axis",
+    scenarios=("step", "home", "jog", "travel"),
+)

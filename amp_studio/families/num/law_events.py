@@ -1,0 +1,75 @@
+"""Homing, jog and travel limits of a NUM axis (chapter 7, 6.18)."""
+
+from __future__ import annotations
+
+import math
+
+from amp_studio.sim.axis_parameters import AxisParameters
+from amp_studio.sim.errors import SimulationError
+from amp_studio.sim.events import Homing, Jogging, Travel
+
+NEGATIVE, NO_SWITCH = "travel.homing_negative", "travel.switch_not_tested"
+PLACE, LOW, HIGH = "travel.switch_position", "travel.limit_min", "travel.limit_max"
+JOGS = {"normal": "servo.jog_normal", "slow": "servo.jog_slow", "fast": "servo.jog_fast"}
+REDUCED = {"mm": "servo.reduced_speed_linear", "deg": "servo.reduced_speed_rotary"}
+MARKERS = 10.0
+"""u from one encoder zero to the next: assumed, move.turn gives another."""
+
+HOMED = (
+    (
+        "The position at the first encoder zero after the switch is that of P16 (7-10). The figures of the six cases (7-5 to 7-7) are lost; all of"
+        " them follow from P15 and P16."
+    ),
+    (
+        "ASSUMED: the axis goes to the switch at the normal JOG speed of P31 (the slow one can be used as approach speed, 6-8), and on to the zero at the"
+        " same speed, which is not printed; then it stops along its ramp, and does not return."
+    ),
+    "ASSUMED: encoder zeros 10 mm or deg apart, unless move.turn gives another distance.",
+)
+WITHOUT = "Bit {0} of P15N1 is set: no switch is tested, the first encoder zero that comes counts (7-8)."
+JOGGED = "JOG speeds of P31 for all axes (6-8), at 100 % of the potentiometer; reduced: while the PLC sets V_REDUIT (6-8)."
+LIMITED = (
+    "ASSUMED: a manual move stops at once at the limit; how the control stops there is not printed (7-12)."
+)
+
+
+def _bit(read: AxisParameters, parameter: str) -> bool:
+    return bool(int(read.optional(parameter, everywhere=True) or 0.0) >> int(read.axis) & 1)
+
+
+def homing(read: AxisParameters, length: float) -> Homing:
+    """Return the sequence; ``length`` is the internal unit in u. Raises SimulationError for a JOG speed that is not set."""
+    speed = read.number(JOGS["normal"], everywhere=True)
+    if not speed > 0.0:
+        raise SimulationError(f"Normal JOG speed (P31N1) is {speed:g}; it must be above 0", JOGS["normal"])
+    sign, alone = (-1.0 if _bit(read, NEGATIVE) else 1.0), _bit(read, NO_SWITCH)
+    velocity = sign * speed / 60.0
+    notes = (WITHOUT.format(read.axis), *HOMED) if alone else HOMED
+    return Homing(
+        approach=0.0 if alone else velocity,
+        leave=velocity,
+        marker="next",
+        turn=MARKERS,
+        coordinate=(read.optional(PLACE) or 0.0) * length,
+        through=not alone,
+        page="7-8",
+        notes=notes,
+    )
+
+
+def jogging(read: AxisParameters, unit: str) -> Jogging:
+    """Return the speeds of P31 that are set."""
+    names = {**JOGS, "reduced": REDUCED[unit]}
+    speeds = {
+        name: (read.optional(parameter, everywhere=True) or 0.0) / 60.0 for name, parameter in names.items()
+    }
+    return Jogging({name: speed for name, speed in speeds.items() if speed}, page="6-8", notes=(JOGGED,))
+
+
+def travel(read: AxisParameters, length: float) -> Travel:
+    """Return the limits of P17 from the measurement origin; none for a modulo axis (4-12)."""
+    if _bit(read, "axes.modulo"):
+        return Travel({}, "TRAVEL LIMIT", "7-12", ("A modulo axis has no travel limits (4-12).",))
+    low, high = read.optional(LOW), read.optional(HIGH)
+    edges = (-math.inf if low is None else low * length, math.inf if high is None else high * length)
+    return Travel({"the travel limit of P17": edges}, "TRAVEL LIMIT", "7-12", (LIMITED,))
