@@ -105,7 +105,7 @@ class Homing:
 
 @dataclass(frozen=True)
 class Around:
-    """What is around an axis: switch, markers and ends of its way, in u of where it stands in the machine."""
+    """What is around an axis: switch, markers and ends of its way, in u of the machine."""
 
     switch: float = math.inf
     """Where the switch comes on, on the way to it."""

@@ -11,7 +11,7 @@ from .moving_axis import GoOrder, MoveOrder, MovingAxis, Order, Orders, PauseOrd
 from .rounding import shown
 
 MARKERS = 5.0
-"""Turns after which a marker that does not come is none, where no alarm says how many."""
+"""Turns after which a marker that does not come is none, where no alarm gives the number."""
 REST_AFTER = 0.1
 """s after the stop on the switch at which the following error is compared with the window of zero speed (MOT-030)."""
 LOCATE = 5.0

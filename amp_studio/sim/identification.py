@@ -45,6 +45,9 @@ def identify(
     ``system`` as in `simulate`. Raises SimulationError for what the record cannot show, OSError where it cannot be read.
     """
     law = law_of(file.schema.family.family)
+    if "velocity" not in law.scenarios:
+        name = file.schema.family.name
+        raise SimulationError(f"{name} has stepper motors without a servo loop: it has no torque to identify")
     bound = bind_axis(file, law, axis)
     record = read_drive_record(path)
     torque = record.torque / _scale(record, bound, scale)

@@ -160,18 +160,6 @@ def test_a_compared_parameter_is_shown_in_the_table(opened) -> None:
     shown.close()
 
 
-def test_f9_where_nothing_can_be_simulated_gives_the_reason_and_so_does_the_menu(opened) -> None:
-    window = opened("grblhal", "X,Y,Z")
-    motion = window.view.motion_action
-    assert motion.text() == "&Motion… (not for grblHAL)"
-    assert motion.toolTip().startswith("grblHAL and Grbl has no simulation: its stepper motors")
-    motion.trigger()
-    assert window.page.bar.isVisible()
-    assert window.page.bar.text.text() == (
-        "grblHAL and Grbl has no simulation: its stepper motors follow without a servo loop; rules check its rates and ramps."
-    )
-
-
 def test_the_menu_offers_motion_again_for_a_family_that_has_it(opened) -> None:
     window = opened("syntec", "X")
     assert (window.view.motion_action.text(), window.view.motion_action.toolTip()) == (

@@ -2,7 +2,7 @@
 
 Register 2: 011CH "enables drive fault input, overtravel L/S, feedback marker; home direction decreasing" (4-48) is four bits and four
 statements; 01DH with "marker pulse, home negative" goes to the home switch first (5-6), so bit 0 is the switch. The rest
-follows from the order in which section 4.4 tells them. Bits 4 and 12 of register 0 are printed.
+follows from the order of section 4.4. Bits 4 and 12 of register 0 are printed.
 """
 
 from __future__ import annotations

@@ -22,6 +22,7 @@ SCATTER = 0.1
 FARTHEST_BLU = 999999999.0
 """The delivered stroke limits: none (3.2)."""
 
+WINDOW_NOTE = "ASSUMED: a unit of the zero-speed window Pr901 is a BLU; the slides print neither unit nor range (2.2, alarms)."
 NOTES = (
     "Onto the dog at the first speed, stop, off it backwards at the second, on to the nearest index (2.2).",
     (
@@ -64,7 +65,7 @@ def homing(read: AxisParameters, turn: float) -> Homing:
         failures=_failures(read, turn),
         rest_window=math.inf if not window else window * BLU,
         page="2.2",
-        notes=NOTES,
+        notes=(*NOTES, WINDOW_NOTE) if window else NOTES,
     )
 
 

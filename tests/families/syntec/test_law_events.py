@@ -74,7 +74,7 @@ def test_a_jog_goes_at_its_speed_and_has_no_increment() -> None:
 
 def test_a_first_speed_whose_following_error_is_more_than_two_turns_finds_the_dog() -> None:
     # 20 m/min at a loop gain of 30/s are 11 mm of following error, two turns of 5 mm: the command ended before the axis was there.
-    file = mill(home__first_speed=Value(20000, "mm/min"))
+    file = mill(home__first_speed=Value(20000, "mm/min"), home__zero_speed_window=Value(1000))
     trace = simulate(file, "home", "1")
     overrun = trace.result["switch_overrun"][0]
     assert overrun is not None
@@ -118,7 +118,7 @@ def test_the_protective_revolution_replaces_the_5_pitches() -> None:
 def test_home_grid_is_shown_and_an_index_below_half_a_turn_is_passed(
     marker: float, grid: float, passed: float
 ) -> None:
-    """Home grid (2.2): 35 becomes 135 with Pr941; advice below 20 and above 80."""
+    """Home grid (2.2): 35 becomes 135 with Pr941; recommended below 20 and above 80."""
     plain = simulate(mill(home__first_speed=Value(FAST, "mm/min")), "home", "1", {"move.marker": marker})
     assert plain.result["home_grid"][0] == pytest.approx(grid, abs=0.1)
     advised = [each for each in plain.recommendations if each.parameter == "home.grid"]
