@@ -13,7 +13,7 @@ LOCK := build/lock/bin/uv pip compile pyproject.toml --quiet --universal --pytho
 	$(if $(UPGRADE),--upgrade)
 
 .DEFAULT_GOAL := help
-.PHONY: help run test durations mutants campaign slips faults monkey peers check format schema docs lock bench screenshots man translations wheel clean setup setup-run
+.PHONY: help run test durations mutants campaign tunings slips faults monkey peers check format schema docs lock bench screenshots man translations wheel clean setup setup-run
 
 help: ## this list
 	@awk -F ':.*## ' '/^[a-z-]+:.*## / {printf "  make %-11s %s\n", $$1, $$2}' $(MAKEFILE_LIST)
@@ -33,6 +33,9 @@ mutants: setup ## change every rule and its findings in every way, one at a time
 campaign: setup ## generated cases that no run has tried: every property 25 times as often, with another seed each time
 	@AMP_STUDIO_FULL=1 $(BIN)/python -m pytest -q -n $(WORKERS) -m hypothesis $(TESTS)
 	@AMP_STUDIO_FULL=1 $(BIN)/python -m pytest -q -n $(WORKERS) tests/validate/test_any_values.py tests/validate/test_fix_campaign.py
+
+tunings: setup ## tune 300 random machines and search each on a grid: TUNINGS="300 1" (machines, seed)
+	@PYTHONPATH=. $(BIN)/python -m tests.sim.tuning_campaign $(or $(TUNINGS),300 1)
 
 slips: setup ## plant every slip of one value into the examples and print what share brings a finding: SLIPS="--missed" lists the others
 	@PYTHONPATH=.:tests/validate $(BIN)/python -m slips $(SLIPS)

@@ -8,6 +8,7 @@ SCENARIOS = {
     "step": "amp_studio.sim.scenarios.step:SCENARIO",
     "velocity": "amp_studio.sim.scenarios.velocity:SCENARIO",
     "frequency": "amp_studio.sim.scenarios.frequency:SCENARIO",
+    "tune": "amp_studio.sim.scenarios.tune:SCENARIO",
     "circle": "amp_studio.sim.scenarios.circle:SCENARIO",
     "home": "amp_studio.sim.scenarios.home:SCENARIO",
     "jog": "amp_studio.sim.scenarios.jog:SCENARIO",

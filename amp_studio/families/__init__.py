@@ -17,8 +17,8 @@ FAMILIES = {
 """Family -> its record."""
 
 SCENARIOS = {
-    "9pc": ("tune",),
-    "57c422b": ("tune", "gear", "cam", "backlash"),
+    "9pc": ("procedure",),
+    "57c422b": ("procedure", "gear", "cam", "backlash"),
 }
 """Family -> the scenarios that its law alone has, for help and completion, which load no law."""
 

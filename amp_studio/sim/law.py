@@ -51,7 +51,7 @@ from .trace import Recommendation, Trace
 
 Leader = Callable[["AxisLaw"], Mapping[str, npt.NDArray[np.float64]]]
 
-SCENARIOS = ("step", "velocity", "frequency", "circle")
+SCENARIOS = ("step", "velocity", "frequency", "tune", "circle")
 """Scenarios of every family."""
 
 
@@ -145,6 +145,10 @@ class AxisLaw:
     """Limits of the following error in u, to draw beside the curves."""
     sources: Mapping[str, Source] = field(default_factory=dict)
     """Figure -> its parameter."""
+    follow: Callable[[AxisLaw], Sequence[Recommendation]] = lambda _axis: ()
+    """follow(axis) -> what has to follow other gains: feed-forward, limits of the following error."""
+    gains: Sequence[str] = ("position_gain",)
+    """Figures of ``sources`` that close the loops, from the inner loop outwards: what the solver seeks."""
     assumptions: tuple[str, ...] = ()
     """What is assumed about the control, each a sentence with its page."""
     assumed: Mapping[str, str] = field(default_factory=dict)

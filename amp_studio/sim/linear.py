@@ -9,7 +9,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cached_property, lru_cache
 
 import numpy as np
 
@@ -27,12 +27,18 @@ SHARP = 0.3
 """Damping ratio of a pole around which the grid is closer."""
 CLOSE = 41
 """Points of the grid around a pole."""
+SLOWER = 20.0
+"""Ten times below the slowest pole the grid begins at the latest."""
+_WIDTHS = np.array([-4.0, -2.5, -1.5, -1.0, -0.5, 0.0, 0.5, 1.0, 1.5, 2.5, 4.0])
+"""Half-widths of its peak beside a pole at which the grid has points."""
 HALVINGS, COARSE = 48, 12
 """Halvings of the space between two points around a crossing, for a figure and for a value that is tried."""
 _LOWEST = 1e-4
 """Lowest frequency of the grid as a share of the sampling frequency."""
 _NOTHING = 1e-300
 """Keeps the logarithm of a response of 0 finite."""
+LONGEST_STEP = 20.0
+"""s that a push on the axis is followed for."""
 HALF_POWER = math.sqrt(0.5)
 """Share of the amplitude at the bandwidth: -3 dB."""
 
@@ -65,8 +71,14 @@ class LinearModel(SampledLoop):
 
     @cached_property
     def _poles(self) -> Response:
-        found = np.linalg.eigvals(self.closed).astype(np.complex128)
+        found = self._eigen[0]
         return found[np.argsort(-np.abs(found))]
+
+    @cached_property
+    def _eigen(self) -> tuple[Response, Response]:
+        """Poles and eigenvectors of the closed loop."""
+        values, vectors = np.linalg.eig(self.closed)
+        return values.astype(np.complex128), vectors.astype(np.complex128)
 
     def is_stable_inside(self) -> bool:
         """Return whether the loop is stable where it is cut: what is inside of it does not run away by itself."""
@@ -107,16 +119,8 @@ class LinearModel(SampledLoop):
 
     def grid(self, points: int = _POINTS) -> Matrix:
         """Return frequencies in Hz up to Nyquist, close together where a pole is."""
-        low = _LOWEST / self.period
-        even = np.geomspace(low, self.nyquist, points)
         found = np.concatenate([self.poles(), np.linalg.eigvals(self.open)])
-        rates = np.log(found[np.abs(found) > 1e-6])
-        sharp = rates[np.abs(rates.real) < SHARP * np.abs(rates)]
-        peaks = np.abs(sharp.imag) / (2.0 * math.pi * self.period)
-        close = np.geomspace(0.8, 1.25, CLOSE if points >= _POINTS else CLOSE // 4)
-        near = (peaks[:, None] * close[None, :]).ravel()
-        every = np.concatenate([even, near[(near > low) & (near < self.nyquist)]])
-        return np.unique(every)
+        return _around(found, self.period, points, CLOSE if points >= _POINTS else CLOSE // 4)
 
     def margins(self, points: int = _POINTS) -> Margins:
         """Return the least phase and gain margin of the loop, sought on a grid of ``points`` frequencies and more at poles."""
@@ -130,10 +134,67 @@ class LinearModel(SampledLoop):
         gain = _least(gains)
         return Margins(*phase, *gain)
 
-    def bandwidth(self) -> float | None:
-        """Return the frequency in Hz from which the axis follows less than -3 dB; None if it always does."""
+    def sensitivity(self) -> tuple[float, float]:
+        """Return Ms, the largest size of the sensitivity 1 / (1 + L), and its frequency in Hz: 1 / Ms is the least distance of the
+        Nyquist curve from -1.
+        """
         grid = self.grid()
-        fall = _crossings(lambda f: np.log(np.abs(self.follows(f)) / HALF_POWER + _NOTHING), grid)
+        for _ in range(2):
+            size = np.abs(1.0 / (1.0 + self.loop(grid)))
+            most = int(np.argmax(size))
+            low, high = grid[max(0, most - 1)], grid[min(len(grid) - 1, most + 1)]
+            grid = np.linspace(low, high, CLOSE)
+        size = np.abs(1.0 / (1.0 + self.loop(grid)))
+        most = int(np.argmax(size))
+        return float(size[most]), float(grid[most])
+
+    def quick(self, points: int) -> tuple[Margins, float]:
+        """Return margins and Ms by straight lines between ``points`` frequencies: within half a percent, for values that are tried."""
+        grid = _around(self.poles(), self.period, points, CLOSE // 4)
+        loop = self.loop(grid)
+        size, angle = np.log(np.abs(loop) + _NOTHING), np.angle(loop)
+        at = np.flatnonzero((size[:-1] > 0.0) != (size[1:] > 0.0))
+        share = size[at] / (size[at] - size[at + 1])
+        turn = (angle[at + 1] - angle[at] + math.pi) % (2.0 * math.pi) - math.pi
+        phases = [((p + math.pi + math.pi) % (2.0 * math.pi)) - math.pi for p in angle[at] + share * turn]
+        crossed = np.exp(np.log(grid[at]) + share * np.log(grid[at + 1] / grid[at]))
+        real = np.flatnonzero(((loop.imag[:-1] > 0.0) != (loop.imag[1:] > 0.0)) & (loop.real[1:] < 0.0))
+        part = loop.imag[real] / (loop.imag[real] - loop.imag[real + 1])
+        gains = size[real] + part * (size[real + 1] - size[real])
+        turned = grid[real] + part * (grid[real + 1] - grid[real])
+        found = [(-20.0 / math.log(10.0) * gain, f) for gain, f in zip(gains, turned, strict=True)]
+        if loop[-1].real < 0.0 and abs(loop[-1].imag) < 1e-3 * abs(loop[-1]):
+            found.append((-20.0 / math.log(10.0) * float(size[-1]), self.nyquist))
+        phase = _least([(math.degrees(p), f) for p, f in zip(phases, crossed, strict=True)])
+        return Margins(*phase, *_least(found)), float(np.max(1.0 / np.abs(1.0 + loop)))
+
+    def yields(self, window: float, longest: float = LONGEST_STEP) -> tuple[float, float]:
+        """Return the largest way of the load for one unit of torque that comes at once and stays, and its mean in the first ``window`` s;
+        infinite for an axis that does not come to rest within ``longest`` s.
+        """
+        slowest = float(np.max(np.abs(self._poles), initial=0.0))
+        if slowest >= 1.0 - 1e-12:
+            return math.inf, math.inf
+        needed = math.log(1e-4) / math.log(slowest) if slowest > 0.0 else 1.0
+        steps = math.ceil(min(max(needed, window / self.period + 1.0), longest / self.period))
+        way = np.abs(self.pushed_way(steps))
+        stays = float(
+            (self.position @ np.linalg.solve(np.eye(len(self.closed)) - self.closed, self.pushed))[0, 0]
+        )
+        return max(float(way.max()), abs(stays)), float(way[: max(1, round(window / self.period))].mean())
+
+    def pushed_way(self, steps: int) -> Matrix:
+        """Return the position of the load at so many samples after one unit of torque came, from a sample later on."""
+        states, move = self.pushed, self.closed
+        while states.shape[1] < steps:  # twice as many steps each time: x[n + k] = A^n x[k] + x[n]
+            states = np.hstack([states, move @ states + states[:, -1:]])
+            move = move @ move
+        return np.asarray((self.position @ states)[0, :steps])
+
+    def bandwidth(self, *, forward: bool = True) -> float | None:
+        """Return the frequency in Hz from which the axis follows less than -3 dB, with its feed-forward or without; None if it always does."""
+        answer = self.follows if forward else self.feedback
+        fall = _crossings(lambda f: np.log(np.abs(answer(f)) / HALF_POWER + _NOTHING), self.grid())
         return fall[0] if fall else None
 
     def oscillations(self) -> list[tuple[float, float]]:
@@ -152,14 +213,16 @@ class LinearModel(SampledLoop):
         """Poles and eigenvectors of the closed loop, both ways, by which many frequencies cost little; None where they are
         too close together for that.
         """
-        values, vectors = np.linalg.eig(self.closed)
-        if not values.size or np.linalg.cond(vectors) > WELL_APART:
+        values, vectors = self._eigen
+        if not values.size:
             return None
-        return (
-            values.astype(np.complex128),
-            vectors.astype(np.complex128),
-            np.linalg.inv(vectors).astype(np.complex128),
-        )
+        try:
+            inverse = np.asarray(np.linalg.inv(vectors), dtype=np.complex128)
+        except np.linalg.LinAlgError:
+            return None
+        if np.linalg.norm(vectors) * np.linalg.norm(inverse) > WELL_APART:  # a bound of the condition
+            return None
+        return values, vectors, inverse
 
     def _answer(self, b: Matrix, c: Matrix, z: Response) -> Response:
         """Return c (z - closed)^-1 b for every z."""
@@ -176,13 +239,37 @@ class LinearModel(SampledLoop):
         return complex(self.loop(np.array([frequency]))[0])
 
 
-def linear_model(axis: AxisLaw) -> LinearModel:
-    """Return the model of the position loop of an axis, its velocity loop closed."""
+@dataclass(frozen=True, eq=False)
+class LawMatrices:
+    """The two sample functions of a law at rest, each as a matrix over its states and signals."""
+
+    position: Matrix
+    velocity: Matrix | None
+    places: Places
+
+    @classmethod
+    def of(cls, axis: AxisLaw) -> LawMatrices:
+        """Return those of an axis; its machine has no part in them."""
+        velocity = _law_matrix(axis, axis.velocity_sample) if axis.velocity_sample else None
+        return cls(_law_matrix(axis, axis.position_sample), velocity, _places(axis))
+
+    def jolt(self) -> float:
+        """Return by how much one unit of the measured position moves the output in one sample."""
+        signal = self.places.signals
+        z = np.zeros((len(self.position), 1))
+        z[[signal["position"], signal["motor"]]] = 1.0
+        z = self.position @ z
+        if self.velocity is not None:
+            z[signal["motor"]] = 1.0
+            z = self.velocity @ z
+        return abs(float(z[signal["output"], 0]))
+
+
+def linear_model(axis: AxisLaw, law: LawMatrices | None = None) -> LinearModel:
+    """Return the model of the position loop of an axis, its velocity loop closed; ``law`` where it is known already."""
+    law = law or LawMatrices.of(axis)
     plant = plant_of(axis.machine)
-    position = _law_matrix(axis, axis.position_sample)
-    velocity = _law_matrix(axis, axis.velocity_sample) if axis.velocity_sample else None
-    places = _places(axis)
-    loop = sampled(plant, position, velocity, places, axis.servo_period, axis.velocity_period)
+    loop = sampled(plant, law.position, law.velocity, law.places, axis.servo_period, axis.velocity_period)
     return LinearModel(**vars(loop))
 
 
@@ -203,30 +290,34 @@ class AxisModel:
 
     def damping(self, crossing: float | None) -> float:
         """Return the damping ratio of the position loop: of the slowest oscillation near ``crossing``, the frequency in Hz where its
-        gain is 1; 1 for none.
+        gain is 1; 1 for none, and for a loop that never has that gain.
         """
-        nearest = math.inf if crossing is None else NEAR * 2.0 * math.pi * crossing
+        if crossing is None:
+            return 1.0
+        nearest = NEAR * 2.0 * math.pi * crossing
         pairs = [pair for pair in self.whole.oscillations() if pair[0] < nearest]
         return min(pairs)[1] if pairs else 1.0
 
 
-def axis_model(axis: AxisLaw) -> AxisModel:
+def axis_model(axis: AxisLaw, law: LawMatrices | None = None) -> AxisModel:
     """Return the models of an axis; a law that closes its position loop with the motor's device is cut there."""
-    whole, inner = linear_model(axis), velocity_model(axis)
+    law = law or LawMatrices.of(axis)
+    whole, inner = linear_model(axis, law), velocity_model(axis, law)
     if inner is not None and not np.any(whole.measured):
         return AxisModel(whole, inner, None)
     return AxisModel(whole, whole, inner)
 
 
-def velocity_model(axis: AxisLaw) -> LinearModel | None:
+def velocity_model(axis: AxisLaw, law: LawMatrices | None = None) -> LinearModel | None:
     """Return the model of the velocity loop alone, cut where it measures the motor; None for a law without one."""
-    if axis.velocity_sample is None:
+    law = law or LawMatrices.of(axis)
+    if law.velocity is None:
         return None
-    places = _places(axis)
-    swapped = {**places.signals, "position": places.signals["motor"], "motor": places.signals["position"]}
-    matrix = _law_matrix(axis, axis.velocity_sample)
+    signal = law.places.signals
+    swapped = {**signal, "position": signal["motor"], "motor": signal["position"]}
     period = axis.servo_period / max(1, round(axis.servo_period / axis.velocity_period))
-    return LinearModel(**vars(sampled(plant_of(axis.machine), matrix, None, Places(swapped), period, period)))
+    loop = sampled(plant_of(axis.machine), law.velocity, None, Places(swapped), period, period)
+    return LinearModel(**vars(loop))
 
 
 def _places(axis: AxisLaw) -> Places:
@@ -255,6 +346,30 @@ def _law_matrix(axis: AxisLaw, function: Sample) -> Matrix:
         return np.array([*s, *io])
 
     return jacobian(sample, rest)
+
+
+@lru_cache(maxsize=32)
+def _even(period: float, points: int) -> Matrix:
+    """Return frequencies in Hz up to Nyquist."""
+    return np.asarray(np.geomspace(_LOWEST / period, 0.5 / period, points))
+
+
+def _around(poles: Response, period: float, points: int, close: int) -> Matrix:
+    """Return frequencies in Hz up to Nyquist, ``close`` more around each pole that rings."""
+    even = _even(period, points)
+    rates = np.log(poles[np.abs(poles) > 1e-6])
+    moving = np.abs(rates)[np.abs(rates) > 1e-9]
+    lowest = float(moving.min(initial=1.0)) / (SLOWER * math.pi * period)
+    if lowest < even[0]:  # a loop that is slower than the grid begins
+        even = np.concatenate([np.geomspace(lowest, even[0], points // 4, endpoint=False), even])
+    sharp = rates[(np.abs(rates.real) < SHARP * np.abs(rates)) & (rates.imag > 0.0)]
+    if not sharp.size:
+        return even
+    peaks, widths = sharp.imag / (2.0 * math.pi * period), -sharp.real / np.abs(sharp)
+    wide = peaks[:, None] * np.geomspace(0.8, 1.25, close)[None, :]
+    fine = peaks[:, None] * (1.0 + widths[:, None] * _WIDTHS[None, :])
+    near = np.concatenate([wide.ravel(), fine.ravel()])
+    return np.unique(np.concatenate([even, near[(near > even[0]) & (near < even[-1])]]))
 
 
 def _response(a: Matrix, b: Matrix, c: Matrix, z: Response) -> Response:

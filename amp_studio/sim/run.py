@@ -67,17 +67,38 @@ def simulate(
         doubtful = doubts(file, read, model)
         return in_unit(_named(replace(trace, recommendations=advice, doubts=doubtful), letter), length)
     chosen = SCENARIOS[scenario]
+    if chosen.tried:
+        trace = chosen.run(_trial(file, law, bound.axis, model), own, _alike(file, law, bound, model))
+        doubtful = doubts(file, read, model)
+        return in_unit(_named(replace(trace, doubts=doubtful), letter), length)
     second = (_second(file, law, bound, own.get(SECOND), model),) if chosen.second else ()
     trace = chosen.run(bound, own, *second)
     if not advise:
         return in_unit(_named(trace, letter), length)
     found, notes = (*trace.recommendations, *law.advise(bound, trace)), tuple[str, ...]()
     if chosen.gains:
-        trial = Trial(file, lambda other: bind_axis(other, law, bound.axis, model))
+        trial = _trial(file, law, bound.axis, model)
         found, notes = recommendations(trial, scenario, found)
     notes, doubtful = (*trace.assumptions, *notes), doubts(file, read, model)
     done = replace(trace, recommendations=found, assumptions=notes, doubts=doubtful)
     return in_unit(_named(done, letter), length)
+
+
+def _trial(file: ParameterFile, law: Law, axis: str, model: Mapping[str, ParameterValue]) -> Trial:
+    return Trial(file, lambda other: bind_axis(other, law, axis, model))
+
+
+def _alike(file: ParameterFile, law: Law, first: AxisLaw, model: Mapping[str, ParameterValue]) -> list[Trial]:
+    """Return the axes that make contours with one, itself too: those that can be simulated and move in the same unit."""
+    found = []
+    for name in law.axes(file):
+        try:
+            trial = _trial(file, law, name, model)
+        except SimulationError:
+            continue
+        if trial.axis.unit == first.unit:
+            found.append(trial)
+    return found
 
 
 def _named(trace: Trace, letter: str) -> Trace:

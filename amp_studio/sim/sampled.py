@@ -9,6 +9,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 from dataclasses import dataclass
+from functools import lru_cache
 
 import numpy as np
 import numpy.typing as npt
@@ -20,13 +21,13 @@ Matrix = npt.NDArray[np.float64]
 
 LONGEST_DELAY = 100
 """Most samples of the faster loop from an output to its effect."""
-_STEP = 1e-7
+_STEP = 2.0**-23
 """Disturbance of a signal at rest, in its own unit: far below every limit, far above rounding."""
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Plant:
-    """The machine as a linear system: dx/dt = a x + b u(t - delay), positions of motor and load in x."""
+    """The machine as a linear system: dx/dt = a x + b u(t - delay) + push w, positions of motor and load in x."""
 
     a: Matrix
     b: Matrix
@@ -34,6 +35,8 @@ class Plant:
     load: Matrix
     delay: float = 0.0
     """s"""
+    push: Matrix | None = None
+    """What a torque on the load does; None for a machine that nothing pushes."""
 
 
 @dataclass(frozen=True)
@@ -48,10 +51,10 @@ class Places:
 
 @dataclass(frozen=True)
 class SampledLoop:
-    """x' = open x + measured w + command (r, dr/dt, d2r/dt2); one step is one ``period`` in s.
+    """x' = open x + measured w + command (r, dr/dt, d2r/dt2) + pushed d; one step is one ``period`` in s.
 
     ``w`` is the position that the control measures, ``sensed x`` the position that it would measure, ``position x``
-    the position of the load.
+    the position of the load, ``d`` a torque on the load.
     """
 
     period: float
@@ -60,6 +63,7 @@ class SampledLoop:
     command: Matrix
     sensed: Matrix
     position: Matrix
+    pushed: Matrix
 
     @property
     def closed(self) -> Matrix:
@@ -67,6 +71,7 @@ class SampledLoop:
         return self.open + self.measured @ self.sensed
 
 
+@lru_cache(maxsize=256)
 def plant_of(machine: Machine) -> Plant:
     """Return the linear machine: no dry friction, no backlash (motor and load in contact), no limits, no weight."""
     motor, motor_speed, load, load_speed, torque, error_sum = range(6)
@@ -106,8 +111,12 @@ def plant_of(machine: Machine) -> Plant:
     else:
         a[motor_speed] += driven * wanted
         b[motor_speed, 0] += driven * scale
-    row = np.eye(6)
-    return Plant(a, b, row[[motor]], row[[load if machine.two_masses else motor]], machine.delay)
+    row, push_at = np.eye(6), np.zeros((6, 1))
+    if machine.two_masses:
+        push_at[load_speed, 0] = push[load_speed]
+    else:
+        push_at[motor_speed, 0] = acceleration
+    return Plant(a, b, row[[motor]], row[[load if machine.two_masses else motor]], machine.delay, push_at)
 
 
 def sampled(
@@ -139,7 +148,7 @@ def sampled(
     move = _Move.of(plant, step, rest, waiting, signal["output"], size)
     taken = [signal[name] for name in ("position", "command", "command_velocity", "command_acceleration")]
     # A row for each state and signal: what it is made of, the states before the period and the inputs.
-    rows = np.hstack([np.eye(size), np.zeros((size, len(taken)))])
+    rows = np.hstack([np.eye(size), np.zeros((size, len(taken) + 1))])  # the last one is the push on the load
     rows[taken] = 0.0
     rows[taken, range(size, size + len(taken))] = 1.0
     rows[signal["motor"]] = plant.motor[0] @ rows[:x]
@@ -153,17 +162,18 @@ def sampled(
     sensed[0, :x] = plant.load if places.load_sensor else plant.motor
     load[0, :x] = plant.load
     inputs = rows[:, size:]
-    return _reduced(SampledLoop(period, rows[:, :size], inputs[:, :1], inputs[:, 1:], sensed, load))
+    return _reduced(
+        SampledLoop(period, rows[:, :size], inputs[:, :1], inputs[:, 1:-1], sensed, load, inputs[:, -1:])
+    )
 
 
 def jacobian(sample: Callable[[Matrix], Matrix], rest: Matrix) -> Matrix:
-    """Return the matrix of a sample function at rest, by central differences (exact for a linear function)."""
-    columns = []
+    """Return the matrix of a sample function at rest, by differences, which are exact for a linear function."""
+    still, columns = sample(rest), []
     for n in range(len(rest)):
-        ahead, behind = rest.copy(), rest.copy()
+        ahead = rest.copy()
         ahead[n] += _STEP
-        behind[n] -= _STEP
-        columns.append((sample(ahead) - sample(behind)) / (2.0 * _STEP))
+        columns.append((sample(ahead) - still) / _STEP)
     return np.array(columns).T
 
 
@@ -191,7 +201,7 @@ def held(a: Matrix, b: Matrix, time: float) -> tuple[Matrix, Matrix]:
     return over[:n, :n], over[:n, n:]
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class _Move:
     """One velocity period of the machine: its input is a number of outputs old, which wait in a queue, the oldest first."""
 
@@ -199,19 +209,23 @@ class _Move:
     old: Matrix
     """What the oldest output does, and the one after it if the delay is no whole number of periods."""
     new: Matrix | None
+    push: Matrix
+    """What a torque on the load does."""
     places: list[int]
     """Rows of the waiting outputs and of the present one."""
 
     @classmethod
+    @lru_cache(maxsize=256)
     def of(cls, plant: Plant, step: float, rest: float, waiting: int, output: int, size: int) -> _Move:
         """Return the move over ``step`` s; ``rest`` is the share of a period in the delay."""
         places = [*range(size - waiting, size), output]
         phi, gamma = held(plant.a, plant.b, step)
+        push = np.zeros((len(phi), 1)) if plant.push is None else held(plant.a, plant.push, step)[1]
         if rest <= 1e-9:
-            return cls(phi, gamma, None, places)
+            return cls(phi, gamma, None, push, places)
         phi_early, gamma_early = held(plant.a, plant.b, (1.0 - rest) * step)
         _, gamma_late = held(plant.a, plant.b, rest * step)
-        return cls(phi, phi_early @ gamma_late, gamma_early, places)
+        return cls(phi, phi_early @ gamma_late, gamma_early, push, places)
 
     def apply(self, rows: Matrix) -> None:
         """Move the machine in the first rows, and the queue."""
@@ -219,24 +233,34 @@ class _Move:
         moved = self.phi @ rows[:x] + self.old * rows[self.places[0]]
         if self.new is not None:
             moved += self.new * rows[self.places[1]]
+        moved[:, -1:] += self.push
         rows[:x] = moved
         rows[self.places[:-1]] = rows[self.places[1:]]
 
 
 def _reduced(model: SampledLoop) -> SampledLoop:
     """Leave out the states that no input reaches or no position shows: signals that the law does not use."""
-    links = np.abs(model.closed) + np.abs(model.open) > 0.0
-    inputs = np.abs(np.hstack([model.measured, model.command])).sum(axis=1) > 0.0
-    outputs = (np.abs(model.sensed) + np.abs(model.position))[0] > 0.0
-    keep = _spread(links, inputs) & _spread(links.T, outputs)
+    links = (model.closed != 0.0) | (model.open != 0.0)
+    inputs = (model.measured != 0.0)[:, 0] | (model.command != 0.0).any(axis=1)
+    outputs = ((model.sensed != 0.0) | (model.position != 0.0))[0]
+    keep = _used(len(links), links.tobytes(), inputs.tobytes(), outputs.tobytes())
     return SampledLoop(
         model.period,
-        model.open[np.ix_(keep, keep)],
+        model.open[keep[:, None], keep],
         model.measured[keep],
         model.command[keep],
         model.sensed[:, keep],
         model.position[:, keep],
+        model.pushed[keep],
     )
+
+
+@lru_cache(maxsize=256)
+def _used(size: int, links: bytes, inputs: bytes, outputs: bytes) -> npt.NDArray[np.int64]:
+    """Return the places of the states that an input reaches and a position shows."""
+    linked = np.frombuffer(links, dtype=np.bool_).reshape(size, size)
+    reached, seen = (np.frombuffer(each, dtype=np.bool_) for each in (inputs, outputs))
+    return np.flatnonzero(_spread(linked, reached) & _spread(linked.T, seen))
 
 
 def _spread(links: npt.NDArray[np.bool_], begin: npt.NDArray[np.bool_]) -> npt.NDArray[np.bool_]:

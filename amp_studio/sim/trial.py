@@ -6,6 +6,7 @@ from collections.abc import Callable, Mapping
 
 from amp_studio.files import ParameterFile, RangeError
 from amp_studio.schema import Address, Value
+from amp_studio.schema.constraint import limits
 
 from .errors import SimulationError
 from .law import AxisLaw
@@ -45,6 +46,17 @@ class Trial:
             if value and isinstance(value.value, (int, float)) and not isinstance(value.value, bool)
             else None
         )
+
+    def range_of(self, parameter: str) -> tuple[float | None, float | None]:
+        """Return the bounds of a parameter in the unit that its value has; None where there is none."""
+        address, value = address_of(self._file, parameter, self.axis.axis), self.value(parameter)
+        found = limits(self._file.evaluation, address, value.unit) if address and value else None
+        return (found.low, found.high) if found else (None, None)
+
+    def decimals(self, parameter: str) -> int | None:
+        """Return the decimals that the control keeps of a parameter; None where all."""
+        storage = self._file.schema.parameters[parameter].storage
+        return storage.decimals if storage else None
 
     def bound(self, numbers: Mapping[str, float]) -> AxisLaw | None:
         """Return the axis with other values of parameters; None if one is out of range or it cannot be simulated."""

@@ -8,8 +8,8 @@ import numpy as np
 import pytest
 
 from amp_studio.sim import SCENARIOS, SimulationError, Trace
-from amp_studio.sim.advice import Loops
 from amp_studio.sim.linear import linear_model
+from amp_studio.sim.loops import Loops
 from amp_studio.sim.scenarios.sweep import Tone, sweep
 from tests.sim.tiny import tiny
 

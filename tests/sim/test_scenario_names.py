@@ -29,5 +29,8 @@ print([name for name in sys.modules if name in ("numba", "pydantic") or name.sta
 """
     done = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, check=True)
     listed, loaded = done.stdout.splitlines()
-    assert listed == "[('step, velocity, frequency, circle, home, jog, travel, tune, gear, cam, backlash',)]"
+    assert (
+        listed
+        == "[('step, velocity, frequency, tune, circle, home, jog, travel, procedure, gear, cam, backlash',)]"
+    )
     assert loaded == "['amp_studio.scenarios']"

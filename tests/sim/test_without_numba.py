@@ -34,7 +34,7 @@ def simulated(program: str, path: Path, *arguments: str) -> str:
 @pytest.mark.parametrize(
     ("example", "arguments"),
     [
-        ("mill-1394/MILL_1394.amp", ["tune"]),  # asks for machine code whatever its length
+        ("mill-1394/MILL_1394.amp", ["procedure"]),  # asks for machine code whatever its length
         # 60 s, more than PLAIN_STEPS of the kernel: machine code is used where it is.
         ("num-1060-mill/MILL_1060.amp", ["step", "--set", "move.distance=6000"]),
     ],

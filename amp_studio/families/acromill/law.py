@@ -25,7 +25,6 @@ from amp_studio.sim import (
     Trace,
 )
 from amp_studio.sim.law import SCENARIOS
-from amp_studio.sim.linear import linear_model
 from amp_studio.sim.model import with_model
 from amp_studio.sim.steady import error_at_speed
 
@@ -138,6 +137,8 @@ def bind(read: AxisParameters) -> AxisLaw:
         travel=partial(events.travel, read),
         undamped=UNDAMPED if p[loop.D_GAIN] == p[loop.FBVEL] == 0.0 else "",
         limits={"excess_error": excess} if excess > 0.0 else {},
+        gains=("derivative_gain", "position_gain", "integral_gain"),
+        follow=follow,
         sources=_sources(pulses, "speeds.rapid" if rapid else HIGHEST),
         assumptions=tuple(notes),
         assumed=_ASSUMED,
@@ -271,50 +272,35 @@ def _sources(pulses: float, feedrate: str) -> Mapping[str, Source]:
 
 
 def advise(axis: AxisLaw, trace: Trace) -> Sequence[Recommendation]:
-    """Return D Gain where there is none, and the Vel FFwd that takes the steady error away (page 115)."""
-    return (*_damping(axis), *_feed_forward(axis, trace))
-
-
-def _damping(axis: AxisLaw) -> Sequence[Recommendation]:
-    """Return the D Gain that damps the loop aperiodically, 2 √(P Gain / pulses/s² for 1 V), where there is none."""
-    p = axis.parameters
-    if p[loop.D_GAIN] != 0.0 or p[loop.FBVEL] != 0.0 or p[loop.P_GAIN] <= 0.0:
+    """Return the Vel FFwd after a move with a steady error (page 115)."""
+    error, p = error_at_speed(trace), axis.parameters
+    if trace.alarms or error is None or p[loop.I_DELAY] == 0.0 < p[loop.I_GAIN]:
         return ()
-    pulses = axis.machine.acceleration_per_output * p[loop.PULSES] * p[loop.DAC_SHARE]
-    wanted = float(f"{2.0 * math.sqrt(p[loop.P_GAIN] / pulses):.2g}")
-    damped = list(_linear(p))
-    damped[loop.D_GAIN] = wanted
-    if not linear_model(replace(axis, linear_parameters=damped)).is_stable():
-        return ()
-    return (
-        Recommendation(
-            D_GAIN,
-            wanted,
-            "Vs/count",
-            "D Gain is 0, as in a new file (page 59), and nothing else damps an axis in torque mode; this is the aperiodic limit on"
-            " the assumed machine (page 115).",
-            "Every count of the encoder is heard in the output, and too much makes the motor buzz.",
-        ),
-    )
+    return follow(axis) if abs(error * p[loop.PULSES]) >= 2.0 else ()
 
 
-def _feed_forward(axis: AxisLaw, trace: Trace) -> Sequence[Recommendation]:
-    error, speed, p = error_at_speed(trace), trace.result.get("feedrate", (None, ""))[0], axis.parameters
-    if trace.alarms or error is None or not speed or p[loop.I_DELAY] == 0.0 < p[loop.I_GAIN]:
+def follow(axis: AxisLaw) -> Sequence[Recommendation]:
+    """Return the Vel FFwd that takes the steady error of the rapid feedrate away: P Gain x error / speed (page 115)."""
+    p, speed, machine = axis.parameters, axis.feedrate, axis.machine
+    if not speed:
         return ()
-    pulses = error * p[loop.PULSES]
-    wanted = p[loop.VEL_FFWD] + p[loop.P_GAIN] * error / (speed / 60.0)
-    if abs(pulses) < 2.0 or wanted < 0.0:
+    volts = machine.viscous_friction * speed + machine.coulomb_friction + machine.gravity
+    wanted = float(f"{volts / p[loop.DAC_SHARE] / (speed * p[loop.PULSES]) + p[loop.FBVEL]:.3g}")
+    if wanted < 0.0 or abs(wanted - p[loop.VEL_FFWD]) <= SAME * wanted:
         return ()
     return (
         Recommendation(
             VEL_FFWD,
-            float(f"{wanted:.3g}"),
+            wanted,
             "Vs/count",
-            f"The axis is {abs(pulses):.3g} pulses {'ahead' if pulses < 0.0 else 'behind'} at this speed (page 115).",
+            "No steady error at the rapid feedrate: what viscous and dry friction take there, for a pulse a second (page 115).",
             "The part that is dry friction is paid back at other speeds.",
         ),
     )
+
+
+SAME = 0.005
+"""Share of the Vel FFwd by which another one is the same."""
 
 
 LAW = Law(

@@ -21,13 +21,13 @@ from . import law_events as events
 from . import law_notes as notes_of
 from . import law_samples as samples
 from . import law_split as split
-from .law_advice import advise
+from .law_advice import advise, follow
 from .law_drives import Parts, analog, digital, third_party
 from .law_feedback import OWN_TRAVEL, Feedback, feedback_of
 from .law_figures import Loop, predictions
 from .law_ramps import ramps_of
 from .law_reading import above_zero, demand, if_set, not_negative
-from .law_tune import SCENARIO as TUNE
+from .law_tune import SCENARIO as PROCEDURE
 from .law_units import OWN_INERTIA, OWN_TORQUE
 
 HARDWARE, LOOP, POSITION_LOOP = "servo.hardware_type", "servo.loop_type", "servo.position_loop_type"
@@ -229,6 +229,8 @@ def _common(
         "servo_period": cycle / 1000.0,
         "feedrate": rapid / 60.0 if rapid else None,
         "ramps": ramps,
+        "follow": follow,
+        "gains": ("velocity_proportional_gain", "velocity_integral_gain", "position_gain"),
         "sources": {name: _bounded(source, kind.unit) for name, source in SOURCES.items()},
     }
 
@@ -266,5 +268,5 @@ LAW = Law(
     scenarios=(*SCENARIOS, "home", "jog", "travel"),
     settings=SETTINGS,
     advise=advise,
-    own={TUNE.name: TUNE},
+    own={PROCEDURE.name: PROCEDURE},
 )

@@ -1,4 +1,4 @@
-"""Recommendations after a move of a 9/PC axis: limits of the following error, ramps and velocity gains, each with page and price."""
+"""Recommendations about a 9/PC axis: limits of the following error, which follow its gains, and ramps, each with page and price."""
 
 from __future__ import annotations
 
@@ -14,17 +14,9 @@ from amp_studio.sim.trace import Recommendation, Trace
 
 from . import law_samples as samples
 from .law_figures import Loop, following_error, printed_excess_error, response_time
-from .law_units import highest_rate, lag_of
 
 RESERVE = 0.8
 """Share of the available acceleration that a ramp may use; the rest is a reserve for load and wear. A choice of this program."""
-APERIODIC = 4.0
-"""Least ratio of velocity loop to position loop without overshoot (Gross, Hamann, Wiegärtner, Electrical Feed Drives in
-Automation, 2001)."""
-SAFE = 0.5
-"""Share of the loop rate at which it oscillates: 6 dB."""
-INTEGRAL_SHARE = 10.0
-"""The tuning procedure ends with an integral gain 5 to 10 times below the proportional one (A-9)."""
 ORDER_PRICE = "Less is left for a faster move or a lower gain."
 SLOWER = "Every change of speed takes longer."
 LOOSE = 2.0
@@ -32,17 +24,12 @@ LOOSE = 2.0
 
 
 @dataclass(frozen=True)
-class SimulatedMove:
-    """A move that was simulated: axis, trace, feedrate in u/s."""
+class ServoFigures:
+    """An axis and the feedrate in u/s that its limits are for."""
 
     axis: AxisLaw
-    trace: Trace
     loop: Loop
     feedrate: float
-
-    def figure(self, name: str) -> float:
-        """Return a figure of the result, 0 where it was not reached."""
-        return self.trace.result.get(name, (0.0, ""))[0] or 0.0
 
     @property
     def p(self) -> Sequence[float]:
@@ -75,28 +62,48 @@ class SimulatedMove:
         )
 
 
+@dataclass(frozen=True)
+class SimulatedMove(ServoFigures):
+    """A move that was simulated."""
+
+    trace: Trace
+
+
 def advise(axis: AxisLaw, trace: Trace) -> tuple[Recommendation, ...]:
-    """Return the recommendations after the scenario `step`, the most urgent first; none after others or with an open position loop."""
+    """Return the recommendations after the scenario `step`, the most urgent first; none after others, with an open position loop or
+    an axis that is not stable.
+    """
     p = axis.parameters
     if trace.scenario != "step" or p[samples.OPEN] or not math.isfinite(p[samples.EXCESS]):
         return ()
-    feedrate = (trace.result["feedrate"][0] or 0.0) / 60.0
-    gain = p[samples.GAIN] * 60.0 / 1000.0
-    loop = Loop(gain, p[samples.BREAK_POINT], p[samples.BREAK_RATIO], p[samples.FEED_FORWARD])
-    move = SimulatedMove(axis, trace, loop, feedrate)
     if any(alarm.code == "UNSTABLE" for alarm in trace.alarms):
-        return tuple(_loops(move))  # no other figure of such a move means anything
-    parts = (_excess_error, _order, _suppression, _ramp, _loops, _gain_break, _band)
+        return ()  # no figure of such a move means anything
+    move = SimulatedMove(axis, _loop(axis), (trace.result["feedrate"][0] or 0.0) / 60.0, trace)
+    parts = (_excess_error, _order, _suppression, _ramp, _gain_break, _band)
     return tuple(each for part in parts for each in part(move))
 
 
-def _excess_target(m: SimulatedMove) -> float:
+def follow(axis: AxisLaw) -> tuple[Recommendation, ...]:
+    """Return the limits of the following error that fit the gains of an axis (7-20)."""
+    if axis.parameters[samples.OPEN] or not axis.feedrate:
+        return ()
+    figures = ServoFigures(axis, _loop(axis), axis.feedrate)
+    return (*_excess_error(figures), *_order(figures))
+
+
+def _loop(axis: AxisLaw) -> Loop:
+    p = axis.parameters
+    gain = p[samples.GAIN] * 60.0 / 1000.0
+    return Loop(gain, p[samples.BREAK_POINT], p[samples.BREAK_RATIO], p[samples.FEED_FORWARD])
+
+
+def _excess_target(m: ServoFigures) -> float:
     """Return 110 % of the largest following error where the present limit is below that error or far above it, else the limit."""
     wanted, now = printed_excess_error(m.loop, m.rapid), m.p[samples.EXCESS]
     return wanted if math.isfinite(wanted) and (now < wanted / 1.1 or now > LOOSE * wanted) else now
 
 
-def _excess_error(m: SimulatedMove) -> Iterator[Recommendation]:
+def _excess_error(m: ServoFigures) -> Iterator[Recommendation]:
     now, wanted = m.p[samples.EXCESS], _excess_target(m)
     if wanted == now:
         return
@@ -110,7 +117,7 @@ def _excess_error(m: SimulatedMove) -> Iterator[Recommendation]:
     yield from m.advise("excess_error", wanted, m.axis.unit, why, price)
 
 
-def _order(m: SimulatedMove) -> Iterator[Recommendation]:
+def _order(m: ServoFigures) -> Iterator[Recommendation]:
     """A smaller excess error also lowers the limits below it (7-20); otherwise the control corrects them itself."""
     highest = _excess_target(m)
     if highest >= m.p[samples.EXCESS] or highest >= m.p[samples.SUPPRESSION]:
@@ -187,68 +194,6 @@ def _time_at_limit(m: SimulatedMove) -> float:
         min(m.p[samples.LIMIT_POSITIVE], m.p[samples.LIMIT_NEGATIVE]) or m.axis.machine.torque_limit_positive
     )
     return float((torque >= 0.999 * limit).sum()) * _step(m)
-
-
-def _loops(m: SimulatedMove) -> Iterator[Recommendation]:
-    """Overshoot: ratio of the loops (7-54), integral gain (7-56, A-9), discharge rate (7-58)."""
-    over, p = (
-        m.figure("overshoot") - m.axis.machine.backlash,
-        m.p,
-    )  # no gain changes how far the load runs in its gap
-    if over <= max(m.axis.inposition_band, 2.0 * p[samples.COUNT]) or p[samples.PROPORTIONAL] == 0.0:
-        return
-    ran = f"The axis overshot the end position by {m.length(over)}"
-    rate = p[samples.PROPORTIONAL] * m.axis.machine.acceleration_per_output
-    ratio, gain = rate / m.loop.rate, _gain(m, samples.PROPORTIONAL)
-    most = SAFE * highest_rate(_lag(m), _integral_time(m))
-    if ratio < APERIODIC and APERIODIC * m.loop.rate > most:
-        why = (
-            f"{ran}: the velocity loop is only {shown(ratio, digits=2)} times as fast as the position loop, and on this axis it cannot be made 4 times"
-            " as fast without oscillating."
-        )
-        price = "The following error grows in proportion."
-        yield from m.advise(
-            "position_gain", m.loop.gain * most / APERIODIC / m.loop.rate, "", why, price, up=False
-        )
-    elif ratio < APERIODIC:
-        why = (
-            f"{ran}: the velocity loop is only {shown(ratio, digits=2)} times as fast as the position loop; from 4 times on the position loop does"
-            " not overshoot."
-        )
-        price = "A higher gain is louder and nearer to oscillation."
-        yield from m.advise("velocity_proportional_gain", gain * APERIODIC / ratio, "", why, price)
-    elif p[samples.INTEGRAL] * INTEGRAL_SHARE > p[samples.PROPORTIONAL]:
-        why = f"{ran}: the integral gain is more than a tenth of the proportional gain."
-        yield from m.advise(
-            "velocity_integral_gain",
-            gain / INTEGRAL_SHARE,
-            "",
-            why,
-            "A lasting load is corrected later.",
-            up=False,
-        )
-    elif p[samples.INTEGRAL] > 0.0 and p[samples.DISCHARGE] < 2.0:
-        why = f"{ran}: the sum of the velocity error was still large; with 2 it discharges twice as fast as it charges."
-        yield from m.advise(
-            "integrator_discharge", 2.0, "", why, "Too high a rate makes changes of speed rough."
-        )
-
-
-def _lag(m: SimulatedMove) -> float:
-    """Return the lag of the velocity loop in s, the torque filter included."""
-    passes = m.p[samples.FILTER]
-    cutoff = -math.log1p(-passes) / (2.0 * math.pi * m.p[samples.PERIOD]) if passes < 1.0 else math.inf
-    return lag_of(m.axis.machine.delay, m.axis.machine.bandwidth, cutoff)
-
-
-def _integral_time(m: SimulatedMove) -> float:
-    integral = m.p[samples.INTEGRAL]
-    return m.p[samples.PROPORTIONAL] / integral * m.p[samples.PERIOD] if integral > 0.0 else math.inf
-
-
-def _gain(m: SimulatedMove, place: int) -> float:
-    """Return a velocity gain as the file has it."""
-    return m.p[place] / m.p[samples.TORQUE_UNIT]
 
 
 def _gain_break(m: SimulatedMove) -> Iterator[Recommendation]:

@@ -238,7 +238,7 @@ def _speed(read: AxisParameters, common: dict[str, Any], travel: float, notes: l
 
 def analog(read: AxisParameters, parts: Parts) -> AxisLaw:
     """Return an axis whose drive takes a voltage as velocity command (7-41 to 7-43)."""
-    feedback, loop, p, notes, common = parts.feedback, parts.loop, parts.p, parts.notes, parts.common
+    feedback, p, notes, common = parts.feedback, parts.p, parts.notes, parts.common
     rapid = common["feedrate"]
     if rapid is None:
         raise SimulationError(
@@ -254,7 +254,7 @@ def analog(read: AxisParameters, parts: Parts) -> AxisLaw:
     machine = Machine(
         acceleration_per_output=acceleration,
         velocity_per_output=rapid / positive,
-        velocity_bandwidth=DRIVE_RATIO * loop.rate / (2.0 * math.pi),
+        velocity_bandwidth=DRIVE_RATIO * USUAL_GAIN * 1000.0 / 60.0 / (2.0 * math.pi),
         output_limit=VOLTS,
         torque_limit_positive=peak,
         torque_limit_negative=peak,
@@ -262,7 +262,7 @@ def analog(read: AxisParameters, parts: Parts) -> AxisLaw:
         load_sensor=feedback.on_load,
     )
     assumed = {
-        "velocity_bandwidth": "The velocity loop of the drive is taken ten times as fast as the position loop, the upper bound of 7-54."
+        "velocity_bandwidth": "The velocity loop of the drive is taken ten times as fast as a position loop with the gain of most machines, 1 (7-25): the upper bound of 7-54."
     }
     if why:
         assumed["acceleration_per_output"] = why
@@ -334,7 +334,7 @@ def third_party(read: AxisParameters, unit: str, common: dict[str, Any]) -> Axis
     turn = 360.0 if unit == "deg" else USUAL_PITCH
     why = f"The position gain of the drive is taken as {shown(gain)}, that of most machines (7-25); set {OWN_GAIN}."
     assumed = {
-        "velocity_bandwidth": "The velocity loop of the drive is taken ten times as fast as the position loop, the upper bound of 7-54.",
+        "velocity_bandwidth": "The velocity loop of the drive is taken ten times as fast as a position loop with the gain of most machines, 1 (7-25): the upper bound of 7-54.",
         "acceleration_per_output": f"Nothing of motor and load is in the file: {NOMINAL:.0f} rad/s2 at rated torque.",
     }
     return AxisLaw(
@@ -351,7 +351,7 @@ def third_party(read: AxisParameters, unit: str, common: dict[str, Any]) -> Axis
         machine=Machine(
             acceleration_per_output=acceleration_for(NOMINAL, turn),
             velocity_per_output=1.0,
-            velocity_bandwidth=DRIVE_RATIO * loop.rate / (2.0 * math.pi),
+            velocity_bandwidth=DRIVE_RATIO * USUAL_GAIN * 1000.0 / 60.0 / (2.0 * math.pi),
         ),
         output_unit=f"{unit}/s",
         assumptions=(notes_of.THIRD_PARTY, *((f"ASSUMED: {why}",) if own is None else ())),

@@ -1,4 +1,4 @@
-"""Scenario `tune`: the tuning procedure of appendix A on the simulated axis, step by step (A-8 to A-10).
+"""Scenario `procedure`: the tuning procedure of appendix A on the simulated axis, step by step (A-8 to A-10).
 
 Printed: the order of the steps, and what the strip chart recorder shows at each. By how much a gain is changed is not: here it is raised and
 lowered by a tenth, the integral gain by a tenth too. An overshoot is slight up to `SLIGHT` of the feedrate; an oscillation is one where the
@@ -22,7 +22,7 @@ from amp_studio.sim.ramps import end_of, move
 from amp_studio.sim.rounding import rounded_down, shown
 from amp_studio.sim.scenario import Scenario, above_zero, refuse_unknown
 from amp_studio.sim.scenarios.columns import column_units, per_minute
-from amp_studio.sim.trace import Figure, Recommendation, Trace
+from amp_studio.sim.trace import Figure, Trace
 
 from . import law_samples as samples
 from .law_notes import TUNING_START
@@ -44,8 +44,6 @@ LONGEST = 30.0
 """s of one tuning move."""
 WINDOW = 0.15
 """s in which a swing is looked for."""
-RESERVE = 0.5
-"""Share of the gains at the end of the procedure that is recommended: 6 dB below the edge. A choice of this program."""
 BELOW = 0.8
 """Share of what the torque allows for the ramp: "slightly less" than the servo can do (A-2)."""
 
@@ -157,7 +155,7 @@ def procedure(axis: AxisLaw, feedrate: float) -> Tuned:
     return Tuned(first, proportional, last, integral)
 
 
-def tune(axis: AxisLaw, settings: Mapping[str, ParameterValue]) -> Trace:
+def procedure_run(axis: AxisLaw, settings: Mapping[str, ParameterValue]) -> Trace:
     """Run the procedure; raises SimulationError for an axis without a digital velocity loop or a closed position loop."""
     refuse_unknown(settings, SETTINGS)
     if axis.velocity_sample is None or axis.parameters[samples.OPEN]:
@@ -186,14 +184,14 @@ def tune(axis: AxisLaw, settings: Mapping[str, ParameterValue]) -> Trace:
         "overshoot": (max(0.0, 100.0 * last.overshoot), "%"),
     }
     return Trace(
-        scenario="tune",
+        scenario="procedure",
         axis=axis.axis,
         model=axis.title,
         columns=per_minute(last.motion.columns),
         units=column_units(axis),
         result=result,
         alarms=(),
-        recommendations=_recommended(axis, proportional, integral),
+        recommendations=(),
         assumptions=(NOTE, *assumptions(axis)),
         limits={},
     )
@@ -201,30 +199,14 @@ def tune(axis: AxisLaw, settings: Mapping[str, ParameterValue]) -> Trace:
 
 NOTE = (
     "Appendix A (A-8 to A-10) on the simulated axis, without torque filter and with discharge rate 1 (Table A.A): the gains fit the assumed machine; steps"
-    " of a tenth, an overshoot of 2 % and a swing of half the torque limit are choices of this program."
+    " of a tenth, an overshoot of 2 % and a swing of half the torque limit are choices of this program. It ends at the edge of stability; tune finds gains with a"
+    " reserve."
 )
 
 
-def _recommended(axis: AxisLaw, proportional: float, integral: float) -> tuple[Recommendation, ...]:
-    """Return gains with a reserve: the procedure ends at the edge, on a machine that is partly assumed."""
-    p = axis.parameters
-    values = (
-        ("velocity_proportional_gain", proportional, p[samples.PROPORTIONAL]),
-        ("velocity_integral_gain", integral, p[samples.INTEGRAL]),
-    )
-    return tuple(
-        Recommendation(
-            axis.sources[name].parameter,
-            math.floor(RESERVE * end),
-            "",
-            f"Half of the {shown(end)} at which appendix A ends on the simulated axis (page A-10).",
-            "The axis is half as stiff as there; the other half is a reserve for what the model assumes.",
-        )
-        for name, end, now in values
-        if end > 0.0 and math.floor(RESERVE * end) != round(now / p[samples.TORQUE_UNIT])
-    )
-
-
 SCENARIO = Scenario(
-    "tune", "The tuning procedure of appendix A, step by step, and gains with a reserve", SETTINGS, tune
+    "procedure",
+    "The tuning procedure of appendix A, step by step, up to where it ends",
+    SETTINGS,
+    procedure_run,
 )

@@ -22,7 +22,7 @@ from . import law_events as events
 from . import law_sample as sample
 from .formulas import approach_speed, circle_speed, increments_per_sample, measured_step
 from .formulas.servo import FOLLOWING_ERROR_MARGIN
-from .law_advice import advise
+from .law_advice import advise, follow
 from .law_loop import loop
 from .law_notes import ALWAYS, DRIVE, NOT_SIMULATED
 from .law_pair import drive_axis, is_synchronised, refuse_chain, synchronised
@@ -109,6 +109,7 @@ def _alone(read: AxisParameters) -> tuple[AxisLaw, float]:
         circle_feedrate=lambda radius: circle_feedrate(words, radius),
         limits=limits,
         sources=_sources(read, words),
+        follow=follow,
         assumptions=(*notes, *ALWAYS, *NOT_SIMULATED),
         assumed=assumed,
         linear_parameters=linear,

@@ -1,4 +1,4 @@
-"""Recommendations after a move of a NUM axis: KVAR, EMAX, window, dynamic check and acceleration, with page and price."""
+"""Recommendations about a NUM axis: time constant and EMAX, which follow KVAR, window, dynamic check and acceleration, with page and price."""
 
 from __future__ import annotations
 
@@ -17,7 +17,10 @@ from .formulas.servo import FOLLOWING_ERROR_MARGIN
 LOOSE = 2.0
 """Ratio of EMAX to the recommended one from which it is too large. A choice of this program."""
 APART = 0.03
-"""Relative difference of gain and time constant from which KVAR is recommended again. A choice of this program."""
+"""Relative difference of gain and time constant from which they are not the same. A choice of this program."""
+HALF_MS = 0.00051
+"""s: P66 is in whole ms."""
+CONSTANT_OF_AXIS = "servo.axis_time_constant"
 RESERVE = 0.8
 """Share of the available acceleration that a ramp may use. A choice of this program."""
 
@@ -26,38 +29,43 @@ def advise(axis: AxisLaw, trace: Trace) -> tuple[Recommendation, ...]:
     """Return the recommendations after the scenario `step`, the most urgent first; none after others."""
     if trace.scenario != "step":
         return ()
-    parts = (_gain, _largest_error, _acceleration, _window, _tolerance)
+    parts = (_constant, _largest_error, _acceleration, _window, _tolerance)
     return tuple(each for part in parts for each in part(axis, trace))
 
 
-def _gain(axis: AxisLaw, _trace: Trace) -> Iterator[Recommendation]:
-    """Yield the KVAR that fits the time constant (6-14), with which anticipation and dynamic check are reckoned."""
-    constant, source = axis.parameters[sample.CONSTANT], axis.sources["position_gain"]
+def follow(axis: AxisLaw) -> tuple[Recommendation, ...]:
+    """Return the time constant and the EMAX that fit the KVAR of an axis."""
+    return (*_constant(axis), *_largest_error(axis))
+
+
+def _constant(axis: AxisLaw, _trace: Trace | None = None) -> Iterator[Recommendation]:
+    """Yield the time constant that KVAR gives (6-14), with which anticipation and dynamic check are reckoned."""
     if _fits(axis):
         return
-    before, after = (axis.feedrate or 0.0) / axis.position_rate, (axis.feedrate or 0.0) * constant
+    constant, gives = axis.parameters[sample.CONSTANT], 1000.0 / axis.position_rate
     yield Recommendation(
-        source.parameter,
-        float(math.floor(source.scale / constant)),
-        "",
-        f"KVAR gives a time constant of {shown(1000.0 / axis.position_rate, 'ms', 3)}, but P56 or P66 is"
-        f" {shown(constant * 1000.0, 'ms', 3)}, which anticipation and dynamic movement control use (pages 6-14, 6-40).",
-        f"The following error at the highest speed goes from {shown(before, axis.unit, 3)} to {shown(after, axis.unit, 3)};"
-        " EMAX follows it.",
+        CONSTANT_OF_AXIS,
+        float(max(1, round(gives))),
+        "ms",
+        f"KVAR gives a time constant of {shown(gives, 'ms', 3)}, but P56 or P66 is"
+        f" {shown(constant * 1000.0, 'ms', 3)}, which anticipation and dynamic movement control use (pages 6-14, 6-18, 6-40).",
+        "On paths with axes of another time constant the contour is wrong: give all of them the same one.",
     )
 
 
 def _fits(axis: AxisLaw) -> bool:
-    """Return whether gain and time constant are the same thing."""
-    return abs(axis.position_rate * axis.parameters[sample.CONSTANT] - 1.0) <= APART
+    """Return whether gain and time constant are the same thing, as far as whole ms can say it."""
+    constant = axis.parameters[sample.CONSTANT]
+    near = abs(axis.position_rate * constant - 1.0) <= APART
+    return near or abs(1.0 / axis.position_rate - constant) <= HALF_MS
 
 
-def _largest_error(axis: AxisLaw, trace: Trace) -> Iterator[Recommendation]:
-    """Yield EMAX = 1.1 x VMAX x T (6-22) where it is below VMAX x T or far above."""
-    limit, constant = axis.parameters[sample.EMAX], axis.parameters[sample.CONSTANT]
-    wanted = FOLLOWING_ERROR_MARGIN * (axis.feedrate or 0.0) * constant
-    anticipated = axis.parameters[sample.SHARE] > 0.0
-    peak = trace.result["peak_following_error"][0] or 0.0
+def _largest_error(axis: AxisLaw, trace: Trace | None = None) -> Iterator[Recommendation]:
+    """Yield EMAX = 1.1 x VMAX x T (6-22), T as KVAR gives it, where it is below VMAX x T or far above."""
+    limit = axis.parameters[sample.EMAX]
+    wanted = FOLLOWING_ERROR_MARGIN * (axis.feedrate or 0.0) / axis.position_rate
+    anticipated = trace is not None and axis.parameters[sample.SHARE] > 0.0
+    peak = (trace.result["peak_following_error"][0] or 0.0) if trace else 0.0
     low = limit < (peak if anticipated else wanted / FOLLOWING_ERROR_MARGIN)
     if not low and limit <= LOOSE * wanted:
         return

@@ -5,6 +5,7 @@ The only module of the law with ids of the module. Pages are those of the manual
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from functools import partial
@@ -138,6 +139,8 @@ def bind(read: AxisParameters) -> AxisLaw:
         monitors=loop.MONITORS,
         alarms=_alarms(p),
         limits={"maximum_position_error": p[loop.POSITION_ERROR]} if p[loop.POSITION_ERROR] >= 0.0 else {},
+        gains=("velocity_gain", "position_gain", "integral_gain"),
+        follow=follow,
         sources=_sources(),
         assumptions=tuple(notes),
         assumed=assumed,
@@ -294,24 +297,35 @@ def _sources() -> Mapping[str, Source]:
 
 
 def advise(axis: AxisLaw, trace: Trace) -> Sequence[Recommendation]:
-    """Return the Feedforward Gain that makes the following error of this speed as small as possible (page 5-4)."""
-    error, speed, p = error_at_speed(trace), trace.result.get("feedrate", (None, ""))[0], axis.parameters
-    if trace.alarms or error is None or not speed or abs(error) < 2.0 or p[loop.INTEGRAL] > 0.0:
+    """Return the Feedforward Gain after a move with a steady following error (page 5-4)."""
+    error = error_at_speed(trace)
+    if trace.alarms or error is None or abs(error) < 2.0 or axis.parameters[loop.INTEGRAL] > 0.0:
         return ()
-    wanted = p[loop.FEED_FORWARD] + p[loop.PROPORTIONAL] * error / (speed / 60.0 * loop.SCAN)
-    scale = axis.scales.feed_forward if isinstance(axis, ModuleAxis) else 1.0
-    if not 0.0 <= wanted * scale <= _WORD[1]:
+    return follow(axis)
+
+
+def follow(axis: AxisLaw) -> Sequence[Recommendation]:
+    """Return the Feedforward Gain that leaves as small an error as possible at the commanded speed, and none below 0 (page 5-4).
+
+    None for a velocity reference: the drive's own velocity loop decides there.
+    """
+    p, speed = axis.parameters, axis.feedrate
+    if not isinstance(axis, ModuleAxis) or not speed or p[loop.CURRENT_REFERENCE] == 0.0:
         return ()
-    return (
-        Recommendation(
-            FEED_FORWARD,
-            float(int(wanted * scale)),
-            "",
-            f"the axis is {abs(error):.3g} counts {'behind' if error > 0.0 else 'ahead'} at this speed; as small as possible"
-            " without going negative (page 5-4). Its price: overshoot in moves (page 4-30); 0 for a drive whose own"
-            " velocity loop has an integral (page 5-4)",
-        ),
-    )
+    machine, commanded = axis.machine, speed * loop.SCAN
+    words = (
+        machine.viscous_friction * speed + machine.coulomb_friction + machine.gravity
+    ) * loop.WORDS_PER_VOLT
+    share = 1.0 + (words - p[loop.DEADBAND]) / p[loop.VELOCITY] / commanded
+    gain = float(math.floor(share * axis.scales.feed_forward))
+    if not 0.0 <= gain <= _WORD[1] or abs(gain / axis.scales.feed_forward - p[loop.FEED_FORWARD]) < SAME:
+        return ()
+    why = "As small an error at the commanded speed as possible without going negative, with this Velocity Gain (page 5-4)."
+    return (Recommendation(FEED_FORWARD, gain, "", why, "Overshoot in moves (page 4-30)."),)
+
+
+SAME = 5e-4
+"""Difference of two feed-forward shares that is not worth a change: 4 of 8192."""
 
 
 LAW = Law(

@@ -1,4 +1,4 @@
-"""The commands that only the 57C422B has, as scenarios: tune, gear, cam, backlash."""
+"""The commands that only the 57C422B has, as scenarios: its tune commands as `procedure`, gear, cam, backlash."""
 
 from __future__ import annotations
 
@@ -61,7 +61,7 @@ _LONGEST = 60.0
 """Most seconds of a cam or a geared run."""
 
 
-def run_tune(axis: AxisLaw, settings: Settings) -> Trace:
+def run_procedure(axis: AxisLaw, settings: Settings) -> Trace:
     """Run one of the three tune commands (pages 4-29 to 4-31) and a move with what it leaves."""
     refuse_unknown(settings, TUNE)
     module = _module(axis)
@@ -73,13 +73,16 @@ def run_tune(axis: AxisLaw, settings: Settings) -> Trace:
     found: dict[str, Figure] = {
         _figure(parameter): (value, _unit(parameter)) for parameter, value in left.registers.items()
     }
-    wanted = tuple(
-        Recommendation(parameter, value, _unit(parameter), f"left by tune {which} (page 4-29)")
-        for parameter, value in left.registers.items()
+    wanted = (
+        tuple(  # gains are the solver's: what a search of the module would leave is shown and not recommended
+            Recommendation(parameter, value, _unit(parameter), f"left by tune {which} (page 4-29)")
+            for parameter, value in left.registers.items()
+            if parameter.startswith("command.")
+        )
     )
     return replace(
         trace,
-        scenario="tune",
+        scenario="procedure",
         result={**found, **trace.result},
         recommendations=wanted,
         assumptions=(_SEARCH[which], *trace.assumptions),
@@ -346,7 +349,12 @@ def _unit(parameter: str) -> str:
 COMMANDS = {
     each.name: each
     for each in (
-        Scenario("tune", "The three tune commands, and a move with what they leave", TUNE, run_tune),
+        Scenario(
+            "procedure",
+            "The three tune commands of the module, and a move with what they leave",
+            TUNE,
+            run_procedure,
+        ),
         Scenario("gear", "The axis at rest is geared to a moving reference", GEAR, run_gear),
         Scenario("cam", "A time cam or a position cam", CAM, run_cam),
         Scenario("backlash", "A move with backlash compensation", BACKLASH, run_backlash),

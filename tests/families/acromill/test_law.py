@@ -146,19 +146,19 @@ def test_the_advice_is_the_same_for_a_move_in_the_negative_direction() -> None:
     trace = simulate(file_of(), "step", settings={"move.distance": -14.0})
     (advice,) = (each for each in trace.recommendations if each.parameter == "servo.vel_ffwd")
     assert advice.value == pytest.approx(0.00000296, rel=0.01)  # dry friction too: 0.099 V at 33333 pulses/s
-    assert "behind" in advice.why
 
 
 def test_a_loop_without_d_gain_is_advised_one_that_stops_its_ringing() -> None:
     # Page 115: the ringing is due to not enough DGAIN in relation to the PGAIN.
     file = file_of(servo__d_gain=Value(0.0, "Vs/count"))
     before = simulate(file, "step", settings={"move.distance": 10.0})
-    (advice,) = (each for each in before.recommendations if each.parameter == "servo.d_gain")
-    file.set(("servo.d_gain", "X"), Value(advice.value, advice.unit))
+    assert "servo.d_gain" in {each.parameter for each in before.recommendations}
+    for each in before.recommendations:
+        file.set((each.parameter, "X"), Value(each.value, each.unit))
     after = simulate(file, "step", settings={"move.distance": 10.0})
     assert before.alarms
     assert after.alarms == ()
-    assert after.result["settle_time"][0] is not None or after.result["overshoot"][0] < 0.05
+    assert after.result["overshoot"][0] < 0.02 * 10.0
 
 
 # -- the loop, one sample at a time ----------------------------------------------------------------
@@ -187,11 +187,12 @@ def test_a_new_file_says_that_nothing_damps_it_and_that_d_gain_does() -> None:
     assert "D Gain is 0, as in a new file (page 59)" in unstable.alarms[0].message
     for scenario in ("frequency", "circle"):
         assert "Set D Gain first" in simulate(file, scenario, "X").alarms[0].message
-    (wanted,) = unstable.recommendations  # no lower P Gain beside it
-    assert wanted.parameter == "servo.d_gain"
-    assert wanted.price.startswith("Every count")
-    assert not any("No change of the gains" in text for text in unstable.assumptions)
-    file.set((wanted.parameter, "X"), Value(wanted.value, wanted.unit))
+    wanted = {each.parameter: each for each in unstable.recommendations}
+    assert wanted["servo.d_gain"].price.startswith("Every count")
+    assert "your choice" in wanted["servo.d_gain"].price  # nothing else damps it, and the machine is assumed
+    assert not any("No gains within their bounds" in text for text in unstable.assumptions)
+    for each in wanted.values():
+        file.set((each.parameter, "X"), Value(each.value, each.unit))
     assert not simulate(file, "step", "X").alarms
 
 

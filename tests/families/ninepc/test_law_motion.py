@@ -298,16 +298,6 @@ def test_a_ramp_that_the_torque_cannot_follow_and_one_that_the_servo_cannot_are_
     assert told["accdec.linear_acceleration"] == pytest.approx(2080.0)
 
 
-def test_an_overshoot_of_a_slow_velocity_loop_asks_for_four_times_the_position_loop(axis: Axis) -> None:
-    values: Values = {"servo.excess_error": 16.5, "servo.feedrate_suppression": 16.4}
-    law = axis({**values, "servo.velocity_proportional_gain": 300.0})
-    told = advised(law, distance=60.0, feedrate=6000.0)
-    # 4 x 16.667 1/s on 5974 rad/s2.
-    assert told["servo.velocity_proportional_gain"] == pytest.approx(
-        4.0 * 1000.0 / 60.0 * 65536.0 / 5974.3, rel=0.01
-    )
-
-
 def test_how_far_the_load_runs_in_its_backlash_is_no_overshoot_of_the_integrator(axis: Axis) -> None:
     values: Values = {"servo.excess_error": 16.5, "servo.feedrate_suppression": 16.4}
     integral: Values = {"servo.velocity_integral_gain": 200.0}
@@ -315,16 +305,6 @@ def test_how_far_the_load_runs_in_its_backlash_is_no_overshoot_of_the_integrator
     trace = step(law, distance=60.0, feedrate=6000.0)
     assert 0.0254 < figure(trace, "overshoot") < 0.2
     assert advise(law, trace) == ()
-
-
-def test_where_the_velocity_loop_cannot_be_fast_enough_the_position_gain_goes_down(axis: Axis) -> None:
-    values: Values = {"servo.initial_gain": 20.0, "servo.velocity_proportional_gain": 2000.0}
-    trace = step(axis(values), distance=60.0, feedrate=6000.0)
-    told = {each.parameter: each for each in advise(axis(values), trace)}
-    # Half of the 476 1/s at which a lag of 3.3 ms oscillates, a quarter of that in 1000/min.
-    assert told["servo.initial_gain"].value == pytest.approx(0.5 * 476.0 / 4.0 * 60.0 / 1000.0, rel=0.01)
-    assert "servo.velocity_proportional_gain" not in told
-    assert told["servo.initial_gain"].price
 
 
 def test_a_loop_that_is_not_stable_gets_advice_about_its_loops_alone(axis: Axis) -> None:

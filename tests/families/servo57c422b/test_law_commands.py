@@ -55,24 +55,25 @@ def values(trace: Trace) -> Mapping[str, float | None]:
 
 def test_tune_gains_leaves_its_four_registers_near_the_printed_programs() -> None:
     # Page 4-30: registers 3, 4, 5 and 7; the programs end at 18700 and 17595, 1575 and 768, 140 and 78, 27 and 28.
-    trace = run(module(gain__velocity=Value(25, ""), gain__deadband=Value(0, "")), "tune")
-    left = {advice.parameter: advice.value for advice in trace.recommendations}
-    assert list(left) == ["gain.deadband", "gain.velocity", "gain.integral", "gain.proportional"]
-    assert left["gain.deadband"] == 27  # the dry friction of the assumed motor
-    assert 78 <= left["gain.velocity"] <= 250
-    assert 8_000 <= left["gain.proportional"] <= 20_000
-    assert 300 <= left["gain.integral"] <= 1600
+    trace = run(module(gain__velocity=Value(25, ""), gain__deadband=Value(0, "")), "procedure")
+    left = values(trace)
+    assert list(left)[:4] == ["deadband", "velocity_gain", "integral_gain", "proportional_gain"]
+    assert left["deadband"] == 27  # the dry friction of the assumed motor
+    assert 78 <= left["velocity_gain"] <= 250
+    assert 8_000 <= left["proportional_gain"] <= 20_000
+    assert 300 <= left["integral_gain"] <= 1600
+    assert trace.recommendations == ()  # gains are the solver's
     assert trace.alarms == ()
 
 
 def test_tune_gains_leaves_the_velocity_gain_of_a_velocity_reference_alone() -> None:
-    trace = run(module(gain__velocity=Value(0, "")), "tune", tune__command="gains")
-    assert "gain.velocity" not in [advice.parameter for advice in trace.recommendations]
+    trace = run(module(gain__velocity=Value(0, "")), "procedure", tune__command="gains")
+    assert "velocity_gain" not in values(trace)
 
 
 def test_tune_gains_needs_its_increment() -> None:
     with pytest.raises(SimulationError, match="R17 Command Position is not set: tune gains moves by it"):
-        run(module(command__position=None), "tune")
+        run(module(command__position=None), "procedure")
 
 
 @pytest.mark.parametrize(
@@ -85,12 +86,12 @@ def test_tune_gains_needs_its_increment() -> None:
 )
 def test_a_motor_that_cannot_be_tuned_is_said_in_a_sentence(model: dict[str, float], message: str) -> None:
     with pytest.raises(SimulationError, match=message):
-        simulate(module(), "tune", settings=model)
+        simulate(module(), "procedure", settings=model)
 
 
 def test_tune_dynamics_finds_what_the_axis_can_do_up_to_its_registers() -> None:
     # Page 4-30: registers 19 to 24 limit what is found and then contain it.
-    at_limit = run(module(), "tune", tune__command="dynamics")
+    at_limit = run(module(), "procedure", tune__command="dynamics")
     assert values(at_limit)["command_velocity"] == 40_000
     free = module()
     for name, unit in (
@@ -99,7 +100,7 @@ def test_tune_dynamics_finds_what_the_axis_can_do_up_to_its_registers() -> None:
         ("deceleration", "counts/s2"),
     ):
         free.set((f"command.{name}", "X"), Value(1e8 if unit == "counts/s2" else 1e6, unit))
-    found = values(run(free, "tune", tune__command="dynamics"))
+    found = values(run(free, "procedure", tune__command="dynamics"))
     assert 40_000 < found["command_velocity"] < 1e6
     assert 200_000 < found["command_acceleration"] < 1e8
     assert 0.2 <= found["command_deceleration"] / found["command_acceleration"] <= 5.0  # page 4-14
@@ -107,23 +108,28 @@ def test_tune_dynamics_finds_what_the_axis_can_do_up_to_its_registers() -> None:
 
 def test_tune_feedforward_nulls_the_error_at_speed() -> None:
     # Page 4-31; the programs end at 8256 and 8320, the assumed motor stops between both.
-    trace = run(module(gain__feedforward=Value(0, "")), "tune", tune__command="feedforward")
+    trace = run(module(gain__feedforward=Value(0, "")), "procedure", tune__command="feedforward")
     assert values(trace)["feedforward_gain"] == pytest.approx(8260, abs=10)
 
 
 def test_tune_feedforward_refuses_travel_that_is_too_short() -> None:
     with pytest.raises(SimulationError, match="does not reach 40000 counts/s within 500 counts"):
-        run(module(setup__overtravel_positive=Value(500, "counts")), "tune", tune__command="feedforward")
+        run(module(setup__overtravel_positive=Value(500, "counts")), "procedure", tune__command="feedforward")
     with pytest.raises(SimulationError, match="Unknown tune command 'all'"):
-        run(module(), "tune", tune__command="all")
+        run(module(), "procedure", tune__command="all")
 
 
 def test_tuned_in_the_printed_order_an_axis_moves_and_rests_within_its_tolerance() -> None:
     # Page 4-29: gains, dynamics, feedforward; what each leaves is applied before the next.
     file = module(gain__velocity=Value(25, ""), gain__deadband=Value(0, ""), gain__feedforward=Value(0, ""))
     for command in ("gains", "dynamics", "feedforward"):
-        for left in run(file, "tune", tune__command=command).recommendations:
+        trace = run(file, "procedure", tune__command=command)
+        for left in trace.recommendations:
             file.set((left.parameter, "X"), Value(left.value, left.unit))
+        for name in ("deadband", "velocity_gain", "integral_gain", "proportional_gain", "feedforward_gain"):
+            if name in trace.result:
+                register = f"gain.{name.removesuffix('_gain')}"
+                file.set((register, "X"), Value(int(values(trace)[name] or 0), ""))
     trace = run(file, "step", move__distance=20_000.0)
     assert trace.alarms == ()
     assert trace.result["settle_time"][0] is not None
@@ -204,7 +210,7 @@ def test_a_position_cam_follows_its_master() -> None:
         ("gear", "gear.time", 1e9, "at most 60 s are simulated"),
         ("backlash", "move.distance", 0.0, "it must be 1 count"),
         ("backlash", "move.distance", 1e300, "it must be 1 count"),
-        ("tune", "tune.gains", 1.0, "Unknown setting 'tune.gains'"),
+        ("procedure", "tune.gains", 1.0, "Unknown setting 'tune.gains'"),
     ],
 )
 def test_an_absurd_setting_is_answered_in_a_sentence(

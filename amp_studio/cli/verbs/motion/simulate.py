@@ -48,6 +48,12 @@ VERB = Verb(
         completes=candidates.assignments,
     ),
     VerbArgument(
+        "--for",
+        dest="aim",
+        metavar="AIM",
+        help="tune: quiet, normal, stiff, or contour (equal gains on all axes)",
+    ),
+    VerbArgument(
         "--machine",
         dest="machine_file",
         type=path_of,
@@ -70,6 +76,7 @@ VERB = Verb(
         "amp-studio simulate MILL_1394.amp --list",
         "amp-studio simulate MILL_1394.amp step --axis X",
         "amp-studio simulate MILL_1394.amp step --axis X --set move.distance=50 -o trace.csv",
+        "amp-studio simulate MILL_1394.amp tune --axis X --for stiff",
         "amp-studio simulate MILL_1394.amp identify record.csv --axis X -o machine.yaml",
         "amp-studio simulate MILL_1394.amp step --axis X --machine machine.yaml",
     ),
@@ -108,6 +115,10 @@ def run(options: Options) -> int:
     if options.record or options.scale:
         raise UsageError(f"a record and its scale belong to {IDENTIFY}, not to {options.scenario}")
     settings, own = _settings(options.assignments)
+    if options.aim:
+        if options.scenario != "tune":
+            raise UsageError(f"--for belongs to tune, not to {options.scenario}")
+        settings["tune.for"] = options.aim
     told: list[str] = []
     before = file.copy()
     for address, value in read_assignments(file, assignments(own), told.append).items():

@@ -1,0 +1,169 @@
+"""Scenario `tune`: the gains of an axis for an aim in a word, by the one solver; what they give, before and after.
+
+The picture is a load of one unit of torque that comes at once, by the linear model with the present and with the new gains.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+
+import numpy as np
+
+from amp_studio.schema.nearest import unknown_name
+from amp_studio.sim.advice import NONE_SOUND, gain_recommendations, why_not_sound
+from amp_studio.sim.aims import AIMS, Aim
+from amp_studio.sim.errors import SimulationError
+from amp_studio.sim.linear import LinearModel
+from amp_studio.sim.loops import Loops
+from amp_studio.sim.model import assumptions, torque_unit
+from amp_studio.sim.scenario import Scenario, Settings, refuse_unknown
+from amp_studio.sim.series import Series
+from amp_studio.sim.solver import Solved, levels_of, solve
+from amp_studio.sim.trace import Figure, Recommendation, Trace
+from amp_studio.sim.trial import Trial
+
+FOR = "tune.for"
+SETTINGS = {FOR: f"what the axis is tuned for: {', '.join(AIMS)}; default: normal"}
+POINTS = 400
+"""Rows of the picture."""
+LATER = (
+    "the limit for counts is not kept",
+    "the inertia is taken as known",
+    "the margins of a sound axis alone are kept",
+)
+"""What is no longer kept at each level behind the first (`solver.levels_of`)."""
+NOTHING = "No other gains are more than 3 % stiffer: nothing to change."
+
+
+def run_tune(trial: Trial, settings: Settings, others: Sequence[Trial]) -> Trace:
+    """Return the gains for an aim; ``others`` are the axes that make contours with this one.
+
+    Raises SimulationError for an axis without a closed position loop or a word that is no aim.
+    """
+    refuse_unknown(settings, SETTINGS)
+    aim = _aim(settings)
+    axis = trial.axis
+    if not Loops(axis).closed:
+        raise SimulationError(f"The position loop of axis {axis.axis} is open: there is nothing to tune")
+    slowest = min((_fastest(other, aim) for other in others), default=math.inf) if aim.equal else math.inf
+    solved = solve(trial, aim, slowest=slowest)
+    columns, units = _picture(solved)
+    return Trace(
+        scenario="tune",
+        axis=axis.axis,
+        model=axis.title,
+        columns=columns,
+        units=units,
+        result=_figures(solved),
+        alarms=(),
+        recommendations=(*gain_recommendations(trial, solved), *_following(trial, solved)),
+        assumptions=(*_notes(solved, slowest, others), *assumptions(axis)),
+        limits={},
+        move={},
+    )
+
+
+def _aim(settings: Settings) -> Aim:
+    word = settings.get(FOR) or "normal"
+    if word not in AIMS:
+        raise SimulationError(unknown_name("aim", str(word), AIMS), FOR)
+    return AIMS[str(word)]
+
+
+def _fastest(trial: Trial, aim: Aim) -> float:
+    """Return the position gain in 1/s that an axis alone would get."""
+    return solve(trial, aim).after.axis.position_rate
+
+
+def _following(trial: Trial, solved: Solved) -> list[Recommendation]:
+    """Return what has to follow the gains: feed-forward and limits of the following error."""
+    found = []
+    for each in solved.after.axis.follow(solved.after.axis):
+        now = trial.value(each.parameter)
+        if (
+            now is None
+            or now.unit != each.unit
+            or not math.isclose(float(now.value), each.value, rel_tol=1e-9)
+        ):
+            found.append(each)
+    return found
+
+
+def _figures(solved: Solved) -> dict[str, Figure]:
+    before, after = _loop_figures(solved.before.loops), _loop_figures(solved.after.loops)
+    counts = {name: (100.0 * each.jolt, "%") for name, each in (("count_jolt", solved.after),)}
+    return {**after, **counts, **{f"{name}_before": figure for name, figure in before.items()}}
+
+
+def _loop_figures(loops: Loops) -> dict[str, Figure]:
+    """Return the figures of an axis by name; none of an unstable one."""
+    axis, inner, stable = loops.axis, loops.inner, loops.stable and loops.inner_stable
+    unit = f"{axis.unit}/{torque_unit(axis)}"
+    gives = loops.yields[0] if stable else None
+    found: dict[str, Figure] = {
+        "Ms": (loops.outer.sensitivity if stable else None, ""),
+        "phase_margin": (loops.outer.margins.phase, "deg"),
+        "gain_margin": (loops.outer.margins.gain, "dB"),
+        "bandwidth": (loops.models.cut.bandwidth(forward=False) if stable else None, "Hz"),
+        "stiffness": (gives if gives is not None and math.isfinite(gives) else None, unit),
+        "damping_ratio": (loops.damping if stable else None, ""),
+    }
+    if inner is not None:
+        found["velocity_loop_Ms"] = (inner.sensitivity if loops.inner_stable else None, "")
+        found["velocity_loop_phase_margin"] = (inner.margins.phase, "deg")
+        found["velocity_loop_gain_margin"] = (inner.margins.gain, "dB")
+    return found
+
+
+def _notes(solved: Solved, slowest: float, others: Sequence[Trial]) -> list[str]:
+    said = [solved.aim.text()]
+    levels = levels_of(solved.aim)
+    if 0 < solved.level < len(levels):
+        said.append(f"No gains keep all of it: {'; '.join(LATER[: solved.level])}.")
+    if solved.level == len(levels):
+        said.append(f"{why_not_sound(solved.after.loops)}. {NONE_SOUND}")
+    elif not solved.changed:
+        said.append(NOTHING)
+    if math.isfinite(slowest):
+        names = ", ".join(other.axis.axis for other in others)
+        said.append(f"The position gain is the one that all axes of the contour can have ({names}).")
+    said.append(
+        "Stiffness is the largest way of the load for one unit of torque that comes at once; a smaller figure is a stiffer axis."
+    )
+    return said
+
+
+def _picture(solved: Solved) -> tuple[dict[str, Series], dict[str, str]]:
+    """Return how far a torque of one unit moves the load, with the present gains and with the new ones."""
+    axis = solved.after.axis
+    models = [each.loops.models.whole for each in (solved.before, solved.after)]
+    stable = [each.loops.stable for each in (solved.before, solved.after)]
+    lasts = max((_lasts(model) for model, good in zip(models, stable, strict=True) if good), default=0.25)
+    time = np.linspace(0.0, lasts, POINTS)
+    columns: dict[str, Series] = {"time_s": time}
+    for name, model, good in zip(("before", "after"), models, stable, strict=True):
+        columns[f"load_way_{name}"] = _way(model, time) if good else np.full(POINTS, np.nan)
+    unit = f"{axis.unit}/{torque_unit(axis)}"
+    return columns, {"time_s": "s", "load_way_before": unit, "load_way_after": unit}
+
+
+def _lasts(model: LinearModel) -> float:
+    """Return 5 time constants of the slowest pole that still moves, at most 2 s."""
+    sizes = np.abs(model.poles())
+    moving = sizes[(sizes > 1e-6) & (sizes < 1.0 - 1e-9)]
+    return min(2.0, -5.0 * model.period / math.log(float(moving.max()))) if moving.size else 0.25
+
+
+def _way(model: LinearModel, time: Series) -> Series:
+    steps = math.ceil(float(time[-1]) / model.period) + 1
+    return np.asarray(np.interp(time, np.arange(steps) * model.period, model.pushed_way(steps)))
+
+
+SCENARIO = Scenario(
+    "tune",
+    "Gains for an aim in a word: quiet, normal, stiff, contour; before and after",
+    SETTINGS,
+    run_tune,
+    tried=True,
+)

@@ -1,0 +1,104 @@
+"""The solver finds the stiffest sound gains, whatever the file has now, and has nothing to add to them."""
+
+from __future__ import annotations
+
+import math
+from pathlib import Path
+
+import pytest
+
+from amp_studio.files import ParameterFile, open_file
+from amp_studio.schema import Value
+from amp_studio.sim import SimulationError, Trace, address_of, simulate
+from amp_studio.sim.aims import AIMS
+from amp_studio.sim.law import law_of
+from amp_studio.sim.loops import SOUND
+from amp_studio.sim.run import bind_axis
+from amp_studio.sim.solver import Candidate, levels_of, solve
+from amp_studio.sim.trial import Trial
+from tests.sim.tuning_campaign import Plant, faults, random_plants
+
+EXAMPLES = Path(__file__).parents[2] / "examples"
+AXES = [
+    ("57c422b-label-press/LABEL_PRESS.amp", "Y"),
+    ("acromill-router/ROUTER.amp", "X"),
+    ("mill-1394/MILL_1394.amp", "3"),
+    ("num-1060-mill/MILL_1060.amp", "0"),
+    ("syntec-mill/SYNTEC_MILL.amp", "1"),
+]
+
+
+def file_of(example: str) -> ParameterFile:
+    return open_file(EXAMPLES / example).file
+
+
+def apply(file: ParameterFile, trace: Trace) -> None:
+    for each in trace.recommendations:
+        address = address_of(file, each.parameter, trace.axis)
+        old = file.get(address)
+        whole = old is None or isinstance(old.value, int)
+        file.set(address, Value(int(each.value) if whole else each.value, each.unit))
+
+
+@pytest.mark.parametrize(("example", "axis"), AXES)
+def test_what_tune_advises_is_sound_and_a_second_run_has_nothing_to_add(example: str, axis: str) -> None:
+    file = file_of(example)
+    first = simulate(file, "tune", axis)
+    result = first.result
+    assert result["Ms"][0] <= SOUND.sensitivity
+    assert result["phase_margin"][0] >= SOUND.phase
+    assert result["gain_margin"][0] >= SOUND.gain
+    apply(file, first)
+    second = simulate(file, "tune", axis)
+    assert second.recommendations == ()
+    assert (
+        second.result["stiffness"] == second.result["stiffness_before"] == pytest.approx(result["stiffness"])
+    )
+    assert simulate(file, "frequency", axis, {"move.points": 2}).recommendations == ()
+
+
+def test_each_aim_keeps_its_numbers_and_stiff_is_stiffer_than_normal_than_quiet() -> None:
+    law, gives = law_of("9pc"), []
+    trial = Trial(file_of("mill-1394/MILL_1394.amp"), lambda other: bind_axis(other, law, "3"))
+    for word in ("quiet", "normal", "stiff"):
+        solved = solve(trial, AIMS[word])
+        assert solved.level == 0
+        assert levels_of(AIMS[word])[0].keeps(solved.after, 1.0)
+        gives.append(sum(solved.after.loops.yields))
+    assert gives == sorted(gives, reverse=True)
+
+
+def test_a_contour_gives_all_its_axes_one_position_gain() -> None:
+    file = file_of("lathe-ls176/LATHE_LS176.amp")
+    gains = set()
+    for axis in ("1", "2"):
+        trace = simulate(file, "tune", axis, {"tune.for": "contour"})
+        told = {each.parameter: each.value for each in trace.recommendations}
+        gains.add(told.get("servo.initial_gain", 1.0))
+        assert any("The position gain is the one that all axes" in text for text in trace.assumptions)
+    assert max(gains) / min(gains) < 1.03
+
+
+def test_a_word_that_is_no_aim_and_an_open_loop_are_one_sentence() -> None:
+    file = file_of("mill-1394/MILL_1394.amp")
+    with pytest.raises(SimulationError, match=r"Unknown aim 'loud'. Known: quiet, normal, stiff, contour"):
+        simulate(file, "tune", "1", {"tune.for": "loud"})
+    file.set(("servo.position_loop_type", "1"), Value("open"))
+    with pytest.raises(SimulationError, match="position loop of axis 1 is open"):
+        simulate(file, "tune", "1")
+
+
+@pytest.mark.parametrize("plant", random_plants(3, seed=1), ids=str)
+def test_a_grid_search_finds_nothing_that_the_solver_did_not(plant: Plant) -> None:
+    """The short version of ``make tunings``."""
+    assert list(faults(plant)) == []
+
+
+def test_a_candidate_says_by_how_much_a_count_moves_its_output() -> None:
+    law = law_of("57c422b")
+    axis = bind_axis(file_of("57c422b-label-press/LABEL_PRESS.amp"), law, "X")
+    # Velocity Gain 78 words for a count a scan, of 1984 for 10 V, and the proportional and integral parts on top.
+    assert Candidate(axis).jolt == pytest.approx(
+        78.0 * (1.0 + (17595.0 + 768.0) / 65536.0) / 1984.0, rel=1e-3
+    )
+    assert math.isfinite(Candidate(axis).loops.lacks())
