@@ -98,7 +98,7 @@ def motion_figures(file: ParameterFile) -> Iterator[PrintedFigure]:
 
 def motion_apart(file: ParameterFile) -> tuple[PrintedFigure, ...]:
     """Return ``motion_figures`` from a process apart: the simulator takes 150 MB. Raises ReportNotMadeError."""
-    figures: tuple[PrintedFigure, ...] = pickle.loads(run_apart(__name__, content_of(file)))  # noqa: S301 (the program itself has written it)
+    figures: tuple[PrintedFigure, ...] = pickle.loads(run_apart(__name__, content_of(file)))  # noqa: S301  # the program itself has written it
     return figures
 
 

@@ -66,7 +66,7 @@ def main(full: Path, paths: list[Path]) -> None:
         window.open_first(full)
         application.processEvents()
         print(time.perf_counter() - begin)
-        window.close_page(window.page_of(full))  # type: ignore[arg-type]  # it is open
+        window.close_page(window.page_of(full))
         application.processEvents()
     sys.stdout.flush()
     os._exit(0)

@@ -225,7 +225,7 @@ def _peers(full: Path, times: int) -> Iterator[Measure]:
     checks = [c for c in checks_of(file.evaluation, rules) if not c.lists]
     relations = []
     for check in checks:
-        left, sign, right = RELATION.fullmatch(check.rule.check).groups()  # type: ignore[union-attr]
+        left, sign, right = RELATION.fullmatch(check.rule.check).groups()
         relations.append(Relation(written(check.address_of(left)), sign, written(check.address_of(right))))
     values = {
         written(a): number

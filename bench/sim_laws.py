@@ -91,7 +91,7 @@ def measures(times: int) -> Iterator[Measure]:
         run = compiled(axis.position_sample, axis.velocity_sample)
         fresh = [np.array(each, dtype=np.float64) for each in vectors]
 
-        def call(fresh=fresh, table=table, run=run) -> int:  # type: ignore[no-untyped-def]
+        def call(fresh=fresh, table=table, run=run) -> int:
             return run(*(each.copy() for each in fresh), table)
 
         name = f"  {case.family} law, a sample each {axis.servo_period * 1e3:.4g} ms"

@@ -32,19 +32,19 @@ os.environ |= {"QT_QPA_PLATFORM": "offscreen", "TZ": "UTC", "USER": "operator", 
 os.environ |= {f"XDG_{n}_HOME": str(WORK / "home" / n.lower()) for n in ("CACHE", "CONFIG", "DATA", "STATE")}
 sys.path.insert(0, str(TOP))
 
-from page_pictures import IMAGES, draw_documents  # noqa: E402
+from page_pictures import IMAGES, draw_documents  # noqa: E402  # Qt reads the environment that is set above
 from PySide6.QtCore import QEventLoop, QPoint, QSettings, Qt, QTimer  # noqa: E402  # after the folders are set
-from PySide6.QtGui import QPainter, QPixmap  # noqa: E402
-from PySide6.QtTest import QTest  # noqa: E402
-from PySide6.QtWidgets import QApplication, QWidget  # noqa: E402
+from PySide6.QtGui import QPainter, QPixmap  # noqa: E402  # Qt reads the environment that is set above
+from PySide6.QtTest import QTest  # noqa: E402  # Qt reads the environment that is set above
+from PySide6.QtWidgets import QApplication, QWidget  # noqa: E402  # Qt reads the environment that is set above
 
-from amp_studio.files import Document, ParameterFile, Project, ProjectInfo, compare, new_file, save_file  # noqa: E402
-from amp_studio.schema import Value  # noqa: E402
-from amp_studio.ui.base.task import Task  # noqa: E402
-from amp_studio.ui.base.theme import scheme  # noqa: E402
-from amp_studio.ui.base.translated import speak  # noqa: E402
-from amp_studio.ui.base.workspace import Workspace  # noqa: E402
-from amp_studio.ui.main_window import MainWindow  # noqa: E402
+from amp_studio.files import Document, ParameterFile, Project, ProjectInfo, compare, new_file, save_file  # noqa: E402  # Qt reads the environment that is set above
+from amp_studio.schema import Value  # noqa: E402  # Qt reads the environment that is set above
+from amp_studio.ui.base.task import Task  # noqa: E402  # Qt reads the environment that is set above
+from amp_studio.ui.base.theme import scheme  # noqa: E402  # Qt reads the environment that is set above
+from amp_studio.ui.base.translated import speak  # noqa: E402  # Qt reads the environment that is set above
+from amp_studio.ui.base.workspace import Workspace  # noqa: E402  # Qt reads the environment that is set above
+from amp_studio.ui.main_window import MainWindow  # noqa: E402  # Qt reads the environment that is set above
 
 EXCESS, RAPID, CALIBRATION = ("servo.excess_error", "1"), ("feedrate.rapid", "1"), ("home.calibration", "1")
 

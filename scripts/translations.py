@@ -55,7 +55,7 @@ def with_known(content: bytes, before: bytes) -> bytes:
         for m in ET.fromstring(before).iter("message")  # noqa: S314  # a file of the program itself
         if is_finished(m)
     }
-    root = ET.fromstring(content)  # noqa: S314
+    root = ET.fromstring(content)  # noqa: S314  # a file of the program itself
     for message in root.iter("message"):
         old = known.get((message.findtext("source"), message.get("numerus")))
         if not is_finished(message) and old is not None:

@@ -503,3 +503,55 @@ def test_no_test_is_longer_than_a_screen(checkout: Path) -> None:
         if (lines := node.end_lineno - node.lineno + 1) > 40
     ]
     assert long == []
+
+
+SILENCED = re.compile(r"#\s*(?:noqa|type:\s*ignore|pragma:\s*no cover)\b(?P<rest>.*)$")
+"""A comment that silences a check, in a line of code."""
+REASON = re.compile(r"(?:: [A-Z]+\d+(?:, [A-Z]+\d+)*|\[[a-z-]+(?:, [a-z-]+)*\])  # \S+")
+"""What it names, and why."""
+
+
+def silenced_without_reason(text: str) -> list[str]:
+    """Return the lines in which a check is silenced without its name and a reason beside it."""
+    return [
+        line.strip()
+        for line in text.splitlines()
+        if (found := SILENCED.search(line)) and not REASON.match(found["rest"])
+    ]
+
+
+def test_every_silenced_check_has_its_reason_beside_it(checkout: Path) -> None:
+    folders = ("amp_studio", "tests", "scripts", "bench", "docs")
+    paths = [path for folder in folders for path in sorted((checkout / folder).rglob("*.py"))]
+    found = {
+        path.relative_to(checkout).as_posix(): lines
+        for path in paths
+        if path.name != "test_architecture.py"
+        and (lines := silenced_without_reason(path.read_text(encoding="utf-8")))
+    }
+    assert found == {}
+
+
+@pytest.mark.parametrize(
+    ("line", "is_fine"),
+    [
+        ("import x  # noqa: F401  # others take it from here", True),
+        ("import x  # noqa: F401", False),
+        ("import x  # noqa", False),
+        ("y = f()  # type: ignore[arg-type]  # Qt gives one of this kind", True),
+        ("y = f()  # type: ignore[arg-type, misc]", False),
+    ],
+)
+def test_a_check_that_is_silenced_without_a_reason_is_found(line: str, is_fine: bool) -> None:
+    assert (silenced_without_reason(line) == []) is is_fine
+
+
+def test_every_rule_that_is_switched_off_has_its_reason(checkout: Path) -> None:
+    """In the tables of ruff and mypy: beside the rule, or in the line above it."""
+    lines = (checkout / "pyproject.toml").read_text(encoding="utf-8").splitlines()
+    start = lines.index("ignore = [")
+    end = lines.index("[tool.ruff.lint.pydocstyle]")
+    rules = [n for n in range(start + 1, end) if re.search(r'^\s*"[A-Z]+\d*",|= \["', lines[n])]
+    assert len(rules) > 30
+    missing = [lines[n].strip() for n in rules if not re.search(r"# +\S+|= \[$", lines[n])]
+    assert missing == [f'"D10{n}",' for n in (2, 3, 4, 5, 7)], "D100 gives the reason of all of them"

@@ -217,7 +217,7 @@ def lost_motion(file: ParameterFile, offered: Compensation, axis: str) -> Fracti
     value = (
         file.evaluation.canonical(address) if scaled is None else canonical(float(scaled.value), scaled.unit)
     )
-    amount = Fraction(repr(float(value)))  # type: ignore[arg-type]
+    amount = Fraction(repr(float(value)))  # type: ignore[arg-type]  # the parameter is a number: offered.reversal names it
     return amount if offered.is_signed else abs(amount)
 
 
@@ -300,7 +300,7 @@ def _reversal_of(
     value, made = rounded(file, address, total)
     present = file.get(address)
     if not offered.is_signed and present is not None and not isinstance(present.value, (str, bool)):
-        value = Value(-value.value if present.value < 0 and value.value else value.value, value.unit)  # type: ignore[operator]
+        value = Value(-value.value if present.value < 0 and value.value else value.value, value.unit)  # type: ignore[operator]  # a rounded value is a number
     if message := fault(file.evaluation, address, value):
         notes.append(f"no reversal error is proposed: {message}")
         return None

@@ -326,4 +326,4 @@ def _with_directions(runs: Sequence[RawRun]) -> list[MeasuredRun]:
 
 def _text(targets: Sequence[Fraction]) -> str:
     seen: set[Fraction] = set()
-    return next(f"{float(at):g}" for at in targets if at in seen or seen.add(at))  # type: ignore[func-returns-value]
+    return next(f"{float(at):g}" for at in targets if at in seen or seen.add(at))  # type: ignore[func-returns-value]  # set.add returns None, which is no

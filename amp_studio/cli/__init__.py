@@ -19,7 +19,7 @@ _OBJECTS = 300_000
 def main(arguments: Sequence[str] | None = None) -> None:
     """Run one verb and exit with its code; without a verb the desktop program opens."""
     # Built in (and so without type hints): nothing is loaded before an early Ctrl-C ends the program without a traceback.
-    import _signal  # type: ignore[import-not-found]
+    import _signal  # type: ignore[import-not-found]  # built in, and in no stub
     import gc
 
     _signal.signal(_signal.SIGINT, _signal.SIG_DFL)

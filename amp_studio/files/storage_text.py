@@ -39,7 +39,7 @@ def storage_text(file: ParameterFile, address: Address) -> str:
     except StorageError:
         return text
     number = file.machine_schema.number(address) or ""
-    names = [_LAST_NUMBER.sub(lambda m, k=n: str(int(m[1]) + k), number) for n in range(len(words))]  # type: ignore[misc]
+    names = [_LAST_NUMBER.sub(lambda m, k=n: str(int(m[1]) + k), number) for n in range(len(words))]  # type: ignore[misc]  # the default binds the number of this turn
     each = ", ".join(f"{name} = {word} (0x{word:04X})" for name, word in zip(names, words, strict=True))
     return f"{write_number(round(stored))}: {each}"
 

@@ -191,6 +191,6 @@ def _handles(figures: ValueReader, roles: GearRoles, gear: _Gear, across: float,
             level = gear.output_low + share * (gear.output - gear.output_low)
             other = gear.output_low if figure is output else gear.output
             weight = share if figure is output else 1.0 - share
-            drag = figures.drag(figure, "y", top, lambda y, o=other, w=weight: o + (y - o) / w)  # type: ignore[misc]
+            drag = figures.drag(figure, "y", top, lambda y, o=other, w=weight: o + (y - o) / w)  # type: ignore[misc]  # the defaults bind the figures of this turn
             found.append(figures.handle(figure, (place, level), drag, second=True))
     return found

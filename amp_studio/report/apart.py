@@ -99,7 +99,7 @@ def made(what: What, report: Report, own: Path | None, ppi: int = 0) -> list[byt
 
 def answer(asked: BinaryIO, out: BinaryIO) -> None:
     """Make what the program asks for, in the process apart: a line with mistake and lengths, then the files."""
-    most_memory, *wanted = pickle.load(asked)  # noqa: S301 (the program itself has written it)
+    most_memory, *wanted = pickle.load(asked)  # noqa: S301  # the program itself has written it
     if most_memory:
         _bound_memory(most_memory)
     mistake, files = None, []

@@ -198,7 +198,7 @@ def _as_pdf(source: str, root: Path) -> bytes:
 
 def _forget_earlier() -> None:
     """Let Typst drop what it keeps of earlier documents: about 100 MB each, for ten compilations more."""
-    global _has_compiled  # noqa: PLW0603
+    global _has_compiled  # noqa: PLW0603  # Typst keeps its documents for the whole process too
     if _has_compiled:
         from typst import Compiler, Fonts
 

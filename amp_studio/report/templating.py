@@ -77,7 +77,7 @@ def filled(
 
     whole: dict[str, Any] = {"loader": _loader(own), "trim_blocks": True, "lstrip_blocks": True}
     if own is None:
-        environment = Environment(  # noqa: S701 (settings escape a page, filters the source of Typst)
+        environment = Environment(  # noqa: S701  # settings escape a page, filters the source of Typst
             undefined=StrictUndefined, bytecode_cache=_compiled_templates(), **whole, **settings
         )
     else:

@@ -43,7 +43,7 @@ machines take 0.2 MB each."""
 def key_of(value: Value | None) -> Key:
     """Return the key of a value."""
     try:
-        return value._key  # type: ignore[union-attr, no-any-return]
+        return value._key  # type: ignore[union-attr, no-any-return]  # any object may be asked; one without a key gets it below
     except AttributeError:
         found = canonical_value(value)
         key: Key = (_TRUE if found else _FALSE) if found.__class__ is bool else 0.0 if found == 0 else found
@@ -57,8 +57,8 @@ def value_of(key: Key) -> Canonical | list[Canonical]:
     if key.__class__ is tuple:
         if _TRUE not in key and _FALSE not in key:
             return list(key)  # thousands of a table
-        return [value_of(one) for one in key]  # type: ignore[misc]
-    return key is _TRUE if key is _TRUE or key is _FALSE else key  # type: ignore[return-value]
+        return [value_of(one) for one in key]  # type: ignore[misc]  # a list of a CEL value has no lists in it
+    return key is _TRUE if key is _TRUE or key is _FALSE else key  # type: ignore[return-value]  # what is left of a key is a number or a text
 
 
 class Keys(dict[Address, Key]):

@@ -233,7 +233,7 @@ def _panel(
 def _curve(trace: Trace, name: str) -> Curve:
     words, role = _WORDS.get(name, (name.replace("_", " "), "other"))
     held, dense = name == "command_velocity", role == "output" or name == "following_error"
-    return Curve(words, trace.columns["time_s"], trace.columns[name], role, held=held, dense=dense)  # type: ignore[arg-type]
+    return Curve(words, trace.columns["time_s"], trace.columns[name], role, held=held, dense=dense)  # type: ignore[arg-type]  # the role is one of the words above
 
 
 def _before(before: Trace | None, name: str) -> list[Curve]:
@@ -294,7 +294,7 @@ def _settling(trace: Trace, before: Trace | None) -> Panel | None:
         inside = (each.columns["time_s"] >= span[0]) & (each.columns["time_s"] <= span[1])
         if inside.sum() > 1:
             off = each.columns["position"][inside] - trace.columns["command_position"][-1]
-            curves.append(Curve(name, each.columns["time_s"][inside], off, role))  # type: ignore[arg-type]
+            curves.append(Curve(name, each.columns["time_s"][inside], off, role))  # type: ignore[arg-type]  # the role is one of the words above
     band = trace.limits.get("inposition band", (None, ""))[0]
     levels = () if band is None else ((f"inposition band ±{shown(band)}", band), ("", -band))
     return (
@@ -374,8 +374,8 @@ def _ballbar(trace: Trace, before: Trace | None) -> Picture:
         if each is None:
             continue
         angle, off = each.columns["angle_deg"], each.columns["radius_deviation"]
-        rings.append(Ring(name, np.radians(angle), off, role))  # type: ignore[arg-type]
-        curves.append(Curve(name, angle, off, role))  # type: ignore[arg-type]
+        rings.append(Ring(name, np.radians(angle), off, role))  # type: ignore[arg-type]  # the role is one of the words above
+        curves.append(Curve(name, angle, off, role))  # type: ignore[arg-type]  # the role is one of the words above
     unit = trace.units["radius_deviation"]
     levels: list[tuple[str, float]] = [("", 0.0)]
     # A radius error above 0 is a circle that is too small, a deviation below 0.

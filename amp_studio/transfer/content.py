@@ -56,15 +56,15 @@ class ContentKind(Protocol):
 class TakesAllOrRefuses:
     """What a kind is whose control takes all of a file, or is sent nothing."""
 
-    def left_out(self, file: ParameterFile, held: bytes) -> str:  # noqa: ARG002 -- other kinds need them
+    def left_out(self, file: ParameterFile, held: bytes) -> str:  # noqa: ARG002  # other kinds need them
         """Return ""."""
         return ""
 
-    def stays(self, file: ParameterFile, held: bytes) -> str:  # noqa: ARG002 -- other kinds need them
+    def stays(self, file: ParameterFile, held: bytes) -> str:  # noqa: ARG002  # other kinds need them
         """Return "": a file of such a control has all of each value."""
         return ""
 
-    def lacks(self, content: bytes, earlier: bytes) -> str:  # noqa: ARG002 -- other kinds need them
+    def lacks(self, content: bytes, earlier: bytes) -> str:  # noqa: ARG002  # other kinds need them
         """Return "": what is read of such a control is whole."""
         return ""
 
@@ -74,7 +74,7 @@ class WholeContent(TakesAllOrRefuses):
 
     has_header: ClassVar[bool] = False
 
-    def refit(self, content: bytes, held: bytes) -> bytes:  # noqa: ARG002 -- other kinds need it
+    def refit(self, content: bytes, held: bytes) -> bytes:  # noqa: ARG002  # other kinds need it
         """Return the content itself."""
         return content
 

@@ -116,7 +116,7 @@ class LineDriver(ABC):
     def _names(self, content: bytes) -> Mapping[str, str]:
         """Return what can be written of a content: name -> text; raises ImageError."""
 
-    def _names_now(self, replacement: Replacement) -> Mapping[str, str]:  # noqa: ARG002 -- other controls show a value otherwise
+    def _names_now(self, replacement: Replacement) -> Mapping[str, str]:  # noqa: ARG002  # other controls show a value otherwise
         """Return what the control contains after a break, as ``_names``; raises TransferError, ImageError."""
         return self._names(self._fetched("verify"))
 

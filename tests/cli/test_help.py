@@ -200,7 +200,7 @@ def test_the_examples_of_plain_files_work_word_for_word(here: Path) -> None:
             listening = socket.create_server(("127.0.0.1", 0))
         example = example.replace(f":{port} ", f":{listening.getsockname()[1]} ")
         with listening, ThreadPoolExecutor(1) as pool:
-            served = pool.submit(lambda: end(ByteLine(TcpLink(Endpoint("tcp"), listening.accept()[0]))))  # noqa: B023
+            served = pool.submit(lambda: end(ByteLine(TcpLink(Endpoint("tcp"), listening.accept()[0]))))  # noqa: B023  # it ends within the turn
             assert cli.run(shlex.split(example)[1:]) == 0
             served.result(10)
     assert (here / "received.txt").read_bytes() == b"N1"

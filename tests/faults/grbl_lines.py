@@ -87,7 +87,7 @@ def fuzz_answers(seed: int, count: int) -> list[str]:
             data = read(timeout)
             return damaged(data, chance) if data and chance.randrange(every) == 0 else data
 
-        player.read = changed  # type: ignore[method-assign]
+        player.read = changed
         driver = GrblDriver(player.open, clock=clock, sleep=clock.sleep)
         try:
             content = driver.fetch()

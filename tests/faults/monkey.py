@@ -158,11 +158,11 @@ class Monkey:
 
         for name in ("getOpenFileName", "getSaveFileName"):
             setattr(QFileDialog, name, path)
-        QFileDialog.getOpenFileNames = lambda *a, **k: ([path()[0]] if path()[0] else [], "")  # type: ignore[method-assign]
-        QFileDialog.getExistingDirectory = lambda *a, **k: str(self.folder)  # type: ignore[method-assign]
-        QDesktopServices.openUrl = lambda _url: True  # type: ignore[method-assign]
+        QFileDialog.getOpenFileNames = lambda *a, **k: ([path()[0]] if path()[0] else [], "")
+        QFileDialog.getExistingDirectory = lambda *a, **k: str(self.folder)
+        QDesktopServices.openUrl = lambda _url: True
         for dialog in (QPrintDialog, QPrintPreviewDialog):
-            dialog.exec = lambda _self: 0  # type: ignore[method-assign]
+            dialog.exec = lambda _self: 0
 
     def _act(self) -> None:
         action = next(self.replayed, None) if self.replayed is not None else self._chosen()

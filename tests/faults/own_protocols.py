@@ -91,9 +91,7 @@ class CardFaults(CardBench):
         settings = self.card.settings
         plain = type(settings)._figure.__get__(settings)
         write = forgetting(faults, plain)
-        settings._figure = lambda name, figures: (  # type: ignore[method-assign]
-            (plain if figures[0] is None else write)(name, figures) or []
-        )
+        settings._figure = lambda name, figures: (plain if figures[0] is None else write)(name, figures) or []
 
     def power_cycle(self) -> None:
         self.switch_on()
@@ -161,7 +159,7 @@ class TableFaults(NumBench):
     def arm(self, faults: Mapping[str, int]) -> None:
         self.refuses = {"load", "unload"} & faults.keys()
         parameters = self.control._parameters
-        parameters.load = forgetting(faults, type(parameters).load.__get__(parameters))  # type: ignore[method-assign]
+        parameters.load = forgetting(faults, type(parameters).load.__get__(parameters))
 
     def power_cycle(self) -> None:
         self.switch_on()
@@ -212,7 +210,7 @@ class RackFaults(RackBench):
 
     def arm(self, faults: Mapping[str, int]) -> None:
         module = self.rack.module
-        module.write = forgetting(faults, type(module).write.__get__(module))  # type: ignore[method-assign]
+        module.write = forgetting(faults, type(module).write.__get__(module))
 
     def power_cycle(self) -> None:
         raise AssertionError("a rack without power has no registers")
@@ -286,7 +284,7 @@ class HouseFaults:
     def arm(self, faults: Mapping[str, int]) -> None:
         control = self._modem.control  # one commit is all that it writes
         faults = {"forget": 1} if "forget" in faults else {}
-        control._replace_active = forgetting(faults, type(control)._replace_active.__get__(control))  # type: ignore[method-assign]
+        control._replace_active = forgetting(faults, type(control)._replace_active.__get__(control))
 
     def power_cycle(self) -> None:
         with contextlib.suppress(PowerLoss):

@@ -85,8 +85,8 @@ def fuzz_names(seed: int, count: int) -> list[str]:
         (text,) = mutants([name], chance.getrandbits(32), 1)
 
         def look(text: str, file: object = file) -> None:
-            file.evaluation.find_bit(text)  # type: ignore[attr-defined]
-            addresses_meant(file.evaluation, text)  # type: ignore[attr-defined]
+            file.evaluation.find_bit(text)
+            addresses_meant(file.evaluation, text)
 
         found += violations(iter([text]), look, (UnknownParameterError,))
     return found

@@ -280,7 +280,7 @@ def test_a_step_is_done_whole_or_not_at_all(wanted) -> None:
         ("1300", Value(5.0, "mm"), TypeError, "an address is a parameter id and an instance"),
         (("home.calibration", "1"), "5 mm", TypeError, "a value is a Value"),
         (("home.calibration", "1"), 5, TypeError, "a value is a Value"),
-        (("home.calibration", "1"), Value(None, "mm"), TypeError, "a value is a Value"),  # type: ignore[arg-type]
+        (("home.calibration", "1"), Value(None, "mm"), TypeError, "a value is a Value"),
         (
             ("home.calibration", "X"),
             Value(5.0, "mm"),
@@ -306,7 +306,7 @@ def test_what_is_no_address_and_what_is_no_value_is_refused_at_once(
     before = dict(file.values)
     for change in (file.set, lambda a, v: file.set_many({a: v}), lambda a, v: file.take({a: v})):
         with pytest.raises(error, match=re.escape(text)):
-            change(address, value)  # type: ignore[arg-type]
+            change(address, value)
     assert file.values == before
 
 
@@ -320,7 +320,7 @@ def test_what_is_no_address_and_what_is_no_value_is_refused_at_once(
 )
 def test_what_is_no_address_has_no_value_either(address: object, error: type[Exception]) -> None:
     with pytest.raises(error):
-        new_file("9pc", "mill", ["X"]).get(address)  # type: ignore[arg-type]
+        new_file("9pc", "mill", ["X"]).get(address)
 
 
 def test_paths_may_be_text(tmp_path: Path) -> None:

@@ -24,7 +24,7 @@ def page(checkout: Path) -> str:
 
 def block(page: str, first: str) -> str:
     """Return the indented block that begins with a line."""
-    return dedent(re.search(rf"(?m)^    {first}\n(?:    .*\n|\n(?=    ))*", page)[0])  # type: ignore[index]  # it is there
+    return dedent(re.search(rf"(?m)^    {first}\n(?:    .*\n|\n(?=    ))*", page)[0])
 
 
 def test_every_format_has_its_line_and_its_section(page: str) -> None:

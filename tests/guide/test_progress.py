@@ -138,7 +138,7 @@ def test_the_next_open_value_goes_through_the_steps_and_begins_again_after_the_l
     assert next_open(now) == ("axis.name", "1")
     assert next_open(now, ("axis.name", "1")) == ("axis.name", "2")
     assert next_open(now, ("control.type", "")) == ("axis.name", "1")
-    assert next_open(now, ("servo.loop_type", "3"))[0].startswith("axis.")  # type: ignore[index]
+    assert next_open(now, ("servo.loop_type", "3"))[0].startswith("axis.")
     last = [each for each in now.steps if each.open][-1].open[-1]
     assert next_open(now, last) == ("axis.name", "1")
     walked, here = [], None

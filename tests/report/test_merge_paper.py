@@ -36,18 +36,18 @@ def cells(paper: Paper, name: str) -> tuple[str, ...]:
 
 
 def test_each_source_is_a_column_in_one_unit_and_an_open_conflict_is_named(merge: Merge) -> None:
-    paper = merge_paper(merge, NAMES)  # type: ignore[arg-type]  # sides
+    paper = merge_paper(merge, NAMES)
     assert cells(paper, "Home Calibration")[3:] == ("0 mm", "1 mm", "25.4 mm", "not settled")
     assert ("Conflicts", "2, 2 not settled") in paper.facts
     merge.choose(merge.conflicts[-1], "b")
     merge.take("b")
-    assert cells(merge_paper(merge, NAMES), "Home Calibration")[-1] == "25.4 mm"  # type: ignore[arg-type]  # sides
+    assert cells(merge_paper(merge, NAMES), "Home Calibration")[-1] == "25.4 mm"
 
 
 def test_a_typed_value_is_named_and_a_secret_is_masked(merge: Merge) -> None:
     for row in merge.conflicts:
         merge.choose(row, Typed(Value(2.0, "mm")) if row.address == CALIBRATION else "a")
-    paper = merge_paper(merge, NAMES)  # type: ignore[arg-type]  # sides
+    paper = merge_paper(merge, NAMES)
     assert cells(paper, "Home Calibration")[-1] == "2 mm (typed)"
     assert set(cells(paper, "Characters of the Password")[3:]) == {MASKED}
 
@@ -55,5 +55,5 @@ def test_a_typed_value_is_named_and_a_secret_is_masked(merge: Merge) -> None:
 def test_it_is_written_in_every_format(merge: Merge, tmp_path: Path) -> None:
     for ending in set(PAPER_FORMATS) - {".pdf"}:
         path = tmp_path / f"paper{ending}"
-        write_paper(merge_paper(merge, NAMES), path)  # type: ignore[arg-type]  # sides
+        write_paper(merge_paper(merge, NAMES), path)
         assert path.stat().st_size > 200

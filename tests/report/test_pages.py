@@ -141,7 +141,7 @@ def test_pages_for_america_are_letter(tmp_path: Path, mill: ParameterFile) -> No
     print_report(mill, tmp_path / "r.pdf", Contents(paper="letter", without=BARE))
     assert re.search(r"Page size:\s+612 x 792", said_by("pdfinfo", tmp_path / "r.pdf"))
     with pytest.raises(ValueError, match=r"Unknown paper 'a5'\. Known: a4, letter"):
-        Contents(paper="a5")  # type: ignore[arg-type]
+        Contents(paper="a5")
 
 
 def test_numbers_with_dots_between_them_go_on_in_equal_steps(mill: ParameterFile) -> None:

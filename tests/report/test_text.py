@@ -25,7 +25,7 @@ def row(number: str, name: str, value: str, **more: object) -> ReportRow:
         "figure": value, "unit": "mm", "shown_unit": "mm", "also": "", "entered": "", "detail": "", "no_default": False, "default": "0", "plain_default": "0", "is_changed": False,
         "state": "in-force", "why": "", "state_mark": "", "forced": "",
     }  # fmt: skip
-    return ReportRow(**(known | more))  # type: ignore[arg-type]
+    return ReportRow(**(known | more))
 
 
 SMALL = Report(

@@ -112,7 +112,7 @@ def test_another_ending_is_refused_in_one_sentence(tmp_path: Path, mill: Paramet
 
 def test_another_order_is_refused(tmp_path: Path, mill: ParameterFile) -> None:
     with pytest.raises(ValueError, match=r"Unknown order 'name'\. Known: axis, number, group"):
-        print_report(mill, tmp_path / "report.txt", Contents("name"))  # type: ignore[arg-type]
+        print_report(mill, tmp_path / "report.txt", Contents("name"))
 
 
 def test_a_folder_that_is_not_there_is_said_in_one_sentence(tmp_path: Path, mill: ParameterFile) -> None:

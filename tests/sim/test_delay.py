@@ -39,7 +39,7 @@ def example(family: str, part: float | None, gain: float | None = None) -> AxisL
     )
     if part is not None:
         ideal["delay"] = part * axis.servo_period / samples / substeps
-    machine: Machine = replace(axis.machine, **ideal)  # type: ignore[arg-type]  # none of them is the flag
+    machine: Machine = replace(axis.machine, **ideal)
     assert machine_array(machine, axis.servo_period / samples / substeps)[DELAY_SHARE] > 0.1
     return replace(axis, machine=machine)
 

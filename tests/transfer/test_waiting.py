@@ -54,7 +54,7 @@ def test_a_sentence_for_a_person_is_marked_as_one_and_whoever_fails_to_show_it_e
     shown = list[tuple[str, int, int]]()
 
     def show(*event: object) -> None:
-        shown.append(event)  # type: ignore[arg-type]
+        shown.append(event)
         raise OSError("nobody reads")
 
     waiting = Waiting(VirtualClock())

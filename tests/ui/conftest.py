@@ -136,8 +136,8 @@ def accept(monkeypatch: pytest.MonkeyPatch) -> Callable[..., None]:
         def run(dialog: QWidget) -> int:
             fill(dialog)
             assert doubled(texts_of(dialog)) == {}, "two controls have one Alt letter"
-            dialog.accept()  # type: ignore[attr-defined]  # a dialog
-            return int(dialog.result())  # type: ignore[attr-defined]
+            dialog.accept()
+            return int(dialog.result())
 
         monkeypatch.setattr(kind, "exec", run)
 
@@ -188,7 +188,7 @@ def open_window(qtbot: QtBot, person: Person) -> Iterator[Callable[..., MainWind
 
     yield show
     for window in windows:
-        window.may_leave = lambda *_: True  # type: ignore[method-assign]  # every question has been asked by now
+        window.may_leave = lambda *_: True
         window.close()
         window.deleteLater()
     QApplication.sendPostedEvents(None, QEvent.Type.DeferredDelete)

@@ -45,14 +45,14 @@ def silent(top: QWidget) -> list[str]:
     found: list[str] = []
 
     def walk(node: object) -> None:
-        part = node.object()  # type: ignore[attr-defined]  # QAccessibleInterface
+        part = node.object()
         if isinstance(part, QWidget) and part in wanted:
             wanted.remove(part)
-            name, role = node.text(QAccessible.Text.Name), node.role()  # type: ignore[attr-defined]  # likewise
+            name, role = node.text(QAccessible.Text.Name), node.role()
             if not name or role == QAccessible.Role.NoRole:
                 found.append(f"{type(part).__name__} in {type(part.parent()).__name__}: {name!r} {role.name}")
-        for n in range(min(node.childCount(), 200)):  # type: ignore[attr-defined]  # likewise
-            child = node.child(n)  # type: ignore[attr-defined]  # likewise
+        for n in range(min(node.childCount(), 200)):
+            child = node.child(n)
             if child is not None and isinstance(child.object(), QWidget):
                 walk(child)
 

@@ -45,7 +45,7 @@ def test_an_acr_card_is_verified_and_downloaded_over_its_terminal(
 def test_what_a_person_is_to_do_at_the_control_is_shown_until_it_is_done(window: MainWindow) -> None:
     texts: list[str] = []
 
-    def work(progress, cancel):  # type: ignore[no-untyped-def]
+    def work(progress, cancel):
         progress("At the control: 3 UNLOAD", 0, PERSON)
         progress("silent", 5, 0)
         progress("upload", 1, 2)

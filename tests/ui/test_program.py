@@ -127,7 +127,7 @@ def test_the_layout_is_remembered(window: MainWindow, path: Path) -> None:
 
 
 def test_escape_cancels_a_task_and_waits_for_its_end(window: MainWindow) -> None:
-    def work(progress, cancel):  # type: ignore[no-untyped-def]
+    def work(progress, cancel):
         progress("begun", 1, 2)
         assert cancel.wait(20)
         return "ended"
@@ -156,7 +156,7 @@ def test_a_closed_window_is_never_collected_by_the_thread_of_a_task(
     timer = QApplication.instance().findChild(QTimer, "garbage")
     timer.setInterval(10)
 
-    def work(progress, cancel):  # type: ignore[no-untyped-def]
+    def work(progress, cancel):
         for _ in range(50):
             Closed()
             assert [[] for _ in range(1000)]  # enough to make Python collect
@@ -230,7 +230,7 @@ def test_a_thread_lets_the_window_have_its_turn_within_a_millisecond(window: Mai
 def test_a_silence_is_shown_below_what_is_waited_for_and_goes(window: MainWindow) -> None:
     texts: list[str] = []
 
-    def work(progress, cancel):  # type: ignore[no-untyped-def]
+    def work(progress, cancel):
         progress("keep", 1, 2)
         progress("silent", 2, 20)
         assert cancel.wait(20)
@@ -256,7 +256,7 @@ def test_a_silence_is_shown_below_what_is_waited_for_and_goes(window: MainWindow
 
 
 def test_what_goes_wrong_in_a_task_is_raised_to_whoever_waits(window: MainWindow, person: Person) -> None:
-    def work(progress, cancel):  # type: ignore[no-untyped-def]
+    def work(progress, cancel):
         raise OSError("the disk is on fire")
 
     window.guarded(lambda: ProgressDialog("Work", work, window).run())
@@ -264,7 +264,7 @@ def test_what_goes_wrong_in_a_task_is_raised_to_whoever_waits(window: MainWindow
 
 
 def test_a_task_that_cannot_be_cancelled_ignores_escape(window: MainWindow) -> None:
-    def work(progress, cancel):  # type: ignore[no-untyped-def]
+    def work(progress, cancel):
         assert not cancel.wait(0.2)
         return "whole"
 

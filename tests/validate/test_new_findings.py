@@ -10,7 +10,7 @@ PITCH = ("servo.lead_screw_pitch", "1")
 
 def finding(rule: str, severity: str = "warning", message: str = "") -> Finding:
     """Return a finding about the pitch."""
-    return Finding(rule, severity, (PITCH,), message, instance="1")  # type: ignore[arg-type]  # a severity
+    return Finding(rule, severity, (PITCH,), message, instance="1")
 
 
 def test_a_finding_of_other_figures_is_no_new_one_and_a_more_severe_one_is() -> None:

@@ -60,13 +60,13 @@ class BallscrewTable:
             raise CalibrationError("a ballscrew table has a word for each whole position, without a gap")
         return " ".join(f"{letter}{n}E{words[n]}" for n in range(count))
 
-    def empty(self, file: ParameterFile, axis: str, input_: str, start: str) -> CalibrationTable:  # noqa: ARG002
+    def empty(self, file: ParameterFile, axis: str, input_: str, start: str) -> CalibrationTable:  # noqa: ARG002  # other forms need them
         """Return a table without corrections, as long as the travel between the soft limits."""
         size, home = _unit(file), _home(file, axis)
         low, high = self._travel(file, axis)
         return CalibrationTable("mm", tuple(((n + home) * size, Fraction(0)) for n in range(low, high + 1)))
 
-    def fit(self, file: ParameterFile, axis: str, errors: ErrorCurve, input_: str, start: str) -> FittedTable:  # noqa: ARG002
+    def fit(self, file: ParameterFile, axis: str, errors: ErrorCurve, input_: str, start: str) -> FittedTable:  # noqa: ARG002  # other forms need them
         """Return the words of every whole position of the travel; raises CalibrationError where it was not measured."""
         size, home = _unit(file), _home(file, axis)
         low, high = self._travel(file, axis)
@@ -89,15 +89,15 @@ class BallscrewTable:
             tuple(notes),
         )
 
-    def figure(self, table: CalibrationTable, at: Fraction, error: Fraction) -> Fraction:  # noqa: ARG002
+    def figure(self, table: CalibrationTable, at: Fraction, error: Fraction) -> Fraction:  # noqa: ARG002  # other forms need them
         """Return the correction, in mm."""
         return -error
 
-    def error(self, table: CalibrationTable, at: Fraction, figure: Fraction) -> Fraction:  # noqa: ARG002
+    def error(self, table: CalibrationTable, at: Fraction, figure: Fraction) -> Fraction:  # noqa: ARG002  # other forms need them
         """Return the error that a correction takes away."""
         return -figure
 
-    def remarks(self, file: ParameterFile, axis: str, table: CalibrationTable) -> tuple[str, ...]:  # noqa: ARG002
+    def remarks(self, file: ParameterFile, axis: str, table: CalibrationTable) -> tuple[str, ...]:  # noqa: ARG002  # other forms need them
         """Return nothing: the controller warns of nothing."""
         return ()
 

@@ -119,7 +119,7 @@ class GrblDriver(GrblContentKind, LineDriver):
             raise error from None
         return writing.receipt()
 
-    def _after_break(self, error: TransferError, sent: SentValues, replacement: Replacement) -> None:  # noqa: ARG002 -- Writing has them
+    def _after_break(self, error: TransferError, sent: SentValues, replacement: Replacement) -> None:  # noqa: ARG002  # Writing has them
         assert self._writing is not None
         self._find_out(error, self._writing)
 

@@ -81,7 +81,7 @@ class GrblContentKind:
         """Return the bits of masks that a control has and the file does not; raises ImageError."""
         return named_bits(_wanted(file, read_content(held), held).kept)
 
-    def lacks(self, content: bytes, earlier: bytes) -> str:  # noqa: ARG002 -- other kinds need them
+    def lacks(self, content: bytes, earlier: bytes) -> str:  # noqa: ARG002  # other kinds need them
         """Return "": settings come and go with options, and are read until two readings are the same."""
         return ""
 

@@ -40,7 +40,7 @@ class NinePcTable:
         "That is a state of the control and not in a file."
     )
 
-    def read(self, file: ParameterFile, axis: str, text: str) -> CalibrationTable:  # noqa: ARG002
+    def read(self, file: ParameterFile, axis: str, text: str) -> CalibrationTable:  # noqa: ARG002  # other forms need them
         """Return a table in mm, in or deg; raises CalibrationError."""
         try:
             found = read_calibration(text)

@@ -58,7 +58,7 @@ class NoBrokenTransfers(BrokenTransfers):
     def __init__(self) -> None:
         super().__init__(Path())
 
-    def find(self, what: bytes) -> bytes | None:  # noqa: ARG002 -- there is none
+    def find(self, what: bytes) -> bytes | None:  # noqa: ARG002  # there is none
         """Return None."""
         return None
 

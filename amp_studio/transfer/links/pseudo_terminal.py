@@ -91,7 +91,7 @@ class PtyListener:
         except OSError as error:
             raise LinkError("pty:", str(error)) from None
 
-    def accept(self, timeout: float) -> PtyLink | None:  # noqa: ARG002 -- nothing here is waited for
+    def accept(self, timeout: float) -> PtyLink | None:  # noqa: ARG002  # nothing here is waited for
         """Return the line; while one is in use, None (nobody connects to a serial port)."""
         if self._link is not None and self._link.is_open:
             return None

@@ -99,7 +99,7 @@ class PreviewActions(QObject):
         return panel
 
     def _guarded(self, act: object, title: str) -> partial[object]:
-        return partial(self.window.guarded, act, title)  # type: ignore[arg-type]
+        return partial(self.window.guarded, act, title)  # type: ignore[arg-type]  # a signal of Qt may give it any arguments
 
     def export(self) -> None:
         """Ask for a file and write the report into it."""

@@ -46,7 +46,7 @@ _OF_PYTHON = frozenset({"setText"})
 def guard_overrides() -> None:
     """Guard each class that is made from now on of one of Qt's."""
     for base in (QObject, QUndoCommand, QIconEngine):
-        base.__init_subclass__ = classmethod(_guard_class)  # type: ignore[assignment,arg-type]  # a class method of every class that follows
+        base.__init_subclass__ = classmethod(_guard_class)  # type: ignore[assignment, arg-type]  # a class method of every class that follows
 
 
 def _guard_class(cls: type, **settings: Any) -> None:

@@ -124,7 +124,7 @@ class HandleFooter(QFrame):
 
     def eventFilter(self, watched: object, event: object) -> bool:
         """Esc in the field gives the value up."""
-        if event.type() == event.Type.KeyPress and event.key() == Qt.Key.Key_Escape:  # type: ignore[attr-defined]
+        if event.type() == event.Type.KeyPress and event.key() == Qt.Key.Key_Escape:  # type: ignore[attr-defined]  # Qt gives the event of this kind
             self.field.clearFocus()
             self.left.emit()
             return True

@@ -108,7 +108,7 @@ class StepAnswer(QWidget):
 
     def showEvent(self, event: object) -> None:
         """Simulate once it is seen."""
-        super().showEvent(event)  # type: ignore[arg-type]
+        super().showEvent(event)  # type: ignore[arg-type]  # Qt gives the event of this kind
         self._timer.start()
 
     def _done(self, trace: Trace) -> None:

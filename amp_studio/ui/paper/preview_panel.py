@@ -180,7 +180,7 @@ class PreviewPanel(QWidget):
 
     def showEvent(self, event: object) -> None:
         """Set what has changed while nobody looked."""
-        super().showEvent(event)  # type: ignore[arg-type]
+        super().showEvent(event)  # type: ignore[arg-type]  # Qt gives the event of this kind
         if self._is_stale:
             self.set_again()
 
@@ -277,7 +277,7 @@ class PreviewPanel(QWidget):
     # -- from the table, and back --------------------------------------------------------------
 
     def _follow(self, address: object) -> None:
-        self.view.mark(address, scroll=self.follows)  # type: ignore[arg-type]
+        self.view.mark(address, scroll=self.follows)  # type: ignore[arg-type]  # a signal of Qt has no type of an address
 
     def set_follows(self, follows: bool) -> None:
         """Turn the pages to the selected value from now on, or only mark it."""

@@ -276,7 +276,7 @@ class PictureCanvas(QWidget):
         return [n for far, _, n in found if far <= found[0][0] + TOGETHER]
 
     def _name_at(self, at: QPointF) -> Address | None:
-        return next((address for box, address in self._names if box.contains(at)), None)  # type: ignore[attr-defined]
+        return next((address for box, address in self._names if box.contains(at)), None)  # type: ignore[attr-defined]  # the boxes are rectangles of Qt
 
     def mousePressEvent(self, event: QMouseEvent) -> None:
         if event.button() != Qt.MouseButton.LeftButton or self._drag is not None:
@@ -386,11 +386,11 @@ class PictureCanvas(QWidget):
 
     def event(self, event: object) -> bool:
         """Show tips; keep menu keys away from a value that is being dragged."""
-        if event.type() == event.Type.ToolTip:  # type: ignore[attr-defined]
-            tip = "" if self._drag is not None else self.tip(QPointF(event.pos()))  # type: ignore[attr-defined]
-            QToolTip.showText(event.globalPos(), tip, self)  # type: ignore[attr-defined]
+        if event.type() == event.Type.ToolTip:  # type: ignore[attr-defined]  # Qt gives the event of this kind
+            tip = "" if self._drag is not None else self.tip(QPointF(event.pos()))  # type: ignore[attr-defined]  # Qt gives the event of this kind
+            QToolTip.showText(event.globalPos(), tip, self)  # type: ignore[attr-defined]  # Qt gives the event of this kind
             return True
-        if self._drag is not None and event.type() == event.Type.ShortcutOverride:  # type: ignore[attr-defined]
-            event.accept()  # type: ignore[attr-defined]
+        if self._drag is not None and event.type() == event.Type.ShortcutOverride:  # type: ignore[attr-defined]  # Qt gives the event of this kind
+            event.accept()  # type: ignore[attr-defined]  # Qt gives the event of this kind
             return True
-        return super().event(event)  # type: ignore[arg-type]
+        return super().event(event)  # type: ignore[arg-type]  # Qt gives the event of this kind

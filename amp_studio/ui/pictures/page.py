@@ -224,7 +224,7 @@ class PicturesPage(QWidget):
             self._active = None if self._active is card else self._active
 
     def showEvent(self, event: object) -> None:
-        super().showEvent(event)  # type: ignore[arg-type]
+        super().showEvent(event)  # type: ignore[arg-type]  # Qt gives the event of this kind
         if self._stale:
             self._follow([])
             self._stale = False

@@ -64,7 +64,7 @@ def test_a_table_is_read_as_the_errors_it_takes_away(router) -> None:
     ]
     form = compensation_of("acromill").table
     assert form is not None
-    assert form.write(router, "X", table) == str(router.get(TABLE).value)  # type: ignore[union-attr]
+    assert form.write(router, "X", table) == str(router.get(TABLE).value)
 
 
 def test_positions_between_those_that_were_measured_lie_on_their_line(router) -> None:

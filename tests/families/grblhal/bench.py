@@ -106,7 +106,7 @@ def held(bench: Bench) -> GrblContent:
 def put(bench: Bench, settings: Mapping[int, str], **others: object) -> Outcome:
     """Download the settings that the control has, with these changed."""
     present = held(bench)
-    wanted = replace(present, settings={**present.settings, **settings}, **others)  # type: ignore[arg-type]
+    wanted = replace(present, settings={**present.settings, **settings}, **others)
     return download(bench.driver, WantedContent(write_content(wanted), ""), lambda _: "kept")
 
 

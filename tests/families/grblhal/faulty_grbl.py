@@ -74,7 +74,7 @@ def download_with_faults(seed: int, folder: Path, only: str | None = None) -> li
         unsafe.extend(disk.unsafe(copies, *copies.glob("*.img*")))
         return send(*arguments, **options)
 
-    bench.driver.send = sent  # type: ignore[method-assign]
+    bench.driver.send = sent
     try:
         with disk.watched():
             recording = Recording("download", "grblhal", "", Exchange(keep=copies / "control"))
@@ -119,7 +119,7 @@ def _arm(bench: Bench, fault: str, choose: random.Random) -> None:
         firmware.receive(choose.choice([b"$130=3", b"$100=1", b"(half", b"$RST=", b"G1X10", b"$22=0" * 30]))
         return
     if fault == "forget":
-        bench.firmware.settings.store = forgetting(  # type: ignore[method-assign]
+        bench.firmware.settings.store = forgetting(
             {fault: choose.randint(1, 4)}, bench.firmware.settings.store
         )
         return
@@ -157,9 +157,9 @@ def _strike(bench: Bench, fault: str, choose: random.Random, every: int) -> None
 
             def again(look: object) -> object:
                 bench.is_cut = bench.clock.now < back
-                return opened(look)  # type: ignore[arg-type]
+                return opened(look)
 
-            bench.driver._open_link = again  # type: ignore[assignment]
+            bench.driver._open_link = again
         case "cut for good":
             bench.is_cut = True
         case "power":
@@ -209,7 +209,7 @@ def _violations(
     ).firmware.settings
     reference.load(before)
     for number in sorted(wanted, key=lambda n: (n != 22, n)):
-        if wanted[number] != present.settings.get(number):  # type: ignore[attr-defined]
+        if wanted[number] != present.settings.get(number):
             reference.store(number, wanted[number])
     after, goal, delivered = bench.firmware.settings.values(), reference.values(), reference.defaults
     if fault == "another person":

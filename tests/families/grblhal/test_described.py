@@ -304,7 +304,7 @@ def test_the_defaults_of_the_database_are_those_of_a_fresh_build() -> None:
         assert default is not None, number
         codes = {c.key: c.raw for c in known.parameters[address[0]].choices or ()}
         value = codes.get(str(default.value), default.value)
-        assert float(value) == float(text), number  # type: ignore[arg-type]
+        assert float(value) == float(text), number
 
 
 def test_the_step_rate_of_the_driver_bounds_the_rates_where_the_control_lists_it() -> None:

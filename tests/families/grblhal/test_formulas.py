@@ -27,7 +27,7 @@ def test_steps_speeds_and_ramps() -> None:
 )
 def test_what_makes_no_sense_is_refused(call: object) -> None:
     with pytest.raises(ValueError, match="The "):
-        call()  # type: ignore[operator]
+        call()
 
 
 def test_masks_go_by_the_order_of_the_axes() -> None:

@@ -50,7 +50,7 @@ class Script:
 
     def line(self, cancel: threading.Event | None = None, **options: object) -> GrblLine:
         waiting = Waiting(self.clock, self.clock.sleep)
-        waiting.begin(Exchange(cancel=cancel, **options))  # type: ignore[arg-type]
+        waiting.begin(Exchange(cancel=cancel, **options))
         return GrblLine(self.open, waiting)
 
 
@@ -162,7 +162,7 @@ def test_a_setting_under_way_is_seen_through_for_a_moment_and_no_longer() -> Non
     script = Script([b"error:3\r\n", b""])
     line = script.line(cancel=cancel)
     original = script.write
-    script.write = lambda data: (original(data), cancel.set())  # type: ignore[assignment, func-returns-value]
+    script.write = lambda data: (original(data), cancel.set())
     began = script.clock.now
     with pytest.raises(CancelledError):
         line.ask("$130=5", writes=True)

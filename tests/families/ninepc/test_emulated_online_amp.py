@@ -30,7 +30,7 @@ def at(tmp_path: Path) -> Iterator[Callable[[str], str | None]]:
         verb, _, rest = line.partition(" ")
         return panel.command(control, verb, rest)
 
-    give.control = control  # type: ignore[attr-defined]
+    give.control = control
     yield give
     control.close()
 
@@ -78,7 +78,7 @@ def test_a_gain_goes_up_step_by_step_out_of_estop_and_the_motor_table_goes_off(a
     at("axis-param 1801 decrease")
     after = value(at, "servo.velocity_proportional_gain", "1")
     assert (before is not None, after is not None) == (True, True)
-    assert after.value == before.value + 1  # type: ignore[union-attr]
+    assert after.value == before.value + 1
     assert value(at, "servo.standard_motor_values", "") == Value(False)
 
 

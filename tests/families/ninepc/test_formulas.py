@@ -309,7 +309,7 @@ def test_a_word_format_ends_at_all_nines(form: str, inch: bool, expected: float)
     ],
 )
 def test_nonsense_is_refused_with_one_sentence(call: Callable[[], object], message: str) -> None:
-    with pytest.raises(ValueError) as error:  # noqa: PT011  (its text is compared below)
+    with pytest.raises(ValueError) as error:  # noqa: PT011  # its text is compared below
         call()
     text = str(error.value)
     assert message in text

@@ -255,7 +255,7 @@ def test_a_depressed_zero_takes_from_the_travel_of_the_probe() -> None:
         (lambda: ninepc.remembered_retract_moves(["X"], 0), "Max Jogs in Retracts must be a whole number"),
         (lambda: ninepc.word_value("2.79", "4.3", False, "leading"), "has up to 7 digits, not '2.79'."),
         (lambda: ninepc.word_value("12345678", "4.3", False, "leading"), "has up to 7 digits"),
-        (lambda: ninepc.word_value("1", "4.3", False, "both"), "are the leading or the trailing ones"),  # type: ignore[arg-type]  # the mistake is the point
+        (lambda: ninepc.word_value("1", "4.3", False, "both"), "are the leading or the trailing ones"),
         (
             lambda: ninepc.word_value("1", "6-5.1", False, "leading"),
             "A word format is digits before and behind",
@@ -282,7 +282,7 @@ def test_a_depressed_zero_takes_from_the_travel_of_the_probe() -> None:
     ],
 )
 def test_nonsense_is_refused_with_one_sentence(call: Callable[[], object], message: str) -> None:
-    with pytest.raises(ValueError) as error:  # noqa: PT011  (its text is compared below)
+    with pytest.raises(ValueError) as error:  # noqa: PT011  # its text is compared below
         call()
     text = str(error.value)
     assert message in text

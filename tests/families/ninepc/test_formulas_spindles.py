@@ -195,7 +195,7 @@ def test_axis_and_spindle_tap_with_the_lower_gain_and_acceleration() -> None:
     ],
 )
 def test_nonsense_is_refused_with_one_sentence(call: Callable[[], object], message: str) -> None:
-    with pytest.raises(ValueError) as error:  # noqa: PT011  (its text is compared below)
+    with pytest.raises(ValueError) as error:  # noqa: PT011  # its text is compared below
         call()
     text = str(error.value)
     assert message in text

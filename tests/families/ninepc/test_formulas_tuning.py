@@ -190,7 +190,7 @@ def test_a_tuned_integral_gain_is_5_to_10_times_smaller() -> None:
     ],
 )
 def test_nonsense_is_refused_with_one_sentence(call: Callable[[], object], message: str) -> None:
-    with pytest.raises(ValueError) as error:  # noqa: PT011  (its text is compared below)
+    with pytest.raises(ValueError) as error:  # noqa: PT011  # its text is compared below
         call()
     text = str(error.value)
     assert message in text

@@ -26,7 +26,7 @@ def volts(axis: Axis, signal: float, **changed: float) -> float:
     law = axis({CODE_86: 201.0, VOLTS_820: figures["voltage"], SPEED_910: figures["speed"]}, {UNIT_86: 0.001})
     io = [0.0] * (MONITOR + len(law.monitors))
     io[MONITOR + samples.FOLLOWING_ERROR] = signal
-    samples.dac_monitors(list(law.parameters), io)  # type: ignore[arg-type]
+    samples.dac_monitors(list(law.parameters), io)
     return io[-1]
 
 

@@ -226,7 +226,7 @@ def test_without_a_commit_only_what_is_read_back_is_certain(
 
 def test_settings_that_read_back_otherwise_are_some_new_and_some_not() -> None:
     control = Settings(b"1=5\n2=6\n")
-    control.difference = lambda content, found: "in setting 2"  # type: ignore[method-assign]
+    control.difference = lambda content, found: "in setting 2"
     outcome = download(control, WantedContent(partial(control.encode, b"1=8\n2=9\n"), "s1"), lambda _: "kept")
     assert (outcome.at_control, outcome.verified) == ("mixed", False)
     assert "what it contains differs in setting 2; the rest is as it was sent." in outcome.text

@@ -106,7 +106,7 @@ def test_a_copy_that_cannot_be_written_whole_leaves_nothing(
     def full(path: Path, *arguments: object, **options: object) -> object:
         if path.name.endswith(broken):
             raise SaveError("No space left on device")
-        return real(path, *arguments, **options)  # type: ignore[arg-type]
+        return real(path, *arguments, **options)
 
     monkeypatch.setattr(kept_module, "write_atomic", full)
 

@@ -64,7 +64,7 @@ class Stopped(HouseContent):
 def test_a_stop_behind_a_commit_that_was_not_answered_does_not_call_it_new(
     is_answered: bool, all_or_nothing: bool, end: BaseException, state: AtControl
 ) -> None:
-    driver: ControlDriver = Stopped(Receipt(is_answered=is_answered), end, all_or_nothing=all_or_nothing)  # type: ignore[assignment]
+    driver: ControlDriver = Stopped(Receipt(is_answered=is_answered), end, all_or_nothing=all_or_nothing)
     with pytest.raises(TransferError) as caught:
         download(driver, WantedContent(b"new", ""), lambda _: "kept")
     assert (caught.value.at_control, caught.value.kept) == (state, "kept")

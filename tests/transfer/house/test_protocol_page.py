@@ -166,7 +166,7 @@ def test_a_client_says_to_the_page_s_control_what_the_page_says(page: str) -> No
 
 def test_the_numbers_of_the_page_are_those_of_the_program(page: str) -> None:
     policy = RetryPolicy()
-    patience = Session(lambda: None)._line._patience  # type: ignore[arg-type, return-value]
+    patience = Session(lambda: None)._line._patience
     seconds = [float(row[1]) for row in table(page, "| what | seconds |")]
     assert seconds == [
         policy.first,

@@ -81,10 +81,10 @@ def test_every_piece_arrives_over_any_line(
             number += 1
             window.sent(number, *piece, 0.0)
             assert len(window._flying) <= limit
-            if chance.random() < 0.5:  # type: ignore[attr-defined]
+            if chance.random() < 0.5:
                 got |= set(range(piece[0], sum(piece)))
                 arrived.append(number)
-        answered = [n for n in arrived if chance.random() < 0.7]  # type: ignore[attr-defined]
+        answered = [n for n in arrived if chance.random() < 0.7]
         for n in answered:
             window.arrived(n)
         if not answered:

@@ -248,6 +248,6 @@ def test_faults_that_do_not_exist_are_refused(text: str) -> None:
 
 
 def test_a_link_of_every_kind_has_the_same_face(checkout: object, rig: Callable[..., object]) -> None:
-    link: Link = rig().open_link()  # type: ignore[attr-defined]
+    link: Link = rig().open_link()
     assert link.bytes_per_second is None
     link.close()

@@ -222,8 +222,8 @@ def test_a_crowd_displaces_only_its_own() -> None:
     callers = [
         SimpleNamespace(peer=Endpoint("tcp", host=host)) for host in ("person", "crowd", "crowd", "crowd")
     ]
-    listener = SecuredListener(SimpleNamespace(endpoint=Endpoint("tcp")), None, None)  # type: ignore[arg-type]
-    listener._entering = [(caller, 0.0, iter(())) for caller in callers]  # type: ignore[misc]
+    listener = SecuredListener(SimpleNamespace(endpoint=Endpoint("tcp")), None, None)
+    listener._entering = [(caller, 0.0, iter(())) for caller in callers]
     assert listener._most_numerous()[0] is callers[1]
 
 

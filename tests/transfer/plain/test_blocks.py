@@ -111,7 +111,7 @@ def test_a_lost_acknowledgement_doubles_nothing() -> None:
                 return b""
             return came
 
-        line.get = lossy  # type: ignore[method-assign]
+        line.get = lossy
         send_one(line, content(1025), long_blocks=False)
 
     assert both(send, receive_one).rstrip(b"\x1a") == content(1025)

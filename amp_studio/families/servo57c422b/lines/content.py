@@ -111,7 +111,7 @@ class RegisterContent(TakesAllOrRefuses):
                     words[register] = word
         return written_content(words)
 
-    def refit(self, content: bytes, held: bytes) -> bytes:  # noqa: ARG002 -- every module has the same registers
+    def refit(self, content: bytes, held: bytes) -> bytes:  # noqa: ARG002  # every module has the same registers
         """Return registers that were kept; raises ImageError."""
         return written_content(words_of_content(content))
 

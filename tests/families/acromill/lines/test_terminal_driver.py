@@ -106,7 +106,7 @@ def test_ballscrew_words_are_sent_behind_their_command_and_listed(bench: CardBen
 def test_a_long_table_on_a_slow_line_is_read_back_once(bench: CardBench) -> None:
     """60 positions are 720 bytes an answer, 0.75 s at 9600 bit/s."""
     words = " ".join(f"X{n}E.{n:05d}" for n in range(60))
-    bench.wrap = lambda link: setattr(link, "bytes_per_second", 960) or link  # type: ignore[func-returns-value]
+    bench.wrap = lambda link: setattr(link, "bytes_per_second", 960) or link
     assert send(bench, small_file(table=words), []).verified
     asked = bytes(bench.lines[0].sent).decode().split("\r")
     after = asked[asked.index("BSC X59E.00059") :]
@@ -158,7 +158,7 @@ def test_the_unit_of_the_figures_is_the_persons_word(bench: CardBench, tmp_path:
 def refuse(bench: CardBench, line: str, rows: list[str]) -> None:
     """Have the card answer a line with words instead of obeying it."""
     obey = bench.card.settings.obey
-    bench.card.settings.obey = lambda text: rows if text == line else obey(text)  # type: ignore[method-assign]
+    bench.card.settings.obey = lambda text: rows if text == line else obey(text)
 
 
 def test_a_command_that_the_card_refuses_is_named_with_its_line_and_all_is_read_again(
@@ -199,7 +199,7 @@ def test_a_card_without_some_settings_is_read_and_what_it_does_not_have_is_named
         return ["Axis not attached"] if text.startswith(("PGAIN X", "BSC")) else obey(text)
 
     bench.card.settings.values.update({f"PGAIN {axis}": "0" for axis in "ZABCUV"})
-    bench.card.settings.obey = missing  # type: ignore[method-assign]
+    bench.card.settings.obey = missing
     held = upload(bench.driver)
     assert b"PGAIN X" not in held
     assert b"PGAIN Y0.00244" in held
@@ -228,7 +228,7 @@ def test_an_answer_that_the_line_has_damaged_twice_does_not_make_a_short_copy(be
     bench.driver.close()
     for answer in (b"0.07125", b"X0E.00325"):
         times = [2]
-        bench.wrap = lambda link, a=answer, t=times: Repeating(link, a, t)  # type: ignore[misc]
+        bench.wrap = lambda link, a=answer, t=times: Repeating(link, a, t)
         assert upload(bench.driver) == whole
         assert times == [0], "the damage has come"
         bench.driver.close()
@@ -250,7 +250,7 @@ def test_a_setting_is_missing_only_where_a_second_reading_lacks_it_too(bench: Ca
             return []
         return obey(text)
 
-    bench.card.settings.obey = silent  # type: ignore[method-assign]
+    bench.card.settings.obey = silent
     with pytest.raises(ImageDamagedError, match="PGAIN Y in one reading and not in another"):
         upload(bench.driver)
     assert refused == [0]
@@ -318,7 +318,7 @@ def test_half_a_line_that_somebody_left_is_taken_away(bench: CardBench, program:
 def test_half_a_line_is_spoiled_where_the_card_knows_no_backspace(bench: CardBench) -> None:
     bench.card.receive(b"PPU X40")
     receive = bench.card.receive
-    bench.card.receive = lambda data: receive(data.replace(b"\b", b""))  # type: ignore[method-assign]
+    bench.card.receive = lambda data: receive(data.replace(b"\b", b""))
     bench.driver.identify()
     assert bench.card.settings.values["PPU X"] == "10000"
 
@@ -397,7 +397,7 @@ def test_ctrl_c_stops_between_two_settings_and_says_which_are_new(
 def test_ctrl_c_while_the_card_is_silent_ends_at_once(bench: CardBench) -> None:
     upload(bench.driver)
     cancel, began = threading.Event(), bench.clock.now
-    bench.card.receive = lambda _: cancel.set()  # type: ignore[method-assign]
+    bench.card.receive = lambda _: cancel.set()
     with pytest.raises(CancelledError):
         bench.driver.fetch(Exchange(cancel=cancel))
     assert bench.clock.now - began < 0.3
@@ -446,7 +446,7 @@ def test_a_hostile_other_end_is_bounded(
 
 
 def test_silence_is_told_each_second_and_ends(bench: CardBench) -> None:
-    bench.card.receive = lambda _: None  # type: ignore[method-assign]
+    bench.card.receive = lambda _: None
     told: list[tuple[str, int]] = []
     with pytest.raises(ControlSilentError, match="the card does not take 'VER': the card does not answer"):
         bench.driver.identify(Exchange(lambda stage, done, _: told.append((stage, done))))
@@ -471,7 +471,7 @@ def test_a_long_line_of_a_copy_is_refused_at_once(bench: CardBench) -> None:
 
 def test_a_prompt_may_have_a_blank_and_lines_may_end_with_a_line_feed_alone(bench: CardBench) -> None:
     answer = bench.card.answer
-    bench.card.answer = lambda: answer().replace(b"\r\n", b"\n").replace(b">", b"> ")  # type: ignore[method-assign]
+    bench.card.answer = lambda: answer().replace(b"\r\n", b"\n").replace(b">", b"> ")
     assert b"PPU X10000\n" in upload(bench.driver)
 
 

@@ -138,7 +138,7 @@ def test_a_load_that_another_job_reference_holds_goes_on_when_the_operator_has_c
             bench.press("reference 00000000")
         told(stage, done, total)
 
-    bench.progress = progress  # type: ignore[method-assign]
+    bench.progress = progress
     assert send(bench, small_file(), []).verified
     assert bench.words(9)[0] == "7"
 
@@ -203,7 +203,7 @@ def test_ctrl_c_before_the_last_unload_does_not_claim_that_the_control_has_taken
             cancel.set()
 
     bench.refuses.add("load")
-    bench.progress = progress  # type: ignore[method-assign]
+    bench.progress = progress
     with pytest.raises(CancelledError) as caught:
         send(bench, small_file(), [], cancel)
     assert caught.value.at_control == "unknown"
@@ -219,7 +219,7 @@ def test_ctrl_c_leaves_no_half_line_and_says_what_is_known(bench: NumBench, line
         if (stage, done) == ("download", lines) or (lines == 0 and stage == LOAD_TEXT):
             cancel.set()
 
-    bench.progress = progress  # type: ignore[method-assign]
+    bench.progress = progress
     with pytest.raises(CancelledError) as caught:
         send(bench, small_file(), [], cancel)
     assert caught.value.at_control == state
