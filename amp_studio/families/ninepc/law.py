@@ -145,7 +145,7 @@ def _alone(read: AxisParameters, master: AxisParameters | None = None) -> AxisLa
     }
     if kind.loop != "open":
         common["homing"] = partial(events.homing, read, feedback)
-    linear = common["ramps"]["linear"]  # type: ignore[index]  # common holds a dictionary there
+    linear = common["ramps"]["linear"]  # type: ignore[index]  # it is a dictionary there
     common |= {
         "manual_ramp": partial(events.manual_ramp, read, linear),
         "jogging": partial(events.jogging, read),
