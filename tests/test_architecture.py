@@ -507,7 +507,7 @@ def test_no_test_is_longer_than_a_screen(checkout: Path) -> None:
 
 SILENCED = re.compile(r"#\s*(?:noqa|type:\s*ignore|pragma:\s*no cover)\b(?P<rest>.*)$")
 """A comment that silences a check, in a line of code."""
-REASON = re.compile(r"(?:: [A-Z]+\d+(?:, [A-Z]+\d+)*|\[[a-z-]+(?:, [a-z-]+)*\])  # \S+")
+REASON = re.compile(r"(?:: [A-Z]+\d+(?:, ?[A-Z]+\d+)*|\[[a-z-]+(?:, ?[a-z-]+)*\])(?:  # | -- )\S+")
 """What it names, and why."""
 
 
