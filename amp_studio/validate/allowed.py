@@ -82,7 +82,7 @@ class AllowedByRules:
         if x not in self._tried:
             self._file.set(self._address, Value(x, self._unit))
             self._checks.look_again()
-            self._tried[x] = frozenset(c.place for c in self._rules if self._checks.is_broken(c))
+            self._tried[x] = frozenset(c.place for c in self._rules if self._checks.rules.is_broken(c))
         return self._tried[x]
 
 

@@ -2,16 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterator, Mapping
 
 from amp_studio.files import ParameterFile
 from amp_studio.schema import Address
-from amp_studio.schema.cel_engine import Context
 from amp_studio.schema.conditions import ACTIVE
 from amp_studio.schema.expression import Key
 
 from .finding import Finding
-from .plan import Place, Plan, RuleCheck
+from .plan import Place, Plan
 from .ranges import ValueChecks
 from .rules import RuleChecks
 
@@ -27,7 +26,8 @@ class Checks:
         self._file = file
         self.machine, self.application = file.machine, file.header.application
         self._values = ValueChecks(file, self.machine)
-        self._rules = RuleChecks(file, self.machine, places)
+        self.rules = RuleChecks(file, self.machine, places)
+        """Those of rules."""
 
     @property
     def fit(self) -> bool:
@@ -37,7 +37,7 @@ class Checks:
     def look_again(self) -> None:
         """Forget the values, which may have changed; called before the checks of a round."""
         self._values.look_again()
-        self._rules.look_again()
+        self.rules.look_again()
 
     def of_all(self, plan: Plan) -> Iterator[tuple[Place, Finding]]:
         """Yield all that is wrong, and where it is filed: what a full run finds."""
@@ -55,11 +55,11 @@ class Checks:
             finding = self._values.finding(address, value)
             if finding is not None:
                 found.append((address, finding))
-        self._rules.look_at(plan.read, seen)
+        self.rules.look_at(plan.read, seen)
         yield from sorted(found, key=lambda filed: order[filed[0]])
         for first, checks in plan.by_first_read.items():
-            if first is None or self._rules.is_active(first):
-                for check, finding in self._rules.findings(checks):
+            if first is None or self.rules.is_active(first):
+                for check, finding in self.rules.findings(checks):
                     yield check.place, finding
 
     def of_value(self, address: Address) -> Finding | None:
@@ -71,19 +71,3 @@ class Checks:
         if state in _NOT_LOOKED_AT and address not in self._file.forced:
             return None
         return self._values.finding(address, value)
-
-    def of_rules(self, checks: Iterable[RuleCheck]) -> Iterator[tuple[RuleCheck, Finding]]:
-        """Yield the checks of rules that are broken, and what is wrong."""
-        return self._rules.findings(checks)
-
-    def of_rule(self, check: RuleCheck) -> Finding | None:
-        """Return what is wrong if a rule is broken."""
-        return self._rules.finding(check)
-
-    def is_broken(self, check: RuleCheck) -> bool:
-        """Return whether a rule is broken, without the words."""
-        return self._rules.is_broken(check)
-
-    def context_of(self, check: RuleCheck) -> Context:
-        """Return what the expressions of a check see."""
-        return self._rules.context_of(check)

@@ -73,7 +73,7 @@ class Interim:
         for check in rules:
             self._filed.pop(check.place, None)
         found = [(a, finding) for a in values if (finding := self._checks.of_value(a)) is not None]
-        found_rules = ((check.place, finding) for check, finding in self._checks.of_rules(rules))
+        found_rules = ((check.place, finding) for check, finding in self._checks.rules.findings(rules))
         now = dict(_of_weight((*found, *found_rules)))
         self._filed |= now
         return list(now.values())

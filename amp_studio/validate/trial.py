@@ -150,12 +150,12 @@ class Trials:
 
     def _found(self, place: Place) -> bool:
         if isinstance(place, int):
-            return self._checks.is_broken(self._check(place))
+            return self._checks.rules.is_broken(self._check(place))
         return self._checks.of_value(place) is not None
 
     def _finding(self, place: Place) -> Finding:
         found = (
-            self._checks.of_rule(self._check(place))
+            self._checks.rules.finding(self._check(place))
             if isinstance(place, int)
             else self._checks.of_value(place)
         )

@@ -178,7 +178,7 @@ class Validator:
 
     def context_of(self, check: RuleCheck) -> Context:
         """Return what the expressions of a check see."""
-        return self._checks.context_of(check)
+        return self._checks.rules.context_of(check)
 
     # -- filing ----------------------------------------------------------------
 
@@ -193,7 +193,7 @@ class Validator:
                 self._filed.pop(address, None)
         for check in checks:
             self._filed.pop(check.place, None)
-        for check, finding in self._checks.of_rules(checks):
+        for check, finding in self._checks.rules.findings(checks):
             self._filed[check.place] = (self._order(finding, check.place), finding)
 
     def _all_not_set(self) -> set[Address]:
