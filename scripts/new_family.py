@@ -33,6 +33,9 @@ scopes:
   axis: {{instances: [X, Y], label: "{{i}} axis"}}
 units:
   metric: {{length: mm, velocity: mm/min}}
+# How parameters come into a control. A line or a gateway is added once there is one (docs/family-code.md).
+ways:
+  - {{way: sheet, what: Values are keyed in at the screens of a {name}}}
 effect: {{level: restart}}                # at-once, reset, restart or command: when a change takes effect
 groups: [general]                         # in the manual's order; a file in groups/ for each
 """,

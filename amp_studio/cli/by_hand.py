@@ -1,28 +1,45 @@
-"""What a person reads who exchanges with a control of a family whose controls take values at their screens only."""
+"""What a user reads who exchanges with a control of a family whose controls themselves cannot be spoken to."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator
 from contextlib import contextmanager
 
-from amp_studio.sheet.keying import keying_of
-from amp_studio.transfer.errors import TransferError
+from amp_studio.schema import load_schema
+from amp_studio.transfer.errors import ControlSilentError, NoConnectionError, TransferError
+from amp_studio.transfer.links.endpoint import parse_endpoint
+from amp_studio.transfer.ways import PRINT_SHEET
 
 from .console import note
 
 
 def note_by_hand(family: str) -> None:
     """Note that an exchange is with an emulated control or a gateway, and offer the sheet; nothing for most families."""
-    if sentence := keying_of(family).only_way:
-        note(f"{sentence}. What answers here is an emulated control or a gateway.")
+    if sentence := load_schema(family).family.by_hand:
+        note(f"{sentence}: {PRINT_SHEET}. What answers here is an emulated control or a gateway.")
 
 
 @contextmanager
-def sheet_offered(family: str) -> Iterator[None]:
-    """Add the sentence to the error of an exchange that fails; ``family`` may be "" where nobody has named one."""
+def ways_offered(family: str, address: str) -> Iterator[None]:
+    """Add to the error, where nothing answers, in which other way a control is reached; ``family`` may be ""."""
     try:
         yield
     except TransferError as error:
-        if family and (sentence := keying_of(family).only_way):
-            error.what = f"{error.what} ({sentence})"
+        is_silent = isinstance(error, ControlSilentError)
+        is_there = not (is_silent or isinstance(error, NoConnectionError))
+        if not is_there and (hint := _hint(family, address, is_silent=is_silent)):
+            error.what = f"{error.what} ({hint})"
         raise
+
+
+def _hint(family: str, address: str, *, is_silent: bool) -> str:
+    if not family:
+        return ""
+    facts = load_schema(family).family
+    if facts.by_hand:
+        return f"{facts.by_hand}: {PRINT_SHEET}"
+    lines = [each for each in facts.ways if each.way == "line"]
+    if not is_silent or parse_endpoint(address).protocol or facts.ways[0].way == "line":
+        return ""
+    names = ", ".join(f"?protocol={each.protocol} for {each.what}" for each in lines)
+    return f"this asks for a gateway; the control itself is reached with {names}"

@@ -106,7 +106,6 @@ class Keying:
     ``stages``, ``stage``  the order in which values are keyed in where no rule needs another one: the stage of a value by
     what the control contains before and after
     ``before``, ``after``  what a person does around it
-    ``only_way`` a sentence for exchanges with a control that takes values at its screens only
     """
 
     title: str = "Sheet for entering values"
@@ -116,7 +115,6 @@ class Keying:
     stage: Callable[[ParameterFile, ParameterFile, Address], int] = one_stage
     before: tuple[Instruction, ...] = ()
     after: tuple[Instruction, ...] = ()
-    only_way: str = ""
 
 
 def keying_of(family: str) -> Keying:

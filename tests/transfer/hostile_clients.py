@@ -28,8 +28,6 @@ from amp_studio.transfer.house.message import (
     OpenDownload,
     OpenUpload,
     Read,
-    Restart,
-    Status,
     pack,
 )
 from amp_studio.transfer.house.session import Session
@@ -234,7 +232,6 @@ def _u32(chance: random.Random) -> int:
 
 
 _REQUESTS: list[Callable[[random.Random], Message]] = [
-    lambda _: Status(),
     lambda _: OpenUpload(),
     lambda c: Hello(c.choice([0, 1, 255]), b"abcd", "\x1b[2J" * 30),
     lambda c: OpenDownload(
@@ -244,7 +241,6 @@ _REQUESTS: list[Callable[[random.Random], Message]] = [
     lambda c: Commit(bytes(16), c.randbytes(32)),
     lambda c: Read(_u32(c), c.choice([0, 512, 65_535])),
     lambda c: Abort(c.choice([bytes(16), c.randbytes(16)])),
-    lambda c: Restart(c.choice([0, 1, (1 << 32) - 1])),
 ]
 
 

@@ -28,7 +28,7 @@ from amp_studio.transfer.house.message import (
     Data,
     Message,
     Refused,
-    State,
+    UploadReady,
     pack,
     unpack,
 )
@@ -146,7 +146,7 @@ class HostileLink:
                 return [(now, good[: len(good) // 2])]
             case "flood":
                 self._flood = chance.choice(
-                    [b"\xff" * 5_000, encode_frame(pack(State(0, 1, 2, bytes(32)), number)) * 50,
+                    [b"\xff" * 5_000, encode_frame(pack(UploadReady(2, bytes(32)), number)) * 50,
                      encode_frame(pack(Ack(0), number)), b"\x00" * 999]
                 )  # fmt: skip
                 return []

@@ -7,7 +7,6 @@ from pathlib import Path
 
 import pytest
 from PySide6.QtCore import Qt
-from pytestqt.qtbot import QtBot
 
 from amp_studio.files import Document, Header, ParameterFile, new_file
 from amp_studio.schema import Schema, Value
@@ -79,12 +78,19 @@ def test_the_machine_type_of_the_header_is_a_step_too(wide: MainWindow) -> None:
 
 
 def test_a_control_of_another_family_is_refused(
-    wide: MainWindow, start_control, person: Person, qtbot: QtBot
+    open_window: Callable[..., MainWindow], tmp_path: Path, start_control, person: Person
 ) -> None:
-    control = start_control()
+    window, control = open_window(), start_control()
+    window.show_workspace(Workspace(Document.create(new_file("syntec"), tmp_path / "axes.amp")))
     person.types(control.address)
-    action(wide, "Verify With Control").trigger()
-    assert person.reads() == "the control is of the family 9pc, not wide"
+    action(window, "Verify With Control").trigger()
+    assert person.reads() == "the control is of the family 9pc, not syntec"
+
+
+def test_a_family_to_whose_controls_no_way_is_known_is_keyed_in(wide: MainWindow, person: Person) -> None:
+    person.answers("Cancel")
+    action(wide, "Download to Control").trigger()
+    assert "The sheet lists the values that differ" in person.asked[-1]
 
 
 @pytest.mark.parametrize(

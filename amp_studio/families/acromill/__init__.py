@@ -12,13 +12,11 @@ REGISTRATION = Registration(
         "amp_studio.families.acromill.formats.ballscrew:FORMAT",
     ),
     drivers={
-        "house": "amp_studio.transfer.house.driver:HouseDriver.at",
         "terminal": "amp_studio.families.acromill.lines.driver:TerminalDriver.at",
         "terminal-metric": "amp_studio.families.acromill.lines.driver:MetricTerminalDriver.at",
     },
     contents={"ACR script 1": "amp_studio.families.acromill.lines.content:AcrContent"},
     emulators={
-        "house": "amp_studio.transfer.emulated.family_control:emulate_house",
         "terminal": "amp_studio.families.acromill.emulated.card:emulate_terminal",
     },
     compensation="amp_studio.families.acromill.compensation:COMPENSATION",

@@ -9,13 +9,11 @@ REGISTRATION = Registration(
     formulas="amp_studio.families.num.formulas:FORMULAS",
     formats=("amp_studio.families.num.formats.table:FORMAT",),
     drivers={
-        "house": "amp_studio.transfer.house.driver:HouseDriver.at",
         "peripheral": "amp_studio.families.num.lines.driver:PeripheralDriver.at",
         "peripheral-check": "amp_studio.families.num.lines.driver:CheckingPeripheralDriver.at",
     },
     contents={"NUM table 1": "amp_studio.families.num.lines.content:NumTableContent"},
     emulators={
-        "house": "amp_studio.transfer.emulated.family_control:emulate_house",
         "peripheral": "amp_studio.families.num.emulated.control:emulate_peripheral",
     },
     sheet="amp_studio.families.num.sheet:KEYING",

@@ -7,12 +7,10 @@ from amp_studio.schema.registration import Registration
 REGISTRATION = Registration(
     family="57c422b",
     drivers={
-        "house": "amp_studio.transfer.house.driver:HouseDriver.at",
         "registers": "amp_studio.families.servo57c422b.lines.driver:RegisterDriver.at",
     },
     contents={"57C422B registers 1": "amp_studio.families.servo57c422b.lines.content:RegisterContent"},
     emulators={
-        "house": "amp_studio.transfer.emulated.family_control:emulate_house",
         "registers": "amp_studio.families.servo57c422b.emulated.rack:emulate_registers",
     },
     compensation="amp_studio.families.servo57c422b.compensation:COMPENSATION",

@@ -16,8 +16,6 @@ def _obstacle(file: ParameterFile, address: Address) -> str:
 
 KEYING = Keying(
     title="Sheet for the parameter screens",
-    only_way="A Syntec control takes values at its parameter screens only, because no protocol of it is published: "
-    "print what to key in with amp-studio sheet FILE --against OTHER",
     obstacle=_obstacle,
     before=(
         Instruction(

@@ -2,7 +2,7 @@
 
 import re
 from fractions import Fraction
-from typing import Annotated
+from typing import Annotated, Literal
 
 from amp_studio.schema.units import UNITS, define_unit
 
@@ -163,6 +163,23 @@ def _defined(own: dict[str, OwnUnit]) -> dict[str, OwnUnit]:
     return own
 
 
+class WayToControl(Model):
+    """One way in which parameters come into a control of the family, and out of it."""
+
+    way: Literal["sheet", "line", "gateway"]
+    """Keyed in by hand from a sheet; over a line to the control itself; through a program beside the control that speaks the
+    exchange protocol of AMP Studio (docs/protocols/exchange.md)."""
+    protocol: Key | None = None
+    """The driver of a line, as its family registers it."""
+    what: str
+    """What it is, in a sentence without its full stop."""
+    page: Page | None = None
+
+    def __post_init__(self) -> None:
+        if (self.way == "line") != (self.protocol is not None):
+            raise ValueError("'protocol' names the driver of a line: each line has one, and no other way has")
+
+
 class Area(Model):
     """A head above groups that belong together; ours, no manual prints it."""
 
@@ -210,6 +227,19 @@ class Family(Model):
     bit_lists: dict[Key, tuple[Bit, ...]] = {}
     """Bits that several words have, by the name that is there under ``bits``."""
     conditions: dict[str, Condition] = {}
+    ways: tuple[WayToControl, ...] = ()
+    """The ways to a control, the usual first; without any it is keyed in by hand, and nothing is downloaded."""
+
+    @property
+    def has_line(self) -> bool:
+        """Whether a way to speak to a control itself is published."""
+        return any(each.way == "line" for each in self.ways)
+
+    @property
+    def by_hand(self) -> str:
+        """What is known of keying values in, in a sentence, where no way to speak to a control is published; else ""."""
+        sheets = (each.what for each in self.ways if each.way == "sheet")
+        return "" if self.has_line else next(sheets, f"No way to a {self.name} but its own screens is known")
 
     @property
     def fits_axes(self) -> bool:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 
+from amp_studio.schema import load_schema
 from amp_studio.schema.quoting import quoted
 from amp_studio.schema.registration import load_part, registered_families, registration_of
 from amp_studio.transfer.driver import ControlDriver, DriverFactory, Recognised
@@ -14,24 +15,27 @@ from amp_studio.transfer.links.link import LinkError
 from amp_studio.transfer.links.opening import connect
 from amp_studio.transfer.links.password import PasswordError
 from amp_studio.transfer.waiting import Waiting
+from amp_studio.transfer.ways import HOUSE, PRINT_SHEET, in_order_of_ways
 
 RECOGNISED, RECOGNISED_SERIAL = 0.3, 2.5
 """Seconds in which a control may answer by which it is known; one on a serial line may restart when it is opened."""
 ASK_AGAIN = 0.15  # seconds
 LONGEST_GREETING = 4_096  # bytes
 
-GENERAL = {"house": "amp_studio.transfer.house.driver:HouseDriver.at"}
-"""Protocols of every family: what emulated controls speak."""
+GATEWAY = {HOUSE: "amp_studio.transfer.house.driver:HouseDriver.at"}
+"""The protocol of gateways, and of the emulated controls of families whose controls themselves cannot be spoken to."""
 
 
 def open_driver(endpoint: Endpoint | str, family: str = "") -> ControlDriver:
     """Return the driver for a control, which must be of ``family`` where one is given; connects to nothing yet.
 
-    ``?protocol=NAME`` of the endpoint chooses; else it is the first protocol the family registers, and the house
-    protocol where it registers none. Raises ValueError for text that is no endpoint and for an unknown protocol.
+    ``?protocol=NAME`` of the endpoint chooses; else it is the first way to its controls that the family's facts list. Raises
+    ValueError for text that is no endpoint, for an unknown protocol, and for a family to whose controls no way is known.
     """
     place = parse_endpoint(endpoint) if isinstance(endpoint, str) else endpoint
     offered = protocols_of(family)
+    if not offered:
+        raise ValueError(f"{load_schema(family).family.by_hand}: {PRINT_SHEET}")
     name = place.protocol or next(iter(offered))
     if name not in offered:
         of = f" of {family}" if family else ""
@@ -83,11 +87,13 @@ def _recognise(place: Endpoint, exchange: Exchange) -> str:
 
 
 def protocols_of(family: str) -> dict[str, str]:
-    """Return protocol -> its driver, the usual one first; those of all families where none is named."""
-    if family:
-        return {**registration_of(family).drivers, **GENERAL}
-    offered = dict(GENERAL)
-    for each in registered_families():
-        for name, place in registration_of(each).drivers.items():
-            offered.setdefault(name, place)
-    return offered
+    """Return protocol -> its driver, the usual one first; those of all families where none is named.
+
+    A family whose facts list no way to its controls has those that it registers, and no gateway.
+    """
+    if not family:
+        return {
+            **GATEWAY,
+            **{n: p for f in registered_families() for n, p in registration_of(f).drivers.items()},
+        }
+    return in_order_of_ways(family, registration_of(family).drivers, GATEWAY[HOUSE])

@@ -15,15 +15,13 @@ from amp_studio.schema.registration import load_part, registration_of
 from amp_studio.transfer.image import decode_image, encode_image, patch_image
 from amp_studio.transfer.interrupts import interrupts
 from amp_studio.transfer.links.endpoint import Endpoint, parse_endpoint
+from amp_studio.transfer.ways import HOUSE, in_order_of_ways
 
 from .control import Control
 from .emulator import serve
 from .faults import read_faults
 from .panel import OperatorPanel
 from .record import Identity
-
-GENERAL = {"house": "amp_studio.transfer.emulated.family_control:emulate_house"}
-"""Protocols in which an emulated control of every family can be spoken to."""
 
 
 @dataclass(frozen=True)
@@ -58,6 +56,10 @@ def emulate(listen: Endpoint | str, options: EmulatedOptions) -> int:
     """
     place = parse_endpoint(listen) if isinstance(listen, str) else listen
     offered = emulators_of(options.family)
+    if not offered:
+        raise ValueError(
+            f"There is no emulated control of {options.family}: its facts list no way to a control (see 'ways' in family.yaml)"
+        )
     name = place.protocol or next(iter(offered))
     if name not in offered:
         raise ValueError(
@@ -66,13 +68,16 @@ def emulate(listen: Endpoint | str, options: EmulatedOptions) -> int:
         )
     run: Emulate = load_part(offered[name])
     # Its address names the protocol, where a client would try the house protocol on it.
-    return run(replace(place, protocol=place.protocol or ("" if name in GENERAL else name)), options)
+    return run(replace(place, protocol=place.protocol or ("" if name == HOUSE else name)), options)
 
 
 def emulators_of(family: str) -> dict[str, str]:
-    """Return protocol -> emulated control, the usual one first."""
-    own = registration_of(family).emulators
-    return {**own, **{name: place for name, place in GENERAL.items() if name not in own}}
+    """Return protocol -> emulated control, the usual one first; none where no way to a control of the family is known."""
+    return in_order_of_ways(
+        family,
+        registration_of(family).emulators,
+        "amp_studio.transfer.emulated.family_control:emulate_house",
+    )
 
 
 def emulate_house(listen: Endpoint, options: EmulatedOptions) -> int:

@@ -11,7 +11,6 @@ from amp_studio.transfer.house.message import (
     Code,
     Commit,
     Data,
-    Flags,
     Gap,
     Hello,
     Message,
@@ -21,10 +20,6 @@ from amp_studio.transfer.house.message import (
     Ready,
     RefusalError,
     Refused,
-    Restart,
-    Restarting,
-    State,
-    Status,
     UploadReady,
     Welcome,
     pack,
@@ -82,9 +77,6 @@ class Responder:
         match request:
             case Hello():
                 return self._welcome(request)
-            case Status():
-                control = self.control
-                return State(control.flags, control.incarnation, len(control.image), control.sha256)
             case OpenDownload():
                 return self._open_download(request)
             case Data():
@@ -100,8 +92,6 @@ class Responder:
                 self.control.abort(request.transfer)
                 self._forget()
                 return Aborted(request.transfer)
-            case Restart():
-                return self._restart(request)
         raise RefusalError(Code.UNSUPPORTED, f"a {type(request).__name__} is no request")
 
     def _welcome(self, hello: Hello) -> Welcome:
@@ -172,13 +162,6 @@ class Responder:
                 Code.OUT_OF_RANGE, f"the image has {len(self._copy)} bytes, and a piece {self._chunk}"
             )
         return Data(wish.offset, self._copy[wish.offset : wish.offset + wish.length])
-
-    def _restart(self, request: Restart) -> Restarting:
-        if request.incarnation == self.control.incarnation:
-            if not self.control.flags & Flags.ESTOP:
-                raise RefusalError(Code.NOT_IN_ESTOP, "please place the control in E-stop to restart it")
-            self.restart_due = True
-        return Restarting(request.incarnation)
 
     def _forget(self) -> None:
         self._transfer = None

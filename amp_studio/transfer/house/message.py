@@ -84,13 +84,6 @@ class Hello(Message):
 
 
 @dataclass(frozen=True)
-class Status(Message):
-    """Asks for the state."""
-
-    TYPE = 0x02
-
-
-@dataclass(frozen=True)
 class OpenDownload(Message):
     """Begins a download or takes it up again. ``expected`` is the digest of the image it is to replace."""
 
@@ -145,14 +138,6 @@ class Abort(Message):
 
 
 @dataclass(frozen=True)
-class Restart(Message):
-    """Asks for a restart of the control that has this incarnation."""
-
-    TYPE = 0x09
-    incarnation: int = _wire("u32")
-
-
-@dataclass(frozen=True)
 class Welcome(Message):
     """Who the control is, what it contains, and what it can take at once."""
 
@@ -169,17 +154,6 @@ class Welcome(Message):
     sha256: bytes = _wire("bytes32")
     window: int = _wire("u8")
     chunk: int = _wire("u16")
-
-
-@dataclass(frozen=True)
-class State(Message):
-    """The state of the control and what its active image is."""
-
-    TYPE = 0x82
-    flags: int = _wire("u8")
-    incarnation: int = _wire("u32")
-    size: int = _wire("u32")
-    sha256: bytes = _wire("bytes32")
 
 
 @dataclass(frozen=True)
@@ -235,14 +209,6 @@ class Aborted(Message):
 
 
 @dataclass(frozen=True)
-class Restarting(Message):
-    """The control with this incarnation restarts, or has done so."""
-
-    TYPE = 0x89
-    incarnation: int = _wire("u32")
-
-
-@dataclass(frozen=True)
 class Refused(Message):
     """Why the request was not done; nothing has changed by it."""
 
@@ -254,8 +220,8 @@ class Refused(Message):
 MESSAGES: dict[int, type[Message]] = {
     kind.TYPE: kind
     for kind in (
-        Hello, Status, OpenDownload, Data, Commit, OpenUpload, Read, Abort, Restart,
-        Welcome, State, Ready, Ack, Gap, Committed, UploadReady, Aborted, Restarting, Refused,
+        Hello, OpenDownload, Data, Commit, OpenUpload, Read, Abort,
+        Welcome, Ready, Ack, Gap, Committed, UploadReady, Aborted, Refused,
     )
 }  # fmt: skip
 

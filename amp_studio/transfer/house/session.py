@@ -23,16 +23,12 @@ from .connection import Connection, OutOfTimeError
 from .download_transfer import DownloadTransfer, Sent
 from .message import (
     RefusalError,
-    Restart,
-    Restarting,
-    State,
-    Status,
     Welcome,
     shorten,
 )
 from .refusals import error_of
 from .retry_timer import RetryPolicy
-from .transaction import NoAnswerError, Transaction
+from .transaction import NoAnswerError
 from .upload_transfer import UploadTransfer
 
 Result = TypeVar("Result")
@@ -114,17 +110,6 @@ class Session:
         self.close()
         raise failure
 
-    def status(self) -> State:
-        """Return the state of the control; raises TransferError."""
-        return self._ask(lambda talk: talk.request(Status(), State))
-
-    def restart(self) -> int:
-        """Have the control restart and return the incarnation that ends; raises TransferError."""
-        incarnation = self.hello().incarnation
-        self._ask(lambda talk: talk.request(Restart(incarnation), Restarting))
-        self.close()
-        return incarnation
-
     def wait_restarted(self, incarnation: int, seconds: float, exchange: Exchange = QUIET) -> Welcome | None:
         """Call the control until it answers with another incarnation; None when it has not after ``seconds``.
 
@@ -178,9 +163,3 @@ class Session:
         """
         self._line.progress = exchange.progress
         return DownloadTransfer(self._line, replacement, self._broken).run(exchange.cancel)
-
-    def _ask(self, action: Callable[[Transaction], Result]) -> Result:
-        try:
-            return self._line.persist(action)
-        except RefusalError as refusal:
-            raise error_of(refusal) from None

@@ -129,8 +129,16 @@ class ControlActions(Translated):
         return workspace
 
     def download(self) -> None:
-        """Show what would change, then download: back up the control, send, restart, read back, compare."""
+        """Show what would change, then download: back up the control, send, restart, read back, compare.
+
+        Where no way to a control of the family is known, the sheet to key in is made instead.
+        """
+        from amp_studio.transfer.client.drivers import protocols_of
+
         workspace = self._workspace()
+        if not protocols_of(workspace.file.schema.family.family):  # nothing can be sent: keyed in by hand
+            enter_by_hand(self.exchanges)
+            return
         if not self._is_ready(workspace):
             return
         self._name_the_only_way(workspace)
@@ -157,10 +165,8 @@ class ControlActions(Translated):
             self.window.show_status("; ".join(notes))
 
     def _name_the_only_way(self, workspace: Workspace) -> None:
-        """Show in the status bar that real controls of this family take values at their screens only, if so."""
-        from amp_studio.sheet.keying import keying_of
-
-        if only := keying_of(workspace.file.schema.family.family).only_way.partition(":")[0]:
+        """Show in the status bar that real controls of this family cannot be spoken to, if so."""
+        if only := workspace.file.schema.family.by_hand:
             self.window.show_status(self.tr("{only}: use Control > Enter Values by Hand").format(only=only))
 
     def _is_ready(self, workspace: Workspace) -> bool:

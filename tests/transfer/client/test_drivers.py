@@ -12,13 +12,14 @@ import pytest
 
 from amp_studio.cli.exit_codes import AT_CONTROL
 from amp_studio.files import ParameterFile, new_file
-from amp_studio.schema.registration import Registration, register, unregister
+from amp_studio.schema import family_ids, load_schema
+from amp_studio.schema.registration import Registration, register, registration_of, unregister
 from amp_studio.transfer.client.drivers import open_driver, protocols_of
 from amp_studio.transfer.client.exchange import WantedContent, download
 from amp_studio.transfer.client.kept import keep_image, open_copy
 from amp_studio.transfer.content import HouseContent
 from amp_studio.transfer.driver import Abilities, ControlIdentity, Receipt
-from amp_studio.transfer.emulated.family_control import EmulatedOptions, emulate
+from amp_studio.transfer.emulated.family_control import EmulatedOptions, emulate, emulators_of
 from amp_studio.transfer.errors import (
     AtControl,
     CancelledError,
@@ -73,16 +74,25 @@ def sheet_family() -> Iterator[None]:
     unregister("sheet")
 
 
-def test_a_family_without_drivers_is_spoken_to_in_the_house_protocol() -> None:
+@pytest.mark.parametrize("family", family_ids())
+def test_the_ways_that_the_facts_of_a_family_list_are_those_that_it_registers(family: str) -> None:
+    ways = load_schema(family).family.ways
+    own = registration_of(family)
+    assert [each.protocol for each in ways if each.way == "line"] == list(own.drivers)
+    assert [each.protocol or "house" for each in ways if each.way != "sheet"] == list(protocols_of(family))
+    assert set(emulators_of(family)) <= set(protocols_of(family))
+    assert sum(each.way == "sheet" for each in ways) == 1, "any control can be keyed in"
+
+
+def test_a_gateway_is_spoken_to_in_the_house_protocol() -> None:
     assert isinstance(open_driver("tcp://127.0.0.1:7090", "num"), HouseDriver)
     assert isinstance(open_driver("tcp://127.0.0.1:7090?protocol=house"), HouseDriver)
 
 
 def test_the_first_protocol_of_a_family_is_the_usual_one(sheet_family: None) -> None:
-    assert list(protocols_of("sheet")) == ["sheet", "house"]
+    assert list(protocols_of("sheet")) == ["sheet"], "no facts list a gateway"
     assert next(iter(protocols_of(""))) == "house"
     assert "sheet" in protocols_of("")
-    assert isinstance(open_driver("tcp://127.0.0.1:7090?protocol=house", "sheet"), HouseDriver)
     with pytest.raises(ModuleNotFoundError):  # chosen, and loaded only now
         open_driver("tcp://127.0.0.1:7090", "sheet")
 
@@ -263,7 +273,7 @@ def test_an_emulated_control_is_chosen_by_the_protocol_of_the_address() -> None:
         assert emulate("tcp://127.0.0.1:0?protocol=sheet", EmulatedOptions("sheet")) == 7
         assert emulate("pty:", EmulatedOptions("sheet")) == 7
         with pytest.raises(
-            ValueError, match=r"no emulated control of sheet with the protocol 'dnc'\. Known: sheet, house"
+            ValueError, match=r"no emulated control of sheet with the protocol 'dnc'\. Known: sheet"
         ):
             emulate("pty:?protocol=dnc", EmulatedOptions("sheet"))
     finally:

@@ -27,10 +27,6 @@ from amp_studio.transfer.house.message import (
     Read,
     Ready,
     Refused,
-    Restart,
-    Restarting,
-    State,
-    Status,
     UploadReady,
     Welcome,
     pack,
@@ -76,10 +72,6 @@ def test_a_hello_is_answered_with_its_nonce_and_a_version_both_know(responder: R
     assert isinstance(welcome, Welcome)
     assert (welcome.version, welcome.nonce, welcome.window, welcome.chunk) == (1, b"\x01\x02\x03\x04", 3, 10)
     assert refusal(responder, Hello(0, bytes(4), "")) == Code.VERSION
-
-
-def test_the_state_is_told(responder: Responder) -> None:
-    assert ask(responder, Status()) == State(1 + 2 + 8, 1, len(OLD), sha(OLD))
 
 
 def test_pieces_may_come_early_twice_and_late(responder: Responder) -> None:
@@ -150,16 +142,6 @@ def test_after_a_commit_the_control_hangs_up(responder: Responder) -> None:
     commit = encode_frame(pack(Commit(TRANSFER, sha(NEW)), 8))
     answers = FrameDecoder().feed(responder.receive(commit * 2))
     assert len(answers) == 1
-    assert responder.restart_due
-
-
-def test_a_restart_happens_once_however_often_it_is_asked_for(responder: Responder) -> None:
-    assert ask(responder, Restart(0)) == Restarting(0)
-    assert not responder.restart_due, "the control with that incarnation is gone"
-    responder.control.set_estop(False)
-    assert refusal(responder, Restart(1)) == Code.NOT_IN_ESTOP
-    responder.control.set_estop(True)
-    assert ask(responder, Restart(1)) == Restarting(1)
     assert responder.restart_due
 
 

@@ -32,8 +32,6 @@ from amp_studio.transfer.house.message import (
     OpenUpload,
     Ready,
     Refused,
-    State,
-    Status,
     UploadReady,
     pack,
     unpack,
@@ -258,7 +256,7 @@ def test_traffic_that_answers_nothing_is_silence(
             if asked[0] <= 2:
                 return read(timeout)
             made.clock.sleep(min(timeout, 0.05))
-            return b"".join(encode_frame(pack(State(0, 1, 2, bytes(32)), n)) for n in range(1, 40))
+            return b"".join(encode_frame(pack(UploadReady(2, bytes(32)), n)) for n in range(1, 40))
 
         link.write, link.read = writing, reading
         return link
@@ -293,7 +291,7 @@ def test_bytes_that_are_no_frame_hold_no_line(tmp_path: Path) -> None:
     for _ in range(300):
         room.turn()
     wire = room.call()
-    wire.to_control.append(b"\x00" + encode_frame(pack(Status(), 9)))
+    wire.to_control.append(b"\x00" + encode_frame(pack(OpenUpload(), 9)))
     room.turn()
     room.turn()
     assert wire.to_client
@@ -306,10 +304,10 @@ def test_whole_frames_hold_the_line_and_another_client_is_told_so(tmp_path: Path
     room = Room(tmp_path, [])
     first, second = room.call(), room.call()
     for _ in range(10):
-        first.to_control.append(encode_frame(pack(Status(), 1)))
+        first.to_control.append(encode_frame(pack(OpenUpload(), 1)))
         for _ in range(80):
             room.turn()
-    second.to_control.append(encode_frame(pack(Status(), 5)))
+    second.to_control.append(encode_frame(pack(OpenUpload(), 5)))
     room.turn()
     assert second.to_client[0] == encode_frame(pack(Refused(Code.BUSY, "another client has the control"), 5))
     assert second.is_cut
@@ -335,7 +333,7 @@ def test_an_error_of_the_control_itself_costs_one_client_its_line(tmp_path: Path
         room.turn()
     assert wire.is_cut
     assert room.said == ["a client was cut off: ZeroDivisionError: integer division or modulo by zero"]
-    other.to_control.append(encode_frame(pack(Status(), 1)))
+    other.to_control.append(encode_frame(pack(OpenUpload(), 1)))
     room.turn()
     assert other.to_client
     room.close()

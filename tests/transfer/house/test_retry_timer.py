@@ -8,7 +8,7 @@ from typing import Any
 import pytest
 
 from amp_studio.transfer.house.frame import FrameDecoder, encode_frame
-from amp_studio.transfer.house.message import State, Status, pack
+from amp_studio.transfer.house.message import OpenUpload, UploadReady, pack
 from amp_studio.transfer.house.retry_timer import RetryPolicy
 from amp_studio.transfer.house.transaction import Transaction
 from tests.transfer.null_modem import VirtualClock
@@ -29,7 +29,7 @@ class SlowLink:
         for frame in self._decoder.feed(data):
             delay = next(self._delays)
             if delay is not None:
-                answer = encode_frame(pack(State(0, 1, 2, bytes(32)), frame.sequence))
+                answer = encode_frame(pack(UploadReady(2, bytes(32)), frame.sequence))
                 self._out.append((self._clock.now + delay, answer))
                 self._out.sort()
 
@@ -58,26 +58,26 @@ def talk() -> Callable[..., Any]:
 
 def test_an_answer_to_the_only_sending_is_learnt_from(talk: Callable[..., Any]) -> None:
     conversation = talk(0.4)
-    conversation.request(Status(), State)
+    conversation.request(OpenUpload(), UploadReady)
     assert conversation.pace.timeout == pytest.approx(0.4 + 4 * 0.2)
 
 
 def test_an_answer_to_a_repeated_request_teaches_nothing(talk: Callable[..., Any]) -> None:
     """It may answer the first sending or the second: timed from either, the next timeout would be wrong."""
     conversation = talk(None, 0.01)
-    conversation.request(Status(), State)
+    conversation.request(OpenUpload(), UploadReady)
     assert conversation.pace.timeout == pytest.approx(0.7 * 2), "still doubled, and nothing learnt"
     conversation = talk(0.2, None, 0.01)
-    conversation.request(Status(), State)
+    conversation.request(OpenUpload(), UploadReady)
     before = conversation.pace.timeout
-    conversation.request(Status(), State)
+    conversation.request(OpenUpload(), UploadReady)
     assert conversation.pace.timeout == pytest.approx(before * 2)
 
 
 def test_a_late_answer_to_the_first_sending_does_not_shorten_the_timeouts(talk: Callable[..., Any]) -> None:
     """A control that takes 0.9 s: timed from the second sending it would seem to take 0.2 s, for good."""
     conversation = talk(0.9, 0.9, 0.9, 0.9)
-    conversation.request(Status(), State)
+    conversation.request(OpenUpload(), UploadReady)
     assert conversation.pace.timeout >= 0.9
-    conversation.request(Status(), State)
+    conversation.request(OpenUpload(), UploadReady)
     assert conversation.pace.timeout >= 0.9

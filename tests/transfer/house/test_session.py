@@ -9,7 +9,7 @@ from typing import Any
 import pytest
 
 from amp_studio.transfer.emulated.faults import Faults
-from amp_studio.transfer.errors import CancelledError, NotInEmergencyStopError
+from amp_studio.transfer.errors import CancelledError
 from amp_studio.transfer.exchange import Exchange
 from amp_studio.transfer.house.frame import encode_frame
 from amp_studio.transfer.house.message import Ack, Flags, pack
@@ -127,19 +127,16 @@ def test_a_keyboard_interrupt_throws_the_staged_bytes_away(
     assert not [name for name in made.control.memory.names() if name.startswith("staged-")]
 
 
-def test_a_restart_is_asked_for_and_waited_for(rig: Callable[..., Any], control: Callable[..., Any]) -> None:
+def test_a_restart_by_hand_is_waited_for(rig: Callable[..., Any], control: Callable[..., Any]) -> None:
     made = rig(control=control(autostart=False))
     session = made.session()
     sent = send(session)
     assert not sent.committed.restarting
-    assert session.status().flags & Flags.RESTART_NEEDED
-    ended = session.restart()
-    welcome = session.wait_restarted(ended, 10)
+    assert session.hello().flags & Flags.RESTART_NEEDED
+    made.modem.restart()
+    welcome = session.wait_restarted(sent.committed.incarnation, 10)
     assert welcome.incarnation == 2
     assert not welcome.flags & Flags.RESTART_NEEDED
-    made.control.set_estop(False)
-    with pytest.raises(NotInEmergencyStopError):
-        session.restart()
 
 
 def test_a_control_that_does_not_come_back_is_not_waited_for_for_ever(

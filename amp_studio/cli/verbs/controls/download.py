@@ -30,7 +30,7 @@ VERB = Verb(
 
 def run(options: Options) -> int:
     """Send a file to a control; 3 if that is not proved afterwards, 4 where it is not known what it contains."""
-    from amp_studio.cli.by_hand import note_by_hand, sheet_offered
+    from amp_studio.cli.by_hand import note_by_hand, ways_offered
     from amp_studio.cli.exchange_endings import exchange_of, note_errors, print_outcome
     from amp_studio.cli.fleet import check_fleet, download_to_several, is_fleet
     from amp_studio.transfer.client.parameters import download_file
@@ -41,7 +41,7 @@ def run(options: Options) -> int:
         raise UsageError(f"{path} has {errors}: nothing was sent (--accept-errors sends it anyway)")
     name = file.schema.family.family
     check_fleet(options, options.to)
-    with asked_politely() as stop, sheet_offered(name):
+    with asked_politely() as stop, ways_offered(name, options.to[0]):
         exchange = exchange_of(options, path, stop)
         if is_fleet(options, options.to):
             return download_to_several(options, file, exchange)

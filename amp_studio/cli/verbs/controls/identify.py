@@ -23,7 +23,7 @@ VERB = Verb(
 
 def run(options: Options) -> int:
     """Print who answers at an address, and what it contains."""
-    from amp_studio.cli.by_hand import note_by_hand, sheet_offered
+    from amp_studio.cli.by_hand import note_by_hand, ways_offered
     from amp_studio.files import fitted_axes
     from amp_studio.report.wording import counted
     from amp_studio.transfer.client.drivers import open_driver_at
@@ -37,7 +37,7 @@ def run(options: Options) -> int:
     exchange = Exchange(progress())
     with (
         closing(open_driver_at(options.address, options.family or "", exchange)) as driver,
-        sheet_offered(options.family or ""),
+        ways_offered(options.family or "", options.address),
     ):
         abilities = driver.abilities
         control, content, digest = look_at(driver, exchange)

@@ -31,7 +31,7 @@ VERB = Verb(
 
 def run(options: Options) -> int:
     """Compare a file with what a control contains, its values and every byte; 1 where they differ."""
-    from amp_studio.cli.by_hand import sheet_offered
+    from amp_studio.cli.by_hand import ways_offered
     from amp_studio.cli.comparing import difference_json, print_comparison, print_difference
     from amp_studio.cli.fleet import check_fleet, is_fleet, verify_several
     from amp_studio.transfer.client.parameters import fetch_image, sha256
@@ -52,7 +52,7 @@ def run(options: Options) -> int:
             return verify_several(options, file, Exchange(cancel=stop, record=options.path, notify=note))
     control, name = options.control[0], file.schema.family.family
     exchange = Exchange(progress(), record=options.path, notify=note)
-    with sheet_offered(name):
+    with ways_offered(name, control):
         fetched = fetch_image(control, exchange, family=name)
     found = verify_content(file, fetched)
     record_look("verify", exchange, name, control, fetched, found.summary())

@@ -26,6 +26,7 @@ def run(options: Options) -> int:
                 "name": schema.family.name,
                 "parameters": len(schema.parameters),
                 "values": values,
+                "ways": [each.model_dump() for each in schema.family.ways],
             }
         )
     if options.json:

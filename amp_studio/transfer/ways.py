@@ -1,0 +1,28 @@
+"""The ways to a control of a family, as its facts list them, and what its code registers for each."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+
+from amp_studio.schema import UnknownFamilyError, load_schema
+
+HOUSE = "house"
+"""The protocol in which a gateway is spoken to."""
+PRINT_SHEET = "print what to key in with amp-studio sheet FILE --against OTHER"
+
+
+def in_order_of_ways(family: str, own: Mapping[str, str], of_gateway: str) -> dict[str, str]:
+    """Return protocol -> its part, the usual way first: those that a family registers, and ``of_gateway`` if it has one."""
+    offered = {name: own.get(name, of_gateway) for name in _protocols(family) if name in own or name == HOUSE}
+    return {**offered, **{name: place for name, place in own.items() if name not in offered}}
+
+
+def _protocols(family: str) -> Iterator[str]:
+    """Yield the protocols of the ways that the facts of a family list; none for one that is code alone."""
+    try:
+        ways = load_schema(family).family.ways
+    except UnknownFamilyError:
+        return
+    for each in ways:
+        if each.way != "sheet":
+            yield each.protocol or HOUSE
