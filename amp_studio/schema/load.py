@@ -37,6 +37,7 @@ from .model import (
     Tables,
 )
 from .model.compiled_json import record_text, text_record
+from .model.family import define_units
 from .nearest import unknown_name
 from .picture_faults import faults_of_pictures
 from .quoting import LONGEST, quoted, short
@@ -121,6 +122,7 @@ def load_compiled(family_id: str) -> Compiled:
         except ValueError:
             found = None
         if isinstance(found, Compiled):
+            define_units(found.family.own_units)  # what is read without a check defines nothing by itself
             return found
         report_unusable(cached, "it contains no facts")
     compiled = compile_family(folder)

@@ -19,12 +19,13 @@ from amp_studio.schema import (
     canonical_unit,
     convert,
     dimension,
+    load_schema,
     same_value,
     shown,
     unit_named,
     write_number,
 )
-from amp_studio.schema.load import compile_family
+from amp_studio.schema.load import compile_family, load_compiled
 from amp_studio.schema.units import ALIASES, UNITS
 
 
@@ -157,3 +158,12 @@ def test_a_unit_of_a_family_is_written_and_shown_in_its_own_ways(facts, head: st
     compile_family(facts.folder)
     assert {unit_named(text) for text in ("league", "leagues", "lea.", "Leagues")} == {"league"}
     assert (convert(2.0, "league", "mm"), shown("league")) == (402336.0, "lea.")
+
+
+def test_the_units_of_a_family_are_known_when_its_facts_come_out_of_the_cache(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    load_schema("grblhal")  # the cache is there
+    monkeypatch.delitem(UNITS, "steps/mm")
+    load_compiled.__wrapped__("grblhal")
+    assert "steps/mm" in UNITS

@@ -151,8 +151,8 @@ class UnitScale(Model):
     """On an axis that turns."""
 
 
-def _defined(own: dict[str, OwnUnit]) -> dict[str, OwnUnit]:
-    """Make the units known to whatever is read after them."""
+def define_units(own: dict[str, OwnUnit]) -> dict[str, OwnUnit]:
+    """Make the units known to whatever is read after them; raises ValueError."""
     for unit, meaning in own.items():
         if not re.fullmatch("[A-Za-z][A-Za-z0-9]*(/[A-Za-z0-9]+)*", unit):
             raise ValueError(f"'{unit}' is no name of a unit: letters and digits, as steps/mm")
@@ -190,7 +190,7 @@ class Area(Model):
 class Family(Model):
     """``family.yaml``: identity, scopes, units and the order of the groups."""
 
-    own_units: Annotated[dict[str, OwnUnit], Then(_defined)] = {}
+    own_units: Annotated[dict[str, OwnUnit], Then(define_units)] = {}
     """Units that the program does not know by itself. First, because all that follows may use them."""
     family: Key
     name: str
