@@ -316,9 +316,14 @@ class MovingAxis:
 
     def switch_off(self) -> None:
         """Take the output away from the drive, as an emergency stop does, and let the axis run out for the coasting time."""
+        self.emergency()
+        while not self.is_over:
+            self._step(math.inf, (), to_end=False)
+
+    def emergency(self) -> None:
+        """Take the output away at the next servo sample; the axis runs out while it is stepped."""
         self.drop()
         self._vectors[TIMING][kernel.EMERGENCY] = self.time
-        self.follow(one(PauseOrder(0.0)))
 
     def restart(self) -> None:
         """Take the axis up again where it came to rest after an alarm, the command being where the device measures it."""

@@ -15,8 +15,9 @@ from amp_studio.sim.law import AxisLaw, Ramp
 from amp_studio.sim.model import assumptions
 from amp_studio.sim.motion import Motion
 from amp_studio.sim.moving_axis import MovingAxis
-from amp_studio.sim.rounding import rounded_up, shown
+from amp_studio.sim.rounding import shown
 from amp_studio.sim.scenario import Scenario, Settings, above_zero, number, refuse_unknown
+from amp_studio.sim.simulated_machine import reach
 from amp_studio.sim.trace import Alarm, Figure, Trace
 
 from .columns import alarms_of, column_units, per_minute
@@ -118,7 +119,7 @@ def _around(axis: AxisLaw, homing: Homing, ramp: Ramp, settings: Settings) -> Ar
     edge = 0.0
     if homing.approach:
         asked = above_zero(settings, "move.switch")
-        around = replace(around, switch=sign * (asked or _default(axis, homing.approach, ramp)))
+        around = replace(around, switch=sign * (asked or reach(axis, homing.approach, ramp)))
         edge = around.switch
         leaves_forward = math.copysign(1.0, homing.leave) == sign and not homing.through and not homing.again
         if leaves_forward and length is None:
@@ -202,13 +203,6 @@ def _doubts(axis: AxisLaw, homing: Homing, around: Around, found: Homed) -> list
             " control waits until it goes off again."
         )
     return notes
-
-
-def _default(axis: AxisLaw, velocity: float, ramp: Ramp) -> float:
-    """Return a distance in u over which the axis reaches a velocity and follows it."""
-    speed = abs(velocity)
-    time = 5.0 * ramp.time + (speed / ramp.acceleration if ramp.acceleration else 0.0)
-    return rounded_up(speed * (time + 3.0 / axis.position_rate + 0.2), 2)
 
 
 def _figures(

@@ -8,6 +8,7 @@ from __future__ import annotations
 import contextlib
 import queue
 import threading
+import time
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 from typing import Protocol, runtime_checkable
@@ -53,6 +54,14 @@ class SetLineDevice(Protocol):
         """Learn the rate in bit/s and the stop bits, before ``receive``, where the line shows them."""
 
 
+@runtime_checkable
+class TimedDevice(Protocol):
+    """A device in which time passes: a machine moves behind it."""
+
+    def advance(self, duration: float) -> None:
+        """Let a time pass, s; called before what has come on the line is taken."""
+
+
 @dataclass(frozen=True)
 class DeviceSetup:
     """What an emulated control is made of.
@@ -81,6 +90,7 @@ class DeviceService:
         faults: Faults | None = None,
         say: Callable[[str], None] = print,
         stop: threading.Event | None = None,
+        clock: Callable[[], float] = time.monotonic,
     ) -> None:
         self._device = device
         self._listener = listener
@@ -92,6 +102,7 @@ class DeviceService:
         self._port: Link | None = None
         """The line itself, under its faults."""
         self._has_quit = False
+        self._clock, self._now = clock, clock()
 
     def command(self, line: str) -> None:
         """Give an operator's command; may be called from any other thread, and waits there while too many are waiting."""
@@ -107,6 +118,9 @@ class DeviceService:
 
     def turn(self) -> None:
         """Do what the operator asks for, then send and take some bytes; waits 0.02 s at most."""
+        if isinstance(self._device, TimedDevice):
+            before, self._now = self._now, self._clock()
+            self._device.advance(self._now - before)
         self._obey()
         caller = self._listener.accept(0 if self._link else SLICE)
         if caller is not None:

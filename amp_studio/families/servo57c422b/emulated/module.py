@@ -1,12 +1,15 @@
 """An emulated 57C422B: 4096 registers, the commands in 66 and 67 with their handshake, and the faults of register 73.
 
 Written from chapter 4 of the instruction manual. Our copy has lost the figures with the bit numbers: bits that no text and
-no program of the manual names are ASSUMED below. Motion is not emulated (``amp-studio simulate`` has it): a move ends at once.
+no program of the manual names are ASSUMED below. Behind each axis is a simulated one, made from its registers, that moves while
+time passes (`advance`).
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable
+
+from .module_axis import ModuleMotion, double
 
 REGISTERS, AXIS_Y = 4096, 2048
 AXES = {"X": 0, "Y": AXIS_Y}
@@ -16,12 +19,20 @@ ENABLE_STATUS, ENABLE_FAULT, STATUS, FAULT, SOURCE_STATUS, SOURCE_FAULT = 68, 69
 FEEDBACK, VERSION = 74, 99
 
 LOOP = 1 << 0  # enable control loop (page 4-24)
-INCREMENTAL = 1 << 5  # page 4-24
+VELOCITY_CONTROL, NEGATIVE, INCREMENTAL = 1 << 2, 1 << 4, 1 << 5  # pages 4-24 and 4-25
 MOVE, HOME, STOP, DEFAULTS, LATCH = 1 << 0, 1 << 2, 1 << 6, 1 << 9, 1 << 11  # pages 4-28 to 4-32
+DEFINE, CHANGE_VELOCITY = (
+    1 << 1,
+    1 << 8,
+)  # 4-28 and 4-31; the bit of "define feedback position" is inferred by its place
+PASSIVE = 1 << 4  # of 67, "set feedback position on feedback marker pulse": inferred by its place (4-33)
 DONE, ACKNOWLEDGE = 1 << 0, 1 << 15  # pages 4-43 and 4-36
-BUSY, HOMED, ENABLED = 1 << 2, 1 << 5, 1 << 7  # ASSUMED
+LOCKED, BUSY, HOMED, ENABLED = 1 << 1, 1 << 2, 1 << 5, 1 << 7  # ASSUMED, by the order of section 4.37
 POSITION_ERROR, VELOCITY_ERROR = 1 << 4, 1 << 5  # page 4-43
-FEEDBACK_FAULT, ILLEGAL, SYSTEM = 1 << 6, 1 << 8, 1 << 9  # ASSUMED
+OVERTRAVEL, FEEDBACK_FAULT, ILLEGAL, SYSTEM = 1 << 0, 1 << 6, 1 << 8, 1 << 9  # ASSUMED
+FAULTS = {"POSITION ERROR": POSITION_ERROR, "VELOCITY ERROR": VELOCITY_ERROR, "OVERTRAVEL": OVERTRAVEL}
+"""Alarm of the simulated axis -> bit of register 73."""
+IN_POSITION, MOST_ERROR, VELOCITY, ERROR, PERIOD = 10, 8, 78, 80, 83
 READ_ONLY = frozenset((*range(70, 83), *range(84, 88), *range(99, 104)))
 """Written by the module; the manual calls 72 to 82, 84 to 87 and 99 to 103 its own. What a write to them does is not printed: here nothing."""
 NAME = "57C422B module in an emulated rack"
@@ -33,7 +44,7 @@ class Module:
     def __init__(self) -> None:
         self.words = [0] * REGISTERS
         """What is in the registers at power-on is not printed: here 0."""
-        self._positions: dict[int, int] = {}
+        self._motion = {base: ModuleMotion(name) for name, base in AXES.items()}
         self.setups: dict[str, tuple[int, ...]] = {}
         """Axis -> the setup registers that the module works with, once a command has it take them over."""
         self.power_on()
@@ -42,7 +53,7 @@ class Module:
         """Begin as after a cold start of the processor, which sets the system fault (page 4-38)."""
         self.words[:] = [0] * REGISTERS
         self.setups.clear()
-        self._positions.clear()
+        self._motion = {base: ModuleMotion(name) for name, base in AXES.items()}
         for axis in AXES.values():
             for n, pair in enumerate(("EM", "UL", "AT", "ED", " 1")):
                 self.words[axis + VERSION + n] = int.from_bytes(pair.encode("ascii"), "big")
@@ -60,8 +71,39 @@ class Module:
     def fault(self, axis: int, bit: int) -> None:
         """Have a severe fault: the control loop is disabled (page 4-35)."""
         self._set(axis + FAULT, 1 << bit)
-        self.words[axis + STATUS] &= ~ENABLED & 0xFFFF
+        self._disable(axis)
+
+    def advance(self, duration: float) -> None:
+        """Let time pass, s: the axes move, and their state is in registers 72 and 73 (continuously, 4-34 and 4-37)."""
+        for axis, motion in self._motion.items():
+            simulated = motion.simulated
+            if simulated is None:
+                continue
+            was_busy = bool(self.words[axis + STATUS] & BUSY)
+            simulated.advance(duration)
+            if simulated.alarm is not None and self.words[axis + STATUS] & ENABLED:
+                self._set(axis + FAULT, FAULTS.get(simulated.alarm.code, 0))
+                if not simulated.is_enabled:
+                    self._disable(axis)
+            if was_busy and not simulated.is_busy:
+                self.words[axis + STATUS] &= ~BUSY & 0xFFFF
+                self._set(axis + STATUS, DONE | (HOMED if simulated.is_homed else 0))
+            self._locked(axis, abs(simulated.following_error))
+
+    def _locked(self, axis: int, error: float) -> None:
+        if error < self.words[axis + IN_POSITION]:
+            self._set(axis + STATUS, LOCKED)
+        else:
+            self.words[axis + STATUS] &= ~LOCKED & 0xFFFF
+
+    def _disable(self, axis: int) -> None:
+        """Switch the loop off: the drive gets no output, and the axis coasts (4-6)."""
+        self.words[axis + STATUS] &= ~(ENABLED | BUSY) & 0xFFFF
+        self._set(axis + STATUS, DONE)
         self._set(axis + FAULT, FEEDBACK_FAULT)
+        simulated = self._motion[axis].simulated
+        if simulated and simulated.is_enabled:
+            simulated.switch_off()
 
     def read(self, register: int) -> int:
         """Return a register."""
@@ -87,13 +129,37 @@ class Module:
             self._take_setups(axis)
             self.words[axis + FAULT] = 0
             self._set(axis + STATUS, ENABLED)
+            simulated = self._motion[axis].simulated
+            if simulated:
+                simulated.reset()
         elif not is_on:
-            self.words[axis + STATUS] &= ~ENABLED & 0xFFFF
-            self._set(axis + FAULT, FEEDBACK_FAULT)
+            self._disable(axis)
+        self._follow_velocity(axis, before)
+
+    def _follow_velocity(self, axis: int, before: int) -> None:
+        """Begin or end velocity control; a change of its direction alone is not seen at a limit (4-25)."""
+        mode, motion = self.words[axis + MODE], self._motion[axis]
+        if mode & VELOCITY_CONTROL and not before & VELOCITY_CONTROL:
+            self._run(axis)
+        elif before & VELOCITY_CONTROL and not mode & VELOCITY_CONTROL:
+            motion.stop(self.words)
+        elif mode & VELOCITY_CONTROL and (mode ^ before) & NEGATIVE and not motion.is_stopped:
+            self._run(axis)
+
+    def _run(self, axis: int) -> None:
+        motion = self._motion[axis]
+        if not self.words[axis + STATUS] & ENABLED or not motion.bind(self.words):
+            return
+        if motion.simulated:
+            motion.simulated.alarm = None
+        motion.limit(self.words)
+        motion.run(-1.0 if self.words[axis + MODE] & NEGATIVE else 1.0, self.words)
+        self._begun(axis)
 
     def _take_setups(self, axis: int) -> None:
         name = next(each for each, base in AXES.items() if base == axis)
         self.setups[name] = tuple(self.words[axis : axis + COMMAND - 3])
+        self._motion[axis].bind(self.words)
 
     def _obey(self, axis: int) -> None:
         first, second = self.words[axis + COMMAND], self.words[axis + COMMAND_2]
@@ -111,6 +177,8 @@ class Module:
         for bit, act in self._actions().items():
             if first & bit:
                 act(axis)
+        if second & PASSIVE:
+            self._define(axis)
         if self.words[axis + AUTO_ACKNOWLEDGE] & 1:  # page 4-22
             self.words[axis + COMMAND] = self.words[axis + COMMAND_2] = 0
         else:
@@ -120,33 +188,65 @@ class Module:
         """Return whether a command has legal parameters: a move needs a rate (page 4-38) and a loop that is on (assumed)."""
         if not command & MOVE:
             return True
-        rates = (self._double(axis + ACCELERATION), self._double(axis + DECELERATION))
+        rates = (double(self.words, axis + ACCELERATION), double(self.words, axis + DECELERATION))
         return all(rates) and bool(self.words[axis + STATUS] & ENABLED)
 
     def _actions(self) -> dict[int, Callable[[int], None]]:
-        return {MOVE: self._move, HOME: self._home, DEFAULTS: self._take_setups, LATCH: self._latch}
+        return {
+            MOVE: self._move,
+            DEFINE: self._define,
+            HOME: self._home,
+            STOP: lambda axis: self._motion[axis].stop(self.words),
+            CHANGE_VELOCITY: self._run,
+            DEFAULTS: self._take_setups,
+            LATCH: self._latch,
+        }
 
     def _move(self, axis: int) -> None:
-        target = self._double(axis + POSITION)
+        motion, target = self._motion[axis], float(double(self.words, axis + POSITION))
+        motion.bind(self.words)
         if self.words[axis + MODE] & INCREMENTAL:
-            target += self._positions.get(axis, 0)
-        self._positions[axis] = target & 0xFFFFFFFF
-        self._set(axis + STATUS, DONE)
+            target += motion.simulated.command if motion.simulated else motion.wanted
+        if not motion.limit(self.words):
+            self._set(axis + FAULT, ILLEGAL)
+            return
+        motion.move(target, self.words)
+        self._begun(axis)
+        if motion.simulated is None and abs(target) > self.words[axis + MOST_ERROR]:
+            self.fault(axis, POSITION_ERROR.bit_length() - 1)  # nothing follows the command
+
+    def _define(self, axis: int) -> None:
+        """Call the present position by that of 17, 18 (4-28)."""
+        motion = self._motion[axis]
+        if motion.bind(self.words) and motion.simulated:
+            motion.simulated.define(float(double(self.words, axis + POSITION)))
 
     def _home(self, axis: int) -> None:
-        """Home by the first way, which moves nothing: the position becomes that of 17, 18 (page 4-29)."""
-        self._positions[axis] = self._double(axis + POSITION)
-        self._set(axis + STATUS, HOMED)
+        """Home by the sequence that register 2 gives (4-29)."""
+        motion = self._motion[axis]
+        self.words[axis + STATUS] &= ~HOMED & 0xFFFF
+        motion.bind(self.words)
+        if motion.home(self.words):
+            self._begun(axis)
+        else:
+            self._set(axis + FAULT, ILLEGAL)
+
+    def _begun(self, axis: int) -> None:
+        self.words[axis + STATUS] &= ~DONE & 0xFFFF
+        self._set(axis + STATUS, BUSY)
 
     def _latch(self, axis: int) -> None:
         """Update the position registers, which nothing else does (page 4-38)."""
-        position = self._positions.get(axis, 0)
-        self.words[axis + FEEDBACK], self.words[axis + FEEDBACK + 1] = position >> 16, position & 0xFFFF
+        motion = self._motion[axis]
+        self._put(axis + FEEDBACK, motion.position)
+        scans = max(self.words[axis + PERIOD], 1)
+        self._put(axis + VELOCITY, round(motion.counts_a_scan * scans))
+        self.words[axis + ERROR] = max(-0x8000, min(0x7FFF, motion.following_error)) & 0xFFFF
+
+    def _put(self, register: int, value: int) -> None:
+        self.words[register], self.words[register + 1] = value >> 16 & 0xFFFF, value & 0xFFFF
 
     # -- small parts ------------------------------------------------------------------
-
-    def _double(self, register: int) -> int:
-        return self.words[register] << 16 | self.words[register + 1]
 
     def _set(self, register: int, bits: int) -> None:
         """Set bits of a status or fault register; those that are enabled cause an interrupt (pages 4-43 to 4-45)."""

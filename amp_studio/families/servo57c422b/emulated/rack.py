@@ -45,6 +45,10 @@ class Rack:
             elif len(self._line) <= LONGEST:
                 self._line.append(byte)
 
+    def advance(self, duration: float) -> None:
+        """Let time pass, s."""
+        self.module.advance(duration)
+
     def answer(self) -> bytes:
         """Return what has to be sent."""
         out = bytes(self._out[:512])

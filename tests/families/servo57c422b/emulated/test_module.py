@@ -13,6 +13,7 @@ from amp_studio.families.servo57c422b.emulated.module import (
     ENABLED,
     FEEDBACK_FAULT,
     HOME,
+    HOMED,
     ILLEGAL,
     LATCH,
     MOVE,
@@ -24,14 +25,50 @@ from amp_studio.families.servo57c422b.lines.register_line import framed
 from amp_studio.transfer.emulated.line_device import DeviceSetup
 from amp_studio.transfer.emulated.memory import Memory
 
+GAINS = {3: 17595, 4: 768, 5: 78, 6: 8320, 7: 28, 8: 2000, 9: 4000, 10: 10, 31: 1984, 32: 0xFFFF, 33: 0xFFFF}
+"""Of the program on page 4-48."""
+
 
 @pytest.fixture
 def module() -> Module:
-    """Return a module whose X axis has its loop on and rates for a move."""
+    """Return a module whose X axis has its loop on, and gains, speed (10000 counts/s) and rates (50000 counts/s2) for a move."""
     module = Module()
-    for register, word in ((22, 100), (24, 100), (18, 500), (65, 1)):
+    for register, word in GAINS.items():
         module.write(register, word)
+    for register, number in (
+        (17, 500),
+        (19, round(10000 * 65.536)),
+        (21, 3277),
+        (23, 3277),
+        (15, round(1000 * 65.536)),
+    ):
+        put(module, register, number)
+    module.write(65, 1)
     return module
+
+
+def put(module: Module, register: int, number: int) -> None:
+    """Write a double word."""
+    module.write(register, number >> 16 & 0xFFFF)
+    module.write(register + 1, number & 0xFFFF)
+
+
+def double(module: Module, register: int) -> int:
+    word = module.read(register) << 16 | module.read(register + 1)
+    return word - (1 << 32) if word >> 31 else word
+
+
+def done(module: Module, command: int) -> int:
+    """Give a command, let it be carried out, and return the latched position."""
+    for each in (command, LATCH):
+        module.write(66, each)
+        module.write(66, 0)
+        for _ in range(200):
+            if module.read(72) & DONE:
+                break
+            module.advance(0.05)
+        module.advance(0.2)
+    return double(module, 74)
 
 
 def test_a_cold_start_sets_the_system_fault_and_the_loops_are_off() -> None:
@@ -90,17 +127,87 @@ def test_a_move_without_a_rate_is_illegal(module: Module, register: int) -> None
 def test_the_position_registers_are_updated_by_latch_status_alone(module: Module) -> None:
     module.write(66, MOVE)
     module.write(66, 0)
-    assert (module.read(72) & DONE, module.read(75)) == (DONE, 0)
+    assert module.read(72) & DONE == 0
+    module.advance(1.0)
+    assert (module.read(72) & DONE, double(module, 74)) == (DONE, 0)
     module.write(66, LATCH)
-    assert (module.read(74), module.read(75)) == (0, 500)  # page 4-38
+    assert abs(double(module, 74) - 500) <= 10  # page 4-38, and In-Position Tolerance
+    assert abs(module.read(80)) <= 10
 
 
 def test_incremental_moves_add_up(module: Module) -> None:
     module.write(65, 0x21)  # as on page 4-48: index move and position loop
-    for command in (HOME, MOVE, MOVE, LATCH):
-        module.write(66, command)
+    assert (
+        done(module, HOME) == 500
+    )  # no switch, no marker: the position is that of 17, 18, and nothing moves (4-29)
+    done(module, MOVE)
+    assert abs(done(module, MOVE) - 1500) <= 10
+
+
+def test_homing_with_switch_and_marker_moves_the_axis_and_names_its_place(module: Module) -> None:
+    """01DH: negative onto the switch, slowly off it, on to the marker (4-29, 5-6); there it is what 17, 18 are."""
+    module.write(2, 0x1D)
+    module.write(66, HOME)
+    module.write(66, 0)
+    places, status = [], []
+    for _ in range(120):
+        module.advance(0.1)
+        module.write(66, LATCH)
         module.write(66, 0)
-    assert module.read(75) == 1500
+        places.append(double(module, 74))
+        status.append(module.read(72))
+    assert min(places) < -2000  # it went to the switch
+    assert status[0] & (1 << 2)  # busy
+    assert status[-1] & HOMED
+    assert abs(places[-1] - 500) < 100  # and stopped a little behind the marker
+
+
+def test_an_axis_without_gains_does_not_follow_and_faults(module: Module) -> None:
+    module.write(3, 0)
+    module.write(66, DEFAULTS)
+    module.write(66, 0)
+    put(module, 17, 50000)
+    module.write(66, MOVE)
+    assert module.read(73) & 1 << 4  # the error is above register 8 (4-37)
+    assert module.read(72) & ENABLED == 0
+
+
+def test_a_speed_that_the_loop_cannot_follow_trips_by_register_8(module: Module) -> None:
+    """The fault comes over the registers, and bit 0 of 65 off and on takes the axis up again (4-24)."""
+    module.write(8, 20)
+    module.write(66, DEFAULTS)
+    module.write(66, 0)
+    put(module, 17, 200000)
+    put(module, 19, round(100000 * 65.536))
+    put(module, 21, 65536)
+    assert done(module, MOVE) < 200000
+    assert module.read(73) & 1 << 4
+    module.write(65, 0)
+    module.write(65, 1)
+    assert module.read(73) == 0
+
+
+def test_velocity_control_stops_at_the_software_limit_and_leaves_it_after_bit_2_was_off(
+    module: Module,
+) -> None:
+    """4-25: at the limit a change of direction alone does nothing; bit 2 off, on with the direction changed."""
+    module.write(2, 1 << 10)
+    put(module, 11, 3000)
+    put(module, 13, -3000)
+    module.write(66, DEFAULTS)
+    module.write(66, 0)
+    module.write(65, 0b101)
+    module.advance(1.0)
+    module.advance(1.0)
+    at = done(module, LATCH)
+    assert 3000 < at < 5000  # it decelerates behind the limit (4-6)
+    module.write(65, 0b10101)
+    module.advance(0.5)
+    assert done(module, LATCH) == pytest.approx(at, abs=10)
+    module.write(65, 0b10001)
+    module.write(65, 0b10101)
+    module.advance(0.3)
+    assert done(module, LATCH) < at - 500
 
 
 def test_a_fault_of_one_axis_switches_its_loop_off_and_not_the_other(module: Module) -> None:
