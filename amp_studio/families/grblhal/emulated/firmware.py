@@ -13,8 +13,10 @@ from collections.abc import Callable, Iterator
 from typing import Any
 
 from amp_studio.schema import load_schema
+from amp_studio.sim import SimulationError
 from amp_studio.transfer.emulated.line_device import DeviceSetup
 
+from .motion import GrblMotion, MotionBlock
 from .stored_settings import FAMILY, OUT_OF_RANGE, RefusedError, StoredSettings
 
 MEMORY = "settings"
@@ -24,8 +26,20 @@ PIECE = 512
 OFFSETS = ("G54", "G55", "G56", "G57", "G58", "G59", "G59.1", "G59.2", "G59.3")
 POSITIONS = ("G28", "G30", "G92")
 UNKNOWN, NOT_IDLE, LOCKED, TOO_LONG, NO_HOMING, BAD_WORD = 3, 8, 9, 11, 5, 20
+TRAVEL_EXCEEDED, BAD_JOG, NO_FEED = 15, 16, 22
+JOG_CANCEL = 0x85
+MOVING = ("Run", "Jog", "Home")
 _STATES = ("Idle", "Run", "Hold:0", "Door:0", "Alarm", "Check")
 _SUSPENDED = ("Hold:0", "Door:0")  # no line is read (protocol.c ``protocol_exec_rt_suspend``)
+
+
+_WORDS = re.compile(r"([A-FH-Z])(-?[\d.]+)")
+_NO_MOTION = {4.0, 10.0, 28.0, 28.1, 30.0, 30.1, 92.0}
+"""Of a block whose axis words are no straight move here."""
+
+
+class _AnswerLater(Exception):
+    """A line that is not answered now."""
 
 
 class Firmware:
@@ -41,6 +55,8 @@ class Firmware:
         self.is_writing = False
         self.state = "Idle"
         self._out = bytearray()
+        self._is_moved = False  # whether the machine moved at the last look
+        self._motion = GrblMotion(self.settings, self._axes)
         self._boot()
 
     # -- power ---------------------------------------------------------------------------------------
@@ -48,6 +64,8 @@ class Firmware:
     def _boot(self) -> None:
         self._line, self._overflows, self._is_deaf, self._last_end = "", False, False, ""
         self._unit = 21
+        self._distance, self._mode, self._feed = 90, 0, 0.0
+        self._motion.switch_off()
         self._unread: list[str] = []
         self.state = "Idle" if self.state not in ("Run", *_SUSPENDED) else "Alarm"
         zeros = ",".join(["0.000"] * len(self._axes))
@@ -121,21 +139,33 @@ class Firmware:
         sign = chr(byte)
         if byte == 0x18:
             self._line, self._is_deaf = "", True  # this build takes no setting after a soft reset
+            was = self._motion.state
+            if self._motion.cancel():  # motion_control.c ``mc_reset``: the position may be lost
+                self.state, self._unread = "Alarm", []
+                self._send("ALARM:6" if was == "Home" else "ALARM:3")
             self._greet()
+        elif byte == JOG_CANCEL:
+            if self._motion.state == "Jog":
+                self._motion.cancel()
+                self.state = "Idle"
         elif sign in "?!~" and not self._line.startswith("$"):
+            if sign == "!" and self._motion.state in ("Run", "Jog"):
+                self._motion.hold()
+                self.state = "Hold:0"
             if sign == "~" and self.state == "Hold:0":
+                self._motion.resume()
                 self.state, unread, self._unread = "Idle", self._unread, []
                 for line in unread:
                     self._answer_line(line)
             if sign == "?":
-                self._send(f"<{self.state}|MPos:{','.join(['0.000'] * len(self._axes))}|FS:0,0>")
+                self._send(self._status())
         elif sign in "\r\n":
             if not self._line and self._last_end not in ("", sign):
                 self._last_end = ""
                 return
             self._last_end = sign
             line, self._line = self._line, ""
-            if self.state in _SUSPENDED:
+            if self.state in (*_SUSPENDED, "Home"):
                 self._unread.append(line)
                 return
             if self.is_writing:
@@ -156,6 +186,8 @@ class Firmware:
             if self._is_deaf and re.match(r"\$\d+=", line):
                 return
             self._execute(line)
+        except _AnswerLater:
+            pass
         except RefusedError as refused:
             self._send(f"error:{refused.code}")
         else:
@@ -198,13 +230,84 @@ class Firmware:
             self._send(f"${shown.number}={shown.show()}")
         elif name == "X":
             self.state = "Idle"
+        elif equals and name == "J":
+            self._jog(text.upper().replace(" ", ""))
         elif name.startswith("H"):
-            raise RefusedError(NO_HOMING)
+            self._home(name[1:])
         else:
             raise RefusedError(UNKNOWN)
 
+    def _home(self, axes: str) -> None:
+        """Home all axes, or one where $22 allows it; the answer comes at its end (system.c ``home``)."""
+        cycle = int(self.settings.all[22].value)
+        if not cycle & 1 or (axes and not cycle & 2):
+            raise RefusedError(NO_HOMING)
+        self._need_rest()
+        try:
+            self._motion.home(axes or self._axes)
+        except SimulationError:
+            raise RefusedError(NO_HOMING) from None
+        self.state = "Home"
+        raise _AnswerLater
+
+    def _jog(self, text: str) -> None:
+        """Move by a jog, which changes no mode (gcode.c)."""
+        words = dict(_WORDS.findall(text))
+        if "F" not in words:
+            raise RefusedError(NO_FEED)
+        if not set(words) & set(self._axes) or self.state not in ("Idle", "Jog"):
+            raise RefusedError(BAD_JOG if self.state in ("Idle", "Jog") else NOT_IDLE)
+        distance = 91 if "G91" in text else 90 if "G90" in text else self._distance
+        targets = self._targets(words, distance, is_machine="G53" in text)
+        if self._motion.leaves_travel(targets):
+            raise RefusedError(TRAVEL_EXCEEDED)
+        self._move(targets, float(words["F"]) * self._factor(text), is_jog=True)
+
+    def _move(self, targets: dict[str, float], feed: float | None, *, is_jog: bool = False) -> None:
+        try:
+            self._motion.add(MotionBlock(targets, None if feed is None else feed / 60.0, is_jog))
+        except SimulationError:
+            return  # no steps, no rate: nothing moves
+        self.state = self._motion.state
+
+    def _targets(self, words: dict[str, str], distance: int, *, is_machine: bool) -> dict[str, float]:
+        """Return where a block ends, in machine coordinates."""
+        offsets = dict(zip(self._axes, map(float, self.offsets["G54"].split(",")), strict=True))
+        factor, found = 25.4 if self._unit == 20 else 1.0, {}
+        for axis in self._axes:
+            if axis in words:
+                way = float(words[axis]) * factor
+                start = self._motion.planned[axis] if distance == 91 else 0.0 if is_machine else offsets[axis]
+                found[axis] = start + way
+        return found
+
+    def _factor(self, text: str) -> float:
+        return 25.4 if "G20" in text or (self._unit == 20 and "G21" not in text) else 1.0
+
+    def advance(self, duration: float) -> None:
+        """Let time pass, s: the machine moves."""
+        ended = self._motion.advance(duration)
+        if ended is not None:
+            self.state = "Alarm" if ended else "Idle"
+            self._send(*([ended, "error:9"] if ended else ["ok"]))
+            unread, self._unread = self._unread, []
+            for line in unread:
+                self._answer_line(line)
+        elif self.state in ("Run", "Jog") and self._is_moved:
+            self.state = self._motion.state
+        self._is_moved = self._motion.state in MOVING
+
+    def _status(self) -> str:
+        places = ",".join(f"{place:.3f}" for place in self._motion.positions)
+        homed = (
+            f"|H:{int(bool(self._motion.homed))}"
+            if self.settings.all[22].value and not self.settings.is_classic
+            else ""
+        )
+        return f"<{self.state}|MPos:{places}|FS:{self._motion.feed:.0f},0{homed}>"
+
     def _need_rest(self) -> None:
-        if self.state == "Run":
+        if self.state in MOVING:
             raise RefusedError(NOT_IDLE)
 
     def _startup(self, number: int, line: str) -> None:
@@ -236,6 +339,7 @@ class Firmware:
         if found is None:
             if not re.fullmatch(r"([A-Z]-?[\d.]+)*", line):
                 raise RefusedError(BAD_WORD)
+            self._words(line)
             return
         name = OFFSETS[int(found[1]) - 1]
         if name not in self.offsets:
@@ -247,6 +351,27 @@ class Firmware:
             at[axis] = float(number) * (25.4 if self._unit == 20 else 1.0)
         self.offsets[name] = ",".join(f"{value:.3f}" for value in at.values())
         self.is_writing = True
+
+    def _words(self, line: str) -> None:
+        """Do the words of a block that move: G0, G1, G53, G90, G91, F, axes."""
+        codes = {float(code) for code in re.findall(r"G(-?[\d.]+)", line)}
+        words = dict(_WORDS.findall(line))
+        self._distance = 91 if 91.0 in codes else 90 if 90.0 in codes else self._distance
+        self._mode = 0 if 0.0 in codes else 1 if 1.0 in codes else self._mode
+        if "F" in words:
+            self._feed = float(words["F"]) * (25.4 if self._unit == 20 else 1.0)
+        targets = self._targets(words, self._distance, is_machine=53.0 in codes)
+        if not targets or codes & _NO_MOTION:
+            return
+        if self._mode == 1 and not self._feed:
+            raise RefusedError(NO_FEED)
+        if self._motion.leaves_travel(targets):
+            self._motion.cancel()
+            self.state = "Alarm"
+            self._send("ALARM:2", "[MSG:Reset to continue]")
+            raise _AnswerLater
+        if self.state != "Check":
+            self._move(targets, self._feed if self._mode == 1 else None)
 
     # -- reports -------------------------------------------------------------------------------------
 

@@ -1,0 +1,124 @@
+"""The machine behind an emulated Grbl: blocks, jogs, $H and its alarms come over its protocol."""
+
+from __future__ import annotations
+
+import re
+from pathlib import Path
+
+import pytest
+
+from amp_studio.families.grblhal.emulated.firmware import Firmware
+from amp_studio.transfer.emulated.line_device import DeviceSetup
+from amp_studio.transfer.emulated.memory import Memory
+
+SETTINGS = "$22=3 $20=1 $23=0 $24=120 $25=1200 $27=2 $44=4 $45=3 " + " ".join(
+    f"${first + n}={value}"
+    for first, value in ((100, 80), (110, 6000), (120, 500), (130, 300))
+    for n in range(3)
+)
+
+
+class Bench:
+    """A control and the clock of its machine."""
+
+    def __init__(self, folder: Path, machine: str | None = None) -> None:
+        self.firmware = Firmware(DeviceSetup("grblhal", Memory(folder), print, machine))
+        self.read()
+        for line in SETTINGS.split():
+            self.said(line)
+
+    def read(self) -> str:
+        return b"".join(iter(self.firmware.answer, b"")).decode()
+
+    def said(self, line: str) -> str:
+        self.firmware.receive(line.encode() + b"\n")
+        return self.read().strip()
+
+    def after(self, seconds: float) -> str:
+        for _ in range(round(seconds / 0.1)):
+            self.firmware.advance(0.1)
+        return self.read().strip()
+
+    def status(self) -> tuple[str, list[float]]:
+        self.firmware.receive(b"?")
+        found = re.search(r"<([^|]+)\|MPos:([-0-9.,]+)", self.read())
+        assert found is not None
+        return found[1], [float(each) for each in found[2].split(",")]
+
+
+@pytest.fixture
+def bench(tmp_path: Path) -> Bench:
+    return Bench(tmp_path)
+
+
+def test_a_block_moves_the_axes_in_a_line_and_the_state_follows(bench: Bench) -> None:
+    assert bench.said("G91 G1 X30 Y-40 F3000") == "ok"
+    bench.after(0.5)
+    state, (x, y, _) = bench.status()
+    assert state == "Run"
+    assert 0.0 < x < 30.0
+    assert y == pytest.approx(-x * 4.0 / 3.0, abs=0.2)
+    bench.after(3.0)
+    assert bench.status() == ("Idle", [pytest.approx(30.0, abs=0.02), pytest.approx(-40.0, abs=0.02), 0.0])
+
+
+def test_a_setting_is_not_taken_while_it_moves(bench: Bench) -> None:
+    bench.said("G0 X50")
+    assert bench.said("$110=100") == "error:8"
+
+
+def test_homing_is_answered_at_its_end_and_gives_the_machine_its_place(bench: Bench) -> None:
+    """machine_limits.c: seek, pull-off, locate, pull-off; -$27 where the switch is at the plus end."""
+    assert bench.said("$H") == ""
+    bench.after(0.2)
+    assert bench.status()[0] == "Home"
+    assert bench.after(60.0) == "ok"
+    assert bench.status() == ("Idle", [pytest.approx(-2.0, abs=0.02)] * 3)
+
+
+def test_a_switch_that_is_too_far_off_is_alarm_9(bench: Bench) -> None:
+    for axis in range(3):
+        bench.said(f"${130 + axis}=2")  # 1.5 times the travel is searched
+    bench.said("$H")
+    assert bench.after(30.0) == "ALARM:9\r\nerror:9"
+    assert bench.status()[0] == "Alarm"
+
+
+def test_a_move_beyond_the_travel_of_a_homed_axis_is_alarm_2_and_a_jog_is_refused(bench: Bench) -> None:
+    bench.said("$H")
+    bench.after(60.0)
+    assert bench.said("$J=G91 X-400 F1000") == "error:15"
+    assert bench.said("G90 G0 X-400").startswith("ALARM:2")
+    assert bench.status()[0] == "Alarm"
+
+
+def test_a_jog_is_cancelled_and_a_hold_is_taken_up_again(bench: Bench) -> None:
+    assert bench.said("$J=G91 X200 F3000") == "ok"
+    bench.after(1.0)
+    bench.firmware.receive(b"\x85")
+    bench.after(1.0)
+    state, places = bench.status()
+    assert state == "Idle"
+    assert 20.0 < places[0] < 80.0
+    bench.said("G91 G0 X50")
+    bench.after(0.3)
+    bench.firmware.receive(b"!")
+    bench.after(1.0)
+    held = bench.status()
+    assert held[0] == "Hold:0"
+    bench.firmware.receive(b"~")
+    bench.after(3.0)
+    assert bench.status() == ("Idle", [pytest.approx(places[0] + 50.0, abs=0.02), 0.0, 0.0])
+    assert held[1][0] < bench.status()[1][0]
+
+
+@pytest.mark.parametrize(
+    ("line", "answer"), [("$J=G91 X10", "error:22"), ("$J=F100", "error:16"), ("G1 X10", "error:22")]
+)
+def test_a_move_that_lacks_something_is_refused(bench: Bench, line: str, answer: str) -> None:
+    assert bench.said(line) == answer
+
+
+def test_homing_that_is_off_is_refused(bench: Bench) -> None:
+    bench.said("$22=0")
+    assert bench.said("$H") == "error:5"
