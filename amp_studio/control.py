@@ -10,9 +10,11 @@ from amp_studio.machine import MachineError, MachineParameters
 from amp_studio.transfer.client.drivers import open_driver
 from amp_studio.transfer.client.exchange import Outcome
 from amp_studio.transfer.client.parameters import download_file, fetch_file, fetch_image
+from amp_studio.transfer.client.status import StatusReader
 from amp_studio.transfer.client.verification import ImageComparison, verify_content
 from amp_studio.transfer.driver import ControlIdentity
 from amp_studio.transfer.exchange import Exchange
+from amp_studio.transfer.status import ControlStatus
 
 
 class ConnectedControl:
@@ -37,6 +39,11 @@ class ConnectedControl:
         """Return what the control states of itself: name, revision, whether it is in E-stop, the digest of its content."""
         with closing(open_driver(self.address, self.family)) as driver:
             return driver.identify()
+
+    def status(self) -> ControlStatus:
+        """Return what the control shows of itself now: positions, following errors, states and faults; nothing is written."""
+        with closing(StatusReader(self.address, self.family)) as reader:
+            return reader.read()
 
     def upload(self) -> MachineParameters:
         """Return the machine that the control contains; it has no file yet."""

@@ -99,7 +99,7 @@ class SimulatedAxis:
         self._begin(self._stopped(ramp))
 
     def home(self, homing: Homing, ramp: Ramp) -> None:
-        """Home the axis; `is_homed`, or `alarm`, tells the end of it."""
+        """Home the axis; `is_homed`, or `alarm`, is set at its end."""
         self.is_homed, self._homed = False, Homed()
         if self._around is None:
             self._around = moved(usual_around(self.law, homing, ramp), self._moving.position)

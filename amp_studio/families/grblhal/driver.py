@@ -20,6 +20,7 @@ from amp_studio.transfer.line_driver import LineDriver
 from amp_studio.transfer.links.link import LinkError
 from amp_studio.transfer.progress import quiet
 from amp_studio.transfer.sent_values import SentValues
+from amp_studio.transfer.status import ControlStatus
 from amp_studio.transfer.waiting import OpenLink
 
 from .aftermath import after_break, names_of
@@ -28,12 +29,15 @@ from .kind import FAMILY, GrblContentKind, described
 from .line import GrblLine, GrblRefusalError, GrblRestartedError
 from .reading import read_control, read_identity
 from .refusals import refusal_text
-from .states import LASTING, state_text
+from .states import LASTING, state_in, state_text
+from .status import status_of
 from .writing import Writing
 
 SETTLE = 0.3  # seconds between the last answer and the reading back: the memory is written after the answer, and surely
 # before the next command is executed (protocol.c ``protocol_execute_realtime``)
 RECONNECT = 10.0  # seconds in which a cut line is tried again to read what the control contains
+AT_REST = ("Idle", "Alarm")
+"""States in which ``$I`` is answered at once."""
 PAUSE = 0.15  # seconds between two tries
 
 
@@ -60,6 +64,7 @@ class GrblDriver(GrblContentKind, LineDriver):
         self._has_lost_memory = False  # on any line of this driver
         self._last: GrblContent | None = None
         self._writing: Writing | None = None
+        self._known: ControlIdentity | None = None
 
     def close(self) -> None:
         """Close the line."""
@@ -83,6 +88,15 @@ class GrblDriver(GrblContentKind, LineDriver):
                 who.version,
                 axes=who.axes,
             )
+
+    def status(self) -> ControlStatus:
+        """Return what ``?`` answers, and ``$I`` once while nothing moves; nothing is written."""
+        with self._conversation() as line:
+            report = line.report()
+            alarm = f"ALARM:{line.alarm}" if line.alarm else ""
+        if self._known is None and state_in(report) in AT_REST:
+            self._known = self._identity()
+        return status_of(self._known or ControlIdentity(FAMILY, self.protocol, "Grbl"), report, alarm)
 
     def _fetched(self, stage: str) -> bytes:
         """Return all that the control contains, as it shows it; after a download the line is made again where it is cut."""

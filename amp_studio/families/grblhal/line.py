@@ -151,6 +151,10 @@ class GrblLine:
 
     def state(self) -> str:
         """Return the state that the control reports: Idle, Run, Hold, Alarm …; raises as ``ask``."""
+        return state_in(self.report())
+
+    def report(self) -> str:
+        """Return the whole report of its state, as ``?`` brings it; raises as ``ask``."""
         self.go_on()
         self._begin(ANSWER, lingers=False)
         self._link.write(b"?")
@@ -158,7 +162,7 @@ class GrblLine:
             line = self._line(ANSWER)
             if line.startswith("<"):
                 self._waiting.heard()
-                return state_in(line)
+                return line
             if _GREETING.match(line):
                 raise GrblRestartedError("the control has restarted meanwhile")
             self._is_pushed(line)

@@ -111,7 +111,7 @@ class GrblMotion:
             self._stop()
 
     def resume(self) -> None:
-        """Take the held block up again."""
+        """Take the block up again that was stopped."""
         if self._held is not None:
             self._blocks.appendleft(self._held)
             self._held = None
@@ -127,7 +127,7 @@ class GrblMotion:
         return was
 
     def switch_off(self) -> None:
-        """Lose the power: the machine stays where it is, and the control no longer knows where that is."""
+        """Lose the power: the machine does not move, and its place is no longer known."""
         self._blocks.clear()
         self._machine.axes.clear()
         self._moving = self._held = self._cycles = None

@@ -23,13 +23,16 @@ from amp_studio.transfer.errors import (
 from amp_studio.transfer.exchange import QUIET, Replacement
 from amp_studio.transfer.line_driver import LineDriver
 from amp_studio.transfer.sent_values import SentValues
+from amp_studio.transfer.status import ControlStatus
 from amp_studio.transfer.waiting import OpenLink
 
 from .content import AXIS_Y, FAMILY, RegisterContent, settings, words_of_content, written_content
 from .register_line import MOST, RegisterLine
+from .status import SHOWN, AxisRegisters, status_of
 
 MODE, COMMAND, COMMAND_2, STATUS, FAULT, VERSION = 65, 66, 67, 72, 73, 99
 LOOP = 1 << 0  # of the mode register (page 4-24)
+LATCH = 1 << 11  # of the command register: latch status (page 4-32)
 CHANGE_DEFAULTS = 1 << 9  # of the command register (page 4-48 uses 0200H)
 ACKNOWLEDGE = 1 << 15  # of the status register (page 4-36)
 VERSION_WORDS = 5
@@ -67,6 +70,29 @@ class RegisterDriver(RegisterContent, LineDriver):
         characters = b"".join(word.to_bytes(2, "big") for word in self._line.read(VERSION, VERSION_WORDS))
         revision = characters.decode("ascii", "replace").strip("\0 ")
         return ControlIdentity(FAMILY, self.protocol, name[:60], revision, load_schema(FAMILY).signature)
+
+    def status(self) -> ControlStatus:
+        """Return what the module's registers show of both axes; it latches them, which changes nothing else (page 4-32)."""
+        identity = self._identity()
+        axes = [self._axis_status(first, name) for first, name in AXES.items()]
+        return status_of(identity, axes)
+
+    def _axis_status(self, first: int, name: str) -> AxisRegisters:
+        """Read the registers of an axis, latched where no command of another program is under way."""
+        is_free = self._line.read(first + COMMAND, 2) == (0, 0)
+        if is_free:
+            self._line.write(first + COMMAND, LATCH)
+            end = self._waiting.now() + HANDSHAKE_WAIT
+            while (
+                self._line.read(first + COMMAND, 1)[0]
+                and not self._line.read(first + STATUS, 1)[0] & ACKNOWLEDGE
+            ):
+                if self._waiting.now() > end:
+                    break
+                self._waiting.sleep(POLL)
+            self._line.write(first + COMMAND, 0)
+        words = {first_of: self._line.read(first + first_of, count) for first_of, count in SHOWN}
+        return AxisRegisters(name, is_free, words)
 
     def _fetched(self, stage: str) -> bytes:
         """Return the registers that an application sets."""

@@ -1,0 +1,51 @@
+"""What a Grbl or grblHAL reports of itself: state, positions, feed, inputs, alarm (report.c)."""
+
+from __future__ import annotations
+
+from amp_studio.transfer.driver import ControlIdentity
+from amp_studio.transfer.errors import ProtocolMismatchError
+from amp_studio.transfer.status import AxisStatus, ControlStatus, known_fault
+
+LETTERS = "XYZABCUV"
+PINS = {
+    "P": "probe",
+    "R": "reset",
+    "H": "feed hold",
+    "S": "cycle start",
+    "D": "safety door",
+    "E": "E-stop",
+    "F": "motor fault",
+}
+"""Letters of ``Pn:`` that are no axes (report.c)."""
+
+
+def status_of(identity: ControlIdentity, report: str, alarm: str = "") -> ControlStatus:
+    """Return the status of a report such as ``<Run|MPos:1.000,2.000,0.000|FS:500,0|Pn:X>``; ``alarm`` is the last ``ALARM:n`` pushed."""
+    state, *parts = report.strip("<>").split("|")
+    said = dict(part.partition(":")[::2] for part in parts)
+    try:
+        places = [float(each) for each in (said.get("MPos") or said.get("WPos") or "").split(",") if each]
+        feed, speed = (
+            [float(each) for each in said.get("FS", said.get("F", "")).split(",") if each] + [0.0, 0.0]
+        )[:2]
+    except ValueError:
+        raise ProtocolMismatchError(f"the control reports '{report[:60]}'") from None
+    pins = said.get("Pn", "")
+    names = identity.axes or tuple(LETTERS[: len(places)])
+    axes = tuple(
+        AxisStatus(name, place, unit="mm", states=("limit switch",) if name in pins else ())
+        for name, place in zip(names, places, strict=False)
+    )
+    values: dict[str, float | str] = {"feed": feed, "spindle speed": speed}
+    if pins:
+        values["inputs"] = ", ".join(PINS.get(pin, f"limit {pin}") for pin in pins)
+    if "WCO" in said:
+        values["work coordinate offset"] = said["WCO"]
+    code = alarm or (f"ALARM:{state.partition(':')[2]}" if state.startswith("Alarm:") else "")
+    in_alarm = state.startswith("Alarm")
+    faults = (known_fault(identity.family, code or "Alarm", "The control is locked"),) if in_alarm else ()
+    which = "machine" if "MPos" in said else "work"
+    notes = (f"positions in {which} coordinates, in mm unless $13 is on",)
+    return ControlStatus(
+        identity.family, identity.protocol, identity.name, state, axes, faults, values, notes
+    )

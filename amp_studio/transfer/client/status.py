@@ -1,0 +1,33 @@
+"""The status of a control, over one line that stays open between two questions."""
+
+from __future__ import annotations
+
+from amp_studio.transfer.driver import ControlDriver
+from amp_studio.transfer.status import ControlStatus, ShowsStatus
+
+from .drivers import open_driver
+
+
+class StatusReader:
+    """Asks one control what it is doing; raises TransferError. Closed by the one who made it."""
+
+    def __init__(self, address: str, family: str = "") -> None:
+        self._driver: ControlDriver = open_driver(address, family)
+
+    def read(self) -> ControlStatus:
+        """Return the status now; of a protocol without one, who answers and whether it is in E-stop."""
+        if isinstance(self._driver, ShowsStatus):
+            return self._driver.status()
+        known = self._driver.identify()
+        state = "" if known.in_estop is None else "E-stop" if known.in_estop else "ready"
+        return ControlStatus(
+            known.family,
+            known.protocol,
+            known.name,
+            state,
+            assumptions=("This protocol shows neither positions nor faults.",),
+        )
+
+    def close(self) -> None:
+        """Close the line."""
+        self._driver.close()
