@@ -42,7 +42,7 @@ VERBS = all_verbs()
 MILL = "MILL_1394.amp"
 """The machine of the examples of every verb."""
 EXAMPLE = Path(__file__).parents[2] / "examples" / "mill-1394" / MILL
-AT_A_CONTROL = ("emulate", "identify", "download", "verify", "upload", "restore")
+AT_A_CONTROL = ("emulate", "identify", "status", "download", "verify", "upload", "restore")
 
 
 def drive_record() -> str:

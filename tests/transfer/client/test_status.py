@@ -44,4 +44,4 @@ def test_a_report_of_grbl_is_read() -> None:
     assert status.axes[0].states == ("limit switch",)
     assert (status.state, status.values["feed"], status.values["spindle speed"]) == ("Alarm", 500.0, 1200.0)
     assert status.faults[0].code == "ALARM:9"
-    assert status.faults[0].causes
+    assert status.faults[0].means or status.faults[0].cures

@@ -21,7 +21,7 @@ VERB = Verb(
     JSON,
     sections=("ADDRESS",),
     at_control=True,
-    examples=("amp-studio status tcp://127.0.0.1:8193 --watch",),
+    examples=("amp-studio status tcp://127.0.0.1:8193",),
 )
 PERIOD = 0.2  # s: no control is asked more often
 PLACES = 4
