@@ -166,7 +166,7 @@ class MachineParameters:
         return Validator(self.file, self._rules(), earlier)
 
     def _rules(self) -> BuilderRules:
-        return rules_beside(self.path, self.schema) if self.path else NO_RULES
+        return rules_beside(self.path, self.file) if self.path else NO_RULES
 
     # -- what it does --------------------------------------------------------------
 

@@ -31,7 +31,7 @@ def note_errors(file: ParameterFile, path: Path) -> str:
     from amp_studio.report.wording import counted
     from amp_studio.validate import Validator, rules_beside
 
-    findings = Validator(file, rules_beside(path, file.schema)).run()
+    findings = Validator(file, rules_beside(path, file)).run()
     errors = [finding for finding in findings if finding.severity == "error"]
     for same in alike(errors):
         note(same_finding_text(file, same))

@@ -37,7 +37,7 @@ def with_marks(file: ParameterFile, path: Path, found: Sequence[Meant], wanted: 
     if "findings" in wanted:
         from amp_studio.validate import Validator, rules_beside
 
-        marks.take_findings(Validator(file, rules_beside(path, file.schema)).run())
+        marks.take_findings(Validator(file, rules_beside(path, file)).run())
     if "since-download" in wanted:
         from amp_studio.transfer.client.last_download import last_download
 

@@ -23,6 +23,7 @@ def finding_json(file: ParameterFile, finding: Finding) -> dict[str, Any]:
         "compared": [here.short(a) for a in finding.compared],
         "message": finding.message,
         "fix": [_setting_json(file, setting) for setting in finding.fix],
+        **({"brings": finding.brings} if finding.brings else {}),
         "effective": [_setting_json(file, setting) for setting in finding.effective],
         "source": finding.page or finding.reason or None,
     }  # fmt: skip
@@ -55,6 +56,8 @@ def finding_parts(file: ParameterFile, finding: Finding) -> list[str]:
                 for s in settings
             )
             parts.append(f"{what}: {values}")
+    if finding.brings:
+        parts[-1] += f" (it brings a warning: {finding.brings})"
     return parts
 
 

@@ -70,6 +70,7 @@ def suppressed_notes(file: ParameterFile, left: Iterable[Suppressed], printed: s
 def _note(file: ParameterFile, same: Sequence[Finding], printed: set[str]) -> Note:
     addresses = list(dict.fromkeys(a for f in same if len(f.addresses) <= _NAMED for a in f.addresses))
     fix = list(dict.fromkeys(r for f in same for r in f.fix))
+    brings = next((f.brings for f in same if f.brings), "")
     used = "; ".join(_settings(file, list(dict.fromkeys(s for f in same for s in f.effective))))
     return Note(
         severity=same[0].severity,
@@ -77,7 +78,7 @@ def _note(file: ParameterFile, same: Sequence[Finding], printed: set[str]) -> No
         place=_places(file, addresses),
         about=tuple(_links(file, addresses, printed)),
         message=same[0].message + (f" Effective value in the control: {used}." if used else ""),
-        fix="; ".join(_settings(file, fix)),
+        fix="; ".join(_settings(file, fix)) + (f" (it brings a warning: {brings})" if brings else ""),
         page=same[0].page or same[0].reason,
         is_own=same[0].is_own or bool(same[0].reason),
     )

@@ -6,7 +6,7 @@ What calculates, explains, makes fixes and reads a builder's rules is loaded whe
 from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
-from .beside import companions_of, earlier_beside, rules_beside
+from .beside import axes_by_letter, companions_of, earlier_beside, rules_beside
 from .builder_rules import NO_RULES, RULES_FILE, BuilderRules, Suppressed
 from .expressions import RuleError
 from .finding import NOT_SET, SEVERITIES, Finding, Setting, not_set
@@ -67,6 +67,7 @@ __all__ = [
     "Validator",
     "apply_all_safe",
     "apply_fixes",
+    "axes_by_letter",
     "calculate",
     "calculators",
     "companions_of",

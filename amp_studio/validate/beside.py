@@ -12,7 +12,7 @@ from amp_studio.files import ENDING, ParameterFile, ParameterFileError, backup_p
 from amp_studio.files.local_time import local_time
 from amp_studio.files.origin import origin_of
 from amp_studio.files.paths import history_path, text_of_name
-from amp_studio.schema import Address, Schema, Value
+from amp_studio.schema import Address, Value
 from amp_studio.schema.regular_file import read_file
 
 from .builder_rules import NO_RULES, RULES_FILE, BuilderRules
@@ -23,14 +23,23 @@ LARGEST_FLEET = 40
 """Machines in a folder that are compared; more of them are no fleet that somebody looks after by hand."""
 
 
-def rules_beside(path: Path, schema: Schema) -> BuilderRules:
-    """Return the rules that lie beside a parameter file; none where there is no such file."""
+def rules_beside(path: Path, file: ParameterFile) -> BuilderRules:
+    """Return the rules that lie beside a parameter file at ``path``; none where there is no such file."""
     beside = real_path(path).parent / RULES_FILE
     if not is_there(beside):
         return NO_RULES
     from .rule_file import read_builder_rules  # most machines have none
 
-    return read_builder_rules(beside, schema)
+    return read_builder_rules(beside, file.schema, axes_by_letter(file))
+
+
+def axes_by_letter(file: ParameterFile) -> dict[str, str]:
+    """Return letter -> axis of a file, for letters that one axis alone has."""
+    from amp_studio.files.axis_match import axis_letters
+
+    letters = list(axis_letters(file).items())
+    every = [letter for _, letter in letters]
+    return {letter: axis for axis, letter in letters if letter != axis and every.count(letter) == 1}
 
 
 def earlier_beside(path: Path, file: ParameterFile) -> tuple[Earlier, ...]:

@@ -159,6 +159,7 @@ class ExpressionCheck:
                 )
         if name == "matches":
             cost += self._pattern(node.parts[1], given)
+            self._matched_choice(node, given[0])
         if name in _PIECES:
             self._piece(node, given)
         if name == "string" and given[0].choices:
@@ -179,6 +180,14 @@ class ExpressionCheck:
                 self._slip(
                     f"no key of {shown(node.parts[0].text)} has {shown(text)} there: {_keys(of.choices)}"
                 )
+
+    def _matched_choice(self, node: Node, of: Worth) -> None:
+        """Refuse a pattern on a choice: the message shows its label, and the pattern would be compared with its key."""
+        if of.choices:
+            self._slip(
+                f"{shown(node.parts[0].text)} is a choice, which has a key and is shown by its label: "
+                f"compare it with == or in; {_keys(of.choices)}"
+            )
 
     def _pattern(self, node: Node, given: list[Worth]) -> int:
         """Return what a pattern costs; one that is worked out could be any."""

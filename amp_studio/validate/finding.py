@@ -46,6 +46,8 @@ class Finding:
     """It is of a builder's rule: ``page`` is where he wrote it down, not a page of the manual."""
     reason: str = ""
     """Why it is so, of a rule that no manual states: ``page`` is empty then."""
+    brings: str = ""
+    """The message of a warning that comes up once its suggested fix is made; such a fix is made last."""
 
     @property
     def addresses(self) -> tuple[Address, ...]:

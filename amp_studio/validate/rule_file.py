@@ -8,9 +8,10 @@ and keeps nothing else from being checked.
 from __future__ import annotations
 
 import codecs
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Mapping
 from functools import cache, lru_cache, partial
 from pathlib import Path
+from types import MappingProxyType
 from typing import Any
 
 from amp_studio.files import write_atomic
@@ -52,25 +53,31 @@ MOST_STEPS_OF_A_FILE = 4 * MOST_STEPS
 """Of all its rules together."""
 
 
-def read_builder_rules(path: Path, schema: Schema) -> BuilderRules:
-    """Return what a file means for files of a family; faults of the file are findings."""
+NO_AXES: Mapping[str, str] = MappingProxyType({})
+
+
+def read_builder_rules(path: Path, schema: Schema, axes: Mapping[str, str] = NO_AXES) -> BuilderRules:
+    """Return what a file means for files of a family; faults of the file are findings.
+
+    ``axes`` is letter -> axis of the file at hand: a rule may read ``servo.initial_gain@X``.
+    """
     try:
-        return _read(path, digest_of(path), schema)
+        return _read(path, digest_of(path), schema, tuple(sorted(axes.items())))
     except OSError as error:
         fault = DatabaseError(path, None, f"cannot be read: {error.strerror}")
         return BuilderRules(faults=(_finding(path, fault),))
 
 
 @lru_cache(maxsize=32)  # it lies beside many files
-def _read(path: Path, _digest: str | None, schema: Schema) -> BuilderRules:
-    return _RuleFileReader(path, schema).read()
+def _read(path: Path, _digest: str | None, schema: Schema, axes: tuple[tuple[str, str], ...]) -> BuilderRules:
+    return _RuleFileReader(path, schema, dict(axes)).read()
 
 
 class _RuleFileReader:
     """What is found in one file of rules for one family."""
 
-    def __init__(self, path: Path, schema: Schema) -> None:
-        self._path, self._schema = path, schema
+    def __init__(self, path: Path, schema: Schema, axes: Mapping[str, str]) -> None:
+        self._path, self._schema, self._axes = path, schema, axes
         self._rules: dict[str, BuilderRule] = {}
         self._places: dict[str, str] = {}
         self._costs: dict[str, int] = {}
@@ -114,7 +121,7 @@ class _RuleFileReader:
     # -- rules -----------------------------------------------------------------
 
     def _rule(self, entry: FactEntry) -> None:
-        rule, slips = entry_model(entry.data, BuilderRule)
+        rule, slips = entry_model(self._by_number(entry.data), BuilderRule)
         family = rule.family if rule else ""
         if family and family not in self._families:
             slips.append((("family",), f"{shown(family)} is no family{did_you_mean(family, self._families)}"))
@@ -130,6 +137,23 @@ class _RuleFileReader:
                 self._places[rule.id] = f"{self._path.name}, line {entry.line(())}"
         for place, what in slips:
             self._fault(entry, place, what)
+
+    def _by_number(self, data: Any) -> Any:
+        """Return an entry whose ``reads`` have the axes of the schema in place of their letters in this file."""
+        if not self._axes or not isinstance(data, dict) or not isinstance(data.get("reads"), dict):
+            return data
+        reads = {name: self._address(text) for name, text in data["reads"].items()}
+        return {**data, "reads": reads}
+
+    def _address(self, text: Any) -> Any:
+        name, sign, letter = text.rpartition("@") if isinstance(text, str) else ("", "", "")
+        parameter = self._schema.parameters.get(name)
+        if not sign or parameter is None or letter not in self._axes:
+            return text
+        machines = (self._schema.on(machine.key) for machine in self._schema.family.machines)
+        if any(letter in machine.instances(parameter) for machine in machines):
+            return text
+        return f"{name}@{self._axes[letter]}"
 
     def _same_id(self, entry: FactEntry, rule: BuilderRule) -> list[Slip]:
         line = self._lines.setdefault(rule.id, entry.line(()))

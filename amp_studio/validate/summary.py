@@ -35,7 +35,7 @@ def summary_of(path: Path) -> FileSummary:
     file = open_file(path).file
     family = file.schema.family
     names = {m.key: m.name for m in family.machines}
-    findings = Validator(file, rules_beside(path, file.schema)).run()
+    findings = Validator(file, rules_beside(path, file)).run()
     return FileSummary(
         name=file.header.name,
         family=family.family,

@@ -3,6 +3,9 @@
 It is offered only if with it its finding is gone and whatever comes up instead is less severe: never an error, a
 warning only for an error, a recommendation for either. So each fix that is made leaves fewer findings or lesser ones, and
 making one after the other comes to an end. Values that nobody gave (``schema.unset``) do not count.
+
+A fix that brings a warning has its message. One that would make a speed less than a thirtieth of itself is not
+offered: then another value is wrong, and nobody cuts a rapid to a sixtieth for a resolution that is a sixtieth.
 """
 
 from __future__ import annotations
@@ -13,15 +16,17 @@ from typing import NamedTuple
 
 from amp_studio.files import Change, ParameterFile, RangeError
 from amp_studio.files.parameter_file import Marks
-from amp_studio.schema import Address
+from amp_studio.schema import Address, canonical, dimension
 
 from .builder_rules import BuilderRules, sort_out
 from .checks import Checks
-from .finding import SEVERITIES, Finding
+from .finding import SEVERITIES, Finding, Setting
 from .plan import Place, Plan, RuleCheck, make_plan
 
 MOST_STEPS = 20_000_000
 """That a builder's rules may take in all trials of a file: about a second."""
+_LEAP = 0.03
+_SPEEDS = ("velocity", "angular velocity")
 _ASKED = 1000
 """Steps that it takes to ask a rule at all."""
 
@@ -35,6 +40,8 @@ class _Tried(NamedTuple):
     is_good: bool
     asked: frozenset[Place] | None
     """Besides the check of the finding itself; None if that is every check."""
+    brings: str = ""
+    """The message of a warning that comes up instead."""
 
 
 class Trials:
@@ -70,10 +77,21 @@ class Trials:
         """Return a finding of those that are ``filed`` with its fix, or without if that is not good."""
         if not finding.fix:
             return finding
+        if any(map(self._is_leap, finding.fix)):
+            return replace(finding, fix=(), safe=False)
         tried = self._tried.get(place)
         if tried is None:
             tried = self._tried[place] = self._try(place, finding, filed)
-        return finding if tried.is_good else replace(finding, fix=(), safe=False)
+        if not tried.is_good:
+            return replace(finding, fix=(), safe=False)
+        return replace(finding, brings=tried.brings, safe=False) if tried.brings else finding
+
+    def _is_leap(self, setting: Setting) -> bool:
+        """Return whether a fix makes so little of a speed that another value must be wrong."""
+        old, new = self._original.values.get(setting.address), setting.value
+        if old is None or dimension(old.unit) not in _SPEEDS or not old.value or not new.value:
+            return False
+        return abs(canonical(float(new.value), new.unit) / canonical(float(old.value), old.unit)) < _LEAP
 
     def too_many(self, filed: Mapping[Place, tuple[object, Finding]]) -> frozenset[Place]:
         """Return the findings that have a fix too many: trying it would ask a builder's rules for too long.
@@ -125,6 +143,7 @@ class Trials:
         self._checks.look_again()
         if self._found(place):
             return _Tried(False, self._bad_by(finding, (), asked))
+        brings = ""
         for other in asked:
             if not self._found(other):
                 continue
@@ -133,7 +152,9 @@ class Trials:
             is_new = other not in filed or not set(filed[other][1].causes).issuperset(found.causes)
             if is_new and not self._are_lesser((found,), finding):
                 return _Tried(False, self._bad_by(finding, (other,), asked))
-        return _Tried(True, asked)
+            if is_new and found.severity == "warning" and not brings:
+                brings = found.message
+        return _Tried(True, asked, brings)
 
     def _bad_by(self, mended: Finding, places: Iterable[Place], asked: frozenset[Place]) -> frozenset[Place]:
         """Return the checks that leave a fix bad while they, and that of the finding itself, are not asked again.

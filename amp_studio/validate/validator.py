@@ -101,7 +101,10 @@ class Validator:
         self._trials.changed(edited, (*addresses, *checks))
 
     def first_fix(self, wanted: Callable[[Finding], bool]) -> Finding | None:
-        """Return the first of the present ``findings`` that is ``wanted`` and has a fix; later fixes are not tried."""
+        """Return the first of the present ``findings`` that is ``wanted`` and has a fix; later fixes are not tried.
+
+        One whose fix brings a warning is returned only where no other one is left.
+        """
         too_many = self._trials.too_many(self._filed)
         fixable = [
             (order, place, finding)
@@ -112,10 +115,15 @@ class Validator:
         suppressions, evaluation = self.own.suppressions, self.file.evaluation
         suppressed = sort_out(tuple(finding for _, _, finding in fixable), suppressions, evaluation)[1]
         left_alone = {id(one.finding) for one in suppressed}
+        last = None
         for _, place, finding in fixable:
-            if id(finding) not in left_alone and self._trials.offered(place, finding, self._filed).fix:
+            offered = self._trials.offered(place, finding, self._filed)
+            if id(finding) in left_alone or not offered.fix:
+                continue
+            if not offered.brings:
                 return finding
-        return None
+            last = last or finding
+        return last
 
     def compare_with(self, earlier: Sequence[Earlier]) -> None:
         """Compare with other earlier values from now on, as after a save."""

@@ -58,7 +58,7 @@ def of(findings: tuple[Finding, ...], rule: str) -> list[Finding]:
 
 def test_a_machine_builder_adds_rules(mill, path: Path) -> None:
     path.write_text(OWN_RULE, encoding="utf-8")
-    validator = Validator(mill, rules_beside(path.with_name("mill.amp"), mill.schema))
+    validator = Validator(mill, rules_beside(path.with_name("mill.amp"), mill))
     own = of(validator.run(), "builder.rapid")
     assert len(own) == 7
     assert own[0].message == "Rapid 12000 mm/min is more than the screws of this machine bear."
@@ -353,7 +353,7 @@ def test_rules_that_are_no_file_are_a_finding_at_once(tmp_path: Path, kind: str)
             path.symlink_to("nothing")
     machine = tmp_path / "machine.amp"
     machine.touch()
-    found = rules_beside(machine, load_schema("9pc")).faults
+    found = rules_beside(machine, ParameterFile(load_schema("9pc"))).faults
     assert [fault.rule for fault in found] == ["rules.unusable"]
     assert found[0].message.startswith("rules.yaml: ")
 

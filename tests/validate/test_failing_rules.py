@@ -22,7 +22,7 @@ def checked(
         f"    reads: {{{reads}}}\n    optional: [rapid]\n    check: \"{check}\"\n    message: 'Rapid {{rapid}}.'\n",
         encoding="utf-8",
     )
-    return Validator(mill, rules_beside(folder / "mill.amp", mill.schema))
+    return Validator(mill, rules_beside(folder / "mill.amp", mill))
 
 
 def told(findings: tuple[Finding, ...]) -> list[str]:

@@ -367,7 +367,7 @@ def _opened(how: Callable[[Path], Document], path: Path) -> CheckedDocument:
 
 def checked(document: Document) -> Validator:
     """Return the validator of a document, already run, with the builder's rules beside the file and what it was."""
-    own = rules_beside(document.path, document.file.schema)
+    own = rules_beside(document.path, document.file)
     validator = Validator(document.file, own, earlier_of(document))
     validator.run()
     return validator

@@ -43,7 +43,7 @@ def enter_by_hand(control: ControlExchange) -> None:
     present, against = found
 
     def make() -> tuple[Sheet, Ticks]:
-        own = rules_beside(workspace.path, workspace.file.schema)
+        own = rules_beside(workspace.path, workspace.file)
         sheet = make_sheet(workspace.file, present, of=workspace.path.name, against=against, own=own,
                            secrets=workspace.secrets)  # fmt: skip
         return sheet, Ticks(ticks_path(workspace.path), sheet)

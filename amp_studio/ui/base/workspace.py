@@ -214,7 +214,7 @@ class Workspace(QObject):
 
     def read_own_rules(self) -> None:
         """Check again with the present rules file beside the parameter file."""
-        own = rules_beside(self.path, self.file.schema)
+        own = rules_beside(self.path, self.file)
         self.validator = Validator(self.file, own, earlier_of(self.document))
         self.findings, self._progress = self.validator.run(), None
         self.changed.emit([])

@@ -66,7 +66,7 @@ def _check(copy: Copy, path: Path) -> None:
     """Raise ValueError for a file with errors that is not a proven backup of a control."""
     if copy.file is None or copy.is_kept:
         return
-    findings = Validator(copy.file, rules_beside(path, copy.file.schema)).run()
+    findings = Validator(copy.file, rules_beside(path, copy.file)).run()
     error = next((f for f in findings if f.severity == "error"), None)
     if error is not None:
         raise ValueError(

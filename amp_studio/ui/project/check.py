@@ -53,7 +53,7 @@ def _checked(path: Path) -> CheckedFile:
         file = open_file(path).file
     except ParameterFileError as fault:
         return CheckedFile(path, fault=str(fault))
-    findings = Validator(file, rules_beside(path, file.schema)).run()
+    findings = Validator(file, rules_beside(path, file)).run()
     labels = tuple(file.machine_schema.label(f.addresses[0]) if f.addresses else "" for f in findings)
     return CheckedFile(path, findings, labels)
 

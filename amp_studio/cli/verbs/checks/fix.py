@@ -40,7 +40,7 @@ def run(options: Options) -> int:
     dry = options.dry_run
     with nullcontext(Document.view(options.path)) if dry else Document.open(options.path) as document:
         file = document.file
-        validator = Validator(file, rules_beside(options.path, file.schema))
+        validator = Validator(file, rules_beside(options.path, file))
         wanted = _wanted(validator, options)
         validator.run()
         done = apply_fixes(validator, wanted)

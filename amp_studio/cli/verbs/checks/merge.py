@@ -148,7 +148,7 @@ def _new_findings(merge: Merge, result: ParameterFile, beside: Path) -> list[Fin
     from amp_studio.validate import Validator, rules_beside
     from amp_studio.validate.new_findings import new_findings
 
-    own = rules_beside(beside, result.schema)
+    own = rules_beside(beside, result)
     before = [f for file in (merge.a, merge.b) for f in Validator(file, own).run()]
     return [f for f in new_findings(before, Validator(result, own).run()) if f.severity != "advice"]
 

@@ -257,7 +257,7 @@ def _own_rules(options: Options, path: Path, file: ParameterFile) -> BuilderRule
     from amp_studio.validate import rules_beside
 
     if not options.rules:
-        return rules_beside(path, file.schema)
-    from amp_studio.validate import read_builder_rules
+        return rules_beside(path, file)
+    from amp_studio.validate import axes_by_letter, read_builder_rules
 
-    return read_builder_rules(options.rules, file.schema)
+    return read_builder_rules(options.rules, file.schema, axes_by_letter(file))

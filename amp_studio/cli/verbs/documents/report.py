@@ -56,7 +56,7 @@ def run(options: Options) -> int:
 
     check_replaced(options.output, options.path, real_path(options.path).with_name(RULES_FILE))
     file = opened(options.path, options)
-    own = rules_beside(options.path, file.schema)
+    own = rules_beside(options.path, file)
     as_wanted = write_report(
         file,
         options.output,

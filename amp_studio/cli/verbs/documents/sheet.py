@@ -85,7 +85,7 @@ def run(options: Options) -> int:
             present,
             of=path.name,
             against=against,
-            own=rules_beside(path, file.schema),
+            own=rules_beside(path, file),
             secrets=options.secrets,
         )
         ticks = Ticks(ticks_path(path), sheet)

@@ -77,7 +77,7 @@ class _Source:
 
         if self.file is None or self._path is None:
             return ()
-        return Validator(self.file, rules_beside(self._path, self.schema)).run()
+        return Validator(self.file, rules_beside(self._path, self.file)).run()
 
 
 def run(options: Options) -> int:

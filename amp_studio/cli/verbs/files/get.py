@@ -60,7 +60,7 @@ def _print_not_set(options: Options, file: ParameterFile, only: set[Address] | N
     from amp_studio.schema import shown as unit_shown
     from amp_studio.validate import Validator, rules_beside
 
-    validator, rows = Validator(file, rules_beside(options.path, file.schema)), []
+    validator, rows = Validator(file, rules_beside(options.path, file)), []
     for each in progress(validator, validator.run()).steps:
         found = [address for address in each.open if only is None or address in only]
         rows += [value_row(file, address, options.secrets) | {"step": each.step.number} for address in found]

@@ -107,7 +107,7 @@ def run(options: Options) -> int:
     else:
         file = opened(path)
     step = _step(file.schema, asked_for) if asked_for else None
-    validator = Validator(file, rules_beside(path, file.schema))
+    validator = Validator(file, rules_beside(path, file))
     come = progress(validator, validator.run())
     if options.output:
         return _write(options, file, come, path)
