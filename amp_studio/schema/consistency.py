@@ -86,6 +86,10 @@ def faults_of_experience(plausible: Plausible, groups: tuple[Group, ...]) -> Ite
         for n, name in enumerate(names):
             if name not in known:
                 yield (key, n), f"there is no parameter {quoted(name)}"
+    for n, travel in enumerate(plausible.within):
+        for name in (travel.low, travel.high, *travel.inside):
+            if name not in known:
+                yield ("within", n), f"there is no parameter {quoted(name)}"
     for name in plausible.usual:
         if name not in known:
             yield ("usual", name), f"there is no parameter {quoted(name)}"

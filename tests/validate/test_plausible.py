@@ -72,7 +72,7 @@ def test_of_two_like_axes_both_are_asked_about() -> None:
 
 
 def test_what_differs_among_like_axes_is_no_matter() -> None:
-    assert found(example("acromill-router"), ("axes.soft_limit_minus", "Y"), Value(-22.0, "in")) == []
+    assert found(example("acromill-router"), ("axes.soft_limit_minus", "Y"), Value(-30.0, "in")) == []
     assert found(example("acromill-router"), ("axes.pulses_per_unit", "Y"), Value(40960.0, "counts/in")) == []
     (tenth,) = found(example("acromill-router"), ("axes.pulses_per_unit", "Y"), Value(2048.0, "counts/in"))
     assert "(a tenth of the other)" in tenth.message
@@ -137,6 +137,16 @@ def test_a_row_that_is_off_by_a_slip_is_asked_about() -> None:
 def test_a_bit_of_an_axis_that_is_not_there_is_asked_about() -> None:
     (finding,) = found(example("num-1060-mill"), ("axes.modulo", ""), Value(0x48))
     assert finding.message.endswith("has the bit of axis 6, which is not there. Is it meant?")
+
+
+def test_a_zone_outside_the_travel_is_asked_about_whichever_of_them_slipped() -> None:
+    """The travel of X is -500 to 8 mm, its zone 2 from -498 to -420 mm, and it homes at 6 mm."""
+    findings = found(example("mill-1394"), ("zone.limit2_min", "1"), Value(-4980.0, "mm"))
+    (message,) = [f.message for f in findings if f.rule == "plausible.outside-travel"]
+    assert message.endswith("is -4980 mm, outside the travel of its axis from -500 mm to 8 mm. Is it meant?")
+    findings = found(example("mill-1394"), ("zone.overtravel_negative", "1"), Value(-50.0, "mm"))
+    outside = {f.causes[0][0] for f in findings if f.rule == "plausible.outside-travel"}
+    assert outside == {"zone.limit2_min", "zone.limit2_max", "zone.limit3_min", "zone.limit3_max"}
 
 
 def test_what_decides_which_axes_there_are_is_a_reason_to_look_at_all() -> None:

@@ -20,6 +20,17 @@ class Usual(Model):
             raise ValueError("the least usual value is below the greatest")
 
 
+class TravelSpan(Model):
+    """Positions that are within the travel of their axis, unless a slip was made."""
+
+    low: ParameterId
+    """The end of travel in the negative direction."""
+    high: ParameterId
+    """The end in the positive direction."""
+    inside: tuple[ParameterId, ...]
+    """Positions of the same axis."""
+
+
 class Plausible(Model):
     """``plausible.yaml``: facts of experience, ours and not the manual's; what contradicts them is a recommendation."""
 
@@ -31,5 +42,7 @@ class Plausible(Model):
     """Tables, part after part, whose values run without a single one that jumps out."""
     axis_words: tuple[ParameterId, ...] = ()
     """Words with a bit for each axis, in their order, that mean nothing for an axis that is not there."""
+    within: tuple[TravelSpan, ...] = ()
+    """Travels, and what is within each."""
     usual: dict[ParameterId, Usual] = {}
     """Parameter -> its usual values."""

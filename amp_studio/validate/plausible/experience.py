@@ -14,6 +14,7 @@ from .earlier import EARLIER, Earlier, EarlierValues
 from .rows import ROW, EqualRows
 from .smooth import JUMP, SmoothTables
 from .usual import USUAL, UsualValues
+from .within import OUTSIDE, WithinTravel
 
 TITLES = {
     ALIKE: "Like axes that differ in one value",
@@ -21,6 +22,7 @@ TITLES = {
     JUMP: "A value that jumps out of its table",
     ROW: "A row that is not like the others",
     NO_AXIS: "A bit of an axis that is not there",
+    OUTSIDE: "A position outside the travel",
     EARLIER: "A value that was another one by a slip's factor",
 }
 """Rule -> its title."""
@@ -31,7 +33,8 @@ class Experience:
 
     def __init__(self, file: ParameterFile, earlier: Sequence[Earlier] = ()) -> None:
         self._file = file
-        self._parts = (Alike(file), UsualValues(file), SmoothTables(file), EqualRows(file), AxisWords(file))
+        tables = SmoothTables(file), EqualRows(file)
+        self._parts = (Alike(file), UsualValues(file), *tables, AxisWords(file), WithinTravel(file))
         self._earlier = EarlierValues(file, earlier)
         self._found: tuple[Finding, ...] | None = None
 

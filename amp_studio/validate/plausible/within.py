@@ -1,0 +1,86 @@
+"""Positions outside the travel of their axis: a zone, a reference point, a home position that the axis never reaches."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from amp_studio.files import ParameterFile
+from amp_studio.schema import Address, canonical, dimension, show_value
+from amp_studio.schema.model.plausible import TravelSpan
+from amp_studio.validate.finding import Finding
+
+OUTSIDE = "plausible.outside-travel"
+REASON = (
+    "ours, not the manual's: the axis stops at the end of its travel and never reaches a position behind it"
+)
+
+
+class WithinTravel:
+    """The positions of one file against the ends of travel, as the facts of its family name them."""
+
+    def __init__(self, file: ParameterFile) -> None:
+        self._file = file
+        self._of: dict[str, list[TravelSpan]] = {}
+        """Parameter -> the travels that it is an end of, or a position in."""
+        for travel in file.schema.plausible.within:
+            for name in (travel.low, travel.high, *travel.inside):
+                self._of.setdefault(name, []).append(travel)
+        self._found: dict[Address, Finding] = {}
+
+    def look_at_all(self) -> None:
+        """Look at every position."""
+        self._found.clear()
+        if self._of:
+            for address in self._file.values:
+                if address[0] in self._of:
+                    self._look_at(address)
+
+    def look_again(self, address: Address) -> bool:
+        """Look again at a position, or at all of an axis whose travel changed; returns whether anything is otherwise."""
+        travels, instance = self._of.get(address[0], ()), address[1]
+        positions = {(name, instance) for travel in travels for name in travel.inside}
+        before = {a: self._found.pop(a, None) for a in positions}
+        for position in positions:
+            self._look_at(position)
+        return any(self._found.get(a) != found for a, found in before.items())
+
+    def findings(self) -> Iterator[Finding]:
+        """Yield what was found."""
+        yield from self._found.values()
+
+    def _look_at(self, address: Address) -> None:
+        for travel in self._of[address[0]]:
+            if address[0] not in travel.inside:
+                continue
+            ends = (travel.low, address[1]), (travel.high, address[1])
+            at, low, high = map(self._position, (address, *ends))
+            if (
+                at is not None
+                and low is not None
+                and high is not None
+                and not low <= at <= high
+                and low < high
+            ):
+                self._found[address] = self._finding(address, ends)
+
+    def _position(self, address: Address) -> float | None:
+        """Return an active position in the canonical unit of a length or an angle; None for none."""
+        value = self._file.values.get(address)
+        if value is None or isinstance(value.value, bool | str):
+            return None
+        if (
+            dimension(value.unit) != self._measures(address)
+            or not self._file.evaluation.state(address).is_active
+        ):
+            return None
+        return canonical(value.value, value.unit)
+
+    def _measures(self, address: Address) -> str:
+        low = self._file.values.get((self._of[address[0]][0].low, address[1]))
+        return dimension(low.unit) if low is not None else ""
+
+    def _finding(self, address: Address, ends: tuple[Address, Address]) -> Finding:
+        here, parameters = self._file.schema.on(self._file.machine), self._file.schema.parameters
+        at, low, high = (show_value(parameters[a[0]], self._file.values[a]) for a in (address, *ends))
+        message = f"{here.label(address)} is {at}, outside the travel of its axis from {low} to {high}. Is it meant?"
+        return Finding(OUTSIDE, "advice", (address,), message, compared=ends, reason=REASON)
