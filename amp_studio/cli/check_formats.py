@@ -63,6 +63,8 @@ class FileFindings:
     """Findings about values as delivered, of steps that are not reached: a state of the file."""
     steps: Sequence[int] = ()
     """The numbers of these steps."""
+    motion: object = None
+    """What the check of the motion found, where it was asked for: text, or a part of the JSON document."""
 
     @property
     def counts(self) -> dict[str, int]:
@@ -128,6 +130,8 @@ class CheckFormat:
         if checked.state:
             yield checked.state
         yield checked.summary
+        if checked.motion:
+            yield str(checked.motion)
 
 
 def _reasons(validator: Validator, same: Iterable[Finding]) -> Iterator[str]:
@@ -150,7 +154,8 @@ class JsonFormat(CheckFormat):
             "findings": [self._finding(checked, f) for f in checked.findings],
             "suppressed": [finding_json(file, s.finding) | {"by": s.suppression.by, "reason": s.suppression.reason}
                            for s in checked.validator.suppressed],
-            "delivered": [self._finding(checked, f) for f in checked.delivered]})  # fmt: skip
+            "delivered": [self._finding(checked, f) for f in checked.delivered],
+            **({} if checked.motion is None else {"motion": checked.motion})})  # fmt: skip
 
     def all(self, results: Sequence[CheckResult]) -> str:
         entries = [one.printed or _dumped({"file": str(one.path), "error": one.fault}) for one in results]

@@ -7,6 +7,7 @@ import os
 import signal
 import sys
 from collections.abc import Callable, Iterator, Sequence
+from dataclasses import replace
 from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -34,6 +35,9 @@ VERB = Verb(
     ),
     VerbArgument(
         "--rules", type=path_of, help="a builder's own rules instead of the rules.yaml beside the file"
+    ),
+    VerbArgument(
+        "--motion", action="store_true", help="check the machine in motion too, as check does (text and JSON)"
     ),
     VerbArgument("--why", action="store_true", help="explain each finding: its rule, the values, the page"),
     VerbArgument("--no-cache", action="store_true", help="check every file, also one whose result is kept"),
@@ -75,6 +79,8 @@ def run(options: Options) -> int:
     form = CHECK_FORMATS[options.format]
     if options.why and options.format not in WITH_REASONS:
         raise UsageError(f"--why is for the formats {' and '.join(WITH_REASONS)}")
+    if options.motion and options.format not in WITH_REASONS:
+        raise UsageError(f"--motion is for the formats {' and '.join(WITH_REASONS)}")
     if options.rules:
         read_file(
             options.rules
@@ -105,7 +111,7 @@ def _results(
     options: Options, check: Callable[[Path], CheckResult], paths: Sequence[Path]
 ) -> Iterator[CheckResult]:
     """Yield the results of files in their order; those of several are kept for the next run."""
-    if len(paths) < 2 or options.no_cache:
+    if len(paths) < 2 or options.no_cache or options.motion:
         yield from _each(check, paths, options.jobs)
         return
     from amp_studio.cli.check_cache import CheckCache  # a file alone is checked before its database is open
@@ -225,8 +231,12 @@ def _check(options: Options, path: Path) -> CheckResult:
         file = opened(path, options, notes.append)
         validator = Validator(file, _own_rules(options, path, file), earlier_beside(path, file))
         checked = _checked(path, validator, options.why)
+        bad = 0
+        if options.motion:
+            found, bad = _in_motion(file, as_document=options.format == "json")
+            checked = replace(checked, motion=found)
         printed = CHECK_FORMATS[options.format].one(checked)
-        return CheckResult(path, checked.counts["error"], printed, tuple(notes))
+        return CheckResult(path, checked.counts["error"] + bad, printed, tuple(notes))
     except ParameterFileError as fault:
         return CheckResult(path, notes=tuple(notes), fault=str(fault), line=fault.line)
     except UsageError as fault:
@@ -235,6 +245,22 @@ def _check(options: Options, path: Path) -> CheckResult:
         raise
     except BaseException as error:  # a panic of the rule engine is no Exception
         return CheckResult(path, notes=tuple(notes), fault=f"{path}: {keep_details(error)}")
+
+
+def _in_motion(file: ParameterFile, *, as_document: bool) -> tuple[object, int]:
+    """Return what the check of the motion found, as text or for a JSON document, and how much of it is bad."""
+    from amp_studio.cli.motion_text import as_json, text
+    from amp_studio.sim import SimulationError
+    from amp_studio.sim.motion_check import check_motion
+
+    try:
+        checks = tuple(check_motion(file))
+    except SimulationError as error:
+        return (
+            {"checks": [], "why": error.what} if as_document else f"not checked in motion: {error.what}"
+        ), 0
+    found = as_json(file, checks) if as_document else text(checks)
+    return found, sum(check.verdict == "bad" for check in checks)
 
 
 def _checked(path: Path, validator: Validator, why: bool) -> FileFindings:

@@ -1,0 +1,99 @@
+"""Every scenario that a file allows: what of the machine in motion is good, and what is not."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import TYPE_CHECKING
+
+from amp_studio.cli.arguments import AXIS, JSON, OUTPUT, PATH
+from amp_studio.cli.console import print_json
+from amp_studio.cli.errors import UsageError
+from amp_studio.cli.motion_text import as_json, counts, figure_text, text
+from amp_studio.cli.opened import opened
+from amp_studio.cli.output import check_replaced
+from amp_studio.cli.verb import Options, Verb
+
+if TYPE_CHECKING:
+    from amp_studio.files import ParameterFile
+    from amp_studio.sim.motion_check import MotionCheck
+
+VERB = Verb(
+    __doc__,
+    PATH,
+    AXIS,
+    OUTPUT.but(required=False, help="file to write: .pdf, .html"),
+    JSON,
+    writes=("output",),
+    sections=("scenarios",),
+    examples=("amp-studio check MILL_1394.amp", "amp-studio check MILL_1394.amp --axis X -o motion.html"),
+)
+PAPERS = (".pdf", ".html")
+
+
+def run(options: Options) -> int:
+    """Check a file in motion: 1 where something is bad."""
+    from amp_studio.files import axis_instances
+    from amp_studio.schema import axis_meant
+    from amp_studio.sim import simulated_axes
+    from amp_studio.sim.motion_check import check_motion
+
+    if options.output:
+        check_replaced(options.output, options.path)
+        if options.output.suffix.lower() not in PAPERS:
+            raise UsageError(f"{options.output}: a check is written as {' or '.join(PAPERS)}")
+    file = opened(options.path)
+    axis = None
+    if options.axis:
+        axis = axis_meant(file.evaluation, axis_instances(file) or simulated_axes(file), options.axis)
+    checks = tuple(check_motion(file, axis))
+    if options.output:
+        _write(options, file, checks)
+    if options.json:
+        print_json(as_json(file, checks))
+    else:
+        print(text(checks))
+    return int(any(check.verdict == "bad" for check in checks))
+
+
+def _write(options: Options, file: ParameterFile, checks: Sequence[MotionCheck]) -> None:
+    from html import escape
+
+    from amp_studio.files.atomic import write_atomic
+
+    rows = [
+        (check.verdict, check.scenario, check.letter,
+         "; ".join(figure_text(name, value, unit) for name, (value, unit) in check.figures.items()),
+         " ".join((check.why, *(f"{alarm.code}." for alarm in check.alarms if alarm.code not in check.why))).strip())
+        for check in checks
+    ]  # fmt: skip
+    head = ("Verdict", "Scenario", "Axis", "Figures", "What is not good")
+    title = f"{file.header.name or options.path.stem}: in motion"
+    summary = ", ".join(f"{count} {verdict}" for verdict, count in counts(checks).items())
+    if options.output.suffix.lower() == ".html":
+        body = "".join(
+            "<tr>" + "".join(f"<td>{escape(cell)}</td>" for cell in row) + "</tr>\n" for row in rows
+        )
+        content = (
+            f'<!doctype html>\n<html lang="en"><meta charset="utf-8"><title>{escape(title)}</title>\n'
+            "<style>body{font:14px sans-serif;margin:2em}td,th{text-align:left;padding:.2em .8em;border-bottom:1px solid #ccc}</style>\n"
+            f"<h1>{escape(title)}</h1>\n<p>{escape(summary)}</p>\n<table>\n<tr>"
+            + "".join(f"<th>{cell}</th>" for cell in head)
+            + f"</tr>\n{body}</table>\n</html>\n"
+        ).encode()
+    else:
+        content = _pdf(title, summary, head, rows)
+    write_atomic(options.output, content, keep_backup=False)
+
+
+def _pdf(title: str, summary: str, head: Sequence[str], rows: Sequence[Sequence[str]]) -> bytes:
+    import json
+
+    from amp_studio.report.pdf import typeset
+
+    cells = ", ".join(f"[#{json.dumps(cell, ensure_ascii=False)}]" for row in (head, *rows) for cell in row)
+    source = (
+        '#set page(paper: "a4", flipped: true, margin: 15mm)\n#set text(size: 9pt)\n'
+        f"= #{json.dumps(title, ensure_ascii=False)}\n#{json.dumps(summary)}\n"
+        f"#table(columns: (auto, auto, auto, 1fr, 1fr), stroke: 0.4pt, {cells})\n"
+    )
+    return typeset(source)

@@ -1,0 +1,119 @@
+"""Every scenario that a file allows, run at once: what is good, what is doubtful, what is bad, with the control's own words."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass, field
+from typing import Literal
+
+from amp_studio.files import ParameterFile
+from amp_studio.schema import axis_name
+
+from .errors import SimulationError
+from .law import Law, law_of
+from .run import bind_axis, simulate
+from .trace import Alarm, Figure, Trace
+
+Verdict = Literal["good", "doubtful", "bad", "not possible"]
+CHECKED = ("step", "velocity", "frequency", "circle", "home", "jog", "travel")
+"""Scenarios that ask for nothing and change nothing, in the order in which they are shown."""
+LEAST_PHASE, LEAST_GAIN = 30.0, 6.0
+"""deg and dB: margins below which a loop is doubtful (as the solver of the gains asks at least)."""
+NEAR_GRID = (20.0, 80.0)
+"""% of a turn between switch and marker that is sure (Syntec 2.2)."""
+SHOWN = {
+    "step": ("steady_following_error", "peak_following_error", "settle_time", "overshoot", "peak_output"),
+    "velocity": ("settle_time", "overshoot", "peak_torque"),
+    "frequency": ("bandwidth", "phase_margin", "gain_margin"),
+    "circle": ("radius_error", "circularity"),
+    "home": ("home_position", "home_grid", "switch_overrun", "time"),
+    "jog": ("feedrate", "stop_position", "time"),
+    "travel": ("limit", "stop_position", "overrun"),
+}
+"""The figures of a check, as far as the scenario has them."""
+
+
+@dataclass(frozen=True)
+class MotionCheck:
+    """One scenario of one axis."""
+
+    scenario: str
+    axis: str
+    letter: str
+    verdict: Verdict
+    figures: dict[str, Figure] = field(default_factory=dict)
+    alarms: tuple[Alarm, ...] = ()
+    why: str = ""
+    """What is not good, or not possible, in a sentence."""
+    params: tuple[str, ...] = ()
+    """Ids of the parameters to look at."""
+    assumptions: tuple[str, ...] = ()
+
+
+def check_motion(file: ParameterFile, axis: str | None = None) -> Iterator[MotionCheck]:
+    """Yield the check of every scenario and axis that a file has; ``axis`` for one alone, named by itself.
+
+    Raises SimulationError for a family without a law and for a file without axes.
+    """
+    law = law_of(file.schema.family.family)
+    axes = tuple(law.axes(file))
+    if not axes:
+        raise SimulationError(law.without_axes)
+    chosen = axes if axis is None else (axis,)
+    for scenario in (each for each in CHECKED if each in law.scenarios):
+        for each in chosen:
+            yield _checked(file, law, scenario, each)
+            if scenario == "circle":
+                break  # two axes make it
+
+
+def _checked(file: ParameterFile, law: Law, scenario: str, axis: str) -> MotionCheck:
+    letter = axis_name(file.evaluation, axis) or axis
+    try:
+        trace = simulate(file, scenario, axis, advise=False)
+    except SimulationError as error:
+        read = (error.parameter,) if error.parameter in file.schema.parameters else ()
+        return MotionCheck(scenario, axis, letter, "not possible", why=error.what, params=read)
+    verdict, why = _verdict(trace)
+    shown = {name: trace.result[name] for name in SHOWN[scenario] if name in trace.result}
+    params = _parameters(file, law, trace) if verdict != "good" else ()
+    return MotionCheck(scenario, axis, letter, verdict, shown, trace.alarms, why, params, trace.assumptions)
+
+
+def _verdict(trace: Trace) -> tuple[Verdict, str]:
+    """Return what a trace shows, and why it is not good."""
+    alarms = trace.alarms
+    if trace.scenario == "travel":  # the alarm of the limit is what the check asks for
+        if trace.result.get("stop_position", (None, ""))[0] is None:
+            return "bad", "The axis does not come to rest behind the limit"
+        alarms = alarms[:-1]
+    if alarms:
+        return "bad", alarms[0].message
+    figure = {name: value for name, (value, _) in trace.result.items() if value is not None}
+    if trace.scenario == "home" and trace.result.get("home_position", (0.0, ""))[0] is None:
+        return "bad", "The axis does not reach its home position"
+    if trace.scenario == "step" and trace.result.get("in_position_time", (0.0, ""))[0] is None:
+        return "bad", "The axis does not get in position"
+    if "home_grid" in figure and not NEAR_GRID[0] <= figure["home_grid"] <= NEAR_GRID[1]:
+        return (
+            "doubtful",
+            f"The marker is {figure['home_grid']:.0f} % of a turn from the switch: it may be another one each time",
+        )
+    if figure.get("phase_margin", LEAST_PHASE) < LEAST_PHASE:
+        return "doubtful", f"The phase margin is {figure['phase_margin']:.0f} deg, below {LEAST_PHASE:g}"
+    if figure.get("gain_margin", LEAST_GAIN) < LEAST_GAIN:
+        return "doubtful", f"The gain margin is {figure['gain_margin']:.1f} dB, below {LEAST_GAIN:g}"
+    return "good", ""
+
+
+def _parameters(file: ParameterFile, law: Law, trace: Trace) -> tuple[str, ...]:
+    """Return the parameters behind the figures of a scenario that is not good."""
+    sources = bind_axis(file, law, trace.axis).sources
+    by_scenario: dict[str, tuple[str, ...]] = {
+        "home": (),
+        "travel": ("feedrate", "acceleration"),
+        "jog": ("feedrate", "acceleration"),
+    }
+    wanted = by_scenario.get(trace.scenario, ("position_gain", "velocity_gain", "feedrate", "acceleration"))
+    found = [sources[name].parameter for name in wanted if name in sources]
+    return tuple(dict.fromkeys(found))
