@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from amp_studio.files import Header, Notify, ParameterFile, secret_values, without_secrets, write_atomic
+from amp_studio.files.erased import erased_question
 from amp_studio.files.notes import set_value_note
 from amp_studio.schema import Address, Schema, Value, load_schema, read_address
 from amp_studio.schema.nearest import unknown_name
@@ -71,6 +72,8 @@ def import_file(
     for message in read.notes:
         notify(message)
     file = file_of(schema, read, path.stem)
+    if question := erased_question(file):
+        notify(question)
     take_account(account_of_import(file, read))
     return file
 

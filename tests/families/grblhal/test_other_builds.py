@@ -13,7 +13,7 @@ from amp_studio.cli import run
 from amp_studio.families.grblhal.described import schema_of
 from amp_studio.families.grblhal.formats.listing import FORMAT
 from amp_studio.files import new_file, open_file
-from amp_studio.formats import file_of
+from amp_studio.formats import file_of, import_file
 from amp_studio.formats.text_format import ReadOptions, TextRead
 from amp_studio.schema import Value, load_schema
 from amp_studio.transfer.client.exchange import WantedContent, download
@@ -186,3 +186,17 @@ def test_a_listing_goes_to_a_control_by_its_numbers_and_what_that_lacks_is_not_s
     assert [line for line in sent if line.partition(b"=")[0] in (b"$110", b"$16", b"$370", b"$N0")] == [
         b"$110=777.000"
     ]
+
+
+@pytest.mark.parametrize(("rate", "is_asked"), [("500.000", True), ("600.000", False)])
+def test_a_listing_of_nothing_but_defaults_is_asked_about(tmp_path: Path, rate: str, is_asked: bool) -> None:
+    """A fresh Grbl 1.1 lists these, and a machine that was set up has other values."""
+    settings = (
+        "0=10 1=25 2=0 3=0 4=0 5=0 6=0 10=1 11=0.010 12=0.002 13=0 20=0 21=0 22=0 23=0 24=25 25=500 26=250 27=1 30=1000 "
+        f"31=0 32=0 100=250 101=250 102=250 110={rate} 111=500 112=500 120=10 121=10 122=10 130=200 131=200 132=200"
+    )
+    path, notes = tmp_path / "fresh.txt", list[str]()
+    path.write_text("".join(f"${each}\n" for each in settings.split()), "utf-8")
+    import_file(path, notify=notes.append)
+    asked = [note for note in notes if note.endswith("was the memory of the control erased?")]
+    assert len(asked) == is_asked

@@ -6,7 +6,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from amp_studio.cli.arguments import JSON, ON_FAULT, OUTPUT, several_controls
-from amp_studio.cli.console import print_json, progress
+from amp_studio.cli.console import note, print_json, progress
 from amp_studio.cli.errors import UsageError
 from amp_studio.cli.output import check_new, write_new
 from amp_studio.cli.stopping import asked_politely
@@ -38,6 +38,7 @@ def run(options: Options) -> int:
     from amp_studio.cli.by_hand import note_by_hand
     from amp_studio.cli.fleet import check_fleet, is_fleet, record_upload, upload_several
     from amp_studio.cli.out_of_range import settle_values
+    from amp_studio.files.erased import erased_question
     from amp_studio.report.wording import counted
     from amp_studio.transfer.client.kept import IMAGE, digest_path, save_image
     from amp_studio.transfer.client.parameters import fetch_image, sha256
@@ -61,6 +62,8 @@ def run(options: Options) -> int:
         note_by_hand(file.schema.family.family)
         settle_values(file, options.on_fault, "an upload")
         write_new(file, output)
+        if question := erased_question(file):
+            note(f"{output}: {question}")
         values = len(file.values)
         text = f"{output}: {counted(values, 'value')}"
         record_upload(output, file, source, image)
