@@ -38,7 +38,7 @@ from PySide6.QtGui import QPainter, QPixmap  # noqa: E402  # Qt reads the enviro
 from PySide6.QtTest import QTest  # noqa: E402  # Qt reads the environment that is set above
 from PySide6.QtWidgets import QApplication, QWidget  # noqa: E402  # Qt reads the environment that is set above
 
-from amp_studio.files import Document, ParameterFile, Project, ProjectInfo, compare, new_file, save_file  # noqa: E402  # Qt reads the environment that is set above
+from amp_studio.files import Document, ParameterFile, Project, ProjectInfo, new_file, save_file  # noqa: E402  # Qt reads the environment that is set above
 from amp_studio.schema import Value  # noqa: E402  # Qt reads the environment that is set above
 from amp_studio.ui.base.task import Task  # noqa: E402  # Qt reads the environment that is set above
 from amp_studio.ui.base.theme import scheme  # noqa: E402  # Qt reads the environment that is set above
@@ -236,18 +236,9 @@ class Stage:
     def exchange(self) -> None:
         """What a download would change, and what was exchanged before."""
         from amp_studio.transfer.client.record import Exchange, add_exchange
-        from amp_studio.ui.control.download_preview import DownloadPreview
 
         workspace = self.window.workspace
-        held = workspace.file.copy()
-        held.set(RAPID, Value(190.0, "mm/s"))
-        held.set(CALIBRATION, Value(0.5, "mm"))
-        preview = DownloadPreview(
-            workspace.file, compare(workspace.file.schema, workspace.file.values, held.values), self.window
-        )
-        preview.show()
-        self.take("14-download-preview", preview)
-        preview.close()
+        self.control_page()
         for when, verb, text in (("2026-03-10T07:12:00Z", "upload", "written into MILL_1394.amp"),
                                  ("2026-03-12T08:30:00Z", "download", "complete and read back equal")):  # fmt: skip
             add_exchange(workspace.path, Exchange(when, "operator", verb, workspace.path.name, "9pc", "tcp://192.168.0.20:4001",
@@ -256,6 +247,33 @@ class Stage:
         self.window.control.recorded()
         with self.beside("ExchangesDialog") as dialog:
             self.take("15-history", dialog)
+
+    def control_page(self) -> None:
+        """The page at the control: without E-stop, with differences, sent, not reached."""
+        from amp_studio.ui.base.emulated_control import EmulatedControl
+
+        emulated = EmulatedControl(self.window)
+        emulated.start("9pc", "mill")
+        settle(lambda: emulated.address)
+        control, window = self.window.control, self.window
+        control.exchanges.choose(window.workspace, emulated.address)
+        emulated.send("estop off")
+        control.show("send")
+        settle(lambda: control.page.session.in_estop is False or control.page.session.ask())
+        self.take("14-control-estop", window, LARGE)
+        emulated.send("estop on")
+        settle(lambda: control.page.session.in_estop or control.page.session.ask())
+        self.take("14-control-differences", window, LARGE)
+        self.take("14-control-differences", window, SMALL)
+        control.page.checked.setChecked(True)
+        control.page.press()
+        settle()
+        self.take("14-control-done", window, LARGE)
+        emulated.stop(wait=True)
+        control.page.connect_again()
+        settle()
+        self.take("14-control-away", window, LARGE)
+        control.leave()
 
     def motion(self) -> None:
         """A simulated movement."""

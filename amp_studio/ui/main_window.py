@@ -27,7 +27,7 @@ from .actions.theme import ThemeActions
 from .actions.view import ViewActions
 from .base.garbage import collect_by_timer, set_apart
 from .base.program_icon import program_icon
-from .base.questions import show_message
+from .base.questions import ask, show_message
 from .base.task import Task
 from .base.theme import wear
 from .base.workspace import Workspace
@@ -73,7 +73,8 @@ class MainWindow(StudioWindow):
         self.edits.menu.addAction(self.filters.bookmark)
         self.themes = ThemeActions(self, self.view.menu)
         self.languages = LanguageActions(self, self.view.menu)
-        self.control = ControlActions(self, self.files)
+        self.centre = QStackedWidget()
+        self.control = ControlActions(self, self.files, self.centre, self.show_values)
         self.projects = ProjectActions(self, self.files.open_path)
         self.project_files = ProjectFiles(
             self, self.files.open_path, self.files.comparing, self.projects.show_at, self.projects.change
@@ -87,7 +88,6 @@ class MainWindow(StudioWindow):
             self.action(self.tr("&Reset Layout"), self.docks.reset),
         ])  # fmt: skip
         self.welcome = WelcomePage(self, self.files, self.control, self.projects.open)
-        self.centre = QStackedWidget()
         self.centre.addWidget(self.welcome)
         self.centre.addWidget(self.tabs)
         self.setCentralWidget(self.centre)
@@ -169,6 +169,12 @@ class MainWindow(StudioWindow):
         self.docks.show_page(page)
         self.enable()
 
+    def show_values(self) -> None:
+        """Show the file in front, or the welcome page, in the place of the page at the control."""
+        self._show_page(self.page)
+        if self.page is not None:
+            self.page.setFocus()
+
     def _show_value(self, *_: object) -> None:
         self.status.value.setText(self.page.address_text() if self.page else "")
 
@@ -216,7 +222,7 @@ class MainWindow(StudioWindow):
         self.pictures.check(self.page)
         self.preview.check()
         self.tools.show_units()
-        self.status.show_file(workspace, self.settings.control())
+        self.status.show_file(workspace, " ".join(self.control.state_of(workspace)[:2]))
         if workspace is None:
             self.setWindowTitle("AMP Studio")
             self.setWindowModified(False)
@@ -236,6 +242,12 @@ class MainWindow(StudioWindow):
     # -- leaving ---------------------------------------------------------------
 
     def closeEvent(self, event: QCloseEvent) -> None:
+        if self.control.is_sending and ask(
+            self, self.tr("Sending"), self.tr("Values are being sent to a control. Closing stops at the next safe point."),
+            self.tr("&Stop and Close"), self.tr("Cancel"),
+        ) != self.tr("&Stop and Close"):  # fmt: skip
+            event.ignore()
+            return
         if not all(self.may_leave(page) for page in self.tabs.pages()):
             event.ignore()
             return

@@ -269,8 +269,16 @@ class Control:
         lines = (line for line in self._process.stdout if line.startswith("listening on "))
         self.address = next(lines).removeprefix("listening on ").strip()
 
+    def says(self, command: str) -> None:
+        """Type a command at its panel: ``estop on``."""
+        assert self._process.stdin is not None
+        self._process.stdin.write(f"{command}\n")
+        self._process.stdin.flush()
+
     def stop(self) -> None:
-        """End the process."""
+        """End the process; stopping twice is no fault."""
+        if self._process.poll() is not None:
+            return
         assert self._process.stdin is not None
         assert self._process.stdout is not None
         self._process.stdin.close()

@@ -10,9 +10,7 @@ from PySide6.QtCore import Qt
 from PySide6.QtGui import QAccessible
 from PySide6.QtWidgets import QApplication, QHeaderView, QWidget
 
-from amp_studio.files import compare
 from amp_studio.schema import Value
-from amp_studio.ui.control.download_preview import DownloadPreview
 from amp_studio.ui.control.exchanges_dialog import ExchangesDialog
 from amp_studio.ui.dialogs.calculator_dialog import CalculatorDialog
 from amp_studio.ui.dialogs.file_dialogs import ReportDialog
@@ -121,20 +119,9 @@ def pictures(window: MainWindow) -> QWidget:
     return window
 
 
-def preview(window: MainWindow) -> QWidget:
-    file = window.workspace.file
-    other = {k: v for k, v in file.values.items() if k != EXCESS}
-    return DownloadPreview(file, compare(file.schema, file.values, other), window)
-
-
-def test_the_preview_of_a_download_names_the_dangers_of_what_changes(window: MainWindow) -> None:
-    shown = preview(window)
-    assert isinstance(shown, DownloadPreview)
-    assert "Excess Error (Axis 1): This limit guards against damage and injury" in shown.dangers.text()
-    same = window.workspace.file
-    assert not hasattr(
-        DownloadPreview(same, compare(same.schema, same.values, same.values), window), "dangers"
-    )
+def at_the_control(window: MainWindow) -> QWidget:
+    action(window, "At the Control").trigger()
+    return window
 
 
 def report(window: MainWindow) -> QWidget:
@@ -163,7 +150,7 @@ PAGES: dict[str, Callable[[MainWindow], QWidget]] = {
     "new": shown(lambda window: NewFileDialog(window, "9pc")),
     "report": shown(lambda window: ReportDialog(window.workspace.path, window)),
     "note": shown(lambda window: NoteDialog(window.workspace, EXCESS, window)),
-    "download": shown(preview), "project check": shown(project_check),
+    "download": shown(at_the_control), "project check": shown(project_check),
 }  # fmt: skip
 
 

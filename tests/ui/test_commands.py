@@ -146,7 +146,7 @@ def test_find_from_anywhere(window: MainWindow) -> None:
 def test_without_a_file_only_what_needs_none_is_offered(open_window) -> None:
     window = open_window()
     enabled = {name for name, a in commands(window.menuBar()) if a.isEnabled()}
-    assert {"File › New", "File › Open", "Control › Upload From Control", "Help › Commands"} <= enabled
+    assert {"File › New", "File › Open", "Control › Read From the Control", "Help › Commands"} <= enabled
     assert not {"File › Save", "Edit › Clear (Not Set)", "Axis › Copy Axis", "View › Motion"} & enabled
 
 

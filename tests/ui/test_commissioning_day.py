@@ -16,7 +16,6 @@ from amp_studio.files import ParameterFile
 from amp_studio.files.examples import examples
 from amp_studio.schema import Value
 from amp_studio.ui.base.workspace import Workspace
-from amp_studio.ui.control.download_preview import DownloadPreview
 from amp_studio.ui.dialogs.file_dialogs import ReportDialog
 from amp_studio.ui.dialogs.new_file_dialog import NewFileDialog
 from amp_studio.ui.dialogs.note_dialog import NoteDialog
@@ -26,6 +25,7 @@ from amp_studio.ui.merge.window import MergeWindow
 from amp_studio.ui.motion.tuning_window import TuningWindow
 from amp_studio.ui.table.block_preview import BlockPreview
 
+from .at_control import at_control, settled
 from .conftest import WAIT_MS, Control, Person, action, editor, on_disk
 
 EXCESS, CALIBRATION = ("servo.excess_error", "1"), ("home.calibration", "1")
@@ -190,17 +190,18 @@ def the_reversal_error_is_tuned(day: Day) -> None:
 
 
 def the_control_gets_it_after_a_look_at_what_changes(day: Day, control: Control) -> None:
-    changes: list[int] = []
-    day.accept(DownloadPreview, lambda dialog: changes.append(len(dialog.list.items)))
-    day.person.types(control.address)
-    if day.workspace.count("error"):
-        day.person.answers("Download")
-    day.do("Download to Control")
-    assert day.person.reads().startswith("Download complete and read back equal")
-    assert changes[0] > 100
-    day.person.types(control.address)
-    day.do("Verify With Control")
-    assert day.person.reads().startswith("Nothing differs")
+    page = at_control(day.window, control.address, "send", day.qtbot)
+    assert len(page.table.taken(file=True)) > 100
+    page.checked.setChecked(True)
+    for answer in page.bar.buttons:
+        answer.click()
+    page.press()
+    settled(day.window, day.qtbot)
+    assert "Download complete and read back equal" in page.empty.text()
+    page.connect_again()
+    settled(day.window, day.qtbot)
+    assert "Nothing differs" in page.empty.text()
+    day.window.control.leave()
 
 
 def the_report_for_the_cabinet_is_written(day: Day) -> None:

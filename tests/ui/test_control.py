@@ -1,4 +1,4 @@
-"""Download, verify and upload against an emulated control in a separate process."""
+"""At the control: compare, send, read and restore with an emulated control in a separate process, in one page."""
 
 from __future__ import annotations
 
@@ -9,258 +9,304 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from PySide6.QtWidgets import QDialogButtonBox
+from PySide6.QtCore import Qt
+from PySide6.QtTest import QTest
 from pytestqt.qtbot import QtBot
 
-from amp_studio.files import ParameterFile, content_of, new_file, open_file
+from amp_studio.files import ParameterFile, Project, ProjectInfo, content_of, new_file, open_file
 from amp_studio.schema import Value
 from amp_studio.transfer.client import parameters
 from amp_studio.transfer.exchange import Exchange
-from amp_studio.ui.base.task import ProgressDialog
-from amp_studio.ui.control.download_preview import DownloadPreview
 from amp_studio.ui.main_window import MainWindow
-from amp_studio.ui.merge.model import BASE, B
-from amp_studio.ui.merge.window import MergeWindow
 
-from .conftest import WAIT_MS, Control, Person, action, during, on_disk
+from .at_control import at_control, sent, settled
+from .conftest import WAIT_MS, Control, Person, action, on_disk
 
 EXCESS = ("servo.excess_error", "1")
 Start = Callable[..., Control]
 
 
-def download(window: MainWindow, person: Person, control: Control) -> str:
-    """Download the open file and return what is reported at the end."""
-    person.types(control.address)
-    action(window, "Download to Control").trigger()
-    return person.reads()
-
-
-def test_download_verify_upload(
-    window: MainWindow, start_control: Start, person: Person, accept, tmp_path: Path
+def test_a_file_is_sent_read_back_and_read_again(
+    window: MainWindow, start_control: Start, person: Person, qtbot: QtBot, tmp_path: Path
 ) -> None:
     """What a control gives back is what it was given, and what it contained before is kept beside the file."""
     control = start_control()
-    previews = []
-    accept(DownloadPreview, lambda dialog: previews.append(len(dialog.list.items)))
-
-    said = download(window, person, control)
-
-    assert said.startswith("Download complete and read back equal")
-    assert previews[0] > 100
-    kept = list(window.workspace.path.parent.glob("mill.before-*.img"))
-    assert len(kept) == 1
-    assert str(kept[0]) in said
-
-    person.types(control.address)
-    action(window, "Verify With Control").trigger()
-    assert person.reads() == (
-        f"Nothing differs: {len(window.workspace.file.values)} values and every byte are the same."
-    )
-
-    person.types(control.address)
+    page = at_control(window, control.address, "send", qtbot)
+    count = len(page.table.taken(file=True))
+    assert page.primary.text() == f"Send {count} Values to the Control"
+    assert count > 100
+    assert not page.primary.isEnabled(), "what can be dangerous is not checked"
+    page = sent(window, control.address, qtbot)
+    (kept,) = window.workspace.path.parent.glob("mill.before-*.img")
+    assert page.session.phase == "done"
+    assert "complete and read back equal" in page.empty.text()
+    assert str(kept) in page.empty.text()
+    page.connect_again()
+    settled(window, qtbot)
+    assert page.table.rows == {}
+    assert "Nothing differs" in page.empty.text()
+    assert not page.primary.isEnabled() or page.direction != "send"
+    page.turn("read")
     person.chooses(tmp_path / "from-control.amp")
     before = dict(window.workspace.file.values)
-    action(window, "Upload From Control").trigger()
+    page.press()
     assert window.workspace.path == tmp_path / "from-control.amp"
-    assert window.workspace.file.values == before
     assert on_disk(tmp_path / "from-control.amp").values == before
+    assert not window.control.is_shown, "the new file is in front"
 
 
-def test_a_control_that_takes_single_settings_is_served_like_any_other(
-    window: MainWindow, start_control: Start, person: Person, accept, tmp_path: Path
+def test_one_changed_value_takes_two_keys_and_its_row_says_what_it_was(
+    window: MainWindow, start_control: Start, qtbot: QtBot
 ) -> None:
-    control = start_control(family="grblhal", machine="grblhal")
-    previews = []
-    accept(DownloadPreview, lambda dialog: previews.append(len(dialog.list.items)))
-    person.types(control.address)
-    person.chooses(tmp_path / "router.amp")
-    action(window, "Upload From Control").trigger()
-    window.workspace.edit("travel", {window.workspace.file.find("$130"): Value(301.5, "mm")})
+    control = start_control()
+    sent(window, control.address, qtbot)
+    window.control.leave()
+    address = EXCESS
+    window.edits.commit(address, "11.5 mm")
     assert window.save()
+    window.control.page.session.read()
+    settled(window, qtbot)
+    action(window, "Send to the Control").trigger()
+    page = settled(window, qtbot)
+    assert list(page.table.rows) == [address]
+    assert page.primary.text() == "Send 1 Value to the Control"
+    page.checked.setChecked(True)
+    action(window, "Send to the Control").trigger()
+    settled(window, qtbot)
+    assert page.session.phase == "done"
+    assert parameters.fetch_file(control.address).get(address) == window.workspace.file.get(address)
 
-    assert download(window, person, control).startswith(
-        "Download complete and read back equal. What it contained"
-    )
 
-    assert previews == [1]
+def test_a_value_of_the_control_is_kept_and_goes_back_unchanged(
+    window: MainWindow, start_control: Start, qtbot: QtBot
+) -> None:
+    control = start_control()
+    sent(window, control.address, qtbot)
+    window.workspace.edit("two", {EXCESS: Value(12.0, "mm"), (EXCESS[0], "2"): Value(12.5, "mm")})
+    assert window.save()
+    window.control.page.session.read()
+    settled(window, qtbot)
+    page = at_control(window, control.address, "send", qtbot)
+    page.table.select(EXCESS)
+    assert page.keep.text() == "Keep 11 mm"
+    page.keep.click()
+    assert page.primary.text() == "Send 1 Value to the Control"
+    page.checked.setChecked(True)
+    page.press()
+    settled(window, qtbot)
+    assert "Kept as they were: 1750 Excess Error" in page.empty.text()
     held = parameters.fetch_file(control.address)
-    assert held.values[held.find("$130")] == Value(301.5, "mm")
+    assert [held.get((EXCESS[0], axis)) for axis in "12"] == [Value(11.0, "mm"), Value(12.5, "mm")]
+    assert window.workspace.file.get(EXCESS) == Value(12.0, "mm"), "the file keeps its own"
 
 
-def test_what_a_download_would_change_is_shown_first_and_can_be_left(
-    window: MainWindow, start_control: Start, person: Person, monkeypatch
+def test_space_changes_the_side_of_a_row_and_with_ctrl_that_of_its_group(
+    window: MainWindow, start_control: Start, qtbot: QtBot
 ) -> None:
-    control = start_control()
-    held = parameters.fetch_file(control.address).values
-    monkeypatch.setattr(DownloadPreview, "exec", lambda dialog: 0)
-    person.types(control.address)
+    page = at_control(window, start_control().address, "send", qtbot)
+    first = page.table.topLevelItem(0).child(0)
+    page.table.setCurrentItem(first)
+    before = len(page.table.taken(file=True))
+    QTest.keyClick(page.table, Qt.Key.Key_Space)
+    assert len(page.table.taken(file=True)) == before - 1
+    QTest.keyClick(page.table, Qt.Key.Key_Space)
+    QTest.keyClick(page.table, Qt.Key.Key_Space, Qt.KeyboardModifier.ControlModifier)
+    assert len(page.table.taken(file=True)) == before - page.table.topLevelItem(0).childCount()
 
-    action(window, "Download to Control").trigger()
 
-    assert parameters.fetch_file(control.address).values == held
-    assert list(window.workspace.path.parent.glob("*.before-*")) == []
-
-
-def test_a_change_at_the_control_after_the_preview_is_not_overwritten(
-    window: MainWindow, start_control: Start, person: Person, accept
+def test_a_change_at_the_control_after_it_was_read_is_not_overwritten(
+    window: MainWindow, start_control: Start, qtbot: QtBot
 ) -> None:
-    """Only what was shown and approved is replaced; what came in between stays."""
+    """Only what was shown is replaced; what came in between stays."""
     control = start_control()
+    at_control(window, control.address, "send", qtbot)
     other = new_file("9pc", "mill", ["X"])
-
-    def somebody_else(dialog: DownloadPreview) -> None:
-        parameters.download_file(
-            other, control.address, Exchange(keep=window.workspace.path.parent / "other")
-        )
-
-    accept(DownloadPreview, somebody_else)
-
-    said = download(window, person, control)
-
-    assert said.startswith(
-        "the control contains something else than what was approved to be replaced (sha256 "
-    )
-    assert said.endswith("; nothing was replaced in the control")
+    parameters.download_file(other, control.address, Exchange(keep=window.workspace.path.parent / "other"))
+    page = window.control.page
+    page.checked.setChecked(True)
+    page.press()
+    settled(window, qtbot)
+    assert page.session.phase == "failed"
+    assert page.bar.text.text().startswith("The control contains all old values.")
+    assert "something else than what was approved" in page.bar.text.text()
+    assert page.primary.text() == "Connect and Read"
     assert parameters.fetch_file(control.address).values == other.values
 
 
-def test_garbage_in_the_control_is_asked_about_kept_and_replaced(
-    window: MainWindow, start_control: Start, person: Person, path: Path, tmp_path: Path
+def test_garbage_in_the_control_is_shown_kept_and_replaced(
+    window: MainWindow, start_control: Start, path: Path, tmp_path: Path, qtbot: QtBot
 ) -> None:
     garbage = b"\x00 no image"
     memory = tmp_path / "control-0"
     memory.mkdir()
     (memory / "active.img").write_bytes(garbage)
     control = start_control()
-    person.answers("Download")
-
-    said = download(window, person, control)
-
-    assert "this is not a control image" in person.asked[0]
-    assert said.startswith("Download complete and read back equal")
+    page = at_control(window, control.address, "send", qtbot)
+    assert "this is not a control image" in page.empty.text()
+    page.press()
+    settled(window, qtbot)
+    assert page.session.phase == "done"
     kept = list(path.parent.glob("mill.before-*"))
     assert sorted(p.suffix for p in kept) == [".img", ".sha256"]
     assert min(kept).read_bytes() == garbage
 
 
-def test_a_header_that_differs_is_told_by_verify(
-    window: MainWindow, start_control: Start, person: Person, accept
+def test_a_header_that_differs_is_said_by_a_comparison(
+    window: MainWindow, start_control: Start, qtbot: QtBot
 ) -> None:
     control = start_control()
-    accept(DownloadPreview)
-    download(window, person, control)
+    sent(window, control.address, qtbot)
     window.workspace.file.header.revision = "9.99"
-    person.types(control.address)
-
-    action(window, "Verify With Control").trigger()
-
-    assert person.reads() == "All values are the same; only the header (revision) differs."
-
-
-def test_differences_to_the_control_are_listed_with_its_last_download_and_shown_beside_the_value(
-    window: MainWindow, start_control: Start, person: Person, accept, qtbot: QtBot
-) -> None:
-    control = start_control()
-    accept(DownloadPreview)
-    download(window, person, control)
-    window.edits.commit(EXCESS, "3 mm")
-
-    person.types(control.address)
-    action(window, "Verify With Control").trigger()
-
-    shown = window.findChild(MergeWindow)
-    assert [(row.address, row.a, row.b) for row in shown.merge.differing] == [
-        (EXCESS, Value(3.0, "mm"), Value(11.0, "mm"))
-    ]
-    assert shown.chosen[B].title == control.address
-    person.types(control.address)
-    for name in ("Control Now…", "Last Download"):
-        shown.head.buttons[BASE].fill()
-        offers = {a.text().replace("&", ""): a for a in shown.head.buttons[BASE].menu().actions()}
-        shown.use_base(None)
-        offers[name].trigger()
-        qtbot.waitUntil(lambda: BASE in shown.chosen, timeout=WAIT_MS)
-        assert [(row.address, row.kind) for row in shown.merge.differing] == [(EXCESS, "a")], name
-    window.go_to(EXCESS)
-    lines = window.detail.page.toPlainText().split("\n")
-    heads = [n for n, line in enumerate(lines) if line.startswith("In the control")]
-    assert [lines[n + 1] for n in heads] == ["11 mm"]
+    page = window.control.page
+    page.connect_again()
+    settled(window, qtbot)
+    page.turn("compare")
+    assert page.empty.text() == "All values are the same; only the header (revision) differs."
 
 
-def test_not_in_e_stop_gives_the_one_sentence(
-    window: MainWindow, start_control: Start, person: Person, accept
+def test_e_stop_is_asked_before_anything_is_sent_and_again_until_it_is_pressed(
+    window: MainWindow, start_control: Start, qtbot: QtBot
 ) -> None:
     control = start_control("--no-estop")
     held = parameters.fetch_file(control.address).values
-    accept(DownloadPreview)
-
-    said = download(window, person, control)
-
-    assert said == "please place the control in E-stop to download; nothing was replaced in the control"
+    page = at_control(window, control.address, "send", qtbot)
+    page.checked.setChecked(True)
+    assert "E-stop is not pressed" in page.conditions.accessibleDescription()
+    assert (page.primary.isEnabled(), page.note.text()) == (False, "Waiting: E-stop is not pressed")
+    assert page.bar.text.text().startswith("Press E-stop at the machine.")
+    assert page._asking.isActive(), "it is asked again every 2 s"
+    assert window.control.at_control.iconText().endswith("not in E-stop")
+    control.says("estop on")
+    qtbot.waitUntil(lambda: _flags(control.address), timeout=WAIT_MS)
+    page.session.ask()
+    settled(window, qtbot)
+    assert page.primary.isEnabled()
+    assert not page._asking.isActive()
+    assert page.bar.isHidden()
     assert parameters.fetch_file(control.address).values == held
 
 
-def test_cancel_in_the_middle_leaves_the_control_as_it_was(
-    window: MainWindow, start_control: Start, person: Person, accept, monkeypatch, qtbot: QtBot
-) -> None:
-    control = start_control()
-    held = parameters.fetch_file(control.address).values
-    accept(DownloadPreview)
+def slowed(monkeypatch: pytest.MonkeyPatch, act: Callable[[Exchange], object]) -> threading.Event:
+    """Have something done when the first part of a download is on its way; returns what is set then."""
     sending = threading.Event()
     real = parameters.download_file
 
     def slow(file: ParameterFile, address: str, exchange: Exchange, **approved: Any) -> object:
         def tell(stage: str, done: int, total: int) -> None:
             exchange.progress(stage, done, total)
-            if stage == "download":  # as if the line were slow
+            if stage == "download" and not sending.is_set():
                 sending.set()
-                assert exchange.cancel is not None
-                exchange.cancel.wait(WAIT_MS / 1000)
+                act(exchange)
 
         return real(file, address, replace(exchange, progress=tell), **approved)
 
     monkeypatch.setattr(parameters, "download_file", slow)
+    return sending
 
-    def cancel(dialog: ProgressDialog) -> None:
-        qtbot.waitUntil(lambda: dialog.text.text() == "Sending the file …", timeout=WAIT_MS)
-        dialog.buttons.button(QDialogButtonBox.StandardButton.Cancel).click()
-        assert dialog.text.text() == "Stopping at the next safe point …"
 
-    during(cancel, sending.is_set)
-    said = download(window, person, control)
-
-    assert said.endswith("nothing was replaced in the control")
+def test_cancel_says_what_it_leaves_and_leaves_the_control_as_it_was(
+    window: MainWindow, start_control: Start, monkeypatch, qtbot: QtBot
+) -> None:
+    control = start_control()
+    held = parameters.fetch_file(control.address).values
+    page = at_control(window, control.address, "send", qtbot)
+    page.checked.setChecked(True)
+    sending = slowed(monkeypatch, lambda exchange: exchange.cancel.wait(WAIT_MS / 1000))
+    page.press()
+    qtbot.waitUntil(sending.is_set, timeout=WAIT_MS)
+    assert page.cancel.text() == "Cancel, Keep All Old Values"
+    QTest.keyClick(page.table, Qt.Key.Key_Escape)
+    settled(window, qtbot)
+    assert page.session.phase == "failed"
+    assert page.bar.text.text().startswith("The control contains all old values.")
     assert parameters.fetch_file(control.address).values == held
 
 
-def test_errors_are_asked_about_before_a_download(
-    open_window, path: Path, bare: bytes, person: Person
+def test_a_line_that_is_pulled_while_sending_ends_with_the_truth_and_one_next_step(
+    window: MainWindow, start_control: Start, monkeypatch, qtbot: QtBot
 ) -> None:
-    path.write_bytes(bare)
-    window = open_window(path)
-    person.answers("Cancel")
-    action(window, "Download to Control").trigger()
-    assert "Download it anyway?" in person.asked[0]
+    control = start_control()
+    page = at_control(window, control.address, "send", qtbot)
+    page.checked.setChecked(True)
+    sending = slowed(monkeypatch, lambda _: control.stop())
+    page.press()
+    qtbot.waitUntil(sending.is_set, timeout=WAIT_MS)
+    qtbot.waitUntil(lambda: "trying again" in page.note.text(), timeout=WAIT_MS)
+    page.session.cancel()
+    settled(window, qtbot)
+    assert page.session.phase == "failed"
+    assert page.bar.text.text().startswith(("The control contains all old values.", "It is not known"))
+    assert page.primary.text() == "Connect and Read"
+    page.press()
+    settled(window, qtbot)
+    assert page.session.phase == "away"
+    assert "no connection to the control" in page.bar.text.text()
+    assert [button.text() for button in page.bar.buttons] == ["Try Again"]
 
 
-def test_only_what_is_saved_is_downloaded(window: MainWindow, person: Person, path: Path) -> None:
-    window.edits.commit(EXCESS, "3 mm")
-    person.answers("Cancel")
-    action(window, "Download to Control").trigger()
-    assert "unsaved changes" in person.asked[0]
-    assert on_disk(path).get(EXCESS) == Value(11.0, "mm")
+def test_errors_and_unsaved_changes_are_said_in_the_page_before_anything_is_sent(
+    window: MainWindow, start_control: Start, qtbot: QtBot, path: Path
+) -> None:
+    control = start_control()
+    window.edits.commit(EXCESS, "0.001 mm")
+    page = at_control(window, control.address, "send", qtbot)
+    page.checked.setChecked(True)
+    assert (page.primary.isEnabled(), page.note.text()) == (False, "Waiting: the file is not saved")
+    page.bar.buttons[0].click()
+    assert on_disk(path).get(EXCESS) == Value(0.001, "mm")
+    assert page.note.text() == "Waiting: the file has errors"
+    page.bar.buttons[0].click()
+    assert page.primary.isEnabled()
 
 
-def test_a_control_that_is_not_there_is_told(window: MainWindow, person: Person) -> None:
-    person.types("tcp://127.0.0.1:1")
-    action(window, "Verify With Control").trigger()
-    assert "no connection to the control" in person.reads()
-
-
-def test_an_address_that_is_none_is_told(window: MainWindow, person: Person) -> None:
-    person.types("over there")
-    action(window, "Verify With Control").trigger()
+def test_a_control_that_is_not_there_and_an_address_that_is_none(
+    window: MainWindow, person: Person, qtbot: QtBot
+) -> None:
+    page = at_control(window, "tcp://127.0.0.1:1", "compare", qtbot)
+    assert "no connection to the control" in page.bar.text.text()
+    page.known.field.setText("over there")
+    page.known._enter()
     assert "over there" in person.reads()
+    assert page.session.address == "tcp://127.0.0.1:1"
+
+
+def test_values_of_the_control_are_taken_into_the_file_in_one_step(
+    window: MainWindow, start_control: Start, qtbot: QtBot
+) -> None:
+    control = start_control()
+    sent(window, control.address, qtbot)
+    window.workspace.edit("two", {EXCESS: Value(12.0, "mm"), (EXCESS[0], "2"): Value(12.5, "mm")})
+    page = window.control.page
+    page.connect_again()
+    settled(window, qtbot)
+    page.turn("read")
+    page.table.take([EXCESS, (EXCESS[0], "2")], file=False)
+    assert page.primary.text() == "Take 2 Values into mill"
+    steps = window.workspace.undo_stack.count()
+    page.press()
+    assert window.workspace.file.get(EXCESS) == Value(11.0, "mm")
+    assert window.workspace.undo_stack.count() == steps + 1
+
+
+def test_one_value_is_written_now_where_the_control_takes_it_so(
+    start_control: Start, open_window, person: Person, tmp_path: Path, qtbot: QtBot
+) -> None:
+    control = start_control(family="grblhal", machine="grblhal")
+    window = open_window()
+    page = at_control(window, control.address, "read", qtbot)
+    person.chooses(tmp_path / "router.amp")
+    page.press()
+    travel, other = (window.workspace.file.find(number) for number in ("$130", "$131"))
+    window.workspace.edit("travel", {travel: Value(301.5, "mm"), other: Value(302.5, "mm")})
+    assert window.save()
+    page = at_control(window, control.address, "send", qtbot)
+    page.table.select(travel)
+    page.one.click()
+    settled(window, qtbot)
+    held = parameters.fetch_file(control.address)
+    assert held.get(travel) == Value(301.5, "mm")
+    assert held.get(other) != Value(302.5, "mm")
+    assert window.workspace.path.with_name("exchanges.jsonl").exists(), "it is recorded"
 
 
 @pytest.fixture
@@ -274,58 +320,47 @@ def odd_control(start_control: Start, path: Path) -> Control:
 
 
 def test_an_upload_walks_through_what_is_out_of_range(
-    open_window, odd_control: Control, person: Person, tmp_path: Path
+    open_window, odd_control: Control, person: Person, tmp_path: Path, qtbot: QtBot
 ) -> None:
     """Continue, edit or quit, for each value; without a file open, too."""
     window = open_window()
-    person.types(odd_control.address)
+    page = at_control(window, odd_control.address, "read", qtbot)
     person.answers("Quit checking")
-    action(window, "Upload From Control").trigger()
+    page.press()
     assert "1750 Excess Error" in person.asked[-1]
     assert window.workspace is None
-
-    person.types(odd_control.address, "many", "12 mm")
+    person.types("many", "12 mm")
     person.answers("Edit parameter", "Edit parameter")
     person.chooses(tmp_path / "mended")
-    action(window, "Upload From Control").trigger()
+    page.press()
     assert "is not a number" in person.reads()
     assert on_disk(tmp_path / "mended.amp").get(EXCESS) == Value(12.0, "mm")
 
-    person.types(odd_control.address)
-    person.answers("Continue checking")
-    person.chooses(tmp_path / "marked")
-    action(window, "Upload From Control").trigger()
-    assert "by an upload" in on_disk(tmp_path / "marked.amp").forced[EXCESS]
-
 
 def test_an_upload_is_not_lost_when_it_cannot_be_written(
-    open_window, odd_control: Control, person: Person, tmp_path: Path
+    open_window, odd_control: Control, person: Person, tmp_path: Path, qtbot: QtBot
 ) -> None:
     window = open_window()
-    person.types(odd_control.address)
+    page = at_control(window, odd_control.address, "read", qtbot)
     person.answers("Continue checking")
     person.chooses(tmp_path / "no folder" / "here.amp", tmp_path / "there.amp")
-    action(window, "Upload From Control").trigger()
+    page.press()
     assert "Choose another name" in person.reads()
     assert window.workspace.path == tmp_path / "there.amp"
+    assert "by an upload" in on_disk(tmp_path / "there.amp").forced[EXCESS]
 
 
-def test_the_emulated_control_starts_and_ends_with_the_program(
-    window: MainWindow, qtbot: QtBot, person: Person, accept
-) -> None:
+def test_the_emulated_control_starts_and_ends_with_the_program(window: MainWindow, qtbot: QtBot) -> None:
     emulated = window.control.emulated
     with qtbot.waitSignal(emulated.ready, timeout=WAIT_MS):
         action(window, "Start Emulated Control").trigger()
     assert not action(window, "Start Emulated Control").isEnabled()
     assert action(window, "Emulated Control in E-Stop").isChecked()
-
+    assert window.control.exchanges.address_of(window.workspace) == emulated.address, "it is the chosen one"
     action(window, "Emulated Control in E-Stop").trigger()  # out of E-stop
-    accept(DownloadPreview)
-    person.types(emulated.address)
     qtbot.waitUntil(lambda: _flags(emulated.address) is False, timeout=WAIT_MS)
-    action(window, "Download to Control").trigger()
-    assert "place the control in E-stop" in person.reads()
-
+    page = at_control(window, emulated.address, "send", qtbot)
+    assert page.note.text() == "Waiting: E-stop is not pressed"
     with qtbot.waitSignal(emulated.ended, timeout=WAIT_MS):
         action(window, "Stop Emulated Control").trigger()
     assert "stopped" in window.statusBar().currentMessage()
@@ -345,19 +380,20 @@ def _flags(address: str) -> bool:
         return bool(session.hello().flags & Flags.ESTOP)
 
 
-def test_the_project_names_its_control(window: MainWindow, person: Person, path: Path, monkeypatch) -> None:
-    from PySide6.QtWidgets import QInputDialog
-
-    from amp_studio.files import Project, ProjectInfo
-
-    Project.create(
-        path.parent, ProjectInfo(name="Mill", family="9pc", machine="mill", control="tcp://10.1.2.3:9600")
+def test_the_project_names_its_control_and_each_file_remembers_its_own(
+    window: MainWindow, path: Path
+) -> None:
+    info = ProjectInfo(
+        name="Mill", family="9pc", machine="mill", control="tcp://10.1.2.3:9600", control_name="CNC_7"
     )
+    Project.create(path.parent, info)
     window.projects.notice(path.parent)
-    offered = []
-    monkeypatch.setattr(QInputDialog, "getItem", lambda *a: (offered.extend(a[3]), ("", False))[1])
-    action(window, "Verify With Control").trigger()
-    assert offered[0] == "tcp://10.1.2.3:9600"
+    exchanges = window.control.exchanges
+    assert exchanges.address_of(window.workspace) == "tcp://10.1.2.3:9600"
+    assert window.control.state_of(window.workspace)[:2] == ("CNC_7", "not connected")
+    exchanges.choose(window.workspace, "tcp://10.1.2.4:9600")
+    assert exchanges.address_of(window.workspace) == "tcp://10.1.2.4:9600"
+    assert exchanges.known_addresses() == ["tcp://10.1.2.3:9600", "tcp://10.1.2.4:9600"]
 
 
 def test_the_upload_of_a_file_keeps_its_content(start_control: Start, path: Path) -> None:

@@ -4,55 +4,56 @@ from __future__ import annotations
 
 from pathlib import Path
 
+from pytestqt.qtbot import QtBot
+
 from amp_studio.transfer.client import parameters
-from amp_studio.ui.control.download_preview import DownloadPreview
 from amp_studio.ui.main_window import MainWindow
 
+from .at_control import at_control, sent, settled
 from .conftest import Person, action
-from .test_control import Start, download
+from .test_control import Start
 
 
 def test_a_kept_copy_goes_back_byte_for_byte_after_a_look_at_what_that_changes(
-    window: MainWindow, start_control: Start, person: Person, accept
+    window: MainWindow, start_control: Start, person: Person, qtbot: QtBot
 ) -> None:
     control = start_control()
     before = parameters.fetch_image(control.address)
-    previews = []
-    accept(DownloadPreview, lambda dialog: previews.append((dialog.windowTitle(), len(dialog.list.items))))
-    download(window, person, control)
+    page = sent(window, control.address, qtbot)
     (kept,) = window.workspace.path.parent.glob("mill.before-*.img")
-
+    page.connect_again()
+    settled(window, qtbot)
     person.chooses(kept)
-    person.types(control.address)
     action(window, "Restore Control From Backup").trigger()
-
-    assert person.reads().startswith("Restore complete and read back equal")
+    assert page.primary.text() == f"Restore {kept.name}"
+    assert len(page.table.rows) > 100
+    page.checked.setChecked(True)
+    page.press()
+    settled(window, qtbot)
+    assert "Restore complete and read back equal" in page.empty.text()
     assert parameters.fetch_image(control.address) == before
-    assert [title for title, _ in previews] == ["Download", "Restore"]
-    assert previews[1][1] > 100
 
 
-def test_garbage_that_was_kept_is_asked_about_before_it_goes_back(
-    window: MainWindow, start_control: Start, person: Person, accept, path: Path, tmp_path: Path
+def test_garbage_that_was_kept_is_said_to_be_so_before_it_goes_back(
+    window: MainWindow, start_control: Start, person: Person, path: Path, tmp_path: Path, qtbot: QtBot
 ) -> None:
     garbage = b"\x00 no image"
     (tmp_path / "control-0").mkdir()
     (tmp_path / "control-0" / "active.img").write_bytes(garbage)
     control = start_control()
-    accept(DownloadPreview)
-    person.answers("Download")
-    download(window, person, control)
+    page = at_control(window, control.address, "send", qtbot)
+    page.press()
+    settled(window, qtbot)
     (kept,) = path.parent.glob("mill.before-*.img")
-    person.asked.clear()
-
-    for answer, held in (("Cancel", False), ("Restore", True)):
-        person.chooses(kept)
-        person.types(control.address)
-        person.answers(answer)
-        action(window, "Restore Control From Backup").trigger()
-        assert "cannot be shown" in person.asked[-1]
-        assert (parameters.fetch_image(control.address) == garbage) is held
-    assert person.reads().startswith("Restore complete and read back equal")
+    page.connect_again()
+    settled(window, qtbot)
+    person.chooses(kept)
+    action(window, "Restore Control From Backup").trigger()
+    assert "cannot be shown" in page.bar.text.text()
+    assert parameters.fetch_image(control.address) != garbage
+    page.press()
+    settled(window, qtbot)
+    assert parameters.fetch_image(control.address) == garbage
 
 
 def test_a_copy_that_was_changed_is_not_put_back(window: MainWindow, person: Person, tmp_path: Path) -> None:

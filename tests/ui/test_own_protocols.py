@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from pathlib import Path
 
+from pytestqt.qtbot import QtBot
+
 from amp_studio.families.acromill.emulated.card import AcrCard
 from amp_studio.files import new_file, save_file
 from amp_studio.schema import Value
@@ -11,33 +13,34 @@ from amp_studio.transfer.emulated.line_device import DeviceSetup
 from amp_studio.transfer.emulated.memory import Memory
 from amp_studio.transfer.waiting import PERSON
 from amp_studio.ui.base.task import ProgressDialog
-from amp_studio.ui.control.download_preview import DownloadPreview
 from amp_studio.ui.main_window import MainWindow
 from tests.transfer.device_line import served
 
-from .conftest import Person, action
+from .at_control import at_control, settled
 
 
 def test_an_acr_card_is_verified_and_downloaded_over_its_terminal(
-    window: MainWindow, person: Person, accept, tmp_path: Path
+    window: MainWindow, qtbot: QtBot, tmp_path: Path
 ) -> None:
     path = tmp_path / "router.amp"
     file = new_file("acromill")
     file.set(("servo.p_gain", "X"), Value(0.08, "V/count"))
     save_file(file, path)
     window.open_first(path)
-    previews = []
-    accept(DownloadPreview, lambda dialog: previews.append(len(dialog.list.items)))
     card = AcrCard(DeviceSetup("acromill", Memory(tmp_path / "card"), print))
     with served(card, "tcp://127.0.0.1:0?protocol=terminal") as (address, _):
-        person.types(address)
-        action(window, "Download to Control").trigger()
-        message = person.reads()
-        person.types(address)
-        action(window, "Verify With Control").trigger()
-        compared = person.reads()
-    assert message.startswith("Download complete and read back equal. The card has saved it (ESAVE).")
-    assert previews == [1], "what a card does not keep is not shown as a change of it"
+        page = at_control(window, address, "send", qtbot)
+        assert len(page.table.taken(file=True)) == 1, (
+            "what a card does not keep is not shown as a change of it"
+        )
+        page.checked.setChecked(True)
+        page.press()
+        settled(window, qtbot)
+        message = page.empty.text()
+        page.connect_again()
+        settled(window, qtbot)
+        compared = page.empty.text()
+    assert "Download complete and read back equal. The card has saved it (ESAVE)." in message
     assert card.settings.values["PGAIN X"] == "0.08"
     assert compared.startswith("Nothing differs: 112 values and every byte are the same.")
 

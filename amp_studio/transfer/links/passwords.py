@@ -29,10 +29,11 @@ class _Known:
 _known = _Known()
 
 
-def ask_with(ask: Ask | None) -> None:
+def ask_with(ask: Ask | None, *, forget: bool = True) -> None:
     """Have a person asked for a password that is in no other place; ``ask`` gets the address and may raise KeyboardInterrupt."""
     _known.ask = ask
-    _known.entered.clear()
+    if forget:
+        _known.entered.clear()
 
 
 def find_password(endpoint: Endpoint) -> str:
@@ -47,6 +48,11 @@ def ask_password(endpoint: Endpoint) -> str:
     if _known.ask is not None:
         _known.entered[place] = _known.ask(place)
     return _known.entered.get(place, "")
+
+
+def enter_password(endpoint: Endpoint, password: str) -> None:
+    """Take a password for this run of the program; an empty one forgets what was entered before."""
+    _known.entered[place_of(endpoint)] = password
 
 
 def place_of(endpoint: Endpoint) -> str:

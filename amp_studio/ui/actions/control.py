@@ -1,71 +1,81 @@
-"""The control menu: download, verify, upload, and an emulated control to practise on."""
+"""The control menu: the page at the control, and an emulated control to practise on."""
 
 from __future__ import annotations
 
-from dataclasses import replace
+from collections.abc import Callable
 from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from PySide6.QtGui import QAction
-from PySide6.QtWidgets import QMessageBox
+from PySide6.QtWidgets import QFileDialog, QStackedWidget
 
 from amp_studio.files import Document, ParameterFile
-from amp_studio.files.by_schema import by_schema
 from amp_studio.files.out_of_range import settle
 from amp_studio.ui.base.emulated_control import EmulatedControl
-from amp_studio.ui.base.modal import run_dialog
-from amp_studio.ui.base.questions import ask, show_message
-from amp_studio.ui.base.translated import Translated
+from amp_studio.ui.base.known_controls import ControlVerb
+from amp_studio.ui.base.questions import show_message
+from amp_studio.ui.base.task import in_background
+from amp_studio.ui.base.theme import icon
+from amp_studio.ui.base.translated import Translated, tr
 from amp_studio.ui.base.workspace import Workspace
 from amp_studio.ui.control.exchange import ControlExchange
-from amp_studio.ui.control.restore import restore
+from amp_studio.ui.control.known_list import Listed
+from amp_studio.ui.control.page import ControlPage, Direction
+from amp_studio.ui.control.session import ControlSession
 from amp_studio.ui.forms.out_of_range import AskInDialogs
 from amp_studio.ui.window.studio_window import StudioWindow
+from amp_studio.validate import Validator, rules_beside
 
 from .file import FileActions
 from .sheet import enter_by_hand
 from .tuning import tune
 
 if TYPE_CHECKING:
-    from amp_studio.transfer.client.parameters import Outcome
-    from amp_studio.transfer.exchange import Exchange
+    from amp_studio.transfer.client.parameters import Copy
+
+COPIES = "Backups of a control (*.img *.before-*.amp);;All files (*)"
 
 
 class ControlActions(Translated):
     """Exchange with the control of the project, or with the emulated one."""
 
-    def __init__(self, window: StudioWindow, files: FileActions) -> None:
-        self.window, self._files = window, files
+    def __init__(
+        self,
+        window: StudioWindow,
+        files: FileActions,
+        centre: QStackedWidget,
+        show_values: Callable[[], None],
+    ) -> None:
+        self.window, self._files, self._centre, self._show_values = window, files, centre, show_values
         self.emulated = EmulatedControl(window)
         self.exchanges = ControlExchange(window, self.emulated)
-        files.comparing.ask_address = self.exchanges.ask_address
+        self._page: ControlPage | None = None
+        self._sessions: dict[tuple[str, str, str], ControlSession] = {}
+        """Address, family and file -> its exchanges."""
+        files.comparing.address_of = self.chosen_address
         self.emulated.ready.connect(self._ready)
         self.emulated.shown.connect(self._shown)
         self.emulated.ended.connect(self._ended)
         act = window.action
         menu = window.menuBar().addMenu(self.tr("&Control"))
+        self.at_control = act(
+            self.tr("&At the Control"), lambda: self.show("compare"), "Alt+0", "", "cpu", self.tr("Control")
+        )
         download = act(
-            self.tr("&Download to Control…"),
-            self.download,
-            "F5",
-            "file",
-            "arrow-line-down",
-            self.tr("Download"),
+            self.tr("Sen&d to the Control…"), lambda: self.show("send"), "F5", "file", "arrow-line-down"
         )
         verify = act(
-            self.tr("&Verify With Control…"), self.verify, "F6", "file", "check-circle", self.tr("Verify")
+            self.tr("&Compare With the Control…"), lambda: self.show("compare"), "F6", "file", "git-diff"
         )
-        upload = act(
-            self.tr("&Upload From Control…"), self.upload, "F7", "", "arrow-line-up", self.tr("Upload")
-        )
-        put_back = act(self.tr("&Restore Control From Backup…"), partial(restore, self.exchanges), None, "")
-        by_hand = act(self.tr("Enter Values by &Hand…"), partial(enter_by_hand, self.exchanges), None, "file")
-        several = act(self.tr("Several &Controls…"), self.several, None, "file")
+        upload = act(self.tr("Read &From the Control…"), lambda: self.show("read"), "F7", "", "arrow-line-up")
+        put_back = act(self.tr("&Restore Control From Backup…"), self.restore, None, "")
+        by_hand = act(self.tr("Enter Values by &Hand…"), partial(enter_by_hand, self), None, "file")
+        several = act(self.tr("Se&veral Controls…"), self.several, None, "file")
         exchanges = act(self.tr("E&xchanges of This File…"), self.recorded, None, "file")
-        menu.addActions([download, verify, upload, put_back, by_hand])
+        menu.addActions([self.at_control, download, verify, upload, put_back, by_hand])
         menu.addSeparator()
-        tuning = act(self.tr("&Tuning…"), lambda: tune(self.window, self.exchanges), "Shift+F9", "file")
+        tuning = act(self.tr("&Tuning…"), lambda: tune(self.window, self), "Shift+F9", "file")
         menu.addActions([several, exchanges])
         menu.addAction(tuning)
         menu.addSeparator()
@@ -74,7 +84,7 @@ class ControlActions(Translated):
         self.estop_action.setCheckable(True)
         self.stop_action = act(self.tr("Sto&p Emulated Control"), self.emulated.stop, None, "")
         menu.addActions([self.start_action, self.estop_action, self.stop_action])
-        self.toolbar: list[QAction] = [download, verify, upload]
+        self.toolbar: list[QAction] = [self.at_control]
 
     def enable(self) -> None:
         """Enable the actions that fit the state of the emulated control."""
@@ -82,6 +92,19 @@ class ControlActions(Translated):
         self.start_action.setEnabled(self.window.workspace is not None and not running)
         self.estop_action.setEnabled(running)
         self.stop_action.setEnabled(running)
+        name, state, warns = self.state_of(self.window.workspace)
+        self.at_control.setIconText(
+            f"{name}  {state}" if self.exchanges.address_of(self.window.workspace) else name
+        )
+        self.at_control.setToolTip(self.tr("{name}: {state} (Alt+0)").format(name=name, state=state))
+        self.at_control.setIcon(icon("warning-fill", "warn") if warns else icon("cpu"))
+
+    def chosen_address(self) -> str | None:
+        """Return the control chosen for the file in front; without one the page is shown, where one is chosen."""
+        address = self.exchanges.address_of(self.window.workspace)
+        if not address:
+            self.show("compare")
+        return address or None
 
     # -- the emulated control --------------------------------------------------
 
@@ -96,6 +119,10 @@ class ControlActions(Translated):
 
     def _ready(self, address: str) -> None:
         self.window.show_status(self.tr("Emulated control at {address}, in E-stop").format(address=address))
+        if self.is_shown:
+            self.use(address)
+        elif self.window.workspace is not None:
+            self.exchanges.choose(self.window.workspace, address)
         self.enable()
 
     def _ended(self, output: str) -> None:
@@ -118,199 +145,218 @@ class ControlActions(Translated):
 
     def close(self) -> None:
         """Stop the emulated control."""
+        for session in self._sessions.values():
+            session.cancel()
         self.emulated.ended.disconnect(self._ended)
         self.emulated.stop(wait=True)
 
-    # -- exchange --------------------------------------------------------------
+    # -- the page ----------------------------------------------------------------
 
-    def _workspace(self) -> Workspace:
+    @property
+    def page(self) -> ControlPage:
+        """The page at the control; made when it is first wanted."""
+        if self._page is None:
+            page = self._page = ControlPage(self.window.save)
+            page.left.connect(self.leave)
+            page.chosen.connect(self.use)
+            page.state_changed.connect(self._follow)
+            page.read_wanted.connect(
+                lambda file: self.window.guarded(partial(self._save_upload, file), self.tr("Read"))
+            )
+            page.report_wanted.connect(lambda: self.window.guarded(self.recorded, self.tr("Save Proof")))
+            self._centre.addWidget(page)
+        return self._page
+
+    @property
+    def is_shown(self) -> bool:
+        """Whether the page is in front."""
+        return self._page is not None and self._centre.currentWidget() is self._page
+
+    def show(self, direction: Direction, address: str = "") -> None:
+        """Show the page in a direction; the key that opened it is its primary button the second time."""
         workspace = self.window.workspace
-        assert workspace is not None
-        return workspace
+        if direction == "send" and workspace is not None and not self._has_a_way(workspace):
+            enter_by_hand(self.exchanges)  # nothing can be sent: keyed in by hand
+            return
+        page = self.page
+        if self.is_shown and page.direction == direction and page.workspace is workspace and not address:
+            page.press()
+            return
+        if self.window.table_view is not None and not self.window.table_view.finish():
+            return
+        page.show_file(workspace, direction)
+        self._centre.setCurrentWidget(page)
+        self.window.docks.show_page(None)
+        if workspace is not None:
+            self._name_the_only_way(workspace)
+        if place := address or self.exchanges.address_of(workspace):
+            self.use(place)
+        else:
+            self._list()
+        page.setFocus()
 
-    def download(self) -> None:
-        """Show what would change, then download: back up the control, send, restart, read back, compare.
-
-        Where no way to a control of the family is known, the sheet to key in is made instead.
-        """
+    def _has_a_way(self, workspace: Workspace) -> bool:
+        """Return whether a way to a control of the family is known; else the sheet to key in is made instead."""
         from amp_studio.transfer.client.drivers import protocols_of
 
-        workspace = self._workspace()
-        if not protocols_of(workspace.file.schema.family.family):  # nothing can be sent: keyed in by hand
-            enter_by_hand(self.exchanges)
-            return
-        if not self._is_ready(workspace):
-            return
-        self._name_the_only_way(workspace)
-        address = self.exchanges.ask_address(self.tr("Download"))
-        if address is None:
-            return
-        file, path = workspace.file.copy(), workspace.path
-        present = self._preview(workspace, address)
-        if present is None:
-            return
+        return bool(protocols_of(workspace.file.schema.family.family))
 
-        notes: list[str] = []
+    def leave(self) -> None:
+        """Show the values again."""
+        if self.is_shown:
+            self._show_values()
 
-        def work(exchange: Exchange) -> Outcome:
-            from amp_studio.transfer.client.parameters import download_file, sha256
+    def use(self, address: str) -> None:
+        """Choose a control for the file in front, and read it; an address that is none is refused in the page."""
+        self.window.guarded(partial(self._use, address), self.tr("Connect"))
 
-            beside = replace(exchange, keep=path, record=path, notify=notes.append)
-            return download_file(file, address, beside, expected=sha256(present), known=present)
+    def _use(self, address: str) -> None:
+        from amp_studio.transfer.links.endpoint import parse_endpoint
 
-        if self.exchanges.run(self.tr("Download"), work).verified:
-            self.exchanges.remember(workspace, file)
-            self.exchanges.note(address, "download", reached=True)
-        if notes:
-            self.window.show_status("; ".join(notes))
+        parse_endpoint(address)
+        workspace = self.window.workspace
+        family = workspace.file.schema.family.family if workspace is not None else ""
+        self.exchanges.choose(workspace, address)
+        key = (address, family, str(workspace.path) if workspace is not None else "")
+        session = self._sessions.get(key)
+        if session is None:
+            session = self._sessions[key] = ControlSession(address, family, self.window)
+            session.ended.connect(partial(self._ended_exchange, session, workspace))
+        self.page.use(session, self._name_of(address))
+        self._follow()
+
+    def _ended_exchange(
+        self, session: ControlSession, workspace: Workspace | None, verb: ControlVerb, reached: bool
+    ) -> None:
+        """Remember how an exchange ended, and the values of the control beside those of the file."""
+        seen = session.seen
+        family, name = (seen.control.family, seen.control.name) if seen is not None else (session.family, "")
+        self.exchanges.note(session.address, verb, reached=reached, family=family, name=name)
+        if workspace is None or not reached:
+            return
+        if verb == "download" and session.outcome is not None and session.outcome.verified:
+            self.exchanges.remember(workspace, workspace.file.copy())
+        elif (present := session.present(workspace.file)) is not None:
+            self.exchanges.remember(workspace, present)
+        if session.notes:
+            self.window.show_status("; ".join(session.notes))
+
+    def _name_of(self, address: str) -> str:
+        project = self.window.project
+        if project is not None and project.info.control == address and project.info.control_name:
+            return project.info.control_name
+        known = next((c for c in self.window.settings.controls() if c.address == address), None)
+        if address == self.emulated.address:
+            return self.tr("Emulated control")
+        return known.name if known is not None and known.name else address.partition("://")[2] or address
+
+    def _listed(self, address: str) -> Listed:
+        known = next((c for c in self.window.settings.controls() if c.address == address), None)
+        session = next((s for (a, _, _), s in self._sessions.items() if a == address), None)
+        state, warns = state_in_words(session)
+        family = (
+            self.tr("emulated")
+            if address == self.emulated.address
+            else self._family(known.family)
+            if known
+            else ""
+        )
+        return Listed(address, self._name_of(address), family, state, warns)
+
+    def _family(self, key: str) -> str:
+        """Return the short name of a family where the file in front is of it, else its key."""
+        own = self.window.workspace.file.schema.family if self.window.workspace is not None else None
+        return own.short or own.name if own is not None and own.family == key else key
+
+    def _list(self) -> None:
+        chosen = (
+            self._page.session.address if self._page is not None and self._page.session is not None else ""
+        )
+        known = self.exchanges.known_addresses()
+        addresses = known if not chosen or chosen in known else [*known, chosen]
+        self.page.known.show_controls([self._listed(a) for a in addresses], chosen)
+
+    def _follow(self) -> None:
+        """Show the state of the control where it is chosen, in the tool bar and in the status line."""
+        if self._page is not None and self._page.session is not None:
+            self._page.rename(self._name_of(self._page.session.address))
+        self._list()
+        self.enable()
+
+    def state_of(self, workspace: Workspace | None) -> tuple[str, str, bool]:
+        """Return the name of the control of a file, its state in words, and whether it wants something."""
+        address = self.exchanges.address_of(workspace)
+        if not address:
+            return self.tr("Control"), self.tr("none chosen"), False
+        family = workspace.file.schema.family.family if workspace is not None else ""
+        session = self._sessions.get((address, family, str(workspace.path) if workspace is not None else ""))
+        return self._name_of(address), *state_in_words(session)
+
+    @property
+    def is_sending(self) -> bool:
+        """Whether something is being written to a control."""
+        return any(session.phase == "running" for session in self._sessions.values())
 
     def _name_the_only_way(self, workspace: Workspace) -> None:
         """Show in the status bar that real controls of this family cannot be spoken to, if so."""
         if only := workspace.file.schema.family.by_hand:
             self.window.show_status(self.tr("{only}: use Control > Enter Values by Hand").format(only=only))
 
-    def _is_ready(self, workspace: Workspace) -> bool:
-        """Ask about unsaved changes and errors; returns whether the file may be downloaded."""
-        if workspace.is_dirty and workspace.may_edit:
-            question = self.tr("{name} has unsaved changes. A download sends the saved file.").format(
-                name=workspace.path.name
-            )
-            if ask(
-                self.window,
-                self.tr("Download"),
-                question,
-                self.tr("&Save and Continue"),
-                self.tr("Cancel"),
-            ) != self.tr("&Save and Continue"):
-                return False
-            if not self.window.save():
-                return False
-        errors = [f for f in workspace.findings if f.severity == "error"]
-        if not errors:
-            return True
-        count = (
-            self.tr("1 error")
-            if len(errors) == 1
-            else self.tr("{count} errors, the first").format(count=len(errors))
-        )
-        question = self.tr("The file has {count}: {message}\n\nDownload it anyway?").format(
-            count=count, message=errors[0].message
-        )
-        answer = ask(
-            self.window,
-            self.tr("Download"),
-            question,
-            self.tr("&Download"),
-            self.tr("Cancel"),
-            default=1,
-            icon=QMessageBox.Icon.Warning,
-        )
-        return answer == self.tr("&Download")
+    def restore(self) -> None:
+        """Ask for a backup and offer to put it back; raises ValueError for a file with errors that is no proven backup."""
+        from amp_studio.transfer.client.kept import open_copy
+        from amp_studio.ui.control.page import Backup
 
-    def _preview(self, workspace: Workspace, address: str) -> bytes | None:
-        """Show what the download would change in the control; returns the image to replace, or None."""
-        from amp_studio.transfer.client.verification import verify_content
-        from amp_studio.transfer.content import decode_content
-        from amp_studio.transfer.image import ImageError
-        from amp_studio.ui.control.download_preview import DownloadPreview
-
-        image = self.exchanges.fetch(address, self.tr("Download"), workspace.file.schema.family.family)
-        if not image:
-            return image
-        try:
-            present = decode_content(image)
-            if present.schema.family.family != workspace.file.schema.family.family:
-                raise ImageError(
-                    self.tr("The control contains parameters for {name}").format(
-                        name=present.schema.family.name
-                    )
-                )
-        except ImageError as error:
-            question = self.tr(
-                "{error}.\n\nThe control's present parameters are saved as they are. Download anyway?"
-            ).format(error=error)
-            answer = ask(
-                self.window, self.tr("Download"), question, self.tr("&Download"), self.tr("Cancel"), default=1
-            )
-            return image if answer == self.tr("&Download") else None
-        self.exchanges.remember(workspace, by_schema(present, workspace.file.schema))
-        found = verify_content(workspace.file, image).values
-        if not found.differences or run_dialog(
-            DownloadPreview(workspace.file, found, self.window, secrets=workspace.secrets)
-        ):
-            return image
-        return None
+        workspace = self.window.workspace
+        folder = workspace.path.parent if workspace is not None else Path()
+        text, _ = QFileDialog.getOpenFileName(self.window, self.tr("Restore"), str(folder), COPIES)
+        if not text:
+            return
+        path = Path(text)
+        copy = in_background(self.window, self.tr("Opening"), partial(open_copy, path))
+        check_copy(copy, path)
+        if not self.is_shown:
+            self.show("compare")
+        self.page.show_backup(Backup(copy, path))
 
     def several(self) -> None:
         """Open the dialog that exchanges the file with several controls."""
         from amp_studio.ui.control.fleet_dialog import FleetDialog
 
+        workspace = self.window.workspace
+        assert workspace is not None
         known = self.exchanges.known_addresses()
-        FleetDialog(self._workspace(), known, self.window.guarded, self._is_ready, self.window).show()
+        FleetDialog(workspace, known, self.window.guarded, self._is_ready, self.window).show()
+
+    def _is_ready(self, workspace: Workspace) -> bool:
+        """Return whether a file may be sent to several controls; what is missing is said in its page."""
+        if workspace.is_dirty and workspace.may_edit:
+            raise ValueError(
+                self.tr("{name} has unsaved changes: save it first.").format(name=workspace.path.name)
+            )
+        if errors := [f for f in workspace.findings if f.severity == "error"]:
+            raise ValueError(
+                self.tr("The file has errors, the first: {message}").format(message=errors[0].message)
+            )
+        return True
 
     def recorded(self) -> None:
         """Open the list of the exchanges of the file."""
         from amp_studio.ui.control.exchanges_dialog import ExchangesDialog
 
-        ExchangesDialog(self._workspace(), self.window).show()
-
-    def verify(self) -> None:
-        """Compare the file with the parameters of the control."""
-        workspace = self._workspace()
-        self._name_the_only_way(workspace)
-        address = self.exchanges.ask_address(self.tr("Verify"))
-        if address is None:
-            return
-        from amp_studio.transfer.client.verification import verify_content
-        from amp_studio.transfer.content import decode_content
-
-        image = self.exchanges.fetch(
-            address, self.tr("Verify"), workspace.file.schema.family.family, "verify"
-        )
-        found = verify_content(workspace.file, image)
-        if not found.unreadable:
-            present = by_schema(decode_content(image), workspace.file.schema)
-            self.exchanges.remember(workspace, present)
-        if not found.values.differences:
-            icon = QMessageBox.Icon.Information if found.is_same else QMessageBox.Icon.Warning
-            show_message(self.window, self.tr("Verify"), found.summary(), icon)
-            return
-        page = self.window.page
-        assert page is not None
-        self._files.comparing.with_control(page, image, address)
+        workspace = self.window.workspace
+        assert workspace is not None
+        ExchangesDialog(workspace, self.window).show()
 
     def upload(self, address: str | None = None) -> None:
-        """Read the parameters of a control, ask about each value out of range, and save them as a new file."""
-        address = address or self.exchanges.ask_address(self.tr("Upload"))
-        if address is None:
-            return
-        file = self._uploaded(address)
-        if settle(file, "an upload", AskInDialogs(self.window)):
-            self._save_upload(file)
-        else:
+        """Show the page that reads a control into a new file."""
+        self.show("read", address or "")
+
+    def _save_upload(self, file: ParameterFile | None) -> None:
+        """Ask about each value out of range, and save an upload as a new file; another name when it cannot be written."""
+        if file is None or not settle(file, "an upload", AskInDialogs(self.window)):
             self.window.show_status(self.tr("Upload cancelled. No file was written."))
-
-    def _uploaded(self, address: str) -> ParameterFile:
-        """Return the parameters of the control as a file; raises ValueError when they cannot be read."""
-        from amp_studio.transfer.content import decode_content
-        from amp_studio.transfer.image import ImageError
-
-        image = self.exchanges.fetch(address, self.tr("Upload"), verb="upload")
-        if not image:
-            raise ValueError(self.tr("The control contains no parameters: there is nothing to upload."))
-        try:
-            file = decode_content(image)
-        except ImageError as error:
-            raise ValueError(
-                self.tr(
-                    "{error}.\n\nTo save it byte for byte, use 'amp-studio upload --from {address} -o NAME.img'."
-                ).format(error=error, address=address)
-            ) from None
-        self.exchanges.note(address, "upload", reached=True, family=file.schema.family.family)
-        return file
-
-    def _save_upload(self, file: ParameterFile) -> None:
-        """Save an upload as a new file; asks for another name when it cannot be written."""
+            return
         while (path := self._files.ask_path(self.tr("Save upload as"), Path("from-control"))) is not None:
             file.header.name = path.stem
             try:
@@ -324,3 +370,34 @@ class ControlActions(Translated):
             else:
                 return
         self.window.show_status(self.tr("Upload cancelled. No file was written."))
+
+
+def state_in_words(session: ControlSession | None) -> tuple[str, bool]:
+    """Return the state of a control in words, and whether it wants something."""
+    if session is None:
+        return tr("not connected"), False
+    if session.wants_password and session.seen is None:
+        return tr("needs a password"), True
+    if session.phase == "ready" and session.in_estop is False:
+        return tr("not in E-stop"), True
+    words = {
+        "away": tr("connection lost") if session.error else tr("not connected"), "connecting": tr("connecting"),
+        "ready": tr("ready"), "running": tr("sending"), "done": tr("ready"), "failed": tr("did not reach its end"),
+    }  # fmt: skip
+    return words[session.phase], session.phase == "failed" or (
+        session.phase == "away" and bool(session.error)
+    )
+
+
+def check_copy(copy: Copy, path: Path) -> None:
+    """Raise ValueError for a file with errors that is not a proven backup of a control."""
+    if copy.file is None or copy.is_kept:
+        return
+    findings = Validator(copy.file, rules_beside(path, copy.file)).run()
+    error = next((f for f in findings if f.severity == "error"), None)
+    if error is not None:
+        raise ValueError(
+            tr("{name} has errors, and there is no control image beside it. First error: {message}").format(
+                name=path.name, message=error.message
+            )
+        )

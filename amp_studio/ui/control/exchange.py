@@ -1,4 +1,4 @@
-"""Reaches a control from the window: asks for its address, reads it, runs a download or a restore, remembers its values."""
+"""Which control a file goes to, and what the window remembers of it."""
 
 from __future__ import annotations
 
@@ -8,19 +8,17 @@ from contextlib import closing
 from datetime import UTC, datetime
 from typing import TYPE_CHECKING, Any
 
-from PySide6.QtWidgets import QInputDialog, QMessageBox, QWidget
+from PySide6.QtWidgets import QWidget
 
 from amp_studio.files import ParameterFile
 from amp_studio.ui.base.emulated_control import EmulatedControl
 from amp_studio.ui.base.known_controls import ControlVerb, with_exchange
-from amp_studio.ui.base.questions import show_message
 from amp_studio.ui.base.task import ProgressDialog, TaskProgress
 from amp_studio.ui.base.translated import Translated, tr
 from amp_studio.ui.base.workspace import Workspace
 from amp_studio.ui.window.studio_window import StudioWindow
 
 if TYPE_CHECKING:
-    from amp_studio.transfer.client.parameters import Outcome
     from amp_studio.transfer.driver import ControlIdentity
     from amp_studio.transfer.exchange import Exchange
 
@@ -56,24 +54,32 @@ class ControlExchange(Translated):
     def __init__(self, window: StudioWindow, emulated: EmulatedControl) -> None:
         self.window, self._emulated = window, emulated
 
-    def known_addresses(self) -> list[str]:
-        """Return the addresses of the emulated control, of the project's control and of the last one."""
+    def address_of(self, workspace: Workspace | None) -> str:
+        """Return the control chosen for a file, of its project, the emulated one, or the last one; empty for none."""
         project, settings = self.window.project, self.window.settings
-        known = (self._emulated.address, project.info.control if project else "", settings.control())
-        return list(dict.fromkeys(address for address in known if address))
+        own = settings.control_of(workspace.path) if workspace is not None else ""
+        known = (own, project.info.control if project else "", self._emulated.address, settings.control())
+        return next(filter(None, known), "")
 
-    def ask_address(self, title: str) -> str | None:
-        """Ask for the address of the control; suggests the emulated control, that of the project and the last one."""
-        settings = self.window.settings
-        offered = self.known_addresses() or ["tcp://127.0.0.1:9600"]
-        label = self.tr(
-            "Address of the control (for example tcp://192.168.0.10:9600 or serial:/dev/ttyUSB0?baud=115200)"
+    def choose(self, workspace: Workspace | None, address: str) -> None:
+        """Remember the control of a file, and as the last one."""
+        self.window.settings.keep_control(address)
+        if workspace is not None:
+            self.window.settings.keep_control_of(workspace.path, address)
+
+    def known_addresses(self) -> list[str]:
+        """Return the addresses of the project's control, of those reached before and of the emulated one."""
+        project, settings = self.window.project, self.window.settings
+        chosen = settings.control_of(self.window.workspace.path) if self.window.workspace is not None else ""
+        reached = [control.address for control in settings.controls()]
+        known = (
+            project.info.control if project else "",
+            chosen,
+            *reached,
+            settings.control(),
+            self._emulated.address,
         )
-        text, accepted = QInputDialog.getItem(self.window, title, label, offered, 0, True)
-        if not accepted or not text.strip():
-            return None
-        settings.keep_control(text.strip())
-        return text.strip()
+        return list(dict.fromkeys(address for address in known if address))
 
     def note(
         self, address: str, verb: ControlVerb, *, reached: bool, family: str = "", name: str = ""
@@ -120,13 +126,6 @@ class ControlExchange(Translated):
         image: bytes = self._noted(address, verb, dialog.run, family)
         self.note(address, verb, reached=True, family=family)
         return image
-
-    def run(self, title: str, work: Callable[[Exchange], Outcome]) -> Outcome:
-        """Run a download or restore, show its outcome and return it."""
-        outcome: Outcome = exchange_dialog(title, work, self.window).run()
-        icon = QMessageBox.Icon.Information if outcome.verified else QMessageBox.Icon.Warning
-        show_message(self.window, title, outcome.text, icon)
-        return outcome
 
     def remember(self, workspace: Workspace, present: ParameterFile) -> None:
         """Show the values of the control beside those of a file of the same family."""

@@ -47,7 +47,7 @@ class CompareActions(QObject):
     def __init__(self, window: StudioWindow, ask_path: AskPath, write_new: WriteNew) -> None:
         super().__init__(window)
         self.window, self._ask_path, self._write_new = window, ask_path, write_new
-        self.ask_address: Callable[[str], str | None] = lambda _title: None
+        self.address_of: Callable[[], str | None] = lambda: None
         """Asks for the address of a control; set by who knows the controls."""
         self.action = window.action(
             self.tr("Compare and Merge &With…"),
@@ -146,7 +146,7 @@ class CompareActions(QObject):
         return Path(text) if text else None
 
     def _ask_control(self, sources: MergeSources) -> ReadSource | None:
-        address = self.ask_address(self.tr("Compare"))
+        address = self.address_of()
         return None if address is None else sources.control_now(address)
 
     # -- what becomes of it ------------------------------------------------------------

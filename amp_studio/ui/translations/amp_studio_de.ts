@@ -465,48 +465,48 @@
             <translation>Die Parameter der Steuerung werden gelesen …</translation>
         </message>
         <message>
-            <source>{a} not set in this file, {b} not set in the control</source>
-            <translation>{a} in dieser Datei nicht gesetzt, {b} in der Steuerung nicht gesetzt</translation>
-        </message>
-        <message>
-            <source>{different} different, {same} the same, {not_set}.</source>
-            <translation>{different} verschieden, {same} gleich, {not_set}.</translation>
-        </message>
-        <message>
-            <source>Restore</source>
-            <translation>Wiederherstellen</translation>
+            <source>Waiting for the control …</source>
+            <translation>Wartet auf die Steuerung …</translation>
         </message>
         <message>
             <source>Opening</source>
             <translation>Öffnen</translation>
         </message>
         <message>
+            <source>not connected</source>
+            <translation>nicht verbunden</translation>
+        </message>
+        <message>
+            <source>needs a password</source>
+            <translation>braucht ein Passwort</translation>
+        </message>
+        <message>
+            <source>not in E-stop</source>
+            <translation>nicht im Not-Halt</translation>
+        </message>
+        <message>
+            <source>connection lost</source>
+            <translation>Verbindung verloren</translation>
+        </message>
+        <message>
+            <source>connecting</source>
+            <translation>verbindet</translation>
+        </message>
+        <message>
+            <source>ready</source>
+            <translation>bereit</translation>
+        </message>
+        <message>
+            <source>sending</source>
+            <translation>sendet</translation>
+        </message>
+        <message>
+            <source>did not reach its end</source>
+            <translation>nicht zu Ende geführt</translation>
+        </message>
+        <message>
             <source>{name} has errors, and there is no control image beside it. First error: {message}</source>
             <translation>{name} hat Fehler, und daneben liegt kein Abbild einer Steuerung. Erster Fehler: {message}</translation>
-        </message>
-        <message>
-            <source>There is no digest beside {name}, so its content cannot be checked.</source>
-            <translation>Neben {name} liegt keine Prüfsumme, so dass der Inhalt nicht geprüft werden kann.</translation>
-        </message>
-        <message>
-            <source>The parameters of the control cannot be shown: {error}.</source>
-            <translation>Die Parameter der Steuerung können nicht gezeigt werden: {error}.</translation>
-        </message>
-        <message>
-            <source>{name} is restored byte for byte, but cannot be shown: {why}.</source>
-            <translation>{name} wird Byte für Byte wiederhergestellt, kann aber nicht gezeigt werden: {why}.</translation>
-        </message>
-        <message>
-            <source>The control contains parameters for {name}.</source>
-            <translation>Die Steuerung enthält Parameter für {name}.</translation>
-        </message>
-        <message>
-            <source>Restore {name}? The control's present parameters are saved first.</source>
-            <translation>{name} wiederherstellen? Die jetzigen Parameter der Steuerung werden erst gesichert.</translation>
-        </message>
-        <message>
-            <source>&amp;Restore</source>
-            <translation>&amp;Wiederherstellen</translation>
         </message>
         <message>
             <source>Cancel</source>
@@ -677,8 +677,16 @@ Woher ist bekannt, was sie enthält?</translation>
             <translation>leer:</translation>
         </message>
         <message>
+            <source>no control chosen</source>
+            <translation>keine Steuerung gewählt</translation>
+        </message>
+        <message>
             <source>none in this file</source>
             <translation>keine in dieser Datei</translation>
+        </message>
+        <message>
+            <source>page {page}</source>
+            <translation>Seite {page}</translation>
         </message>
         <message>
             <source>page</source>
@@ -692,6 +700,145 @@ Woher ist bekannt, was sie enthält?</translation>
             <source>.</source>
             <comment>decimal sign</comment>
             <translation>,</translation>
+        </message>
+        <message>
+            <source>Same machine</source>
+            <translation>Dieselbe Maschine</translation>
+        </message>
+        <message>
+            <source>E-stop</source>
+            <translation>Not-Halt</translation>
+        </message>
+        <message>
+            <source>Password</source>
+            <translation>Passwort</translation>
+        </message>
+        <message>
+            <source>Connected</source>
+            <translation>Verbunden</translation>
+        </message>
+        <message>
+            <source>Needs a password</source>
+            <translation>Braucht ein Passwort</translation>
+        </message>
+        <message>
+            <source>Not connected</source>
+            <translation>Nicht verbunden</translation>
+        </message>
+        <message>
+            <source>No E-stop needed</source>
+            <translation>Kein Not-Halt nötig</translation>
+        </message>
+        <message>
+            <source>E-stop is pressed</source>
+            <translation>Not-Halt ist gedrückt</translation>
+        </message>
+        <message>
+            <source>E-stop is not pressed</source>
+            <translation>Not-Halt ist aus</translation>
+        </message>
+        <message>
+            <source>Password accepted</source>
+            <translation>Passwort angenommen</translation>
+        </message>
+        <message>
+            <source>No password needed</source>
+            <translation>Kein Passwort nötig</translation>
+        </message>
+        <message>
+            <source>A write lasts in {states}</source>
+            <translation>Geschriebenes bleibt in {states}</translation>
+        </message>
+        <message>
+            <source>Another family: {name}</source>
+            <translation>Andere Familie: {name}</translation>
+        </message>
+        <message>
+            <source>Numbers its parameters by another schema</source>
+            <translation>Nummeriert seine Parameter nach einem anderen Schema</translation>
+        </message>
+        <message>
+            <source>asked {seconds} s ago</source>
+            <translation>gefragt vor {seconds} s</translation>
+        </message>
+        <message>
+            <source>asked now</source>
+            <translation>eben gefragt</translation>
+        </message>
+        <message>
+            <source>{done} of {total}</source>
+            <translation>{done} von {total}</translation>
+        </message>
+        <message>
+            <source>Commit all or nothing</source>
+            <translation>Alles oder nichts übernehmen</translation>
+        </message>
+        <message>
+            <source>until then the old values stay</source>
+            <translation>bis dahin gelten die alten Werte</translation>
+        </message>
+        <message>
+            <source>Each value acts at once</source>
+            <translation>Jeder Wert wirkt sofort</translation>
+        </message>
+        <message>
+            <source>cancelling leaves what is confirmed</source>
+            <translation>ein Abbruch lässt, was bestätigt ist</translation>
+        </message>
+        <message>
+            <source>Identify</source>
+            <translation>Erkennen</translation>
+        </message>
+        <message>
+            <source>same machine, same options</source>
+            <translation>dieselbe Maschine, dieselben Optionen</translation>
+        </message>
+        <message>
+            <source>Back up what it contains</source>
+            <translation>Inhalt sichern</translation>
+        </message>
+        <message>
+            <source>as a file beside this one</source>
+            <translation>als Datei neben dieser</translation>
+        </message>
+        <message numerus="yes">
+            <source>Write %n values</source>
+            <translation>
+                <numerusform>%n Wert schreiben</numerusform>
+                <numerusform>%n Werte schreiben</numerusform>
+            </translation>
+        </message>
+        <message>
+            <source>only what was shown may be replaced</source>
+            <translation>ersetzt wird nur, was gezeigt wurde</translation>
+        </message>
+        <message>
+            <source>Read everything back</source>
+            <translation>Alles zurücklesen</translation>
+        </message>
+        <message>
+            <source>compared exactly</source>
+            <translation>genau verglichen</translation>
+        </message>
+        <message>
+            <source>reads only</source>
+            <translation>liest nur</translation>
+        </message>
+        <message>
+            <source>Read what it contains</source>
+            <translation>Inhalt auslesen</translation>
+        </message>
+        <message>
+            <source>nothing is changed in the control</source>
+            <translation>in der Steuerung ändert sich nichts</translation>
+        </message>
+        <message>
+            <source>Compare with the file</source>
+            <translation>Mit der Datei vergleichen</translation>
+        </message>
+        <message>
+            <source>every value, exactly</source>
+            <translation>jeden Wert, genau</translation>
         </message>
     </context>
     <context>
@@ -1182,30 +1329,17 @@ Woher ist bekannt, was sie enthält?</translation>
         </message>
     </context>
     <context>
+        <name>ConditionLine</name>
+        <message>
+            <source>Conditions</source>
+            <translation>Bedingungen</translation>
+        </message>
+    </context>
+    <context>
         <name>ControlActions</name>
         <message>
             <source>&amp;Control</source>
             <translation>&amp;Steuerung</translation>
-        </message>
-        <message>
-            <source>&amp;Download to Control…</source>
-            <translation>An Steuerung &amp;senden…</translation>
-        </message>
-        <message>
-            <source>Download</source>
-            <translation>An Steuerung senden</translation>
-        </message>
-        <message>
-            <source>&amp;Verify With Control…</source>
-            <translation>Mit der Steuerung &amp;vergleichen…</translation>
-        </message>
-        <message>
-            <source>Verify</source>
-            <translation>Vergleichen</translation>
-        </message>
-        <message>
-            <source>&amp;Upload From Control…</source>
-            <translation>Aus der Steuerung ausAus der Steuerung &amp;auslesen…amp;lesen…</translation>
         </message>
         <message>
             <source>Upload</source>
@@ -1216,11 +1350,31 @@ Woher ist bekannt, was sie enthält?</translation>
             <translation>Steuerung aus Sicherung &amp;wiederherstellen…</translation>
         </message>
         <message>
+            <source>&amp;At the Control</source>
+            <translation>A&amp;n der Steuerung</translation>
+        </message>
+        <message>
+            <source>Control</source>
+            <translation>Steuerung</translation>
+        </message>
+        <message>
+            <source>Sen&amp;d to the Control…</source>
+            <translation>An Steuerung &amp;senden…</translation>
+        </message>
+        <message>
+            <source>&amp;Compare With the Control…</source>
+            <translation>Mit der Steuerung &amp;vergleichen…</translation>
+        </message>
+        <message>
+            <source>Read &amp;From the Control…</source>
+            <translation>Aus der Steuerung aus&amp;lesen…</translation>
+        </message>
+        <message>
             <source>Enter Values by &amp;Hand…</source>
             <translation>Werte von Hand &amp;eingeben…</translation>
         </message>
         <message>
-            <source>Several &amp;Controls…</source>
+            <source>Se&amp;veral Controls…</source>
             <translation>&amp;Mehrere Steuerungen…</translation>
         </message>
         <message>
@@ -1244,6 +1398,10 @@ Woher ist bekannt, was sie enthält?</translation>
             <translation>Nachgebildete Steuerung been&amp;den</translation>
         </message>
         <message>
+            <source>{name}: {state} (Alt+0)</source>
+            <translation>{name}: {state} (Alt+0)</translation>
+        </message>
+        <message>
             <source>Starting an emulated control …</source>
             <translation>Eine nachgebildete Steuerung wird gestartet …</translation>
         </message>
@@ -1264,68 +1422,52 @@ Woher ist bekannt, was sie enthält?</translation>
             <translation>Nachgebildete Steuerung: {line}</translation>
         </message>
         <message>
+            <source>Read</source>
+            <translation>Auslesen</translation>
+        </message>
+        <message>
+            <source>Save Proof</source>
+            <translation>Nachweis sichern</translation>
+        </message>
+        <message>
+            <source>Connect</source>
+            <translation>Verbinden</translation>
+        </message>
+        <message>
+            <source>Emulated control</source>
+            <translation>Nachgebildete Steuerung</translation>
+        </message>
+        <message>
+            <source>emulated</source>
+            <translation>nachgebildet</translation>
+        </message>
+        <message>
+            <source>none chosen</source>
+            <translation>keine gewählt</translation>
+        </message>
+        <message>
             <source>{only}: use Control &gt; Enter Values by Hand</source>
             <translation>{only}: Steuerung &gt; Werte von Hand eingeben nehmen</translation>
         </message>
         <message>
-            <source>{name} has unsaved changes. A download sends the saved file.</source>
-            <translation>{name} hat ungespeicherte Änderungen. Gesendet wird die gespeicherte Datei.</translation>
+            <source>Restore</source>
+            <translation>Wiederherstellen</translation>
         </message>
         <message>
-            <source>&amp;Save and Continue</source>
-            <translation>&amp;Speichern und weiter</translation>
+            <source>Opening</source>
+            <translation>Öffnen</translation>
         </message>
         <message>
-            <source>Cancel</source>
-            <translation>Abbrechen</translation>
+            <source>{name} has unsaved changes: save it first.</source>
+            <translation>{name} hat ungespeicherte Änderungen: erst sichern.</translation>
         </message>
         <message>
-            <source>1 error</source>
-            <translation>1 Fehler</translation>
-        </message>
-        <message>
-            <source>{count} errors, the first</source>
-            <translation>{count} Fehler, der erste</translation>
-        </message>
-        <message>
-            <source>The file has {count}: {message}
-
-Download it anyway?</source>
-            <translation>Die Datei hat {count}: {message}
-
-Trotzdem senden?</translation>
-        </message>
-        <message>
-            <source>&amp;Download</source>
-            <translation>&amp;Senden</translation>
-        </message>
-        <message>
-            <source>The control contains parameters for {name}</source>
-            <translation>Die Steuerung enthält Parameter für {name}</translation>
-        </message>
-        <message>
-            <source>{error}.
-
-The control's present parameters are saved as they are. Download anyway?</source>
-            <translation>{error}.
-
-Die jetzigen Parameter der Steuerung werden gesichert, wie sie sind. Trotzdem senden?</translation>
+            <source>The file has errors, the first: {message}</source>
+            <translation>Die Datei hat Fehler, der erste: {message}</translation>
         </message>
         <message>
             <source>Upload cancelled. No file was written.</source>
             <translation>Auslesen abgebrochen. Keine Datei wurde geschrieben.</translation>
-        </message>
-        <message>
-            <source>The control contains no parameters: there is nothing to upload.</source>
-            <translation>Die Steuerung enthält keine Parameter: es gibt nichts auszulesen.</translation>
-        </message>
-        <message>
-            <source>{error}.
-
-To save it byte for byte, use 'amp-studio upload --from {address} -o NAME.img'.</source>
-            <translation>{error}.
-
-Byte für Byte sichert es 'amp-studio upload --from {address} -o NAME.img'.</translation>
         </message>
         <message>
             <source>Save upload as</source>
@@ -1343,16 +1485,276 @@ Einen anderen Namen wählen.</translation>
     <context>
         <name>ControlExchange</name>
         <message>
-            <source>Address of the control (for example tcp://192.168.0.10:9600 or serial:/dev/ttyUSB0?baud=115200)</source>
-            <translation>Adresse der Steuerung (zum Beispiel tcp://192.168.0.10:9600 oder serial:/dev/ttyUSB0?baud=115200)</translation>
-        </message>
-        <message>
-            <source>Waiting for the control …</source>
-            <translation>Wartet auf die Steuerung …</translation>
-        </message>
-        <message>
             <source>Connect</source>
             <translation>Verbinden</translation>
+        </message>
+    </context>
+    <context>
+        <name>ControlPage</name>
+        <message>
+            <source>Direction</source>
+            <translation>Richtung</translation>
+        </message>
+        <message>
+            <source>Compare</source>
+            <translation>Vergleichen</translation>
+        </message>
+        <message>
+            <source>Send to the Control</source>
+            <translation>An Steuerung senden</translation>
+        </message>
+        <message>
+            <source>Read From It</source>
+            <translation>Auslesen</translation>
+        </message>
+        <message>
+            <source>Password of the control; Enter tries it</source>
+            <translation>Passwort der Steuerung; Enter versucht es</translation>
+        </message>
+        <message>
+            <source>Password of the control</source>
+            <translation>Passwort der Steuerung</translation>
+        </message>
+        <message>
+            <source>Name or number</source>
+            <translation>Name oder Nummer</translation>
+        </message>
+        <message>
+            <source>Filter the differences</source>
+            <translation>Unterschiede filtern</translation>
+        </message>
+        <message>
+            <source>Write This One Now</source>
+            <translation>Diesen jetzt schreiben</translation>
+        </message>
+        <message>
+            <source>Save Proof…</source>
+            <translation>Nachweis sichern…</translation>
+        </message>
+        <message>
+            <source>Read Again</source>
+            <translation>Neu auslesen</translation>
+        </message>
+        <message>
+            <source>Back to the values (Escape)</source>
+            <translation>Zurück zu den Werten (Escape)</translation>
+        </message>
+        <message>
+            <source>a new file</source>
+            <translation>eine neue Datei</translation>
+        </message>
+        <message>
+            <source>{differ} differ, {same} are the same</source>
+            <translation>{differ} verschieden, {same} gleich</translation>
+        </message>
+        <message>
+            <source>{kept} kept</source>
+            <translation>{kept} behalten</translation>
+        </message>
+        <message>
+            <source>Choose a control at the left, or add one by its address with “+”.
+An emulated control is in the menu Control.</source>
+            <translation>Links eine Steuerung wählen, oder mit „+“ eine mit ihrer Adresse hinzufügen.
+Eine nachgebildete Steuerung ist im Menü Steuerung.</translation>
+        </message>
+        <message>
+            <source>Reading what {name} contains …</source>
+            <translation>{name} wird ausgelesen …</translation>
+        </message>
+        <message>
+            <source>The control contains no parameters.</source>
+            <translation>Die Steuerung enthält keine Parameter.</translation>
+        </message>
+        <message>
+            <source>Read at {time}</source>
+            <translation>Ausgelesen {time}</translation>
+        </message>
+        <message>
+            <source>{name} contains all new values.</source>
+            <translation>{name} enthält alle neuen Werte.</translation>
+        </message>
+        <message>
+            <source>Kept as they were: {names}</source>
+            <translation>Behalten, wie sie waren: {names}</translation>
+        </message>
+        <message>
+            <source>Checksum before {before}, now {now}</source>
+            <translation>Prüfsumme vorher {before}, jetzt {now}</translation>
+        </message>
+        <message>
+            <source>Try Again</source>
+            <translation>Noch einmal</translation>
+        </message>
+        <message>
+            <source>Press E-stop at the machine. While an axis can move, the control takes no parameters.</source>
+            <translation>Not-Halt an der Maschine drücken. Solange sich eine Achse bewegen kann, nimmt die Steuerung keine Parameter an.</translation>
+        </message>
+        <message>
+            <source>Ask Now</source>
+            <translation>Jetzt fragen</translation>
+        </message>
+        <message>
+            <source>{name} has unsaved changes. A download sends the saved file.</source>
+            <translation>{name} hat ungespeicherte Änderungen. Gesendet wird die gespeicherte Datei.</translation>
+        </message>
+        <message>
+            <source>Save</source>
+            <translation>Speichern</translation>
+        </message>
+        <message>
+            <source>The file has {count}, the first: {message}</source>
+            <translation>Die Datei hat {count}, der erste: {message}</translation>
+        </message>
+        <message numerus="yes">
+            <source>%n errors</source>
+            <translation>
+                <numerusform>%n Fehler</numerusform>
+                <numerusform>%n Fehler</numerusform>
+            </translation>
+        </message>
+        <message>
+            <source>Send It With Its Errors</source>
+            <translation>Mit den Fehlern senden</translation>
+        </message>
+        <message>
+            <source>There is no digest beside {name}, so its content cannot be checked.</source>
+            <translation>Neben {name} liegt keine Prüfsumme, so dass der Inhalt nicht geprüft werden kann.</translation>
+        </message>
+        <message>
+            <source>{name} is restored byte for byte, but cannot be shown: {why}.</source>
+            <translation>{name} wird Byte für Byte wiederhergestellt, kann aber nicht gezeigt werden: {why}.</translation>
+        </message>
+        <message>
+            <source>The control contains all old values.</source>
+            <translation>Die Steuerung enthält alle alten Werte.</translation>
+        </message>
+        <message>
+            <source>The control contains all new values.</source>
+            <translation>Die Steuerung enthält alle neuen Werte.</translation>
+        </message>
+        <message>
+            <source>The control contains some of both: new and old values.</source>
+            <translation>Die Steuerung enthält teils neue, teils alte Werte.</translation>
+        </message>
+        <message>
+            <source>It is not known what the control contains.</source>
+            <translation>Es ist nicht bekannt, was die Steuerung enthält.</translation>
+        </message>
+        <message>
+            <source>Do not move the machine before it was read.</source>
+            <translation>Die Maschine nicht bewegen, bevor sie ausgelesen ist.</translation>
+        </message>
+        <message>
+            <source>Keep {value}</source>
+            <translation>{value} behalten</translation>
+        </message>
+        <message numerus="yes">
+            <source>I have checked what can be dangerous: %n</source>
+            <translation>
+                <numerusform>Ich habe geprüft, was gefährlich sein kann: %n</numerusform>
+                <numerusform>Ich habe geprüft, was gefährlich sein kann: %n</numerusform>
+            </translation>
+        </message>
+        <message>
+            <source>Tied to what you see: if the control changes before, nothing is replaced.</source>
+            <translation>An das Gezeigte gebunden: ändert sich die Steuerung vorher, wird nichts ersetzt.</translation>
+        </message>
+        <message>
+            <source>Cancel</source>
+            <translation>Abbrechen</translation>
+        </message>
+        <message>
+            <source>Cancel, Keep All Old Values</source>
+            <translation>Abbrechen, alle alten Werte behalten</translation>
+        </message>
+        <message>
+            <source>Cancel, Leave What Is Confirmed</source>
+            <translation>Abbrechen, Bestätigtes bleibt</translation>
+        </message>
+        <message>
+            <source>Connect and Read</source>
+            <translation>Verbinden und auslesen</translation>
+        </message>
+        <message>
+            <source>Back to the Values</source>
+            <translation>Zurück zu den Werten</translation>
+        </message>
+        <message numerus="yes">
+            <source>Send %n Values to the Control…</source>
+            <translation>
+                <numerusform>%n Wert an Steuerung senden…</numerusform>
+                <numerusform>%n Werte an Steuerung senden…</numerusform>
+            </translation>
+        </message>
+        <message>
+            <source>Restore {name}</source>
+            <translation>{name} wiederherstellen</translation>
+        </message>
+        <message numerus="yes">
+            <source>Send %n Values to the Control</source>
+            <translation>
+                <numerusform>%n Wert an Steuerung senden</numerusform>
+                <numerusform>%n Werte an Steuerung senden</numerusform>
+            </translation>
+        </message>
+        <message>
+            <source>No difference: there is nothing to send.</source>
+            <translation>Kein Unterschied: es gibt nichts zu senden.</translation>
+        </message>
+        <message>
+            <source>Save as a New File…</source>
+            <translation>Als neue Datei sichern…</translation>
+        </message>
+        <message>
+            <source>Nothing that can be read is in the control.</source>
+            <translation>In der Steuerung ist nichts Lesbares.</translation>
+        </message>
+        <message>
+            <source>The file is read-only.</source>
+            <translation>Die Datei ist schreibgeschützt.</translation>
+        </message>
+        <message numerus="yes">
+            <source>Take %n Values into {name}</source>
+            <translation>
+                <numerusform>%n Wert in {name} übernehmen</numerusform>
+                <numerusform>%n Werte in {name} übernehmen</numerusform>
+            </translation>
+        </message>
+        <message>
+            <source>Waiting: {what}</source>
+            <translation>Wartet: {what}</translation>
+        </message>
+        <message>
+            <source>Waiting: the file is not saved</source>
+            <translation>Wartet: die Datei ist nicht gesichert</translation>
+        </message>
+        <message>
+            <source>Waiting: the file has errors</source>
+            <translation>Wartet: die Datei hat Fehler</translation>
+        </message>
+        <message>
+            <source>Waiting: what can be dangerous is not checked</source>
+            <translation>Wartet: was gefährlich sein kann, ist nicht geprüft</translation>
+        </message>
+        <message>
+            <source>kept at the control</source>
+            <translation>an der Steuerung behalten</translation>
+        </message>
+        <message>
+            <source>Read from {name}</source>
+            <translation>Aus {name} ausgelesen</translation>
+        </message>
+        <message>
+            <source>Stopping at the next safe point …</source>
+            <translation>Hält an der nächsten sicheren Stelle an …</translation>
+        </message>
+        <message>
+            <source>The line is cut; trying again …</source>
+            <translation>Die Leitung ist unterbrochen; neuer Versuch …</translation>
+        </message>
+        <message>
+            <source>No answer for {done} s; trying again …</source>
+            <translation>Keine Antwort seit {done} s; neuer Versuch …</translation>
         </message>
     </context>
     <context>
@@ -1480,7 +1882,15 @@ Einen anderen Namen wählen.</translation>
         </message>
     </context>
     <context>
-        <name>DifferenceList</name>
+        <name>DifferenceTable</name>
+        <message>
+            <source>Differences</source>
+            <translation>Unterschiede</translation>
+        </message>
+        <message>
+            <source>No.</source>
+            <translation>Nr.</translation>
+        </message>
         <message>
             <source>Parameter</source>
             <translation>Parameter</translation>
@@ -1490,32 +1900,36 @@ Einen anderen Namen wählen.</translation>
             <translation>Achse</translation>
         </message>
         <message>
-            <source>Difference</source>
-            <translation>Unterschied</translation>
+            <source>Mind</source>
+            <translation>Zu beachten</translation>
         </message>
         <message>
-            <source>This file</source>
-            <translation>Diese Datei</translation>
+            <source>On one side only, kept as they are</source>
+            <translation>Nur auf einer Seite, bleiben wie sie sind</translation>
         </message>
         <message>
-            <source>The control</source>
-            <translation>Die Steuerung</translation>
+            <source>Axes that are not fitted</source>
+            <translation>Nicht vorhandene Achsen</translation>
         </message>
         <message>
-            <source>Differences</source>
-            <translation>Unterschiede</translation>
+            <source>stays as it is</source>
+            <translation>bleibt, wie er ist</translation>
         </message>
         <message>
-            <source>not in this file</source>
-            <translation>nicht in dieser Datei</translation>
+            <source>the control's value stays</source>
+            <translation>Wert der Steuerung bleibt</translation>
         </message>
         <message>
-            <source>only in this file</source>
-            <translation>nur in dieser Datei</translation>
+            <source>danger, page {page}</source>
+            <translation>Gefahr, Seite {page}</translation>
         </message>
         <message>
-            <source>different</source>
-            <translation>verschieden</translation>
+            <source>the file's value</source>
+            <translation>Wert der Datei</translation>
+        </message>
+        <message>
+            <source>the control's value</source>
+            <translation>Wert der Steuerung</translation>
         </message>
     </context>
     <context>
@@ -1589,29 +2003,6 @@ Einen anderen Namen wählen.</translation>
         <message>
             <source>New Report Template</source>
             <translation>Neue Berichtsvorlage</translation>
-        </message>
-    </context>
-    <context>
-        <name>DownloadPreview</name>
-        <message>
-            <source>Download</source>
-            <translation>An Steuerung senden</translation>
-        </message>
-        <message>
-            <source>{counts} The download replaces all parameters in the control. Values that are not set in this file are not sent. The control's present parameters are saved beside the file first.
-
-The control must be in E-stop.</source>
-            <translation>{counts} Das Senden ersetzt alle Parameter in der Steuerung. Werte, die in dieser Datei nicht gesetzt sind, werden nicht gesendet. Die jetzigen Parameter der Steuerung werden erst neben der Datei gesichert.
-
-Die Steuerung muss im Not-Halt sein.</translation>
-        </message>
-        <message>
-            <source>Cancel</source>
-            <translation>Abbrechen</translation>
-        </message>
-        <message>
-            <source>Dangers of the values that change</source>
-            <translation>Gefahren der Werte, die sich ändern</translation>
         </message>
     </context>
     <context>
@@ -2653,6 +3044,21 @@ Importieren und als erzwungen kennzeichnen?</translation>
         </message>
     </context>
     <context>
+        <name>KnownList</name>
+        <message>
+            <source>Controls</source>
+            <translation>Steuerungen</translation>
+        </message>
+        <message>
+            <source>Add a control by its address</source>
+            <translation>Eine Steuerung mit ihrer Adresse hinzufügen</translation>
+        </message>
+        <message>
+            <source>Address of a control</source>
+            <translation>Adresse einer Steuerung</translation>
+        </message>
+    </context>
+    <context>
         <name>LanguageActions</name>
         <message>
             <source>La&amp;nguage</source>
@@ -2895,6 +3301,22 @@ Die nummerierten Parameter von Maschinensteuerungen: bearbeiten, prüfen, drucke
         <message>
             <source>Fix</source>
             <translation>Beheben</translation>
+        </message>
+        <message>
+            <source>Sending</source>
+            <translation>Senden</translation>
+        </message>
+        <message>
+            <source>Values are being sent to a control. Closing stops at the next safe point.</source>
+            <translation>Werte werden an eine Steuerung gesendet. Schließen hält am nächsten sicheren Punkt an.</translation>
+        </message>
+        <message>
+            <source>&amp;Stop and Close</source>
+            <translation>&amp;Anhalten und schließen</translation>
+        </message>
+        <message>
+            <source>Cancel</source>
+            <translation>Abbrechen</translation>
         </message>
         <message>
             <source>Open</source>
@@ -5131,6 +5553,26 @@ Hier erlaubt: {allowed}</translation>
         <message>
             <source>Step {number}</source>
             <translation>Schritt {number}</translation>
+        </message>
+        <message>
+            <source>What will happen</source>
+            <translation>Was geschehen wird</translation>
+        </message>
+        <message>
+            <source>Mind</source>
+            <translation>Zu beachten</translation>
+        </message>
+        <message>
+            <source>Dangers of the values that change</source>
+            <translation>Gefahren der Werte, die sich ändern</translation>
+        </message>
+        <message>
+            <source>Under way</source>
+            <translation>Unterwegs</translation>
+        </message>
+        <message>
+            <source>What happened</source>
+            <translation>Was geschah</translation>
         </message>
     </context>
     <context>

@@ -31,6 +31,13 @@
                 <numerusform>%n conflicts left</numerusform>
             </translation>
         </message>
+        <message numerus="yes">
+            <source>Write %n values</source>
+            <translation>
+                <numerusform>Write %n value</numerusform>
+                <numerusform>Write %n values</numerusform>
+            </translation>
+        </message>
     </context>
     <context>
         <name>BlockPreview</name>
@@ -77,6 +84,44 @@
             <translation>
                 <numerusform>Merged with {source}. %n value changed.</numerusform>
                 <numerusform>Merged with {source}. %n values changed.</numerusform>
+            </translation>
+        </message>
+    </context>
+    <context>
+        <name>ControlPage</name>
+        <message numerus="yes">
+            <source>%n errors</source>
+            <translation>
+                <numerusform>%n error</numerusform>
+                <numerusform>%n errors</numerusform>
+            </translation>
+        </message>
+        <message numerus="yes">
+            <source>I have checked what can be dangerous: %n</source>
+            <translation>
+                <numerusform>I have checked what can be dangerous: %n</numerusform>
+                <numerusform>I have checked what can be dangerous: %n</numerusform>
+            </translation>
+        </message>
+        <message numerus="yes">
+            <source>Send %n Values to the Control…</source>
+            <translation>
+                <numerusform>Send %n Value to the Control…</numerusform>
+                <numerusform>Send %n Values to the Control…</numerusform>
+            </translation>
+        </message>
+        <message numerus="yes">
+            <source>Send %n Values to the Control</source>
+            <translation>
+                <numerusform>Send %n Value to the Control</numerusform>
+                <numerusform>Send %n Values to the Control</numerusform>
+            </translation>
+        </message>
+        <message numerus="yes">
+            <source>Take %n Values into {name}</source>
+            <translation>
+                <numerusform>Take %n Value into {name}</numerusform>
+                <numerusform>Take %n Values into {name}</numerusform>
             </translation>
         </message>
     </context>

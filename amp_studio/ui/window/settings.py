@@ -86,6 +86,15 @@ class UserSettings:
         """Store the address of the control."""
         self._stored.setValue("control", place)
 
+    def control_of(self, path: Path) -> str:
+        """Return the address of the control that was chosen for a file, or an empty text."""
+        kept = self._value(f"control-of/{_bookmarks_key(path).partition('/')[2]}")
+        return kept if isinstance(kept, str) else ""
+
+    def keep_control_of(self, path: Path, place: str) -> None:
+        """Store the address of the control of a file."""
+        self._stored.setValue(f"control-of/{_bookmarks_key(path).partition('/')[2]}", place)
+
     def language(self) -> str:
         """Return the language of the window: a code, or ``system``."""
         return str(self._value("language") or "system")

@@ -1,0 +1,118 @@
+"""What a control must be before it is written to, in one line: connected, the same machine, in E-stop, with its password."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from datetime import UTC, datetime
+
+from PySide6.QtWidgets import QHBoxLayout, QLabel, QWidget
+
+from amp_studio.files import ParameterFile
+from amp_studio.ui.base.theme import GAP2, GAP3, GAP4, SMALL_ICON, Token, colour, font, icon
+from amp_studio.ui.base.translated import tr
+
+from .session import ControlSession
+
+
+@dataclass(frozen=True, slots=True)
+class Condition:
+    """One of them: ``met`` is None while it was not asked yet."""
+
+    text: str
+    met: bool | None
+    rest: str = ""
+
+
+def conditions_of(session: ControlSession | None, file: ParameterFile) -> list[Condition]:
+    """Return the conditions in their fixed order."""
+    seen = session.seen if session else None
+    if session is None or seen is None:
+        state = None if session is None or not session.error else False
+        waits = [tr("Same machine"), tr("E-stop"), tr("Password")]
+        if session is not None and session.wants_password:
+            return [
+                Condition(tr("Connected"), None),
+                *(Condition(text, None) for text in waits[:2]),
+                Condition(tr("Needs a password"), False),
+            ]
+        return [Condition(tr("Not connected"), state), *(Condition(text, None) for text in waits)]
+    found = [Condition(tr("Connected"), not session.error, seen.control.revision)]
+    found.append(_same_machine(session, file))
+    age = _age(session.asked_at)
+    if session.in_estop is None:
+        found.append(Condition(tr("No E-stop needed"), True))
+    else:
+        text = tr("E-stop is pressed") if session.in_estop else tr("E-stop is not pressed")
+        found.append(Condition(text, session.in_estop, age))
+    found.append(
+        Condition(tr("Password accepted") if session.wants_password else tr("No password needed"), True)
+    )
+    if seen.abilities.lasting_states:
+        found.append(
+            Condition(
+                tr("A write lasts in {states}").format(states=", ".join(seen.abilities.lasting_states)), True
+            )
+        )
+    return found
+
+
+def _same_machine(session: ControlSession, file: ParameterFile) -> Condition:
+    seen, signature = session.seen, file.schema.signature
+    assert seen is not None
+    if seen.control.family and seen.control.family != file.schema.family.family:
+        return Condition(tr("Another family: {name}").format(name=seen.control.family), False)
+    theirs = seen.control.signature
+    if theirs and theirs != signature and not seen.abilities.maps_numbers:
+        return Condition(tr("Numbers its parameters by another schema"), False, theirs[:9])
+    return Condition(tr("Same machine"), True, signature[:9])
+
+
+def _age(when: datetime | None) -> str:
+    if when is None:
+        return ""
+    seconds = max(0, round((datetime.now(UTC).astimezone() - when).total_seconds()))
+    return tr("asked {seconds} s ago").format(seconds=seconds) if seconds else tr("asked now")
+
+
+class ConditionLine(QWidget):
+    """A check in ink where one is met, a circle where it was not asked, amber with words where it is missing."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        self.setFixedHeight(34)
+        self.setAccessibleName(self.tr("Conditions"))
+        self._row = QHBoxLayout(self)
+        self._row.setContentsMargins(GAP3, 0, GAP3, 0)
+        self._row.setSpacing(GAP2)
+        self._row.addStretch(1)
+        self._made: list[tuple[QLabel, QLabel]] = []
+
+    def show_conditions(self, conditions: list[Condition]) -> None:
+        """Show them; nothing else of the page moves."""
+        while len(self._made) < len(conditions):
+            mark, text = QLabel(), QLabel()
+            text.setFont(font("text"))
+            text.setContentsMargins(0, 0, GAP4, 0)
+            for widget in (mark, text):
+                self._row.insertWidget(self._row.count() - 1, widget)
+            self._made.append((mark, text))
+        for n, (mark, text) in enumerate(self._made):
+            is_there = n < len(conditions)
+            mark.setVisible(is_there)
+            text.setVisible(is_there)
+            if is_there:
+                _show(mark, text, conditions[n])
+        self.setAccessibleDescription(", ".join(f"{c.text} {c.rest}".strip() for c in conditions))
+
+
+def _show(mark: QLabel, text: QLabel, condition: Condition) -> None:
+    looks: dict[bool | None, tuple[str, Token]] = {
+        True: ("check", "text"), None: ("circle", "dim"), False: ("warning-fill", "warn"),
+    }  # fmt: skip
+    name, ink = looks[condition.met]
+    mark.setPixmap(icon(name, ink).pixmap(SMALL_ICON, SMALL_ICON))
+    dim = colour("dim").name()
+    text.setText(
+        f'<span style="color:{colour(ink).name()}">{condition.text}</span>'
+        f' <span style="color:{dim}">{condition.rest}</span>'
+    )

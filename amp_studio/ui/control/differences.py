@@ -1,0 +1,228 @@
+"""The values that differ between a file and a control: which side each row takes, and what to mind about it."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+
+from PySide6.QtCore import QSize, Qt, Signal
+from PySide6.QtGui import QKeyEvent
+from PySide6.QtWidgets import QHeaderView, QTreeWidget, QTreeWidgetItem
+
+from amp_studio.files import Difference, ParameterFile, axis_letter, shown_axes
+from amp_studio.report import dangers_of_change
+from amp_studio.report.model import Danger
+from amp_studio.schema import Address
+from amp_studio.ui.base.figures import show_value
+from amp_studio.ui.base.theme import ROW, SMALL_ICON, colour, font, icon, severity_icon
+from amp_studio.ui.base.translated import worded
+
+NUMBER, NAME, AXIS, CONTROL, FILE, MIND = range(6)
+_ADDRESS = Qt.ItemDataRole.UserRole + 1
+
+
+@dataclass
+class Row:
+    """One value that differs."""
+
+    difference: Difference
+    """``a`` is the file's side, ``b`` the control's."""
+    takes_file: bool
+    dangers: tuple[Danger, ...] = ()
+    is_fixed: bool = False
+    """Whether the control's value stays whatever is chosen: the file does not set it."""
+
+
+class DifferenceTable(QTreeWidget):
+    """Groups with their rows; axes that are not fitted and what only the control has are folded. Space changes the side of a row."""
+
+    sides_changed = Signal()
+
+    def __init__(self) -> None:
+        super().__init__()
+        self.setAccessibleName(self.tr("Differences"))
+        self.setHeaderLabels(
+            [self.tr("No."), self.tr("Parameter"), self.tr("Axis"), "A", "B", self.tr("Mind")]
+        )
+        self.setRootIsDecorated(True)
+        self.setIndentation(14)
+        self.setUniformRowHeights(True)
+        self.setAllColumnsShowFocus(True)
+        self.setIconSize(QSize(SMALL_ICON, SMALL_ICON))
+        self.rows: dict[Address, Row] = {}
+        self._items: dict[Address, QTreeWidgetItem] = {}
+        self._file: ParameterFile | None = None
+        self._secrets = False
+        self.itemClicked.connect(self._click)
+        head = self.header()
+        head.setStretchLastSection(True)
+        for column in (NUMBER, AXIS):
+            head.setSectionResizeMode(column, QHeaderView.ResizeMode.ResizeToContents)
+
+    def show_sides(self, control: str, file: str) -> None:
+        """Name the two sides in the head."""
+        self.headerItem().setText(CONTROL, f"A  {control}")
+        self.headerItem().setText(FILE, f"B  {file}")
+
+    def show_differences(
+        self, file: ParameterFile, differences: Iterable[Difference], *, to_control: bool, secrets: bool
+    ) -> None:
+        """List what differs; the file's side is taken, unless it does not set the value, and a choice made before stays."""
+        before = {address: row.takes_file for address, row in self.rows.items()}
+        self._file, self._secrets = file, secrets
+        found = list(differences)
+        self.clear()
+        self.rows, self._items = {}, {}
+        schema = file.schema
+        for difference in found:
+            only = difference.a is None if to_control else difference.b is None
+            dangers = dangers_of_change(file, [difference])
+            takes = not only and before.get(difference.address, True)
+            self.rows[difference.address] = Row(difference, takes, dangers, only)
+        shown = set(shown_axes(file)) if schema.family.fits_axes else None
+        blocks: dict[str, list[Address]] = {}
+        for address in self.rows:
+            blocks.setdefault(self._block_of(address, shown), []).append(address)
+        for title, addresses in sorted(blocks.items(), key=lambda block: block[0].startswith("\0")):
+            self._add_block(title, addresses)
+        for column, width in ((NAME, 260), (CONTROL, 150), (FILE, 150)):
+            self.setColumnWidth(column, width)
+        first = next(iter(self._items.values()), None)
+        if first is not None:
+            self.setCurrentItem(first)
+        self.sides_changed.emit()
+
+    def _block_of(self, address: Address, shown: set[str] | None) -> str:
+        """Return the title of the block of a value; those that begin with a NUL are folded, at the end."""
+        assert self._file is not None
+        if self.rows[address].is_fixed:
+            return "\0" + self.tr("On one side only, kept as they are")
+        if (
+            shown is not None
+            and self._file.evaluation.scope(address) == "axis"
+            and address[1].partition(".")[0] not in shown
+        ):
+            return "\0" + self.tr("Axes that are not fitted")
+        group = self._file.schema.group_of[address[0]]
+        return group.section or group.name
+
+    def _add_block(self, title: str, addresses: list[Address]) -> None:
+        assert self._file is not None
+        head = QTreeWidgetItem([f"{title.lstrip(chr(0))}   {len(addresses)}"])
+        head.setFont(0, font("text", own=True))
+        head.setSizeHint(0, QSize(0, ROW))
+        head.setFlags(Qt.ItemFlag.ItemIsEnabled | Qt.ItemFlag.ItemIsSelectable)
+        self.addTopLevelItem(head)
+        head.setFirstColumnSpanned(True)
+        machine = self._file.machine_schema
+        for address in addresses:
+            row = self.rows[address]
+            place = axis_letter(self._file, address[1]) or worded(machine.instance_label(address))
+            item = QTreeWidgetItem([
+                machine.number(address) or "", self._file.schema.parameters[address[0]].name, place,
+                *reversed([self._text(address, value) for value in row.difference.in_one_unit()]), "",
+            ])  # fmt: skip
+            item.setData(0, _ADDRESS, address)
+            item.setSizeHint(0, QSize(0, ROW))
+            head.addChild(item)
+            self._items[address] = item
+            self._show_side(address)
+        head.setExpanded(not title.startswith("\0"))
+
+    def _text(self, address: Address, value: object) -> str:
+        assert self._file is not None
+        return show_value(self._file.schema.parameters[address[0]], value, secrets=self._secrets)  # type: ignore[arg-type]  # a value of the difference
+
+    def _show_side(self, address: Address) -> None:
+        row, item = self.rows[address], self._items[address]
+        for column, is_taken in ((CONTROL, not row.takes_file), (FILE, row.takes_file)):
+            name = "check-circle-fill" if is_taken else "circle"
+            item.setIcon(
+                column,
+                icon(name, "sel" if is_taken else "dim")
+                if not row.is_fixed or is_taken
+                else icon(name, "grid"),
+            )
+            item.setFont(column, font("text", own=is_taken))
+            item.setForeground(column, colour("text" if is_taken else "dim"))
+        if row.is_fixed:
+            item.setText(MIND, self.tr("stays as it is"))
+        elif not row.takes_file:
+            item.setText(MIND, self.tr("the control's value stays"))
+            item.setIcon(MIND, icon("circle", "panel"))
+        elif row.dangers:
+            item.setText(MIND, self.tr("danger, page {page}").format(page=row.dangers[0].page))
+            item.setIcon(MIND, severity_icon("error"))
+        else:
+            item.setText(MIND, "")
+        spoken = self.tr("the file's value") if row.takes_file else self.tr("the control's value")
+        item.setData(
+            0, Qt.ItemDataRole.AccessibleTextRole, f"{item.text(NUMBER)} {item.text(NAME)}, {spoken}"
+        )
+
+    # -- sides -------------------------------------------------------------------
+
+    def current(self) -> Row | None:
+        """Return the selected row."""
+        item = self.currentItem()
+        return self.rows.get(item.data(0, _ADDRESS)) if item is not None and item.data(0, _ADDRESS) else None
+
+    def take(self, addresses: Iterable[Address], *, file: bool) -> None:
+        """Take one side for some rows."""
+        for address in addresses:
+            row = self.rows[address]
+            if not row.is_fixed:
+                row.takes_file = file
+                self._show_side(address)
+        self.sides_changed.emit()
+
+    def _click(self, item: QTreeWidgetItem, column: int) -> None:
+        address = item.data(0, _ADDRESS)
+        if column in (CONTROL, FILE) and address:
+            self.take([address], file=column == FILE)
+
+    def keyPressEvent(self, event: QKeyEvent) -> None:
+        """Space changes the side of a row, with Ctrl that of its group."""
+        item = self.currentItem()
+        if event.key() != Qt.Key.Key_Space or item is None:
+            super().keyPressEvent(event)
+            return
+        whole = event.modifiers() & Qt.KeyboardModifier.ControlModifier or item.parent() is None
+        head = (item.parent() or item) if whole else None
+        items = [head.child(n) for n in range(head.childCount())] if head is not None else [item]
+        addresses = [each.data(0, _ADDRESS) for each in items]
+        if addresses:
+            self.take(addresses, file=not self.rows[addresses[0]].takes_file)
+
+    def select(self, address: Address) -> None:
+        """Select the row of a value, in a group that is open then."""
+        item = self._items.get(address)
+        if item is not None:
+            item.parent().setExpanded(True)
+            self.setCurrentItem(item)
+            self.scrollToItem(item)
+
+    def show_only(self, words: str) -> None:
+        """Leave out the rows whose number, name or values have none of the words."""
+        wanted = words.casefold().strip()
+        for n in range(self.topLevelItemCount()):
+            head = self.topLevelItem(n)
+            texts = [
+                (c, " ".join(c.text(k) for k in range(MIND)).casefold())
+                for c in map(head.child, range(head.childCount()))
+            ]
+            for child, text in texts:
+                child.setHidden(wanted not in text)
+            head.setHidden(all(wanted not in text for _, text in texts))
+
+    # -- what is sent --------------------------------------------------------------
+
+    def taken(self, *, file: bool) -> list[Row]:
+        """Return the rows that take the file's side, or those that take the control's."""
+        return [row for row in self.rows.values() if row.takes_file is file]
+
+    def dangers(self) -> tuple[Danger, ...]:
+        """Return what the manual calls dangerous about the values that change, each statement once."""
+        if self._file is None:
+            return ()
+        return dangers_of_change(self._file, [row.difference for row in self.taken(file=True)])

@@ -1,0 +1,688 @@
+"""At the control: one page that connects, compares, sends, reads, restores and proves. Nothing of it asks in a box."""
+
+from __future__ import annotations
+
+import hashlib
+from collections.abc import Callable
+from dataclasses import dataclass
+from datetime import UTC, datetime
+from pathlib import Path
+from typing import TYPE_CHECKING, Literal
+
+from PySide6.QtCore import Qt, QTimer, Signal
+from PySide6.QtGui import QKeySequence, QShortcut
+from PySide6.QtWidgets import (
+    QCheckBox,
+    QHBoxLayout,
+    QLabel,
+    QLineEdit,
+    QProgressBar,
+    QPushButton,
+    QSplitter,
+    QStackedWidget,
+    QToolButton,
+    QVBoxLayout,
+    QWidget,
+)
+
+from amp_studio.files import ParameterFile, describe
+from amp_studio.schema import Value
+from amp_studio.ui.base.theme import GAP2, GAP3, HEAD, font, icon
+from amp_studio.ui.base.time_words import in_words
+from amp_studio.ui.base.workspace import Workspace
+from amp_studio.ui.forms.message_bar import MessageBar, MessageKind
+from amp_studio.ui.forms.segment import Segment
+
+from .conditions import ConditionLine, conditions_of
+from .differences import DifferenceTable
+from .known_list import KnownList
+from .session import ControlSession
+from .steps import StepsPanel
+
+if TYPE_CHECKING:
+    from amp_studio.transfer.client.parameters import Copy
+
+
+@dataclass(frozen=True, slots=True)
+class Backup:
+    """What a control contained, and the file in which it is kept."""
+
+    copy: Copy
+    path: Path
+
+
+Direction = Literal["compare", "send", "read"]
+Answer = tuple[str, Callable[[], object]]
+Message = tuple[str, MessageKind, tuple[Answer, ...]]
+"""What is missing or how it ended, how severe it is, and what can be done about it."""
+ASK_MS = 2000
+"""Milliseconds after which a control that must be in E-stop is asked again."""
+
+
+class ControlPage(QWidget):
+    """The exchanges of the file in front. What is chosen here stays while the page is left."""
+
+    left = Signal()
+    """The page was left: the values are to be shown again."""
+    chosen = Signal(str)
+    """Another control was chosen, by its address."""
+    state_changed = Signal()
+    read_wanted = Signal(object)
+    """The content of the control is to become a new file."""
+    report_wanted = Signal()
+
+    def __init__(self, save: Callable[[], bool]) -> None:
+        super().__init__()
+        self._save = save
+        self.workspace: Workspace | None = None
+        self.session: ControlSession | None = None
+        self.backup: Backup | None = None
+        """The backup that is to be restored, in the place of the file."""
+        self.direction: Direction = "compare"
+        self.name = ""
+        self._accepted_errors = False
+        self._build()
+        self._asking = QTimer(self)
+        self._asking.setInterval(ASK_MS)
+        self._asking.timeout.connect(self._ask_again)
+        self.hide()
+
+    # -- building ----------------------------------------------------------------
+
+    def _build(self) -> None:
+        self.known = KnownList()
+        self.known.chosen.connect(self.chosen)
+        self.heading = QLabel()
+        self.heading.setFont(font("text", own=True))
+        self.directions = Segment(self.tr("Direction"), [
+            ("compare", self.tr("Compare"), ""),
+            ("send", self.tr("Send to the Control"), "arrow-line-down"),
+            ("read", self.tr("Read From It"), "arrow-line-up"),
+        ])  # fmt: skip
+        self.directions.chosen.connect(self.turn)
+        self.conditions = ConditionLine()
+        self.bar = MessageBar()
+        self.password = QLineEdit()
+        self.password.setEchoMode(QLineEdit.EchoMode.Password)
+        self.password.setPlaceholderText(self.tr("Password of the control; Enter tries it"))
+        self.password.setAccessibleName(self.tr("Password of the control"))
+        self.password.returnPressed.connect(self._enter_password)
+        self.counts = QLabel()
+        self.filter = QLineEdit()
+        self.filter.setPlaceholderText(self.tr("Name or number"))
+        self.filter.setAccessibleName(self.tr("Filter the differences"))
+        self.filter.setMaximumWidth(220)
+        self.table = DifferenceTable()
+        self.filter.textChanged.connect(self.table.show_only)
+        self.table.sides_changed.connect(self.refresh)
+        self.table.currentItemChanged.connect(lambda *_: self._show_detail())
+        self.empty = QLabel()
+        self.empty.setAlignment(Qt.AlignmentFlag.AlignCenter)
+        self.empty.setWordWrap(True)
+        self.middle = QStackedWidget()
+        self.middle.addWidget(self.table)
+        self.middle.addWidget(self.empty)
+        self.steps = StepsPanel()
+        self.steps.chosen.connect(self.table.select)
+        self.detail = QLabel()
+        self.detail.setWordWrap(True)
+        self.detail.setTextFormat(Qt.TextFormat.RichText)
+        self.detail.setAlignment(Qt.AlignmentFlag.AlignTop)
+        self.detail.setFixedHeight(64)
+        self.detail.setContentsMargins(GAP3, GAP2, GAP3, 0)
+        self.keep = QPushButton()
+        self.keep.clicked.connect(self._keep_current)
+        self.one = QPushButton(self.tr("Write This One Now"))
+        self.one.clicked.connect(self._write_one)
+        self.checked = QCheckBox()
+        self.checked.toggled.connect(self.refresh)
+        self.note = QLabel()
+        self.progress = QProgressBar()
+        self.progress.setMaximumWidth(200)
+        self.cancel = QPushButton()
+        self.cancel.clicked.connect(self._cancel)
+        self.proof = QPushButton(self.tr("Save Proof…"))
+        self.proof.clicked.connect(self.report_wanted)
+        self.again = QPushButton(self.tr("Read Again"))
+        self.again.clicked.connect(self.connect_again)
+        self.primary = QPushButton()
+        self.primary.setProperty("primary", True)
+        self.primary.clicked.connect(self._act)
+        for button in (self.keep, self.one, self.cancel, self.proof, self.again, self.primary):
+            button.setAutoDefault(False)
+        for keys, act in (
+            ("Esc", self._escape),
+            ("Alt+Down", lambda: self._step_dangers(1)),
+            ("Alt+Up", lambda: self._step_dangers(-1)),
+        ):
+            shortcut = QShortcut(QKeySequence(keys), self)
+            shortcut.setContext(Qt.ShortcutContext.WidgetWithChildrenShortcut)
+            shortcut.activated.connect(act)
+        self._lay_out()
+
+    def _lay_out(self) -> None:
+        back = QToolButton()
+        back.setIcon(icon("x"))
+        back.setAutoRaise(True)
+        back.setToolTip(self.tr("Back to the values (Escape)"))
+        back.setAccessibleName(back.toolTip())
+        back.clicked.connect(self.left)
+        parts = QSplitter(Qt.Orientation.Horizontal)
+        parts.addWidget(self.middle)
+        parts.addWidget(self.steps)
+        parts.setStretchFactor(0, 1)
+        parts.setChildrenCollapsible(False)
+        right = QVBoxLayout()
+        right.setSpacing(0)
+        right.addWidget(_row(HEAD, self.heading, None, self.directions, back))
+        right.addWidget(self.conditions)
+        right.addWidget(self.bar)
+        right.addWidget(self.password)
+        right.addWidget(_row(HEAD, self.counts, None, self.filter))
+        right.addWidget(parts, 1)
+        right.addWidget(self.detail)
+        right.addWidget(_row(0, self.keep, self.one, None, self.checked))
+        right.addWidget(
+            _row(44, self.note, None, self.progress, self.cancel, self.proof, self.again, self.primary)
+        )
+        whole = QHBoxLayout(self)
+        whole.setContentsMargins(0, 0, 0, 0)
+        whole.setSpacing(0)
+        whole.addWidget(self.known)
+        whole.addLayout(right, 1)
+        self.setFocusProxy(self.table)
+
+    # -- what is shown -------------------------------------------------------------
+
+    def show_file(self, workspace: Workspace | None, direction: Direction) -> None:
+        """Show the exchanges of a file in a direction; without a file a control can be read into a new one."""
+        if workspace is not self.workspace:
+            self.workspace, self.backup = workspace, None
+            self._accepted_errors = False
+            self.table.clear()
+            self.table.rows.clear()
+        self.turn(direction)
+
+    def turn(self, direction: str) -> None:
+        """Change the direction; what was read stays."""
+        wanted: Direction = "send" if direction == "send" else "read" if direction == "read" else "compare"
+        self.direction = wanted if self.workspace is not None or self.backup is not None else "read"
+        self.backup = self.backup if self.direction == "send" else None
+        self.directions.show_choice(self.direction)
+        self._fill()
+
+    def use(self, session: ControlSession, name: str) -> None:
+        """Take another control, which is read at once."""
+        if self.session is not None:
+            self.session.changed.disconnect(self._follow)
+            self.session.progressed.disconnect(self._show_progress)
+        self.session, self.name = session, name
+        session.changed.connect(self._follow)
+        session.progressed.connect(self._show_progress)
+        if session.phase == "away" and not session.is_busy:
+            session.read()
+        self._fill()
+
+    def show_backup(self, backup: Backup) -> None:
+        """Offer to put back a backup, in the place of the file."""
+        self.backup = backup
+        self.direction = "send"
+        self.directions.show_choice("send")
+        self._fill()
+
+    def rename(self, name: str) -> None:
+        """Take the name by which the control is known now."""
+        if name != self.name:
+            self.name = name
+            self.table.show_sides(name, self.title)
+            self.refresh()
+
+    @property
+    def file(self) -> ParameterFile | None:
+        """The side that is not the control: the file in front, or the backup that is to be restored."""
+        if self.backup is not None:
+            return self.backup.copy.file
+        return self.workspace.file if self.workspace is not None else None
+
+    @property
+    def title(self) -> str:
+        """The name of that side."""
+        if self.backup is not None:
+            return self.backup.path.name
+        return self.workspace.path.name if self.workspace is not None else self.tr("a new file")
+
+    def _follow(self) -> None:
+        session = self.session
+        assert session is not None
+        if session.phase in ("ready", "done") and not session.is_busy:
+            self._fill()
+        else:
+            self.refresh()
+        needs = session.phase == "ready" and session.in_estop is False and self.direction == "send"
+        self._asking.start() if needs and self.isVisible() else self._asking.stop()
+        self.state_changed.emit()
+
+    def _ask_again(self) -> None:
+        if self.session is not None:
+            self.session.ask()
+
+    def _fill(self) -> None:
+        """List the differences anew."""
+        file, session = self.file, self.session
+        found = (
+            session.comparison(file)
+            if session is not None and file is not None and session.seen is not None
+            else None
+        )
+        secrets = self.workspace.secrets if self.workspace is not None else False
+        if found is not None and file is not None:
+            to_control = self.direction != "read"
+            differences = found.values.differences
+            self.table.show_differences(file, differences, to_control=to_control, secrets=secrets)
+        self.table.show_sides(self.name, self.title)
+        self.refresh()
+
+    # -- everything follows the state ------------------------------------------------
+
+    def refresh(self, *_: object) -> None:
+        """Show the state in every part of the page."""
+        session, file = self.session, self.file
+        arrow = "←" if self.direction == "read" else "→"
+        self.heading.setText(f"{self.title}  {arrow}  {self.name or self.tr('no control chosen')}")
+        for direction, button in self.directions.buttons.items():
+            button.setEnabled(self.workspace is not None or direction == "read")
+        own = file or (self.workspace.file if self.workspace is not None else None)
+        self.conditions.setVisible(own is not None)
+        if own is not None:
+            self.conditions.show_conditions(conditions_of(session, own))
+        seen = session.seen if session else None
+        found = session.comparison(file) if session and seen and file is not None else None
+        is_listed = found is not None and session is not None and session.phase != "done"
+        self._show_counts(found.values.same if found else 0, is_listed)
+        self._show_middle(found.summary() if found else "")
+        self._show_bar()
+        self._show_detail()
+        self._show_foot()
+        dangers = self.table.dangers() if self.direction == "send" else ()
+        self.steps.show_plan(self.direction, session, len(self.table.taken(file=True)), dangers)
+
+    def _show_counts(self, same: int, is_read: bool) -> None:
+        differ = len(self.table.rows)
+        kept = sum(not row.takes_file and not row.is_fixed for row in self.table.rows.values())
+        parts = [self.tr("{differ} differ, {same} are the same").format(differ=differ, same=same)]
+        if kept and self.direction == "send":
+            parts.append(self.tr("{kept} kept").format(kept=kept))
+        self.counts.setText(", ".join(parts) if is_read else "")
+        self.filter.setVisible(differ > 0 and is_read)
+
+    def _show_middle(self, summary: str) -> None:
+        session = self.session
+        if session is not None and session.phase == "done":
+            self.empty.setText(self._proof())
+            self.middle.setCurrentWidget(self.empty)
+            return
+        if self.table.rows and session is not None and session.seen is not None:
+            self.middle.setCurrentWidget(self.table)
+            return
+        self.middle.setCurrentWidget(self.empty)
+        if session is None:
+            text = self.tr(
+                "Choose a control at the left, or add one by its address with “+”.\nAn emulated control is in the menu Control."
+            )
+        elif session.phase == "connecting":
+            text = self.tr("Reading what {name} contains …").format(name=self.name)
+        elif session.seen is None:
+            text = session.error
+        elif session.seen.why_unreadable:
+            text = session.seen.why_unreadable
+        elif not session.seen.content:
+            text = self.tr("The control contains no parameters.")
+        else:
+            text = summary or self.tr("Read at {time}").format(
+                time=in_words(session.seen.when, datetime.now(UTC).astimezone())
+            )
+        self.empty.setText(text)
+
+    def _proof(self) -> str:
+        """Return what the control contains now, and by what that is proven."""
+        session = self.session
+        assert session is not None
+        assert session.outcome is not None
+        outcome, seen = session.outcome, session.seen
+        lines = [self.tr("{name} contains all new values.").format(name=self.name), outcome.text]
+        kept = [row for row in self.table.rows.values() if not row.takes_file and not row.is_fixed]
+        if kept and self.workspace is not None:
+            names = ", ".join(describe(self.workspace.file, row.difference.address) for row in kept)
+            lines.append(self.tr("Kept as they were: {names}").format(names=names))
+        if seen is not None:
+            before = hashlib.sha256(seen.content).hexdigest()
+            text = self.tr("Checksum before {before}, now {now}")
+            lines.append(text.format(before=before[:12], now=outcome.sha256[:12]))
+        return "\n\n".join(lines)
+
+    def _show_bar(self) -> None:
+        session = self.session
+        wants = (
+            session is not None and session.wants_password and session.seen is None and not session.is_busy
+        )
+        self.password.setVisible(wants)
+        if wants:
+            self.password.setFocus()
+        said = self._message()
+        if said is None:
+            self.bar.hide()
+            return
+        text, kind, answers = said
+        if self.bar.isHidden() or self.bar.text.text() != text:
+            self.bar.say(text, kind, *answers)
+
+    def _message(self) -> Message | None:
+        """Return what is missing or how it ended, and what to do about it."""
+        session, workspace = self.session, self.workspace
+        if session is None or session.is_busy:
+            return None
+        if session.phase == "away" and session.error:
+            return session.error, "warning", ((self.tr("Try Again"), session.read),)
+        if session.phase == "failed":
+            return self._failure(), "error", ()
+        if session.phase == "done":
+            return (" ".join(session.notes), "advice", ()) if session.notes else None
+        if self.direction != "send" or session.seen is None:
+            return None
+        if session.in_estop is False:
+            text = self.tr(
+                "Press E-stop at the machine. While an axis can move, the control takes no parameters."
+            )
+            return text, "warning", ((self.tr("Ask Now"), session.ask),)
+        if self.backup is not None:
+            return self._doubts_of(self.backup)
+        if workspace is not None:
+            if workspace.is_dirty and workspace.may_edit:
+                text = self.tr("{name} has unsaved changes. A download sends the saved file.").format(
+                    name=workspace.path.name
+                )
+                return text, "warning", ((self.tr("Save"), self._save_file),)
+            errors = [f for f in workspace.findings if f.severity == "error"]
+            if errors and not self._accepted_errors:
+                text = self.tr("The file has {count}, the first: {message}").format(
+                    count=self.tr("%n errors", "", len(errors)), message=errors[0].message)  # fmt: skip
+                return text, "error", ((self.tr("Send It With Its Errors"), self._accept_errors),)
+        return None
+
+    def _doubts_of(self, backup: Backup) -> Message | None:
+        doubts = []
+        if not backup.copy.is_checked:
+            text = self.tr("There is no digest beside {name}, so its content cannot be checked.")
+            doubts.append(text.format(name=backup.path.name))
+        if backup.copy.file is None:
+            text = self.tr("{name} is restored byte for byte, but cannot be shown: {why}.")
+            doubts.append(text.format(name=backup.path.name, why=backup.copy.fault))
+        return (" ".join(doubts), "warning", ()) if doubts else None
+
+    def _failure(self) -> str:
+        """Return one of four sentences about what the control contains, and why."""
+        session = self.session
+        assert session is not None
+        if session.outcome is not None:
+            return session.outcome.text
+        failure = session.failure
+        state = failure.at_control if failure is not None else "old"
+        heads = {
+            "old": self.tr("The control contains all old values."), "": self.tr("The control contains all old values."),
+            "new": self.tr("The control contains all new values."),
+            "mixed": self.tr("The control contains some of both: new and old values."),
+        }  # fmt: skip
+        head = heads.get(state, self.tr("It is not known what the control contains."))
+        rest = "" if state in ("old", "", "new") else self.tr("Do not move the machine before it was read.")
+        return " ".join(filter(None, (head, rest, session.error)))
+
+    def _save_file(self) -> None:
+        self._save()
+        self.refresh()
+
+    def _accept_errors(self) -> None:
+        self._accepted_errors = True
+        self.refresh()
+
+    def _show_detail(self) -> None:
+        row, session = self.table.current(), self.session
+        is_idle = session is not None and session.phase == "ready" and not session.is_busy
+        sends = self.direction == "send" and is_idle
+        text = ""
+        if row is not None and row.dangers and self.direction == "send":
+            text = " ".join(
+                f"{danger.says} ({self.tr('page {page}').format(page=danger.page)})" for danger in row.dangers
+            )
+        self.detail.setText(text)
+        can_keep = sends and row is not None and not row.is_fixed and row.takes_file
+        self.keep.setVisible(bool(can_keep))
+        if can_keep and row is not None and self.file is not None:
+            address = row.difference.address
+            self.keep.setText(
+                self.tr("Keep {value}").format(value=self.table._text(address, row.difference.b))
+            )
+        one = (
+            sends
+            and self.backup is None
+            and session is not None
+            and session.seen is not None
+            and session.seen.takes_one
+        )
+        self.one.setVisible(bool(one and row is not None and row.takes_file))
+        dangers = len(self.table.dangers()) if self.direction == "send" else 0
+        self.checked.setVisible(dangers > 0 and session is not None and session.phase == "ready")
+        self.checked.setText(self.tr("I have checked what can be dangerous: %n", "", dangers))
+
+    def _show_foot(self) -> None:
+        session = self.session
+        running = session is not None and session.phase == "running"
+        self.progress.setVisible(running or (session is not None and session.phase == "connecting"))
+        self.cancel.setVisible(
+            session is not None and session.is_busy and session.phase in ("running", "connecting")
+        )
+        self.cancel.setText(self._cancel_text())
+        self.proof.setVisible(session is not None and session.phase == "done")
+        self.again.setVisible(
+            session is not None and not session.is_busy and session.phase in ("ready", "done")
+        )
+        text, why = self._primary()
+        self.primary.setVisible(bool(text))
+        self.primary.setText(text)
+        self.primary.setEnabled(not why)
+        tied = self.tr("Tied to what you see: if the control changes before, nothing is replaced.")
+        self.note.setText(why or (tied if self.direction == "send" and text else ""))
+
+    def _cancel_text(self) -> str:
+        session = self.session
+        if session is None or session.phase != "running" or session.seen is None:
+            return self.tr("Cancel")
+        if session.seen.abilities.all_or_nothing:
+            return self.tr("Cancel, Keep All Old Values")
+        return self.tr("Cancel, Leave What Is Confirmed")
+
+    # -- the one button ----------------------------------------------------------------
+
+    @property
+    def to_send(self) -> int:
+        """How many values the control gets that it does not contain."""
+        return len(self.table.taken(file=True))
+
+    def _primary(self) -> tuple[str, str]:
+        """Return the text of the primary button and why it is off; no text where there is nothing to do."""
+        session = self.session
+        if session is None or session.is_busy:
+            return "", ""
+        if session.phase in ("away", "failed"):
+            return self.tr("Connect and Read"), ""
+        if session.phase == "done":
+            return self.tr("Back to the Values"), ""
+        if self.direction == "read":
+            return self._reading_primary()
+        if self.direction == "compare":
+            return (
+                (self.tr("Send %n Values to the Control…", "", self.to_send), "")
+                if self.to_send
+                else ("", "")
+            )
+        if self.backup is not None:
+            text = self.tr("Restore {name}").format(name=self.backup.path.name)
+            return text, self._why_not()
+        text = self.tr("Send %n Values to the Control", "", self.to_send)
+        if not self.to_send and not self._differs_elsewhere():
+            return text, self.tr("No difference: there is nothing to send.")
+        return text, self._why_not()
+
+    def _differs_elsewhere(self) -> bool:
+        session, file = self.session, self.file
+        found = session.comparison(file) if session is not None and file is not None else None
+        return found is not None and not found.is_same and not self.table.rows
+
+    def _reading_primary(self) -> tuple[str, str]:
+        assert self.session is not None
+        seen = self.session.seen
+        if seen is None or seen.file is None:
+            return self.tr("Save as a New File…"), self.tr("Nothing that can be read is in the control.")
+        if self.workspace is None or self.session.present(self.workspace.file) is None:
+            return self.tr("Save as a New File…"), ""
+        count = len(self.table.taken(file=False))
+        if not count:
+            return self.tr("Save as a New File…"), ""
+        why = "" if self.workspace.may_edit else self.tr("The file is read-only.")
+        return self.tr("Take %n Values into {name}", "", count).format(name=self.workspace.path.stem), why
+
+    def _why_not(self) -> str:
+        """Return what is missing before something is sent, in the order of the conditions."""
+        session, workspace = self.session, self.workspace
+        assert session is not None
+        if self.file is not None:
+            missing = next((c for c in conditions_of(session, self.file) if c.met is False), None)
+            if missing is not None:
+                return self.tr("Waiting: {what}").format(what=missing.text)
+        if self.backup is None and workspace is not None:
+            if workspace.is_dirty and workspace.may_edit:
+                return self.tr("Waiting: the file is not saved")
+            if not self._accepted_errors and workspace.count("error"):
+                return self.tr("Waiting: the file has errors")
+        if self.table.dangers() and not self.checked.isChecked():
+            return self.tr("Waiting: what can be dangerous is not checked")
+        return ""
+
+    def _act(self) -> None:
+        session = self.session
+        assert session is not None
+        if session.phase in ("away", "failed"):
+            session.read()
+        elif session.phase == "done":
+            self.left.emit()
+        elif self.direction == "compare":
+            self.turn("send")
+        elif self.direction == "read":
+            self._take()
+        else:
+            self._send()
+
+    def press(self) -> None:
+        """Do what the primary button does, if it is on: the key that opened the page, again."""
+        if self.primary.isVisible() and self.primary.isEnabled():
+            self.primary.click()
+
+    def _send(self) -> None:
+        session, workspace = self.session, self.workspace
+        assert session is not None
+        if self.backup is not None:
+            session.restore(self.backup.copy, self.backup.path)
+            return
+        assert workspace is not None
+        file = workspace.file.copy()
+        kept = {
+            row.difference.address: row.difference.b
+            for row in self.table.taken(file=False)
+            if not row.is_fixed
+        }
+        if kept:
+            file.set_many(kept, force=self.tr("kept at the control"))
+        session.send(file, workspace.path)
+
+    def _write_one(self) -> None:
+        row, session, workspace = self.table.current(), self.session, self.workspace
+        if row is not None and session is not None and workspace is not None:
+            session.write_one(row.difference.address, workspace.file.copy(), workspace.path)
+
+    def _take(self) -> None:
+        workspace, session = self.workspace, self.session
+        assert session is not None
+        rows = self.table.taken(file=False) if workspace is not None else []
+        if workspace is None or session.present(workspace.file) is None or not rows:
+            self.read_wanted.emit(session.seen.file.copy() if session.seen and session.seen.file else None)
+            return
+        values: dict[tuple[str, str], Value | None] = {
+            row.difference.address: row.difference.b for row in rows
+        }
+        workspace.edit(self.tr("Read from {name}").format(name=self.name), values)
+        self._fill()
+
+    def _keep_current(self) -> None:
+        if (row := self.table.current()) is not None:
+            self.table.take([row.difference.address], file=False)
+
+    def _step_dangers(self, by: int) -> None:
+        marked = [a for a, row in self.table.rows.items() if row.dangers and row.takes_file]
+        row = self.table.current()
+        here = (
+            marked.index(row.difference.address)
+            if row is not None and row.difference.address in marked
+            else -1
+        )
+        if marked:
+            self.table.select(marked[(here + by) % len(marked)])
+
+    def _cancel(self) -> None:
+        if self.session is not None:
+            self.session.cancel()
+            self.cancel.setEnabled(False)
+            self.note.setText(self.tr("Stopping at the next safe point …"))
+
+    def _escape(self) -> None:
+        if self.session is not None and self.session.phase == "running":
+            self._cancel()
+        else:
+            self.left.emit()
+
+    def connect_again(self) -> None:
+        """Read the control again."""
+        if self.session is not None and not self.session.is_busy:
+            self.session.read()
+
+    def _enter_password(self) -> None:
+        if self.session is not None:
+            text = self.password.text()
+            self.password.clear()
+            self.session.enter_password(text)
+
+    def _show_progress(self, stage: str, done: int, total: int) -> None:
+        self.cancel.setEnabled(True)
+        self.progress.setRange(0, max(total, 0))
+        self.progress.setValue(done)
+        self.steps.show_stage(stage, done, total)
+        if stage in ("silent", "cut"):
+            self.note.setText(
+                self.tr("The line is cut; trying again …") if stage == "cut"
+                else self.tr("No answer for {done} s; trying again …").format(done=done)
+            )  # fmt: skip
+        self.state_changed.emit()
+
+
+def _row(height: int, *parts: QWidget | None) -> QWidget:
+    """Return widgets side by side; None is a stretch."""
+    whole = QWidget()
+    row = QHBoxLayout(whole)
+    row.setContentsMargins(GAP3, 0, GAP3, 0)
+    row.setSpacing(GAP2)
+    for part in parts:
+        if part is None:
+            row.addStretch(1)
+        else:
+            row.addWidget(part)
+    if height:
+        whole.setFixedHeight(height)
+    return whole

@@ -1,0 +1,254 @@
+"""What the window knows of one control: who answers, what it contains, what it lacks, and the exchange that is under way.
+
+Nothing waits here: each act runs in a thread, and ``changed`` says that there is something new to show.
+"""
+
+from __future__ import annotations
+
+import threading
+from collections.abc import Callable, Iterable
+from contextlib import closing
+from dataclasses import dataclass, field
+from datetime import UTC, datetime
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, Literal
+
+from PySide6.QtCore import QObject, Signal
+
+from amp_studio.files import ParameterFile
+from amp_studio.files.by_schema import by_schema
+from amp_studio.schema import Address
+from amp_studio.ui.base.task import Task, TaskProgress
+
+if TYPE_CHECKING:
+    from amp_studio.transfer.client.parameters import Copy, Outcome
+    from amp_studio.transfer.client.verification import ImageComparison
+    from amp_studio.transfer.driver import Abilities, ControlDriver, ControlIdentity
+    from amp_studio.transfer.errors import TransferError
+    from amp_studio.transfer.exchange import Exchange
+
+Phase = Literal["away", "connecting", "ready", "running", "done", "failed"]
+"""Not connected; being read; read; something is sent; it was sent and read back; it did not reach its end."""
+
+
+@dataclass(frozen=True)
+class Seen:
+    """What one reading found: who answered, what it can do, and its content in bytes and as a file where it can be read."""
+
+    control: ControlIdentity
+    abilities: Abilities
+    takes_one: bool
+    """Whether a single value goes into it while it is at work."""
+    content: bytes
+    file: ParameterFile | None
+    why_unreadable: str
+    when: datetime = field(default_factory=lambda: datetime.now(UTC).astimezone())
+
+
+class ControlSession(QObject):
+    """The exchanges of one file with one control, one at a time."""
+
+    changed = Signal()
+    progressed = Signal(str, int, int)
+    ended = Signal(str, bool)
+    """An act ("connect", "download", "restore") ended, and whether the control answered."""
+    value_written = Signal(object)
+
+    def __init__(self, address: str, family: str, parent: QObject | None = None) -> None:
+        super().__init__(parent)
+        self.address, self.family = address, family
+        self.phase: Phase = "away"
+        self.seen: Seen | None = None
+        self.in_estop: bool | None = None
+        """As it was asked last; None where there is no such state."""
+        self.asked_at: datetime | None = None
+        self.error = ""
+        self.failure: TransferError | None = None
+        """Why the last download or restore did not reach its end."""
+        self.outcome: Outcome | None = None
+        self.wants_password = False
+        self.notes: list[str] = []
+        self._task: Task | None = None
+
+    @property
+    def is_busy(self) -> bool:
+        """Whether an exchange is under way."""
+        return self._task is not None
+
+    # -- reading -----------------------------------------------------------------
+
+    def read(self) -> None:
+        """Connect and read all that the control contains."""
+        self.error, self.failure, self.outcome = "", None, None
+        self._begin("connecting", self._look, self._take_seen, self._not_reached)
+
+    def ask(self) -> None:
+        """Ask the control for its state again; nothing is read or changed."""
+        if self.seen is not None and not self.is_busy:
+            self._begin(self.phase, self._identify, self._take_state, self._not_reached)
+
+    def enter_password(self, password: str) -> None:
+        """Try again with a password, which is known until the program ends."""
+        from amp_studio.transfer.links.endpoint import parse_endpoint
+        from amp_studio.transfer.links.passwords import enter_password
+
+        enter_password(parse_endpoint(self.address), password)
+        self.read()
+
+    def _driver(self, exchange: Exchange) -> ControlDriver:
+        from amp_studio.transfer.client.drivers import open_driver_at
+        from amp_studio.transfer.links.passwords import ask_with
+
+        def nobody(_: str) -> str:
+            self.wants_password = True  # the page has a field for it
+            return ""
+
+        self.wants_password = False
+        ask_with(nobody, forget=False)
+        return open_driver_at(self.address, self.family, exchange)
+
+    def _look(self, exchange: Exchange) -> Seen:
+        from amp_studio.transfer.client.exchange import look_at
+        from amp_studio.transfer.content import decode_content
+        from amp_studio.transfer.driver import TakesLiveValues
+        from amp_studio.transfer.image import ImageError
+
+        with closing(self._driver(exchange)) as driver:
+            control, content, _ = look_at(driver, exchange)
+            file, why = None, ""
+            try:
+                file = decode_content(content) if content else None
+            except ImageError as error:
+                why = str(error)
+            takes_one = isinstance(driver, TakesLiveValues)
+            return Seen(control, driver.abilities, takes_one, content, file, why)
+
+    def _identify(self, exchange: Exchange) -> ControlIdentity:
+        with closing(self._driver(exchange)) as driver:
+            return driver.identify(exchange)
+
+    def _take_seen(self, seen: Seen) -> None:
+        self.seen, self.phase = seen, "ready"
+        self._take_state(seen.control)
+        self.ended.emit("connect", True)
+
+    def _take_state(self, control: ControlIdentity) -> None:
+        self.in_estop, self.asked_at = control.in_estop, datetime.now(UTC).astimezone()
+
+    def _not_reached(self, error: Exception) -> None:
+        self.error, self.phase = str(error), "away"
+        self.ended.emit("connect", False)
+
+    def present(self, file: ParameterFile) -> ParameterFile | None:
+        """Return what the control contains in the schema of a file; None where that is not known or of another family."""
+        held = self.seen.file if self.seen else None
+        if held is None or held.schema.family.family != file.schema.family.family:
+            return None
+        return by_schema(held, file.schema)
+
+    def comparison(self, file: ParameterFile) -> ImageComparison | None:
+        """Return the file compared with what the control contains; None before it was read."""
+        from amp_studio.transfer.client.verification import verify_content
+
+        return verify_content(file, self.seen.content) if self.seen is not None else None
+
+    # -- writing -----------------------------------------------------------------
+
+    def send(self, file: ParameterFile, path: Path) -> None:
+        """Put a file into the control; only what was read before may be replaced, and it is kept beside ``path``."""
+        seen = self.seen
+        assert seen is not None
+
+        def work(exchange: Exchange) -> Outcome:
+            from amp_studio.transfer.client import parameters
+
+            expected = parameters.sha256(seen.content)
+            return parameters.download_file(
+                file, self.address, exchange, expected=expected, known=seen.content
+            )
+
+        self._write("download", work, path)
+
+    def restore(self, copy: Copy, path: Path) -> None:
+        """Put back what a control contained, byte for byte."""
+        seen = self.seen
+        assert seen is not None
+
+        def work(exchange: Exchange) -> Outcome:
+            from amp_studio.transfer.client import parameters
+
+            return parameters.restore_copy(
+                copy, self.address, exchange, expected=parameters.sha256(seen.content)
+            )
+
+        self._write("restore", work, path)
+
+    def write_one(self, address: Address, file: ParameterFile, path: Path) -> None:
+        """Write one value of a file into the control now; it is read back and recorded."""
+
+        def work(exchange: Exchange) -> Outcome:
+            from amp_studio.transfer.client.live import LiveTuning
+
+            with closing(LiveTuning(self._driver(exchange), path, address=self.address, record=path)) as live:
+                live.look(exchange)
+                return live.set({address: file.get(address)}, exchange)
+
+        self._write("download", work, path, then=lambda: self.value_written.emit(address))
+
+    def _write(
+        self,
+        verb: str,
+        work: Callable[[Exchange], Outcome],
+        path: Path,
+        then: Callable[[], None] = lambda: None,
+    ) -> None:
+        self.outcome, self.failure, self.error, self.notes = None, None, "", []
+
+        def done(outcome: Outcome) -> None:
+            self.outcome, self.phase = outcome, "done" if outcome.verified else "failed"
+            self.ended.emit(verb, True)
+            then()
+
+        def failed(error: Exception) -> None:
+            from amp_studio.transfer.errors import TransferError
+
+            self.failure = error if isinstance(error, TransferError) else None
+            self.error, self.phase = str(error), "failed"
+            self.ended.emit(verb, False)
+
+        self._begin("running", work, done, failed, path)
+
+    def cancel(self) -> None:
+        """Break off what is under way, at its next safe point."""
+        if self._task is not None:
+            self._task.cancelled.set()
+
+    # -- the thread --------------------------------------------------------------
+
+    def _begin(
+        self, phase: Phase, work: Callable[[Exchange], Any], done: Callable[[Any], None],
+        failed: Callable[[Exception], None], path: Path | None = None,
+    ) -> None:  # fmt: skip
+        if self._task is not None:
+            return
+        self.phase = phase
+
+        def run(progress: TaskProgress, cancel: threading.Event) -> Any:
+            from amp_studio.transfer.exchange import Exchange
+
+            return work(Exchange(progress, cancel, keep=path, record=path, notify=self.notes.append))
+
+        task = self._task = Task(run)
+        results: list[Callable[[], None]] = []
+        task.done.connect(lambda result: results.append(lambda: done(result)))
+        task.failed.connect(lambda error: results.append(lambda: failed(error)))
+        task.progressed.connect(self.progressed)
+        task.finished.connect(lambda: self._finish(results))
+        task.begin()
+        self.changed.emit()
+
+    def _finish(self, results: Iterable[Callable[[], None]]) -> None:
+        self._task = None
+        for take in results:
+            take()
+        self.changed.emit()

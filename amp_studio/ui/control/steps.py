@@ -1,0 +1,124 @@
+"""The right side of the page at the control: what will happen, how far it is, and what to mind."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import TYPE_CHECKING
+
+from PySide6.QtCore import QSize, Qt, Signal
+from PySide6.QtWidgets import QLabel, QListWidget, QListWidgetItem, QVBoxLayout, QWidget
+
+from amp_studio.ui.base.theme import GAP, GAP2, GAP3, SMALL_ICON, font, severity_icon
+from amp_studio.ui.base.translated import tr
+
+if TYPE_CHECKING:
+    from amp_studio.report.model import Danger
+
+    from .session import ControlSession
+
+STAGES = ("identify", "keep", "download", "verify", "commit")
+_OF_PROGRESS = {"keep": 1, "download": 2, "commit": 2, "restart": 3, "verify": 3, "upload": 1}
+"""Stage of an exchange -> the step that is under way."""
+
+
+class StepsPanel(QWidget):
+    """Five steps and the statements of danger; a click on one selects its row."""
+
+    chosen = Signal(object)
+
+    def __init__(self) -> None:
+        super().__init__()
+        self.setMinimumWidth(220)
+        self._title, self._mind = QLabel(self.tr("What will happen")), QLabel(self.tr("Mind"))
+        for label in (self._title, self._mind):
+            label.setFont(font("small"))
+            label.setForegroundRole(label.palette().ColorRole.PlaceholderText)
+        self._lines = [(QLabel(), QLabel()) for _ in range(5)]
+        column = QVBoxLayout(self)
+        column.setContentsMargins(GAP3, GAP2, GAP2, 0)
+        column.setSpacing(GAP)
+        column.addWidget(self._title)
+        for first, second in self._lines:
+            first.setFont(font("text"))
+            second.setFont(font("small"))
+            second.setForegroundRole(second.palette().ColorRole.PlaceholderText)
+            second.setWordWrap(True)
+            column.addWidget(first)
+            column.addWidget(second)
+        column.addWidget(self._mind)
+        self.list = QListWidget()
+        self.list.setAccessibleName(self.tr("Dangers of the values that change"))
+        self.list.setFrameShape(QListWidget.Shape.NoFrame)
+        self.list.setWordWrap(True)
+        self.list.setIconSize(QSize(SMALL_ICON, SMALL_ICON))
+        self.list.itemClicked.connect(lambda item: self.chosen.emit(item.data(Qt.ItemDataRole.UserRole)))
+        column.addWidget(self.list, 1)
+        self._at = -1
+
+    def show_plan(
+        self, direction: str, session: ControlSession | None, count: int, dangers: Sequence[Danger]
+    ) -> None:
+        """Show what will happen, or what has happened."""
+        is_sent = direction == "send"
+        phase = session.phase if session else "away"
+        if phase == "running":
+            self._title.setText(self.tr("Under way"))
+        else:
+            self._title.setText(
+                self.tr("What happened") if phase in ("done", "failed") else self.tr("What will happen")
+            )
+            self._at = len(STAGES) if phase == "done" else self._at if phase == "failed" else -1
+        whole = session is None or session.seen is None or session.seen.abilities.all_or_nothing
+        texts = _texts(count, whole) if is_sent else _reading()
+        for n, (first, second) in enumerate(self._lines):
+            first.setVisible(n < len(texts))
+            second.setVisible(n < len(texts))
+            if n < len(texts):
+                mark = "✓ " if n < self._at and is_sent else f"{n + 1}  "
+                first.setText(mark + texts[n][0])
+                second.setText(texts[n][1])
+        self._mind.setVisible(bool(dangers))
+        self.list.setVisible(bool(dangers))
+        self.list.clear()
+        for danger in dangers:
+            for anchor, label in danger.about:
+                item = QListWidgetItem(severity_icon("error"), label)
+                parameter, _, instance = anchor.rpartition("@")
+                item.setData(Qt.ItemDataRole.UserRole, (parameter, instance))
+                item.setToolTip(danger.says)
+                self.list.addItem(item)
+
+    def show_stage(self, stage: str, done: int, total: int) -> None:
+        """Show how far an exchange is."""
+        step = _OF_PROGRESS.get(stage)
+        if step is None:
+            return
+        self._at = step
+        for n, (first, second) in enumerate(self._lines):
+            text = first.text()[2:].lstrip()
+            first.setText(("✓ " if n < step else "▸ " if n == step else f"{n + 1}  ") + text)
+            if n == step and total > 0:
+                second.setText(tr("{done} of {total}").format(done=done, total=total))
+
+
+def _texts(count: int, whole: bool) -> list[tuple[str, str]]:
+    last = (
+        (tr("Commit all or nothing"), tr("until then the old values stay"))
+        if whole
+        else (tr("Each value acts at once"), tr("cancelling leaves what is confirmed"))
+    )
+    return [
+        (tr("Identify"), tr("same machine, same options")),
+        (tr("Back up what it contains"), tr("as a file beside this one")),
+        (tr("Write %n values", "", count), tr("only what was shown may be replaced")),
+        (tr("Read everything back"), tr("compared exactly")),
+        last,
+    ]
+
+
+def _reading() -> list[tuple[str, str]]:
+    return [
+        (tr("Identify"), tr("reads only")),
+        (tr("Read what it contains"), tr("nothing is changed in the control")),
+        (tr("Compare with the file"), tr("every value, exactly")),
+    ]

@@ -1,0 +1,33 @@
+"""The page at the control in a test: a control is chosen, and what is under way comes to its end."""
+
+from __future__ import annotations
+
+from pytestqt.qtbot import QtBot
+
+from amp_studio.ui.control.page import ControlPage, Direction
+from amp_studio.ui.main_window import MainWindow
+
+from .conftest import WAIT_MS
+
+
+def at_control(window: MainWindow, address: str, direction: Direction, qtbot: QtBot) -> ControlPage:
+    """Return the page in a direction, after the control was read or was not reached."""
+    window.control.exchanges.choose(window.workspace, address)
+    window.control.show(direction, address)
+    return settled(window, qtbot)
+
+
+def settled(window: MainWindow, qtbot: QtBot) -> ControlPage:
+    """Return the page once nothing is under way."""
+    page = window.control.page
+    qtbot.waitUntil(lambda: page.session is not None and not page.session.is_busy, timeout=WAIT_MS)
+    return page
+
+
+def sent(window: MainWindow, address: str, qtbot: QtBot) -> ControlPage:
+    """Return the page after the file in front was sent, dangers checked."""
+    page = at_control(window, address, "send", qtbot)
+    page.checked.setChecked(True)
+    assert page.primary.isEnabled(), page.note.text()
+    page.press()
+    return settled(window, qtbot)
