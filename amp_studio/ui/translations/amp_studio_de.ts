@@ -1351,7 +1351,7 @@ Woher ist bekannt, was sie enthält?</translation>
         </message>
         <message>
             <source>&amp;At the Control</source>
-            <translation>A&amp;n der Steuerung</translation>
+            <translation>An der Ste&amp;uerung</translation>
         </message>
         <message>
             <source>Control</source>
@@ -1387,7 +1387,7 @@ Woher ist bekannt, was sie enthält?</translation>
         </message>
         <message>
             <source>&amp;Start Emulated Control</source>
-            <translation>Ü&amp;bungssteuerung starten</translation>
+            <translation>Nach&amp;gebildete Steuerung starten</translation>
         </message>
         <message>
             <source>Emulated Control in &amp;E-Stop</source>
