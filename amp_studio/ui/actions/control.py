@@ -53,7 +53,8 @@ class ControlActions(Translated):
         self._page: ControlPage | None = None
         self._sessions: dict[tuple[str, str, str], ControlSession] = {}
         """Address, family and file -> its exchanges."""
-        files.comparing.address_of = self.chosen_address
+        self.exchanges.show_page = lambda: self.show("compare")
+        files.comparing.address_of = self.exchanges.chosen_address
         self.emulated.ready.connect(self._ready)
         self.emulated.shown.connect(self._shown)
         self.emulated.ended.connect(self._ended)
@@ -70,12 +71,12 @@ class ControlActions(Translated):
         )
         upload = act(self.tr("Read &From the Control…"), lambda: self.show("read"), "F7", "", "arrow-line-up")
         put_back = act(self.tr("&Restore Control From Backup…"), self.restore, None, "")
-        by_hand = act(self.tr("Enter Values by &Hand…"), partial(enter_by_hand, self), None, "file")
+        by_hand = act(self.tr("Enter Values by &Hand…"), partial(enter_by_hand, self.exchanges), None, "file")
         several = act(self.tr("Se&veral Controls…"), self.several, None, "file")
         exchanges = act(self.tr("E&xchanges of This File…"), self.recorded, None, "file")
         menu.addActions([self.at_control, download, verify, upload, put_back, by_hand])
         menu.addSeparator()
-        tuning = act(self.tr("&Tuning…"), lambda: tune(self.window, self), "Shift+F9", "file")
+        tuning = act(self.tr("&Tuning…"), lambda: tune(self.window, self.exchanges), "Shift+F9", "file")
         menu.addActions([several, exchanges])
         menu.addAction(tuning)
         menu.addSeparator()
@@ -98,13 +99,6 @@ class ControlActions(Translated):
         )
         self.at_control.setToolTip(self.tr("{name}: {state} (Alt+0)").format(name=name, state=state))
         self.at_control.setIcon(icon("warning-fill", "warn") if warns else icon("cpu"))
-
-    def chosen_address(self) -> str | None:
-        """Return the control chosen for the file in front; without one the page is shown, where one is chosen."""
-        address = self.exchanges.address_of(self.window.workspace)
-        if not address:
-            self.show("compare")
-        return address or None
 
     # -- the emulated control --------------------------------------------------
 

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from functools import partial
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 from PySide6.QtWidgets import QFileDialog
 
@@ -12,15 +11,13 @@ from amp_studio.files import ParameterFile, open_file
 from amp_studio.ui.base.questions import ask
 from amp_studio.ui.base.task import in_background
 from amp_studio.ui.base.translated import tr
+from amp_studio.ui.control.exchange import ControlExchange
 from amp_studio.validate import rules_beside
-
-if TYPE_CHECKING:
-    from .control import ControlActions
 
 _FILES = "Parameter files and backups of a control (*.amp *.img);;All files (*)"
 
 
-def enter_by_hand(control: ControlActions) -> None:
+def enter_by_hand(control: ControlExchange) -> None:
     """Ask what the control contains and show what has to be keyed in; raises the errors of both sides."""
     from amp_studio.sheet import Sheet, Ticks, make_sheet, ticks_path
     from amp_studio.ui.control.sheet_dialog import SheetDialog
@@ -54,7 +51,7 @@ def enter_by_hand(control: ControlActions) -> None:
     SheetDialog(workspace, make, window).show()
 
 
-def _of_control(control: ControlActions) -> tuple[ParameterFile, str] | None:
+def _of_control(control: ControlExchange) -> tuple[ParameterFile, str] | None:
     address = control.chosen_address()
     if address is None:
         return None
@@ -63,15 +60,13 @@ def _of_control(control: ControlActions) -> tuple[ParameterFile, str] | None:
 
     workspace = control.window.workspace
     assert workspace is not None
-    content = control.exchanges.fetch(
-        address, tr("Enter Values by Hand"), workspace.file.schema.family.family
-    )
+    content = control.fetch(address, tr("Enter Values by Hand"), workspace.file.schema.family.family)
     present = decode_content(content)
-    control.exchanges.remember(workspace, present)
+    control.remember(workspace, present)
     return present, f"{address}, sha256 {sha256(content)[:12]}…"
 
 
-def _of_file(control: ControlActions) -> tuple[ParameterFile, str] | None:
+def _of_file(control: ControlExchange) -> tuple[ParameterFile, str] | None:
     window = control.window
     assert window.workspace is not None
     folder = str(window.workspace.path.parent)

@@ -5,16 +5,15 @@ from __future__ import annotations
 from functools import partial
 from typing import TYPE_CHECKING
 
+from amp_studio.ui.control.exchange import ControlExchange
 from amp_studio.ui.window.studio_window import StudioWindow
 
 if TYPE_CHECKING:
     from amp_studio.transfer.client.live import LiveTuning
     from amp_studio.ui.base.workspace import Workspace
 
-    from .control import ControlActions
 
-
-def tune(window: StudioWindow, control: ControlActions) -> None:
+def tune(window: StudioWindow, exchanges: ControlExchange) -> None:
     """Show the pages of the file in front; raises ValueError for a family that has nothing to tune."""
     from amp_studio.calibration import compensation_of
     from amp_studio.ui.motion.tuning_window import TuningWindow
@@ -26,11 +25,11 @@ def tune(window: StudioWindow, control: ControlActions) -> None:
         raise ValueError(
             f"The manual of {workspace.file.schema.family.name} names nothing that is tuned on line."
         )
-    TuningWindow(workspace, partial(_connect, workspace, control), window).show()
+    TuningWindow(workspace, partial(_connect, workspace, exchanges), window).show()
 
 
-def _connect(workspace: Workspace, control: ControlActions) -> LiveTuning | None:
-    address = control.chosen_address()
+def _connect(workspace: Workspace, exchanges: ControlExchange) -> LiveTuning | None:
+    address = exchanges.chosen_address()
     if address is None:
         return None
     from amp_studio.transfer.client.drivers import open_driver

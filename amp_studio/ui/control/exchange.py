@@ -53,6 +53,8 @@ class ControlExchange(Translated):
 
     def __init__(self, window: StudioWindow, emulated: EmulatedControl) -> None:
         self.window, self._emulated = window, emulated
+        self.show_page: Callable[[], None] = lambda: None
+        """Shows the page at the control, where one is chosen."""
 
     def address_of(self, workspace: Workspace | None) -> str:
         """Return the control chosen for a file, of its project, the emulated one, or the last one; empty for none."""
@@ -60,6 +62,13 @@ class ControlExchange(Translated):
         own = settings.control_of(workspace.path) if workspace is not None else ""
         known = (own, project.info.control if project else "", self._emulated.address, settings.control())
         return next(filter(None, known), "")
+
+    def chosen_address(self) -> str | None:
+        """Return the control chosen for the file in front; without one the page is shown, where one is chosen."""
+        address = self.address_of(self.window.workspace)
+        if not address:
+            self.show_page()
+        return address or None
 
     def choose(self, workspace: Workspace | None, address: str) -> None:
         """Remember the control of a file, and as the last one."""
