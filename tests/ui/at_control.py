@@ -4,13 +4,13 @@ from __future__ import annotations
 
 from pytestqt.qtbot import QtBot
 
-from amp_studio.ui.control.page import ControlPage, Direction
+from amp_studio.ui.control.page import ControlPage, ExchangeDirection
 from amp_studio.ui.main_window import MainWindow
 
 from .conftest import WAIT_MS
 
 
-def at_control(window: MainWindow, address: str, direction: Direction, qtbot: QtBot) -> ControlPage:
+def at_control(window: MainWindow, address: str, direction: ExchangeDirection, qtbot: QtBot) -> ControlPage:
     """Return the page in a direction, after the control was read or was not reached."""
     window.control.exchanges.choose(window.workspace, address)
     window.control.show(direction, address)

@@ -20,8 +20,8 @@ from amp_studio.ui.base.theme import icon
 from amp_studio.ui.base.translated import Translated, tr
 from amp_studio.ui.base.workspace import Workspace
 from amp_studio.ui.control.exchange import ControlExchange
-from amp_studio.ui.control.known_list import Listed
-from amp_studio.ui.control.page import ControlPage, Direction
+from amp_studio.ui.control.known_list import ListedControl
+from amp_studio.ui.control.page import ControlPage, ExchangeDirection
 from amp_studio.ui.control.session import ControlSession
 from amp_studio.ui.forms.out_of_range import AskInDialogs
 from amp_studio.ui.window.studio_window import StudioWindow
@@ -166,7 +166,7 @@ class ControlActions(Translated):
         """Whether the page is in front."""
         return self._page is not None and self._centre.currentWidget() is self._page
 
-    def show(self, direction: Direction, address: str = "") -> None:
+    def show(self, direction: ExchangeDirection, address: str = "") -> None:
         """Show the page in a direction; the key that opened it is its primary button the second time."""
         workspace = self.window.workspace
         if direction == "send" and workspace is not None and not self._has_a_way(workspace):
@@ -244,7 +244,7 @@ class ControlActions(Translated):
             return self.tr("Emulated control")
         return known.name if known is not None and known.name else address.partition("://")[2] or address
 
-    def _listed(self, address: str) -> Listed:
+    def _listed(self, address: str) -> ListedControl:
         known = next((c for c in self.window.settings.controls() if c.address == address), None)
         session = next((s for (a, _, _), s in self._sessions.items() if a == address), None)
         state, warns = state_in_words(session)
@@ -255,7 +255,7 @@ class ControlActions(Translated):
             if known
             else ""
         )
-        return Listed(address, self._name_of(address), family, state, warns)
+        return ListedControl(address, self._name_of(address), family, state, warns)
 
     def _family(self, key: str) -> str:
         """Return the short name of a family where the file in front is of it, else its key."""
@@ -278,7 +278,7 @@ class ControlActions(Translated):
         self.enable()
 
     def state_of(self, workspace: Workspace | None) -> tuple[str, str, bool]:
-        """Return the name of the control of a file, its state in words, and whether it wants something."""
+        """Return the name of the control of a file, its state in words, and whether it needs something."""
         address = self.exchanges.address_of(workspace)
         if not address:
             return self.tr("Control"), self.tr("none chosen"), False
@@ -299,7 +299,7 @@ class ControlActions(Translated):
     def restore(self) -> None:
         """Ask for a backup and offer to put it back; raises ValueError for a file with errors that is no proven backup."""
         from amp_studio.transfer.client.kept import open_copy
-        from amp_studio.ui.control.page import Backup
+        from amp_studio.ui.control.page import ControlBackup
 
         workspace = self.window.workspace
         folder = workspace.path.parent if workspace is not None else Path()
@@ -311,7 +311,7 @@ class ControlActions(Translated):
         check_copy(copy, path)
         if not self.is_shown:
             self.show("compare")
-        self.page.show_backup(Backup(copy, path))
+        self.page.show_backup(ControlBackup(copy, path))
 
     def several(self) -> None:
         """Open the dialog that exchanges the file with several controls."""
@@ -323,7 +323,7 @@ class ControlActions(Translated):
         FleetDialog(workspace, known, self.window.guarded, self._is_ready, self.window).show()
 
     def _is_ready(self, workspace: Workspace) -> bool:
-        """Return whether a file may be sent to several controls; what is missing is said in its page."""
+        """Return whether a file may be sent to several controls; what is missing is an error."""
         if workspace.is_dirty and workspace.may_edit:
             raise ValueError(
                 self.tr("{name} has unsaved changes: save it first.").format(name=workspace.path.name)
@@ -367,7 +367,7 @@ class ControlActions(Translated):
 
 
 def state_in_words(session: ControlSession | None) -> tuple[str, bool]:
-    """Return the state of a control in words, and whether it wants something."""
+    """Return the state of a control in words, and whether it needs something."""
     if session is None:
         return tr("not connected"), False
     if session.wants_password and session.seen is None:

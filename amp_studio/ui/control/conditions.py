@@ -15,7 +15,7 @@ from .session import ControlSession
 
 
 @dataclass(frozen=True, slots=True)
-class Condition:
+class ControlCondition:
     """One of them: ``met`` is None while it was not asked yet."""
 
     text: str
@@ -23,7 +23,7 @@ class Condition:
     rest: str = ""
 
 
-def conditions_of(session: ControlSession | None, file: ParameterFile) -> list[Condition]:
+def conditions_of(session: ControlSession | None, file: ParameterFile) -> list[ControlCondition]:
     """Return the conditions in their fixed order."""
     seen = session.seen if session else None
     if session is None or seen is None:
@@ -31,40 +31,45 @@ def conditions_of(session: ControlSession | None, file: ParameterFile) -> list[C
         waits = [tr("Same machine"), tr("E-stop"), tr("Password")]
         if session is not None and session.wants_password:
             return [
-                Condition(tr("Connected"), None),
-                *(Condition(text, None) for text in waits[:2]),
-                Condition(tr("Needs a password"), False),
+                ControlCondition(tr("Connected"), None),
+                *(ControlCondition(text, None) for text in waits[:2]),
+                ControlCondition(tr("Needs a password"), False),
             ]
-        return [Condition(tr("Not connected"), state), *(Condition(text, None) for text in waits)]
-    found = [Condition(tr("Connected"), not session.error, seen.control.revision)]
+        return [
+            ControlCondition(tr("Not connected"), state),
+            *(ControlCondition(text, None) for text in waits),
+        ]
+    found = [ControlCondition(tr("Connected"), not session.error, seen.control.revision)]
     found.append(_same_machine(session, file))
     age = _age(session.asked_at)
     if session.in_estop is None:
-        found.append(Condition(tr("No E-stop needed"), True))
+        found.append(ControlCondition(tr("No E-stop needed"), True))
     else:
         text = tr("E-stop is pressed") if session.in_estop else tr("E-stop is not pressed")
-        found.append(Condition(text, session.in_estop, age))
+        found.append(ControlCondition(text, session.in_estop, age))
     found.append(
-        Condition(tr("Password accepted") if session.wants_password else tr("No password needed"), True)
+        ControlCondition(
+            tr("Password accepted") if session.wants_password else tr("No password needed"), True
+        )
     )
     if seen.abilities.lasting_states:
         found.append(
-            Condition(
+            ControlCondition(
                 tr("A write lasts in {states}").format(states=", ".join(seen.abilities.lasting_states)), True
             )
         )
     return found
 
 
-def _same_machine(session: ControlSession, file: ParameterFile) -> Condition:
+def _same_machine(session: ControlSession, file: ParameterFile) -> ControlCondition:
     seen, signature = session.seen, file.schema.signature
     assert seen is not None
     if seen.control.family and seen.control.family != file.schema.family.family:
-        return Condition(tr("Another family: {name}").format(name=seen.control.family), False)
+        return ControlCondition(tr("Another family: {name}").format(name=seen.control.family), False)
     theirs = seen.control.signature
     if theirs and theirs != signature and not seen.abilities.maps_numbers:
-        return Condition(tr("Numbers its parameters by another schema"), False, theirs[:9])
-    return Condition(tr("Same machine"), True, signature[:9])
+        return ControlCondition(tr("Numbers its parameters by another schema"), False, theirs[:9])
+    return ControlCondition(tr("Same machine"), True, signature[:9])
 
 
 def _age(when: datetime | None) -> str:
@@ -87,7 +92,7 @@ class ConditionLine(QWidget):
         self._row.addStretch(1)
         self._made: list[tuple[QLabel, QLabel]] = []
 
-    def show_conditions(self, conditions: list[Condition]) -> None:
+    def show_conditions(self, conditions: list[ControlCondition]) -> None:
         """Show them; nothing else of the page moves."""
         while len(self._made) < len(conditions):
             mark, text = QLabel(), QLabel()
@@ -105,7 +110,7 @@ class ConditionLine(QWidget):
         self.setAccessibleDescription(", ".join(f"{c.text} {c.rest}".strip() for c in conditions))
 
 
-def _show(mark: QLabel, text: QLabel, condition: Condition) -> None:
+def _show(mark: QLabel, text: QLabel, condition: ControlCondition) -> None:
     looks: dict[bool | None, tuple[str, Token]] = {
         True: ("check", "text"), None: ("circle", "dim"), False: ("warning-fill", "warn"),
     }  # fmt: skip

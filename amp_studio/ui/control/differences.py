@@ -22,7 +22,7 @@ _ADDRESS = Qt.ItemDataRole.UserRole + 1
 
 
 @dataclass
-class Row:
+class SideRow:
     """One value that differs."""
 
     difference: Difference
@@ -49,7 +49,7 @@ class DifferenceTable(QTreeWidget):
         self.setUniformRowHeights(True)
         self.setAllColumnsShowFocus(True)
         self.setIconSize(QSize(SMALL_ICON, SMALL_ICON))
-        self.rows: dict[Address, Row] = {}
+        self.rows: dict[Address, SideRow] = {}
         self._items: dict[Address, QTreeWidgetItem] = {}
         self._file: ParameterFile | None = None
         self._secrets = False
@@ -78,7 +78,7 @@ class DifferenceTable(QTreeWidget):
             only = difference.a is None if to_control else difference.b is None
             dangers = dangers_of_change(file, [difference])
             takes = not only and before.get(difference.address, True)
-            self.rows[difference.address] = Row(difference, takes, dangers, only)
+            self.rows[difference.address] = SideRow(difference, takes, dangers, only)
         shown = set(shown_axes(file)) if schema.family.fits_axes else None
         blocks: dict[str, list[Address]] = {}
         for address in self.rows:
@@ -162,7 +162,7 @@ class DifferenceTable(QTreeWidget):
 
     # -- sides -------------------------------------------------------------------
 
-    def current(self) -> Row | None:
+    def current(self) -> SideRow | None:
         """Return the selected row."""
         item = self.currentItem()
         return self.rows.get(item.data(0, _ADDRESS)) if item is not None and item.data(0, _ADDRESS) else None
@@ -217,7 +217,7 @@ class DifferenceTable(QTreeWidget):
 
     # -- what is sent --------------------------------------------------------------
 
-    def taken(self, *, file: bool) -> list[Row]:
+    def taken(self, *, file: bool) -> list[SideRow]:
         """Return the rows that take the file's side, or those that take the control's."""
         return [row for row in self.rows.values() if row.takes_file is file]
 

@@ -27,7 +27,7 @@ _KEY, _LINES = Qt.ItemDataRole.UserRole + 1, Qt.ItemDataRole.UserRole + 2
 
 
 @dataclass(frozen=True, slots=True)
-class Listed:
+class ListedControl:
     """One control as it is listed."""
 
     address: str
@@ -35,10 +35,10 @@ class Listed:
     family: str
     state: str
     warns: bool = False
-    """Whether the state is one that wants something."""
+    """Whether the state is one that needs something."""
 
 
-class _Delegate(QStyledItemDelegate):
+class _ControlDelegate(QStyledItemDelegate):
     def sizeHint(self, option: QStyleOptionViewItem, index: QModelIndex | QPersistentModelIndex) -> QSize:
         return QSize(0, TWO_LINE_ROW)
 
@@ -111,7 +111,7 @@ class KnownList(QWidget):
         self.field.hide()
         self.list = QListWidget()
         self.list.setFrameShape(QListWidget.Shape.NoFrame)
-        self.list.setItemDelegate(_Delegate(self.list))
+        self.list.setItemDelegate(_ControlDelegate(self.list))
         self.list.setAccessibleName(self.tr("Controls"))
         self.list.itemClicked.connect(lambda item: self.chosen.emit(item.data(_KEY)))
         self.list.itemActivated.connect(lambda item: self.chosen.emit(item.data(_KEY)))
@@ -134,7 +134,7 @@ class KnownList(QWidget):
             self.field.hide()
             self.chosen.emit(text)
 
-    def show_controls(self, listed: Sequence[Listed], chosen: str) -> None:
+    def show_controls(self, listed: Sequence[ListedControl], chosen: str) -> None:
         """List controls and mark the chosen one."""
         self.list.clear()
         for each in listed:

@@ -37,23 +37,23 @@ from .conditions import ConditionLine, conditions_of
 from .differences import DifferenceTable
 from .known_list import KnownList
 from .session import ControlSession
-from .steps import StepsPanel
+from .steps import ExchangeSteps
 
 if TYPE_CHECKING:
     from amp_studio.transfer.client.parameters import Copy
 
 
 @dataclass(frozen=True, slots=True)
-class Backup:
+class ControlBackup:
     """What a control contained, and the file in which it is kept."""
 
     copy: Copy
     path: Path
 
 
-Direction = Literal["compare", "send", "read"]
-Answer = tuple[str, Callable[[], object]]
-Message = tuple[str, MessageKind, tuple[Answer, ...]]
+ExchangeDirection = Literal["compare", "send", "read"]
+BarAnswer = tuple[str, Callable[[], object]]
+BarMessage = tuple[str, MessageKind, tuple[BarAnswer, ...]]
 """What is missing or how it ended, how severe it is, and what can be done about it."""
 ASK_MS = 2000
 """Milliseconds after which a control that must be in E-stop is asked again."""
@@ -76,9 +76,9 @@ class ControlPage(QWidget):
         self._save = save
         self.workspace: Workspace | None = None
         self.session: ControlSession | None = None
-        self.backup: Backup | None = None
+        self.backup: ControlBackup | None = None
         """The backup that is to be restored, in the place of the file."""
-        self.direction: Direction = "compare"
+        self.direction: ExchangeDirection = "compare"
         self.name = ""
         self._accepted_errors = False
         self._build()
@@ -122,7 +122,7 @@ class ControlPage(QWidget):
         self.middle = QStackedWidget()
         self.middle.addWidget(self.table)
         self.middle.addWidget(self.empty)
-        self.steps = StepsPanel()
+        self.steps = ExchangeSteps()
         self.steps.chosen.connect(self.table.select)
         self.detail = QLabel()
         self.detail.setWordWrap(True)
@@ -194,7 +194,7 @@ class ControlPage(QWidget):
 
     # -- what is shown -------------------------------------------------------------
 
-    def show_file(self, workspace: Workspace | None, direction: Direction) -> None:
+    def show_file(self, workspace: Workspace | None, direction: ExchangeDirection) -> None:
         """Show the exchanges of a file in a direction; without a file a control can be read into a new one."""
         if workspace is not self.workspace:
             self.workspace, self.backup = workspace, None
@@ -205,7 +205,9 @@ class ControlPage(QWidget):
 
     def turn(self, direction: str) -> None:
         """Change the direction; what was read stays."""
-        wanted: Direction = "send" if direction == "send" else "read" if direction == "read" else "compare"
+        wanted: ExchangeDirection = (
+            "send" if direction == "send" else "read" if direction == "read" else "compare"
+        )
         self.direction = wanted if self.workspace is not None or self.backup is not None else "read"
         self.backup = self.backup if self.direction == "send" else None
         self.directions.show_choice(self.direction)
@@ -223,7 +225,7 @@ class ControlPage(QWidget):
             session.read()
         self._fill()
 
-    def show_backup(self, backup: Backup) -> None:
+    def show_backup(self, backup: ControlBackup) -> None:
         """Offer to put back a backup, in the place of the file."""
         self.backup = backup
         self.direction = "send"
@@ -267,7 +269,7 @@ class ControlPage(QWidget):
             self.session.ask()
 
     def _fill(self) -> None:
-        """List the differences anew."""
+        """List the differences again."""
         file, session = self.file, self.session
         found = (
             session.comparison(file)
@@ -376,7 +378,7 @@ class ControlPage(QWidget):
         if self.bar.isHidden() or self.bar.text.text() != text:
             self.bar.say(text, kind, *answers)
 
-    def _message(self) -> Message | None:
+    def _message(self) -> BarMessage | None:
         """Return what is missing or how it ended, and what to do about it."""
         session, workspace = self.session, self.workspace
         if session is None or session.is_busy:
@@ -409,7 +411,7 @@ class ControlPage(QWidget):
                 return text, "error", ((self.tr("Send It With Its Errors"), self._accept_errors),)
         return None
 
-    def _doubts_of(self, backup: Backup) -> Message | None:
+    def _doubts_of(self, backup: ControlBackup) -> BarMessage | None:
         doubts = []
         if not backup.copy.is_checked:
             text = self.tr("There is no digest beside {name}, so its content cannot be checked.")

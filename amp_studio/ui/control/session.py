@@ -1,6 +1,6 @@
 """What the window knows of one control: who answers, what it contains, what it lacks, and the exchange that is under way.
 
-Nothing waits here: each act runs in a thread, and ``changed`` says that there is something new to show.
+Nothing waits here: each act runs in a thread, and ``changed`` is emitted when there is something new to show.
 """
 
 from __future__ import annotations
@@ -27,12 +27,12 @@ if TYPE_CHECKING:
     from amp_studio.transfer.errors import TransferError
     from amp_studio.transfer.exchange import Exchange
 
-Phase = Literal["away", "connecting", "ready", "running", "done", "failed"]
+SessionPhase = Literal["away", "connecting", "ready", "running", "done", "failed"]
 """Not connected; being read; read; something is sent; it was sent and read back; it did not reach its end."""
 
 
 @dataclass(frozen=True)
-class Seen:
+class ReadControl:
     """What one reading found: who answered, what it can do, and its content in bytes and as a file where it can be read."""
 
     control: ControlIdentity
@@ -57,8 +57,8 @@ class ControlSession(QObject):
     def __init__(self, address: str, family: str, parent: QObject | None = None) -> None:
         super().__init__(parent)
         self.address, self.family = address, family
-        self.phase: Phase = "away"
-        self.seen: Seen | None = None
+        self.phase: SessionPhase = "away"
+        self.seen: ReadControl | None = None
         self.in_estop: bool | None = None
         """As it was asked last; None where there is no such state."""
         self.asked_at: datetime | None = None
@@ -107,7 +107,7 @@ class ControlSession(QObject):
         ask_with(nobody, forget=False)
         return open_driver_at(self.address, self.family, exchange)
 
-    def _look(self, exchange: Exchange) -> Seen:
+    def _look(self, exchange: Exchange) -> ReadControl:
         from amp_studio.transfer.client.exchange import look_at
         from amp_studio.transfer.content import decode_content
         from amp_studio.transfer.driver import TakesLiveValues
@@ -121,13 +121,13 @@ class ControlSession(QObject):
             except ImageError as error:
                 why = str(error)
             takes_one = isinstance(driver, TakesLiveValues)
-            return Seen(control, driver.abilities, takes_one, content, file, why)
+            return ReadControl(control, driver.abilities, takes_one, content, file, why)
 
     def _identify(self, exchange: Exchange) -> ControlIdentity:
         with closing(self._driver(exchange)) as driver:
             return driver.identify(exchange)
 
-    def _take_seen(self, seen: Seen) -> None:
+    def _take_seen(self, seen: ReadControl) -> None:
         self.seen, self.phase = seen, "ready"
         self._take_state(seen.control)
         self.ended.emit("connect", True)
@@ -140,7 +140,7 @@ class ControlSession(QObject):
         self.ended.emit("connect", False)
 
     def present(self, file: ParameterFile) -> ParameterFile | None:
-        """Return what the control contains in the schema of a file; None where that is not known or of another family."""
+        """Return what the control contains in the schema of a file; None if it is not known or of another family."""
         held = self.seen.file if self.seen else None
         if held is None or held.schema.family.family != file.schema.family.family:
             return None
@@ -226,7 +226,7 @@ class ControlSession(QObject):
     # -- the thread --------------------------------------------------------------
 
     def _begin(
-        self, phase: Phase, work: Callable[[Exchange], Any], done: Callable[[Any], None],
+        self, phase: SessionPhase, work: Callable[[Exchange], Any], done: Callable[[Any], None],
         failed: Callable[[Exception], None], path: Path | None = None,
     ) -> None:  # fmt: skip
         if self._task is not None:

@@ -21,7 +21,7 @@ _OF_PROGRESS = {"keep": 1, "download": 2, "commit": 2, "restart": 3, "verify": 3
 """Stage of an exchange -> the step that is under way."""
 
 
-class StepsPanel(QWidget):
+class ExchangeSteps(QWidget):
     """Five steps and the statements of danger; a click on one selects its row."""
 
     chosen = Signal(object)

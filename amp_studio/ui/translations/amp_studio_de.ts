@@ -2159,6 +2159,29 @@ Nichts wurde geändert. Ein erzwungener Wert ist in der Datei, den Befunden und 
         </message>
     </context>
     <context>
+        <name>ExchangeSteps</name>
+        <message>
+            <source>What will happen</source>
+            <translation>Was geschehen wird</translation>
+        </message>
+        <message>
+            <source>Mind</source>
+            <translation>Zu beachten</translation>
+        </message>
+        <message>
+            <source>Dangers of the values that change</source>
+            <translation>Gefahren der Werte, die sich ändern</translation>
+        </message>
+        <message>
+            <source>Under way</source>
+            <translation>Unterwegs</translation>
+        </message>
+        <message>
+            <source>What happened</source>
+            <translation>Was geschah</translation>
+        </message>
+    </context>
+    <context>
         <name>ExchangesDialog</name>
         <message>
             <source>Exchanges — {name}</source>
@@ -5553,26 +5576,6 @@ Hier erlaubt: {allowed}</translation>
         <message>
             <source>Step {number}</source>
             <translation>Schritt {number}</translation>
-        </message>
-        <message>
-            <source>What will happen</source>
-            <translation>Was geschehen wird</translation>
-        </message>
-        <message>
-            <source>Mind</source>
-            <translation>Zu beachten</translation>
-        </message>
-        <message>
-            <source>Dangers of the values that change</source>
-            <translation>Gefahren der Werte, die sich ändern</translation>
-        </message>
-        <message>
-            <source>Under way</source>
-            <translation>Unterwegs</translation>
-        </message>
-        <message>
-            <source>What happened</source>
-            <translation>Was geschah</translation>
         </message>
     </context>
     <context>
