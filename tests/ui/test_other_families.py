@@ -7,6 +7,7 @@ from pathlib import Path
 
 import pytest
 from PySide6.QtCore import Qt
+from pytestqt.qtbot import QtBot
 
 from amp_studio.files import Document, Header, ParameterFile, new_file
 from amp_studio.schema import Schema, Value
@@ -15,7 +16,7 @@ from amp_studio.ui.main_window import MainWindow
 from amp_studio.ui.motion.view import MotionView
 
 from .at_control import at_control
-from .conftest import action
+from .conftest import Person, action
 
 
 @pytest.fixture
