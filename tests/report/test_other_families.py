@@ -67,9 +67,16 @@ def test_the_bits_of_a_word_are_said_in_words(wide: ParameterFile) -> None:
 def test_bits_that_one_lost_figure_would_name_have_its_name_once() -> None:
     file = new_file("57c422b")
     for instance, word in (("X", 0x11C), ("Y", 0x8)):
-        file.set(("setup.switches", instance), Value(word))
-    found = {row.instance: row.detail for row in build_report(file).rows() if row.id == "setup.switches"}
-    assert found == {"X": "bits 2, 3, 4, 8: Unnamed (figure 4.3)", "Y": "bit 3: Unnamed (figure 4.3)"}
+        file.set(("setup.drive", instance), Value(word))
+    found = {row.instance: row.detail for row in build_report(file).rows() if row.id == "setup.drive"}
+    assert found == {"X": "bits 2, 3, 4, 8: Unnamed (figure 4.2)", "Y": "bit 3: Unnamed (figure 4.2)"}
+
+
+def test_a_bit_that_is_inferred_is_called_so() -> None:
+    file = new_file("57c422b")
+    file.set(("setup.switches", "X"), Value(0x4))
+    rows = [row.detail for row in build_report(file).rows() if row.id == "setup.switches"]
+    assert "Home in Negative Direction (inferred)" in rows[0]
 
 
 def test_an_empty_text_is_not_taken_for_a_missing_one(wide: ParameterFile) -> None:

@@ -1,4 +1,4 @@
-"""The bits of registers 0, 1 and 2 that are inferred: figures 4.1 to 4.3 are lost (errata e-r0-bits, e-r1-bits, e-r2-bits).
+"""The bits of registers 0 and 2 that the simulation uses, most of them inferred: figures 4.1 to 4.3 are lost (erratum e-r2-bits).
 
 Register 2: 011CH "enables drive fault input, overtravel L/S, feedback marker; home direction decreasing" (4-48) is four bits and four
 statements; 01DH with "marker pulse, home negative" goes to the home switch first (5-6), so bit 0 is the switch. The rest

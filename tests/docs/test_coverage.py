@@ -1,0 +1,36 @@
+"""Every command of the page of coverage runs on its example."""
+
+from __future__ import annotations
+
+import re
+import shlex
+from pathlib import Path
+
+import pytest
+
+from amp_studio.cli import run
+
+ROOT = Path(__file__).parents[2]
+ROWS = re.findall(
+    r"^\| ([^|]+) \| ([^|]+) \| [^|]+ \| `([^`]+)` \|$",
+    (ROOT / "docs" / "coverage.md").read_text("utf-8"),
+    re.MULTILINE,
+)
+
+
+@pytest.mark.parametrize(
+    ("family", "what", "command"), ROWS, ids=[f"{family}: {what}" for family, what, _ in ROWS]
+)
+def test_a_capability_is_shown_by_its_command(
+    family: str, what: str, command: str, capsys: pytest.CaptureFixture[str]
+) -> None:
+    verb, file, *words = shlex.split(command)
+    code = run([verb, str(ROOT / "examples" / file), *words, "--json"])
+    said = capsys.readouterr()
+    assert code in (0, 1), said.err
+    for alarm in re.findall(r"MOT-0\d\d|ALARM:\d", what.rsplit(",", maxsplit=1)[-1]):
+        assert alarm in said.out, family
+
+
+def test_the_page_has_all_of_its_rows() -> None:
+    assert len(ROWS) == 20
