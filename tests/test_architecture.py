@@ -555,3 +555,13 @@ def test_every_rule_that_is_switched_off_has_its_reason(checkout: Path) -> None:
     assert len(rules) > 30
     missing = [lines[n].strip() for n in rules if not re.search(r"# +\S+|= \[$", lines[n])]
     assert missing == [f'"D10{n}",' for n in (2, 3, 4, 5, 7)], "D100 gives the reason of all of them"
+
+
+FORMATTED = ("cli",)
+"""Rooms in which the formatter alone decides; each that is added stays so."""
+
+
+@pytest.mark.parametrize("room", FORMATTED)
+def test_the_formatter_decides(checkout: Path, room: str) -> None:
+    paths = sorted((checkout / "amp_studio" / room).rglob("*.py"))
+    assert [path.name for path in paths if re.search(r"# fmt: (skip|off)", path.read_text("utf-8"))] == []

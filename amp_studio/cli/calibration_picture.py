@@ -39,9 +39,12 @@ def proposal_scene(proposal: Proposal, title: str) -> Scene:
     ys = [y for line in lines for _, y in line.points]
     margin, room = 0.02 * (max(xs) - min(xs)), 0.15 * (max(ys) - min(ys)) or 1.0
     return Scene(
-        "calibration", proposal.axis, title,
+        "calibration",
+        proposal.axis,
+        title,
         f"error {float(proposal.span_before) * times:.4g} {unit} measured, {float(proposal.span_after) * times:.4g} {unit} expected",
         Scale("position", shown(proposal.unit), min(xs) - margin, max(xs) + 6 * margin),
         Scale("error", unit, min(*ys, 0.0) - room, max(*ys, 0.0) + room),
-        lines=tuple(lines), texts=tuple(texts),
-    )  # fmt: skip
+        lines=tuple(lines),
+        texts=tuple(texts),
+    )

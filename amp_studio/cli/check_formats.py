@@ -149,13 +149,21 @@ class JsonFormat(CheckFormat):
 
     def one(self, checked: FileFindings) -> str:
         file, counts = checked.validator.file, checked.counts
-        return _dumped({
-            "file": str(checked.path), "errors": counts["error"], "warnings": counts["warning"], "advice": counts["advice"],
-            "findings": [self._finding(checked, f) for f in checked.findings],
-            "suppressed": [finding_json(file, s.finding) | {"by": s.suppression.by, "reason": s.suppression.reason}
-                           for s in checked.validator.suppressed],
-            "delivered": [self._finding(checked, f) for f in checked.delivered],
-            **({} if checked.motion is None else {"motion": checked.motion})})  # fmt: skip
+        return _dumped(
+            {
+                "file": str(checked.path),
+                "errors": counts["error"],
+                "warnings": counts["warning"],
+                "advice": counts["advice"],
+                "findings": [self._finding(checked, f) for f in checked.findings],
+                "suppressed": [
+                    finding_json(file, s.finding) | {"by": s.suppression.by, "reason": s.suppression.reason}
+                    for s in checked.validator.suppressed
+                ],
+                "delivered": [self._finding(checked, f) for f in checked.delivered],
+                **({} if checked.motion is None else {"motion": checked.motion}),
+            }
+        )
 
     def all(self, results: Sequence[CheckResult]) -> str:
         entries = [one.printed or _dumped({"file": str(one.path), "error": one.fault}) for one in results]
@@ -202,8 +210,14 @@ class SarifFormat(CheckFormat):
                 rules = part["rules"] | rules
                 found += part["results"]
         unread = [one for one in results if one.fault]
-        notices = [{"level": "error", "message": {"text": one.fault}, "locations": [_sarif_place(one.path, one.line or 1)]}
-                   for one in unread]  # fmt: skip
+        notices = [
+            {
+                "level": "error",
+                "message": {"text": one.fault},
+                "locations": [_sarif_place(one.path, one.line or 1)],
+            }
+            for one in unread
+        ]
         driver = {
             "name": "AMP Studio",
             "version": __version__,

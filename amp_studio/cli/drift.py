@@ -47,8 +47,15 @@ def verify_all_verb(options: Options) -> int:
     counts = {word: sum(each.result == word for each in found) for word in _CODES}
     if options.json:
         controls = [_entry(each, options.secrets) for each in found]
-        print_json({"controls": controls, "same": counts["same"], "differs": counts["differs"],
-                    "not_reached": counts["not reached"], "no_file": counts["no file"]})  # fmt: skip
+        print_json(
+            {
+                "controls": controls,
+                "same": counts["same"],
+                "differs": counts["differs"],
+                "not_reached": counts["not reached"],
+                "no_file": counts["no file"],
+            }
+        )
     else:
         _print(found, counts, options.secrets)
     if options.report is not None:
@@ -59,9 +66,14 @@ def verify_all_verb(options: Options) -> int:
 def _entry(drift: Drift, secrets: bool) -> dict[str, Any]:
     listed = [difference_json(file, each, secrets) for file, each in _differences(drift)]
     return {
-        "address": drift.known.address, "file": str(drift.known.path), "result": drift.result, "since": drift.since or None,
-        "text": drift.text, "sha256": drift.sha256 or None, "differences": listed,
-    }  # fmt: skip
+        "address": drift.known.address,
+        "file": str(drift.known.path),
+        "result": drift.result,
+        "since": drift.since or None,
+        "text": drift.text,
+        "sha256": drift.sha256 or None,
+        "differences": listed,
+    }
 
 
 def _differences(drift: Drift) -> list[tuple[ParameterFile, Difference]]:

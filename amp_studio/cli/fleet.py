@@ -126,9 +126,21 @@ def _end(options: Options, rows: list[FleetRow]) -> int:
     """Print the table, write the report and return one code for all."""
     codes = [_code(row) for row in rows]
     if options.json:
-        print_json({"controls": [{"address": r.address, "result": r.word, "code": code, "sha256": r.sha256 or None,
-                                  "kept": r.kept or None, "text": r.text}
-                                 for r, code in zip(rows, codes, strict=True)]})  # fmt: skip
+        print_json(
+            {
+                "controls": [
+                    {
+                        "address": r.address,
+                        "result": r.word,
+                        "code": code,
+                        "sha256": r.sha256 or None,
+                        "kept": r.kept or None,
+                        "text": r.text,
+                    }
+                    for r, code in zip(rows, codes, strict=True)
+                ]
+            }
+        )
     else:
         wide = max(len(row.address) for row in rows)
         for row in rows:

@@ -61,11 +61,17 @@ def _write(options: Options, file: ParameterFile, checks: Sequence[MotionCheck])
     from amp_studio.files.atomic import write_atomic
 
     rows = [
-        (check.verdict, check.scenario, check.letter,
-         "; ".join(figure_text(name, value, unit) for name, (value, unit) in check.figures.items()),
-         " ".join((check.why, *(f"{alarm.code}." for alarm in check.alarms if alarm.code not in check.why))).strip())
+        (
+            check.verdict,
+            check.scenario,
+            check.letter,
+            "; ".join(figure_text(name, value, unit) for name, (value, unit) in check.figures.items()),
+            " ".join(
+                (check.why, *(f"{alarm.code}." for alarm in check.alarms if alarm.code not in check.why))
+            ).strip(),
+        )
         for check in checks
-    ]  # fmt: skip
+    ]
     head = ("Verdict", "Scenario", "Axis", "Figures", "What is not good")
     title = f"{file.header.name or options.path.stem}: in motion"
     summary = ", ".join(f"{count} {verdict}" for verdict, count in counts(checks).items())
