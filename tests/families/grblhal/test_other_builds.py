@@ -188,6 +188,19 @@ def test_a_listing_goes_to_a_control_by_its_numbers_and_what_that_lacks_is_not_s
     ]
 
 
+@pytest.mark.parametrize(("debounce", "machine"), [("250.000", "grbl-esp32"), ("250", "grbl-mega-5x")])
+def test_a_debounce_with_decimals_is_of_grbl_esp32(tmp_path: Path, debounce: str, machine: str) -> None:
+    """Both list six axes; Grbl_ESP32 alone has the debounce as a decimal."""
+    of_axes = "".join(f"${n + k}=100.000\n" for n in (100, 110, 120, 130) for k in range(6))
+    head = (
+        "0=4 1=255 2=0 3=0 4=0 5=0 6=1 10=3 11=0.010 12=0.002 13=0 20=1 21=1 22=1 23=3 24=50.000 25=2000.000"
+    )
+    path = tmp_path / "six.txt"
+    lines = "".join(f"${each}\n" for each in f"{head} 26={debounce} 27=2.000 30=1000 31=0 32=0".split())
+    path.write_text(lines + of_axes, "utf-8")
+    assert import_file(path).machine == machine
+
+
 @pytest.mark.parametrize(("rate", "is_asked"), [("500.000", True), ("600.000", False)])
 def test_a_listing_of_nothing_but_defaults_is_asked_about(tmp_path: Path, rate: str, is_asked: bool) -> None:
     """A fresh Grbl 1.1 lists these, and a machine that was set up has other values."""

@@ -159,7 +159,12 @@ def _machine(schema: Schema, log: Log, listing: LoggedListing, wanted: str) -> _
 def _hint(log: Log, listing: LoggedListing) -> str:
     """Return the machine type that the control or the remarks of its listing name; empty where they name none."""
     greeting = log.greeting.casefold()
-    if "fluidnc" in greeting or "esp32" in greeting:
+    # Grbl_ESP32 alone has the debounce as a decimal (SettingsDefinitions.cpp:376, a FloatSetting).
+    if (
+        "fluidnc" in greeting
+        or "esp32" in greeting
+        or re.match(r"[0-9]+\.[0-9]", listing.settings.get(26, ""))
+    ):
         return "grbl-esp32"
     if {"NEWOPT", "FIRMWARE", "BOARD", "DRIVER"} & log.facts.keys() or greeting.startswith("grblhal"):
         return "grblhal"
