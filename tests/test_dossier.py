@@ -32,8 +32,9 @@ def test_each_axis_has_its_responses_and_what_they_assume_is_said_once() -> None
     assert all(f.svg.startswith("<svg") for f in figures if not f.notes)
 
 
-def test_a_family_without_a_law_has_no_motion() -> None:
-    assert tuple(motion_figures(open_file(EXAMPLES / "grblhal-router" / "GRBL_ROUTER.amp").file)) == ()
+def test_an_axis_without_a_servo_loop_shows_its_steps_and_no_frequency_response() -> None:
+    figures = motion_figures(open_file(EXAMPLES / "grblhal-router" / "GRBL_ROUTER.amp").file)
+    assert [f.title for f in figures] == [*(f"Step, axis {axis}" for axis in "XYZ"), "What was assumed"]
 
 
 def test_exchanges_are_in_every_kind_of_document(mill: Path, tmp_path: Path) -> None:

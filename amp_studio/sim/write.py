@@ -60,7 +60,7 @@ def trace_text(trace: Trace) -> str:
     """Return the result as text for the terminal: alarms, figures, recommendations, assumptions."""
     lines = [f"{trace.scenario}{', axis ' + trace.axis_title if trace.axis else ''}: {trace.model}"]
     lines += [f"DOUBTFUL: {doubt}" for doubt in trace.doubts]
-    lines += [f"ALARM at {shown(alarm.time_s, 's')}: {alarm.message}" for alarm in trace.alarms]
+    lines += [f"ALARM {alarm.code} at {shown(alarm.time_s, 's')}: {alarm.message}" for alarm in trace.alarms]
     width = max(len(name) for name in trace.result)
     for name, (value, unit) in trace.result.items():
         words = name.replace("_", " ").ljust(width)

@@ -117,7 +117,7 @@ def test_an_alarm_and_its_advice_stand_in_summary_and_text(stopped: Trace) -> No
     assert told["advice"][0]["param"] == "excess_error"
     assert told["advice"][0]["value"] == "5.5 mm"
     text = trace_text(stopped)
-    assert "ALARM at" in text
+    assert f"ALARM {told['alarms'][0]['code']} at " in text
     assert "excess_error = 5.5 mm: " in text
     assert "Assumptions" in text
 
