@@ -12,7 +12,7 @@ import pytest
     [
         ("show 9pc 1300 1301", "Unexpected argument: 1301 (see 'amp-studio show --help')"),
         ("show 9pc 1300 1301 1302", "Unexpected arguments: 1301 1302 (see 'amp-studio show --help')"),
-        ("validate mill.amp -x", "Unknown option '-x'. Known: -h, --help, --jobs, --rules, --why, --no-cache, --format, --json, --family, --machine"),
+        ("validate mill.amp -x", "Unknown option '-x'. Known: -h, --help, --jobs, --rules, --motion, --why, --no-cache, --format, --json, --family, --machine"),
         ("validate mill.amp --jsn", "Did you mean: --json, --jobs (see"),
         ("validate", "Missing: PATH (see 'amp-studio validate --help')"),
         ("set mill.amp", "Missing: PARAM=VALUE (see 'amp-studio set --help')"),
