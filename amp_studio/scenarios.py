@@ -9,6 +9,7 @@ SCENARIOS = {
     "velocity": "amp_studio.sim.scenarios.velocity:SCENARIO",
     "frequency": "amp_studio.sim.scenarios.frequency:SCENARIO",
     "tune": "amp_studio.sim.scenarios.tune:SCENARIO",
+    "load": "amp_studio.sim.scenarios.load:SCENARIO",
     "circle": "amp_studio.sim.scenarios.circle:SCENARIO",
     "home": "amp_studio.sim.scenarios.home:SCENARIO",
     "jog": "amp_studio.sim.scenarios.jog:SCENARIO",

@@ -51,7 +51,7 @@ from .trace import Recommendation, Trace
 
 Leader = Callable[["AxisLaw"], Mapping[str, npt.NDArray[np.float64]]]
 
-SCENARIOS = ("step", "velocity", "frequency", "tune", "circle")
+SCENARIOS = ("step", "velocity", "frequency", "tune", "load", "circle")
 """Scenarios of every family."""
 
 

@@ -16,6 +16,7 @@ from amp_studio.sim.motion import Motion, Until, run_axis
 from amp_studio.sim.ramps import Override, blocks, end_of, move, overridden
 from amp_studio.sim.rounding import rounded_up
 from amp_studio.sim.scenario import Scenario, Settings, above_zero, number, refuse_unknown
+from amp_studio.sim.series import Series
 from amp_studio.sim.trace import Figure, Trace
 
 from .columns import alarms_of, column_units, per_minute
@@ -209,6 +210,8 @@ def _figures(axis: AxisLaw, motion: Motion, moved: Move, stable: bool) -> dict[s
         "peak_following_error": (float(error.max()), unit),
         "peak_output": (float(np.abs(driven["output"]).max()), axis.output_unit),
         "peak_torque": (float(np.abs(driven["torque"]).max()), column_units(axis)["torque"]),
+        "rms_torque": (float(np.sqrt(np.mean(driven["torque"] ** 2))), column_units(axis)["torque"]),
+        "torque_limit_time": (_at_limit(axis, driven["torque"]), "%"),
         "in_position_time": (in_position, "s"),
         "settle_time": (settle, "s"),
         "overshoot": (max(0.0, float(forward.max()) - abs(moved.distance)), unit),
@@ -219,6 +222,16 @@ def _figures(axis: AxisLaw, motion: Motion, moved: Move, stable: bool) -> dict[s
         figures["stop_position"] = (float(motion.columns["position"][-1]) if at_rest else None, unit)
         figures["stop_distance"] = (gone if at_rest else None, unit)
     return figures
+
+
+def _at_limit(axis: AxisLaw, torque: Series) -> float | None:
+    """Return the share of the move in % in which the torque is at its limit; None without a limit in the machine."""
+    machine = axis.machine
+    limits = [machine.torque_limit_positive, machine.torque_limit_negative]
+    if machine.velocity_per_output == 0.0:
+        limits.append(machine.output_limit)
+    limit = min(limits)
+    return 100.0 * float(np.mean(np.abs(torque) >= 0.999 * limit)) if math.isfinite(limit) else None
 
 
 SCENARIO = Scenario("step", "One commanded move of one axis, from rest to rest", SETTINGS, run_step)
