@@ -380,10 +380,11 @@ def test_a_simulation_that_cannot_be_is_refused(amp, mill: Path, folder, argumen
 def test_a_recommendation_of_a_simulation_is_what_set_reads(amp, tmp_path: Path) -> None:
     path = tmp_path / "mill.amp"
     path.write_bytes((Path(__file__).parents[2] / "examples" / "mill-1394" / "MILL_1394.amp").read_bytes())
-    (advice,) = amp("simulate", path, "step", "--json").json["advice"]
-    assert advice["price"]
-    assert amp("set", path, f"{advice['param']}={advice['value']}").code == 0
-    assert amp("simulate", path, "step", "--json").json["advice"] == []
+    advice = amp("simulate", path, "tune", "--for", "stiff", "--json").json["advice"]
+    assert advice
+    assert advice[0]["price"]
+    assert amp("set", path, *(f"{each['param']}={each['value']}" for each in advice)).code == 0
+    assert amp("simulate", path, "tune", "--for", "stiff", "--json").json["advice"] == []
 
 
 def test_a_changed_value_is_drawn_over_the_one_of_the_file(amp, mill: Path, tmp_path: Path) -> None:
