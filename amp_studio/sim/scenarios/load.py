@@ -1,4 +1,4 @@
-"""Scenario `load`: a torque comes at once on the load of an axis that stands, stays, and goes; then the same from the other side.
+"""Scenario `load`: a torque comes at once on the load of an axis at rest, stays, and goes; then the same from the other side.
 
 What a machine is judged by at the tool: how far the load moves, how long the control takes to bring it back, and what is left between both
 sides when nothing pushes any more.
@@ -35,14 +35,14 @@ RATED = 100.0
 SHORTEST, LONGEST, LAGS = 0.1, 3.0, 12.0
 """s, s, and time constants of the slowest pole: the time with the torque."""
 BACK = 0.05
-"""Share of the largest way within which the load is back, where that is more than a count."""
+"""Share of the largest way within which the load is back, a count at least."""
 PHASES = (0.0, 1.0, 0.0, -1.0, 0.0)
 """Shares of the torque, one after the other; what the axis does in the first one is what its weight does."""
 
 
 @dataclass(frozen=True)
 class Loaded:
-    """The way of the load from where it stood, in each phase."""
+    """The way of the load from its rest position, in each phase."""
 
     ways: list[Series]
     times: list[Series]
@@ -130,9 +130,9 @@ def _time(loops: Loops) -> float:
 def _loaded(motion: Motion, lasts: float) -> Loaded:
     time, position = motion.columns["time_s"], motion.columns["position"]
     parts = [(time >= n * lasts - 1e-9) & (time < (n + 1) * lasts - 1e-9) for n in range(len(PHASES))]
-    stood = _end(position[parts[0]])
+    rest = _end(position[parts[0]])
     return Loaded(
-        [position[part] - stood for part in parts],
+        [position[part] - rest for part in parts],
         [time[part] - n * lasts for n, part in enumerate(parts)],
     )
 
