@@ -39,7 +39,7 @@ class Schema:
     parameters: dict[str, Parameter]
     group_of: dict[str, Group]
     plausible: Plausible
-    further_text: str = "{}"
+    further_text: str = ""
     """``FurtherFacts`` as they were compiled, until somebody asks for one of them."""
     description: bytes = b""
     """The description that a control gave of itself, from which this schema was made; empty for the facts of the database."""
@@ -56,6 +56,8 @@ class Schema:
 
     @cached_property
     def _further(self) -> FurtherFacts:
+        if not self.further_text:
+            return FurtherFacts.model_construct()
         found: FurtherFacts = text_record(self.further_text)
         return found
 

@@ -55,6 +55,7 @@ READERS = {
     "families/num/lines/content.py": "damaged contents of NUM and ACR",
     "families/num/lines/driver.py": "damaged unloads of a NUM control",
     "families/servo57c422b/formats/automax.py": "damaged texts of controls",
+    "families/servo57c422b/emulated/module_axis.py": "damaged contents and racks of the 57C422B",
     "families/servo57c422b/lines/content.py": "damaged contents and racks of the 57C422B",
     "families/servo57c422b/lines/driver.py": "57C422B registers over a bad line",
     "families/servo57c422b/lines/register_line.py": "57C422B registers over a bad line",
@@ -84,6 +85,8 @@ READERS = {
     "schema/compiled_cache.py": "damaged cache",
     "schema/file_error.py": "damaged YAML",
     "schema/load.py": "damaged facts",
+    "schema/model/compiled_json.py": "damaged cache",
+    "schema/model/record.py": "damaged facts",
     "schema/regular_file.py": "",  # the gate itself: gives bytes
     "cli/verbs/documents/sheet.py": "damaged lists of a control's screen",
     "sheet/read_back.py": "damaged lists of a control's screen",
@@ -131,11 +134,12 @@ READERS = {
     "ui/merge/tree.py": "",  # writes to the clipboard
     "ui/project/files.py": "damaged parameter file",
     "ui/actions/range.py": "pasted blocks of cells",
-    "ui/control/restore.py": "damaged control image",
+    "ui/control/session.py": "damaged control image",
     "transfer/plain/ymodem.py": "hostile ends of plain files",
     "ui/actions/sheet.py": "damaged control image",
     "ui/base/theme.py": "",  # a file of the icon package
     "ui/window/settings.py": "damaged settings",
+    "validate/beside.py": "damaged record of exchanges",
     "validate/cell_expression.py": "odd expressions in cells",
     "validate/rule_file.py": "damaged suppressions",
     "validate/calculator.py": "odd arguments of formulas",

@@ -39,6 +39,7 @@ from amp_studio.schema import (
 )
 from amp_studio.schema.yaml_reader import YamlError, read_yaml
 from amp_studio.transfer.client.record import add_exchange, exchange_now, read_exchanges, record_path
+from amp_studio.validate.beside import earlier_beside
 
 Case = TypeVar("Case")
 SLOWEST = 5.0
@@ -280,9 +281,10 @@ def fuzz_journals(folder: Path, seed: int, count: int) -> list[str]:
 
 
 def fuzz_records(folder: Path, seed: int, count: int) -> list[str]:
-    """Read a damaged record of exchanges, and add one more to it."""
+    """Read a damaged record of exchanges, add one more to it, and compare a file with the last download in it."""
     path = folder / "x.amp"
     path.write_bytes(b"")
+    file = new_file("9pc")
     entry = exchange_now("download", path, "9pc", "tcp://127.0.0.1:1", before="a" * 64, after="b" * 64, state="new",
                          changes=(("home.calibration@1", "0 mm", "1 mm"),))  # fmt: skip
     record = json.dumps(asdict(entry)) + "\n"
@@ -291,6 +293,7 @@ def fuzz_records(folder: Path, seed: int, count: int) -> list[str]:
         record_path(path).write_bytes(text.encode("utf-8", "surrogatepass"))
         for each in read_exchanges(folder):
             assert isinstance(each.line(), str)
+        assert earlier_beside(path, file) == ()
         assert add_exchange(path, entry) == ""
         assert read_exchanges(folder)[-1] == entry
 

@@ -112,7 +112,7 @@ def test_what_the_guides_of_num_have_by_parameter_is_in_the_step_of_the_same_sec
 
 
 def test_a_family_without_an_order_has_its_groups_as_steps() -> None:
-    schema = replace(load_schema("syntec"), further_text="{}")
+    schema = replace(load_schema("syntec"), further_text="")
     assert [step.id for step in steps_of(schema)] == [group.key for group in schema.groups]
     assert sum(len(step.parameters) for step in steps_of(schema)) == len(schema.parameters)
 
