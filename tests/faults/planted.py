@@ -269,7 +269,7 @@ def _of_saves() -> Iterator[Defect]:
 
 def _set_only(driver: Any, sending: Any, name: str) -> None:
     driver._command(sending, name)
-    sending.is_proved(name)
+    sending.sent.confirm(name)
 
 
 def _write_only(driver: Any, register: int, word: int) -> None:
