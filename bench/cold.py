@@ -21,7 +21,7 @@ PROGRAM = (sys.executable, "-m", "amp_studio.cli")
 
 def measures(folder: Path, full: Path, example: Path, times: int) -> Iterator[Measure]:
     """Yield the measures of cold processes; ``folder`` takes what they write."""
-    settings = _private(folder)
+    settings = _private(folder, own_bytecode=times > 1)
     runs = times + 1 if times > 1 else 1  # the first leaves compiled modules, and is thrown away
     python = [_run((sys.executable, "-c", "pass"), settings) for _ in range(runs)][-times:]
     yield Measure("  Python itself, cold process", tuple(python))
@@ -41,13 +41,18 @@ def measures(folder: Path, full: Path, example: Path, times: int) -> Iterator[Me
     yield Measure("first paint of the desktop program, cold process", tuple(paint), 1.5)
 
 
-def _private(folder: Path) -> Mapping[str, str]:
-    """No display, no settings of the person who measures, and compiled modules kept as an installed program has them."""
+def _private(folder: Path, own_bytecode: bool) -> Mapping[str, str]:
+    """No display, no settings of the person who measures, and compiled modules kept as an installed program has them.
+
+    ``own_bytecode`` keeps them apart from those of this person: the first run, which is thrown away, compiles every module.
+    """
     checkout = str(BENCH.parent)
     path = os.pathsep.join(filter(None, (checkout, os.environ.get("PYTHONPATH", ""))))
     own = {"QT_QPA_PLATFORM": "offscreen", "XDG_CONFIG_HOME": str(folder), "PYTHONPATH": path}
     kept = {name: value for name, value in os.environ.items() if name != "PYTHONDONTWRITEBYTECODE"}
-    return {**kept, **own, "PYTHONPYCACHEPREFIX": str(folder / "bytecode")}
+    if own_bytecode:
+        own["PYTHONPYCACHEPREFIX"] = str(folder / "bytecode")
+    return kept | own
 
 
 def _run(command: tuple[str, ...], settings: Mapping[str, str]) -> float:

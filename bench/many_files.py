@@ -77,6 +77,7 @@ def _rest(application: QCoreApplication) -> None:
     end = time.monotonic() + 0.4
     while time.monotonic() < end:
         application.processEvents()
+        time.sleep(0.005)
 
 
 def _resident() -> float:

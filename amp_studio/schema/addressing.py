@@ -187,7 +187,12 @@ def axis_meant(evaluation: FileState, instances: tuple[str, ...], text: str) -> 
 
 def axis_name(evaluation: FileState, axis: str) -> str:
     """Return the letter that a file gives an axis; "" where it gives none."""
-    return next((name for each, name in _axis_names(evaluation) if each == axis), "")
+    naming = _naming(evaluation)
+    if naming is None or axis not in evaluation.machine_schema.instances(
+        evaluation.schema.parameters[naming[0]]
+    ):
+        return ""
+    return _label(evaluation, *naming, axis)
 
 
 def _axes_named(evaluation: FileState, letter: str) -> list[str]:
@@ -198,14 +203,19 @@ def _axes_named(evaluation: FileState, letter: str) -> list[str]:
 
 def _axis_names(evaluation: FileState) -> Iterator[tuple[str, str]]:
     """Yield each axis with the name that the file gives it."""
-    schema, family = evaluation.schema, evaluation.schema.family
+    if (naming := _naming(evaluation)) is None:
+        return
+    for axis in evaluation.machine_schema.instances(evaluation.schema.parameters[naming[0]]):
+        if name := _label(evaluation, *naming, axis):
+            yield axis, name
+
+
+def _naming(evaluation: FileState) -> tuple[str, int | None] | None:
+    """Return the parameter that names an axis, and the field of its word where it is one; None in a family without."""
+    family = evaluation.schema.family
     declared = family.declared_axes.name if family.declared_axes else None
     named_by = family.axes.name if family.axes else declared.param if declared else None
-    if named_by is None:
-        return
-    for axis in evaluation.machine_schema.instances(schema.parameters[named_by]):
-        if name := _label(evaluation, named_by, declared.bit if declared else None, axis):
-            yield axis, name
+    return (named_by, declared.bit if declared else None) if named_by else None
 
 
 def _label(evaluation: FileState, parameter_id: str, bit: int | None, axis: str) -> str:

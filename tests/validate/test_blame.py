@@ -3,19 +3,26 @@
 from __future__ import annotations
 
 from collections import defaultdict
+from collections.abc import Iterator
+from itertools import product
 
 import pytest
 from rule_machines import FAMILIES, cases, trial_machine
 
+from amp_studio.files import ParameterFile
 from amp_studio.report import finding_json
-from amp_studio.schema import Rule, Value, load_schema
+from amp_studio.schema import Address, Rule, Value, load_schema
 from amp_studio.validate import BuilderRules, Finding, RuleError, Validator
+from amp_studio.validate.plan import RuleCheck, checks_of
+from amp_studio.validate.rules import RuleChecks
 
 ALWAYS_SO = {
     ("57c422b.command.leds-twice", "leds", False),  # there are two axes, and both are at fault
     ("57c422b.control.geared-to-each-other", "modes", False),
 }
 """Conditions that cannot be met, or not be missed, in a file: rule, name, and which of the two."""
+PARTS = {"blames": "causes", "compares": "compared"}
+"""Part of a rule with conditions -> the field of a finding that they decide."""
 
 
 def found(family: str, machine: str, changes: dict[str, str | None], rule: str, given: str = "") -> Finding:
@@ -185,32 +192,41 @@ def test_a_slip_in_what_a_rule_blames_is_a_fault_of_the_rule(mill, wrong: dict[s
         own(mill, **wrong)
 
 
-@pytest.mark.parametrize("part", ["blames", "compares"])
 @pytest.mark.parametrize("family", FAMILIES)
-def test_every_condition_is_met_by_one_value_of_the_cases_and_missed_by_another(
-    family: str, part: str
-) -> None:
+def test_every_condition_is_met_by_one_value_of_the_cases_and_missed_by_another(family: str) -> None:
     """So none is always true, never true, or misspelt into a value of another kind."""
     rules = {rule.id: rule for rule in load_schema(family).rules}
     conditions = {
-        (rule.id, name)
+        (part, rule.id, name)
+        for part in PARTS
         for rule in rules.values()
         for name, text in getattr(rule, part).items()
         if text != "true"
     }
-    seen: dict[tuple[str, str], set[bool]] = defaultdict(set)
+    seen: dict[tuple[str, str, str], set[bool]] = defaultdict(set)
     for case in cases(family):
-        if case.breaks is None or not getattr(rules[case.rule], part):
+        rule = rules[case.rule]
+        parts = [part for part in PARTS if getattr(rule, part)]
+        if case.breaks is None or not parts:
             continue
-        here = case.machine
-        with here.changed(case.given), here.changed(case.breaks):
-            for finding in here.of(case.rule):
-                check = here.validator.check_of(finding)
-                about = finding.causes if part == "blames" else finding.compared
-                for name, addresses in [
-                    *((single.name, (single.address,)) for single in check.singles),
-                    *((name, listed.addresses) for name, listed in check.lists),
-                ]:
-                    seen[case.rule, name].update(address in about for address in addresses)
+        with case.machine.changed(case.given), case.machine.changed(case.breaks):
+            for check, finding in found_by(rule, case.machine.file):
+                for part, (name, addresses) in product(parts, read_by(check)):
+                    about = getattr(finding, PARTS[part])
+                    seen[part, case.rule, name].update(address in about for address in addresses)
     missing = {(*at, wanted) for at in conditions for wanted in (True, False) if wanted not in seen[at]}
-    assert missing - ALWAYS_SO == set()
+    assert {at[1:] for at in missing} - ALWAYS_SO == set()
+
+
+def found_by(rule: Rule, file: ParameterFile) -> Iterator[tuple[RuleCheck, Finding]]:
+    """Yield the findings of a rule in a file, each with the check that it is of."""
+    values = RuleChecks(file, file.machine)
+    for check in checks_of(file.evaluation, (rule,)):
+        if (finding := values.finding(check)) is not None:
+            yield check, finding
+
+
+def read_by(check: RuleCheck) -> list[tuple[str, tuple[Address, ...]]]:
+    """Return what the names of a rule read in a check."""
+    singles = [(single.name, (single.address,)) for single in check.singles]
+    return [*singles, *((name, listed.addresses) for name, listed in check.lists)]

@@ -73,6 +73,18 @@ def _named(schema: Schema, patterns: Iterable[str]) -> set[str]:
     }
 
 
+@lru_cache(maxsize=32)
+def _places(schema: Schema, machine: str) -> dict[tuple[str, str], tuple[Address, ...]]:
+    """Return what can be compared of each instance of a scope, whatever is set."""
+    here, comparable = schema.on(machine), _comparable(schema)
+    places: dict[tuple[str, str], list[Address]] = {}
+    for address in here.addresses:
+        scope = here.scopes.get(address[0])
+        if address[0] in comparable and scope in _SCOPES and address[1] and "." not in address[1]:
+            places.setdefault((scope, address[1]), []).append(address)
+    return {place: tuple(addresses) for place, addresses in places.items()}
+
+
 class Alike:
     """The like instances of one file."""
 
@@ -86,16 +98,17 @@ class Alike:
     def look_at_all(self) -> None:
         """Compare everything."""
         self._rows.clear()
-        evaluation, comparable = self._file.evaluation, self._comparable
+        evaluation, values = self._file.evaluation, self._file.values
         keys, known = evaluation.keys, evaluation.known_states()
-        scopes = self._file.schema.on(self._file.machine).scopes
-        for address, value in self._file.values.items():
-            name, instance = address
-            if name not in comparable or not instance or "." in instance or scopes.get(name) not in _SCOPES:
-                continue
-            if (known.get(address) or evaluation.state(address)) is ACTIVE:
-                row = self._rows.setdefault(str(scopes[name]), {}).setdefault(instance, {})
-                row[name] = _Seen(keys[address], dimension(value.unit))
+        for (scope, instance), addresses in _places(self._file.schema, self._file.machine).items():
+            row = {
+                address[0]: _Seen(keys[address], dimension(value.unit))
+                for address in addresses
+                if (value := values.get(address)) is not None
+                and (known.get(address) or evaluation.state(address)) is ACTIVE
+            }
+            if row:
+                self._rows.setdefault(scope, {})[instance] = row
         self._pairs = {
             (scope, a, b): _compare(rows[a], rows[b])
             for scope, rows in self._rows.items()

@@ -37,16 +37,17 @@ class Experience:
         self._parts = (Alike(file), UsualValues(file), *tables, AxisWords(file), WithinTravel(file))
         self._earlier = EarlierValues(file, earlier)
         self._found: tuple[Finding, ...] | None = None
+        self._all_anew = True
 
     def look_at_all(self) -> None:
-        """Look at the whole file."""
-        self._found = None
-        for part in (*self._parts, self._earlier):
-            part.look_at_all()
+        """Look at the whole file, once the findings are asked for: between them there may be many edits."""
+        self._found, self._all_anew = None, True
 
     def look_again(self, changed: Iterable[Address]) -> None:
         """Look again at the changed addresses; one that decides which values count is a reason to look at all."""
         addresses = list(changed)
+        if self._all_anew:
+            return
         if any(map(self._file.evaluation.decides_states, addresses)):
             self.look_at_all()
             return
@@ -57,6 +58,10 @@ class Experience:
 
     def findings(self) -> tuple[Finding, ...]:
         """Return what there is now, in no order."""
+        if self._all_anew:
+            for part in (*self._parts, self._earlier):
+                part.look_at_all()
+            self._all_anew = False
         if self._found is None:
             found = [finding for part in self._parts for finding in part.findings()]
             asked = {cause for finding in found for cause in finding.causes}
