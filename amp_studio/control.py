@@ -7,14 +7,17 @@ from pathlib import Path
 from typing import Self
 
 from amp_studio.machine import MachineError, MachineParameters
-from amp_studio.transfer.client.drivers import open_driver
-from amp_studio.transfer.client.exchange import Outcome
-from amp_studio.transfer.client.parameters import download_file, fetch_file, fetch_image
-from amp_studio.transfer.client.status import StatusReader
-from amp_studio.transfer.client.verification import ImageComparison, verify_content
-from amp_studio.transfer.driver import ControlIdentity
-from amp_studio.transfer.exchange import Exchange
-from amp_studio.transfer.status import ControlStatus
+from amp_studio.transfer import ControlIdentity, ControlStatus, Exchange
+from amp_studio.transfer.client import (
+    ImageComparison,
+    Outcome,
+    StatusReader,
+    download_file,
+    fetch_file,
+    fetch_image,
+    open_driver,
+    verify_content,
+)
 
 
 class ConnectedControl:

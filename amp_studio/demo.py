@@ -15,8 +15,8 @@ from pathlib import Path
 
 import platformdirs
 
-from amp_studio.files.examples import examples_folder
-from amp_studio.ui.base.display import has_display
+from amp_studio.files import examples_folder
+from amp_studio.ui import has_display
 
 EXAMPLE = "mill-1394"
 
@@ -47,8 +47,8 @@ def _in_terminal() -> int:
     from amp_studio.dossier import write_report
     from amp_studio.files import Document, compare, open_file
     from amp_studio.report import counted
-    from amp_studio.transfer.client.parameters import download_file, fetch_file
-    from amp_studio.transfer.exchange import Exchange
+    from amp_studio.transfer import Exchange
+    from amp_studio.transfer.client import download_file, fetch_file
     from amp_studio.validate import Validator
 
     begin = time.monotonic()

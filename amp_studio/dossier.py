@@ -8,8 +8,15 @@ from datetime import datetime
 from pathlib import Path
 from typing import BinaryIO
 
-from amp_studio.files import Notify, ParameterFile, content_of, read_content, real_path, text_of_name
-from amp_studio.files.local_time import local_time
+from amp_studio.files import (
+    Notify,
+    ParameterFile,
+    content_of,
+    local_time,
+    read_content,
+    real_path,
+    text_of_name,
+)
 from amp_studio.report import (
     Contents,
     ExchangeLine,
@@ -109,7 +116,7 @@ def answer(asked: BinaryIO, out: BinaryIO) -> None:
 
 def exchanges_of(source: Path) -> Iterator[ExchangeLine]:
     """Yield what the record of exchanges has of a file, oldest first; raises OSError."""
-    from amp_studio.transfer.client.record import read_exchanges
+    from amp_studio.transfer.client import read_exchanges
 
     real = real_path(source)
     for each in read_exchanges(real.parent, text_of_name(real.name)):

@@ -21,15 +21,15 @@ from amp_studio.schema import (
     fault,
     field_at,
     field_value,
+    labels_of_word,
     meant,
     real_value,
     show_value,
+    stored_number,
     with_field,
+    write_number,
     write_value,
 )
-from amp_studio.schema.bit_fields import labels_of_word
-from amp_studio.schema.storage import stored_number
-from amp_studio.schema.values import write_number
 from amp_studio.validate import (
     NO_RULES,
     BuilderRules,
@@ -38,9 +38,9 @@ from amp_studio.validate import (
     Validator,
     apply_fixes,
     earlier_beside,
+    enter,
     rules_beside,
 )
-from amp_studio.validate.cell_expression import enter
 
 if TYPE_CHECKING:
     from amp_studio.files import Change, Difference
@@ -227,7 +227,7 @@ class MachineParameters:
 
 def open_machine(path: str | Path) -> MachineParameters:
     """Open a parameter file, or a control's own text; raises ParameterFileError and changes nothing."""
-    from amp_studio.formats.any_file import is_text_of_control, open_for_reading
+    from amp_studio.formats import is_text_of_control, open_for_reading
 
     path = Path(path)
     if is_text_of_control(path):

@@ -7,8 +7,10 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from amp_studio.files import ParameterFile, fill_defaults, fitted_axes, new_file, open_file, save_file
-from amp_studio.files.examples import examples_folder
+from amp_studio.files import ParameterFile, fitted_axes, new_file, open_file
+from amp_studio.files.example_files import examples_folder
+from amp_studio.files.parameter_file import fill_defaults
+from amp_studio.files.storage import save_file
 from amp_studio.schema import Address, Value
 from amp_studio.validate import Validator
 

@@ -25,7 +25,7 @@ FAMILIES = ("mill-1394", "num-1060-mill", "syntec-mill", "acromill-router", "57c
 
 def measures(folder: Path, full: Path, times: int) -> Iterator[Measure]:
     """Yield the memory with five families open, and the time until a full file is painted in that window."""
-    from amp_studio.files.examples import examples_folder
+    from amp_studio.files.example_files import examples_folder
 
     paths = [next((examples_folder() / name).glob("*.amp")) for name in FAMILIES]
     copies = [folder / f"open-{path.name}" for path in paths]

@@ -21,7 +21,7 @@ from jsonschema.validators import Draft202012Validator, extend
 from measure import Measure, timed
 
 from amp_studio.files import Change, ParameterFile, open_file
-from amp_studio.files.examples import examples_folder
+from amp_studio.files.example_files import examples_folder
 from amp_studio.formats import export_file, import_file
 from amp_studio.schema import Address, InvalidValueError, Rule, Schema, Value, read_address, written
 from amp_studio.validate import Validator, apply_fixes

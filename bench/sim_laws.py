@@ -14,10 +14,11 @@ import numpy as np
 from measure import Measure, timed
 
 from amp_studio.files import open_file
-from amp_studio.sim import AxisLaw, bind_axis, law_of
+from amp_studio.sim import AxisLaw, law_of
 from amp_studio.sim.compiled import compiled
 from amp_studio.sim.motion import Until, prepared, run_axis, steps
 from amp_studio.sim.ramps import move
+from amp_studio.sim.run import bind_axis
 
 SECONDS = 10.0
 TIMES_REAL = 10_000.0

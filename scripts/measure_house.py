@@ -19,6 +19,7 @@ import tomllib
 from collections import Counter
 from collections.abc import Collection, Iterable, Iterator, Sequence
 from dataclasses import dataclass
+from functools import cache
 from importlib.metadata import PackageNotFoundError, distribution
 from pathlib import Path
 
@@ -47,23 +48,35 @@ class ImportedName:
     """Taken from a module inside the other room, not from its front page."""
 
 
-def room_of(module: str) -> str:
-    """Return the room of a module: the folder or single module directly below the package."""
-    return module.partition(".")[2].partition(".")[0]
+def room_of(module: str, package: Path = PACKAGE) -> str:
+    """Return the room of a module: the folder or single module directly below the package, or a folder in it that has a front page."""
+    parts = module.split(".")[1:]
+    for end in range(len(parts), 1, -1):
+        if is_front_page(package.joinpath(*parts[:end], "__init__.py")):
+            return ".".join(parts[:end])
+    return "".join(parts[:1])
+
+
+@cache
+def is_front_page(path: Path) -> bool:
+    """Return whether a file is there and makes a front page (amp_studio/front_pages.py)."""
+    return path.is_file() and "= front_page(__name__)" in path.read_text("utf-8")
 
 
 def imported_names(package: Path = PACKAGE) -> Iterator[ImportedName]:
-    """Yield every name that a room of ``package`` imports from another room; those for types alone too."""
+    """Yield every name that a room of ``package`` imports from another room that it is not in; those for types alone too."""
     top = package.name
     for path in sorted(package.rglob("*.py")):
         inside = path.relative_to(package.parent).with_suffix("").parts
         module = ".".join(inside).removesuffix(".__init__")
         for node in ast.walk(ast.parse(path.read_text("utf-8"))):
             for base, name in _asked_for(node, inside[:-1], package.parent):
-                if not f"{base}.".startswith(f"{top}.") or room_of(base) == room_of(module):
+                given_by = room_of(base, package)
+                if not f"{base}.".startswith(f"{top}.") or f"{module}.".startswith(f"{top}.{given_by}."):
                     continue
                 where = f"{path.relative_to(package.parent).as_posix()}:{node.lineno}"  # type: ignore[attr-defined]  # an import
-                yield ImportedName(room_of(module), room_of(base), base, name, where, base.count(".") > 1)
+                is_past = base.count(".") > 1 and base != f"{top}.{given_by}"
+                yield ImportedName(room_of(module, package), given_by, base, name, where, is_past)
 
 
 def _asked_for(node: ast.AST, folder: Sequence[str], root: Path) -> Iterator[tuple[str, str]]:
@@ -83,11 +96,24 @@ def _asked_for(node: ast.AST, folder: Sequence[str], root: Path) -> Iterator[tup
 
 
 def names_given(page: Path) -> set[str]:
-    """Return the names that a front page gives: those of its ``__all__``."""
-    for node in ast.parse(page.read_text("utf-8")).body:
-        if isinstance(node, ast.Assign) and ast.unparse(node.targets[0]) == "__all__":
-            return set(ast.literal_eval(node.value))
-    return set()
+    """Return the names that a front page gives: what it imports, also for type checkers alone, and what it makes."""
+    given: set[str] = set()
+    open_nodes: list[ast.stmt] = ast.parse(page.read_text("utf-8")).body
+    for node in open_nodes:
+        if isinstance(node, ast.If):
+            open_nodes += node.body
+        elif isinstance(node, ast.ImportFrom):
+            given.update(alias.asname or alias.name for alias in node.names if node.level)
+        elif isinstance(node, (*FUNCTIONS, ast.ClassDef)):
+            given.add(node.name)
+        elif isinstance(node, ast.Assign):
+            given.update(target.id for target in node.targets if isinstance(target, ast.Name))
+    return {name for name in given if not name.startswith("_")}
+
+
+def pages(package: Path = PACKAGE) -> list[Path]:
+    """Return the front pages of the rooms."""
+    return sorted(filter(is_front_page, package.rglob("*/__init__.py")))
 
 
 def line_count(path: Path) -> int:
@@ -137,7 +163,7 @@ def code_figures() -> Iterator[tuple[str, str]]:
     yield "public names of modules", f"{sum(len(public_names(tree)) for tree in trees):,}"
     yield (
         "names on the front pages of the rooms",
-        f"{sum(len(names_given(page)) for page in PACKAGE.glob('*/__init__.py')):,}",
+        f"{sum(len(names_given(page)) for page in pages()):,}",
     )
     yield "functions", f"{len(functions):,}"
     yield f"functions over complexity {MOST_BRANCHES}", f"{hard:,} ({hard / len(functions):.1%})"

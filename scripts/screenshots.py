@@ -38,7 +38,8 @@ from PySide6.QtGui import QPainter, QPixmap  # noqa: E402  # Qt reads the enviro
 from PySide6.QtTest import QTest  # noqa: E402  # Qt reads the environment that is set above
 from PySide6.QtWidgets import QApplication, QWidget  # noqa: E402  # Qt reads the environment that is set above
 
-from amp_studio.files import Document, ParameterFile, Project, ProjectInfo, new_file, save_file  # noqa: E402  # Qt reads the environment that is set above
+from amp_studio.files import Document, ParameterFile, Project, ProjectInfo, new_file  # noqa: E402  # Qt reads the environment that is set above
+from amp_studio.files.storage import save_file  # noqa: E402  # Qt reads the environment that is set above
 from amp_studio.schema import Value  # noqa: E402  # Qt reads the environment that is set above
 from amp_studio.ui.base.task import Task  # noqa: E402  # Qt reads the environment that is set above
 from amp_studio.ui.base.theme import scheme  # noqa: E402  # Qt reads the environment that is set above

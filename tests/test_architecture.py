@@ -12,15 +12,19 @@ import sys
 import textwrap
 import tomllib
 from collections.abc import Iterator
+from functools import cache
 from importlib.metadata import packages_distributions
 from pathlib import Path
 
+import measure_house
 import pytest
 from pydantic import TypeAdapter
 from ruamel.yaml import YAML
 
 import amp_studio
+from amp_studio import schema
 from amp_studio.formats import all_formats, formats_of
+from amp_studio.front_pages import listed
 from amp_studio.schema import Parameter, Rule, family_ids, load_schema, program
 from amp_studio.schema.load import compile_family
 from amp_studio.schema.machine_schema import number_of
@@ -316,7 +320,7 @@ def modules_below(package: Path) -> dict[str, Path]:
 
 
 def asked_for(node: ast.Import | ast.ImportFrom, name: str, modules: dict[str, Path]) -> Iterator[str]:
-    """Yield the modules that an import names: a package's page only where a name is taken that is no module of it."""
+    """Yield the modules that an import names; for a name of a front page the page, and the module that it is loaded from."""
     if isinstance(node, ast.Import):
         yield from (alias.name for alias in node.names if alias.name in modules)
         return
@@ -327,21 +331,26 @@ def asked_for(node: ast.Import | ast.ImportFrom, name: str, modules: dict[str, P
     base = base or node.module or ""
     for alias in node.names:
         inner = f"{base}.{alias.name}"
-        # A page may give another thing the name of one of its modules (sim.listing): then it is the page that is asked.
-        if inner in modules and alias.name not in given_by(modules[base]):
+        given = dict(given_by(modules[base])) if base in modules else {}
+        if alias.name in given:
+            yield from {base, f"{base}.{given[alias.name]}"} & modules.keys()
+        elif inner in modules:
             yield inner
         elif base in modules:
             yield base
 
 
-def given_by(page: Path) -> set[str]:
-    """Return the names that a page takes from its modules, without modules that keep their name."""
-    return {
-        alias.asname or alias.name
-        for node in ast.parse(page.read_text("utf-8")).body
-        if isinstance(node, ast.ImportFrom) and node.module
+@cache
+def given_by(page: Path) -> tuple[tuple[str, str], ...]:
+    """Return name and module of what a page takes from its modules, without modules that keep their name."""
+    nodes = ast.parse(page.read_text("utf-8")).body if page.name == "__init__.py" else []
+    nodes += [inner for node in nodes if isinstance(node, ast.If) for inner in node.body]
+    return tuple(
+        (alias.asname or alias.name, node.module)
+        for node in nodes
+        if isinstance(node, ast.ImportFrom) and node.level == 1 and node.module
         for alias in node.names
-    }
+    )
 
 
 def imports_of(path: Path, *, at_loading: bool) -> list[ast.Import | ast.ImportFrom]:
@@ -407,18 +416,42 @@ def test_no_modules_import_each_other_when_they_are_loaded(checkout: Path) -> No
     assert circles(checkout / "amp_studio") == []
 
 
+def test_no_room_takes_a_name_past_a_front_page() -> None:
+    past = [name for name in measure_house.imported_names() if name.is_past]
+    assert [f"{name.where}: {name.module} {name.name}" for name in past] == []
+
+
+def test_a_front_page_gives_what_another_room_takes_and_no_more(checkout: Path) -> None:
+    """What no other room asks for is private to its room, and a test takes it from its module."""
+    taken: dict[str, set[str]] = {}
+    for name in measure_house.imported_names():
+        taken.setdefault(name.given_by, set()).add(name.name)
+    pages = {
+        ".".join(page.relative_to(checkout / "amp_studio").parts[:-1]): page
+        for page in measure_house.pages(checkout / "amp_studio")
+    }
+    assert {"schema", "transfer.links", "ui"} <= pages.keys()
+    idle = {
+        room: {name for name, _, _ in listed(page.read_text("utf-8"))} - taken.get(room, set())
+        for room, page in pages.items()
+    }
+    assert {room: names for room, names in idle.items() if names} == {}
+
+
 def test_no_name_of_a_front_page_is_a_module_below_it_too(checkout: Path) -> None:
     """Python sets a loaded module on its package: a name that is loaded when it is asked for would be the module then."""
-    package = checkout / "amp_studio"
-    same = [
+    assert [
         f"{page.parent.name}.{name}"
-        for page in package.rglob("__init__.py")
-        for node in ast.parse(page.read_text("utf-8")).body
-        if isinstance(node, ast.Assign) and ast.unparse(node.targets[0]) == "_PLACES"
-        for name in ast.literal_eval(node.value)
+        for page in measure_house.pages(checkout / "amp_studio")
+        for name, _, _ in listed(page.read_text("utf-8"))
         if (page.parent / f"{name}.py").is_file() or (page.parent / name).is_dir()
-    ]
-    assert same == []
+    ] == []
+
+
+def test_a_name_that_is_not_on_a_front_page_is_an_attribute_error() -> None:
+    assert schema.load_schema is load_schema
+    with pytest.raises(AttributeError, match=r"amp_studio\.schema has no nothing on its front page"):
+        schema.nothing  # noqa: B018  # asking is what is tried
 
 
 @pytest.mark.parametrize(

@@ -12,7 +12,7 @@ from pathlib import Path
 import pytest
 
 import amp_studio as amp
-from amp_studio.files.examples import examples
+from amp_studio.files.example_files import examples
 
 PAGE = Path(__file__).parents[1] / "docs" / "library.md"
 EXAMPLES = re.findall(r"```python\n(.*?)```", PAGE.read_text("utf-8"), re.DOTALL)

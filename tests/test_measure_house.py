@@ -8,6 +8,8 @@ from pathlib import Path
 import measure_house
 import pytest
 
+PAGE = "if TYPE_CHECKING:\n    from .{} import {}\nelse:\n    __getattr__ = front_page(__name__)\n"
+
 
 @pytest.mark.parametrize(
     ("line", "taken"),
@@ -26,6 +28,9 @@ import pytest
         ("from amp_studio.sim.law import Law", []),
         ("from .law import Law", []),
         ("import json", []),
+        ("from amp_studio.transfer.links import Link", [("transfer.links", "Link", False)]),
+        ("from amp_studio.transfer.links.link import Link", [("transfer.links", "Link", True)]),
+        ("from amp_studio.transfer.client.drift import drift", [("transfer", "drift", True)]),
         ("def late():\n    from amp_studio.files.lock import Lock", [("files", "Lock", True)]),
     ],
 )
@@ -33,10 +38,15 @@ def test_a_name_that_is_taken_past_a_front_page_counts(
     tmp_path: Path, line: str, taken: list[tuple[str, str, bool]]
 ) -> None:
     sources = {
-        "files/__init__.py": "from .diff import diff\n__all__ = ['diff', 'open_file']\n",
+        "files/__init__.py": f"{PAGE.format('diff', 'diff')}\ndef open_file(): ...\n",
         "files/diff.py": "def diff(): ...\n",
         "files/lock.py": "class Lock: ...\n",
         "errors.py": "",
+        "transfer/__init__.py": "",
+        "transfer/client/__init__.py": "",
+        "transfer/client/drift.py": "",
+        "transfer/links/__init__.py": PAGE.format("link", "Link"),
+        "transfer/links/link.py": "class Link: ...\n",
         "sim/__init__.py": "",
         "sim/law.py": "",
         "sim/here.py": f"{line}\n",

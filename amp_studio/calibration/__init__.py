@@ -4,53 +4,25 @@
 ``edit`` changes a table by hand. What a family offers is a record (``compensation.py``), found by its registration.
 """
 
-from __future__ import annotations
+from typing import TYPE_CHECKING
 
-from .compensation import CalibrationTable, Compensation, FittedTable, TableForm, TuningPage, compensation_of
-from .curve import ErrorCurve, mean_curve
-from .errors import CalibrationError, MeasurementError
-from .figures import AxisFigures, TargetFigures, figures
-from .measurement import (
-    DECIMALS,
-    ERROR_UNITS,
-    POSITION_UNITS,
-    SIGNS,
-    MeasuredRun,
-    Measurement,
-    MeasurementAnswers,
-)
-from .proposal import Proposal, Wish, axes_of, base_unit, lost_motion, present_table, propose, shown_unit
-from .reading import read_measured_file, read_measurement
+from amp_studio.front_pages import front_page
 
-__all__ = [
-    "DECIMALS",
-    "ERROR_UNITS",
-    "POSITION_UNITS",
-    "SIGNS",
-    "AxisFigures",
-    "CalibrationError",
-    "CalibrationTable",
-    "Compensation",
-    "ErrorCurve",
-    "FittedTable",
-    "MeasuredRun",
-    "Measurement",
-    "MeasurementAnswers",
-    "MeasurementError",
-    "Proposal",
-    "TableForm",
-    "TargetFigures",
-    "TuningPage",
-    "Wish",
-    "axes_of",
-    "base_unit",
-    "compensation_of",
-    "figures",
-    "lost_motion",
-    "mean_curve",
-    "present_table",
-    "propose",
-    "read_measured_file",
-    "read_measurement",
-    "shown_unit",
-]
+if TYPE_CHECKING:
+    from .compensation import (
+        CalibrationTable,
+        Compensation,
+        FittedTable,
+        TableForm,
+        TuningPage,
+        compensation_of,
+    )
+    from .curve import ErrorCurve
+    from .edit import deleted, inserted, left_over, rechosen, replaced
+    from .errors import CalibrationError
+    from .measurement import DECIMALS, ERROR_UNITS, POSITION_UNITS, Measurement, MeasurementAnswers
+    from .proposal import Proposal, Wish, axes_of, base_unit, lost_motion, present_table, propose, shown_unit
+    from .reading import read_measured_file
+    from .steps import stepped, steps_of, with_followers
+else:
+    __getattr__ = front_page(__name__)

@@ -11,7 +11,7 @@ from fractions import Fraction
 from typing import Protocol
 
 from amp_studio.files import ParameterFile
-from amp_studio.schema.registration import load_part, registration_of
+from amp_studio.schema import load_part, registration_of
 
 from .curve import ErrorCurve
 from .measurement import MeasuredPoints

@@ -12,9 +12,7 @@ from dataclasses import dataclass
 from fractions import Fraction
 
 from amp_studio.files import ParameterFile
-from amp_studio.schema import Address, Value, canonical, dimension, fault, real_value, shown
-from amp_studio.schema.scales import size_of
-from amp_studio.schema.units import UNITS
+from amp_studio.schema import UNITS, Address, Value, canonical, dimension, fault, real_value, shown, size_of
 
 from .ballbar import lost_motions
 from .compensation import CalibrationTable, Compensation, compensation_of

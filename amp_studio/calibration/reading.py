@@ -12,7 +12,7 @@ from fractions import Fraction
 from pathlib import Path
 
 from amp_studio.files import text_of_name
-from amp_studio.schema.regular_file import read_table_text
+from amp_studio.schema import read_table_text
 
 from . import renishaw
 from .cells import is_number, lines_of, number_of, separator_of, split

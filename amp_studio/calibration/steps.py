@@ -10,8 +10,7 @@ from collections.abc import Mapping
 from fractions import Fraction
 
 from amp_studio.files import ParameterFile
-from amp_studio.schema import Address, Value, limits
-from amp_studio.schema.units import UNITS, dimension
+from amp_studio.schema import UNITS, Address, Value, dimension, limits
 
 from .compensation import compensation_of
 from .errors import CalibrationError

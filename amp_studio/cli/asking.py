@@ -7,7 +7,7 @@ import signal
 import sys
 import threading
 
-from amp_studio.transfer.links.passwords import ask_with
+from amp_studio.transfer.links import ask_with
 
 
 def ask_at_terminal() -> None:

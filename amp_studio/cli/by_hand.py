@@ -6,9 +6,8 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 
 from amp_studio.schema import load_schema
-from amp_studio.transfer.errors import ControlSilentError, NoConnectionError, TransferError
-from amp_studio.transfer.links.endpoint import parse_endpoint
-from amp_studio.transfer.ways import PRINT_SHEET
+from amp_studio.transfer import PRINT_SHEET, ControlSilentError, NoConnectionError, TransferError
+from amp_studio.transfer.links import parse_endpoint
 
 from .console import note
 

@@ -19,12 +19,8 @@ from importlib.util import find_spec
 from pathlib import Path
 
 from amp_studio.family_places import installed_places
-from amp_studio.files import is_there, real_path
-from amp_studio.files.origin import origin_named
-from amp_studio.schema.compiled_cache import cache_folder
-from amp_studio.schema.folder import database_folder
-from amp_studio.schema.registration import added_facts
-from amp_studio.schema.regular_file import read_file
+from amp_studio.files import is_there, origin_named, real_path
+from amp_studio.schema import added_facts, cache_folder, database_folder, read_file
 from amp_studio.validate import RULES_FILE, companions_of
 
 from .check_formats import CHECK_FORMATS, CheckResult

@@ -15,7 +15,7 @@ from pathlib import Path
 from typing import Any, NamedTuple
 from urllib.parse import quote_from_bytes
 
-from amp_studio.files.reading import value_lines
+from amp_studio.files import value_lines
 from amp_studio.report import (
     alike,
     counted,

@@ -14,7 +14,7 @@ if TYPE_CHECKING:
 
 def matched_by_letter_noted(b: ParameterFile, a: ParameterFile) -> ParameterFile:
     """Return B with its axes at the numbers that their letters have in A; which moved is a note."""
-    from amp_studio.files.axis_match import matched_by_letter
+    from amp_studio.files import matched_by_letter
 
     matched = matched_by_letter(b, a)
     for letter, number, place in matched.moved:

@@ -106,7 +106,7 @@ WAITING = {"restart": "waiting for the control to restart"}
 
 def assignments(texts: Sequence[str], form: str = "PARAM=VALUE") -> list[tuple[str, str]]:
     """Part texts of this form; raises UsageError that names all that are none."""
-    from amp_studio.schema.quoting import quoted
+    from amp_studio.schema import quoted
 
     pairs, slips = [], []
     for text in texts:

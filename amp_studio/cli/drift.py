@@ -8,11 +8,10 @@ from pathlib import Path
 from typing import Any
 
 from amp_studio.files import Difference, ParameterFile
-from amp_studio.report.paper import Paper, PaperTable, check_paper_ending, write_paper
-from amp_studio.report.wording import counted
+from amp_studio.report import Paper, PaperTable, check_paper_ending, counted, write_paper
 from amp_studio.schema import show_value
-from amp_studio.transfer.client.drift import Drift, drift_of_all, known_controls
-from amp_studio.transfer.exchange import Exchange
+from amp_studio.transfer import Exchange
+from amp_studio.transfer.client import Drift, drift_of_all, known_controls
 
 from .comparing import difference_json
 from .console import note, print_json, progress

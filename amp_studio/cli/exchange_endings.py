@@ -12,14 +12,13 @@ from amp_studio.cli.verb import Options
 
 if TYPE_CHECKING:
     from amp_studio.files import ParameterFile
-    from amp_studio.transfer.client.exchange import Outcome
-    from amp_studio.transfer.exchange import Exchange
-    from amp_studio.transfer.progress import Stop
+    from amp_studio.transfer import Exchange, Stop
+    from amp_studio.transfer.client import Outcome
 
 
 def exchange_of(options: Options, path: Path, stop: Stop) -> Exchange:
     """Return the exchange of a verb that replaces what a control contains."""
-    from amp_studio.transfer.exchange import Exchange
+    from amp_studio.transfer import Exchange
 
     keep = options.keep / path.name if options.keep else path
     return Exchange(progress(), stop, keep, record=path, notify=note)
@@ -27,8 +26,7 @@ def exchange_of(options: Options, path: Path, stop: Stop) -> Exchange:
 
 def note_errors(file: ParameterFile, path: Path) -> str:
     """List the errors of a file, by the rules beside it too; returns how many there are, "" for none."""
-    from amp_studio.report import alike, same_finding_text
-    from amp_studio.report.wording import counted
+    from amp_studio.report import alike, counted, same_finding_text
     from amp_studio.validate import Validator, rules_beside
 
     findings = Validator(file, rules_beside(path, file)).run()

@@ -7,9 +7,9 @@ from dataclasses import replace
 from pathlib import Path
 
 from amp_studio.files import ParameterFile
-from amp_studio.report.paper import check_paper_ending, results_paper, write_paper
-from amp_studio.report.wording import counted
-from amp_studio.transfer.client.fleet import (
+from amp_studio.report import check_paper_ending, counted, results_paper, write_paper
+from amp_studio.transfer import Exchange, decode_content
+from amp_studio.transfer.client import (
     HEADS,
     ExchangeOf,
     FleetResult,
@@ -17,13 +17,12 @@ from amp_studio.transfer.client.fleet import (
     check_addresses,
     download_each,
     failed_row,
+    fetch_image,
+    record_look,
+    sha256,
     verify_each,
     with_each,
 )
-from amp_studio.transfer.client.parameters import fetch_image, sha256
-from amp_studio.transfer.client.record import record_look
-from amp_studio.transfer.content import decode_content
-from amp_studio.transfer.exchange import Exchange
 
 from .console import note, print_json, progress
 from .errors import UsageError

@@ -5,11 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterator
 from pathlib import Path
 
-from amp_studio.files import ParameterFile
-from amp_studio.files.creation import MadeLike, made_like
-from amp_studio.files.examples import examples
-from amp_studio.files.origin import note_origin
-from amp_studio.schema.nearest import unknown_name
+from amp_studio.files import MadeLike, ParameterFile, examples, made_like, note_origin
+from amp_studio.schema import unknown_name
 
 from .console import note
 from .errors import UsageError

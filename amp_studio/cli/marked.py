@@ -39,7 +39,7 @@ def with_marks(file: ParameterFile, path: Path, found: Sequence[Meant], wanted: 
 
         marks.take_findings(Validator(file, rules_beside(path, file)).run())
     if "since-download" in wanted:
-        from amp_studio.transfer.client.last_download import last_download
+        from amp_studio.transfer.client import last_download
 
         marks.downloaded = last_download(file, path).file.values
     marks.noted = noted(file)

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
     from amp_studio.files import ParameterFile
-    from amp_studio.sim.motion_check import MotionCheck
+    from amp_studio.sim import MotionCheck
 
 
 def as_json(file: ParameterFile, checks: Sequence[MotionCheck]) -> dict[str, object]:
@@ -64,7 +64,7 @@ def text(checks: Sequence[MotionCheck]) -> str:
 
 
 def figure_text(name: str, value: float | None, unit: str) -> str:
-    from amp_studio.sim.rounding import shown
+    from amp_studio.sim import shown
 
     words = name.replace("_", " ")
     return f"{words} –" if value is None else f"{words} {shown(float(value), unit)}"

@@ -23,7 +23,7 @@ def opened(path: Path, options: Options | None = None, notify: Callable[[str], N
 
     if path.suffix.casefold() == ENDING:
         return open_file(path).file
-    from amp_studio.formats.any_file import open_for_reading  # most files are parameter files
+    from amp_studio.formats import open_for_reading  # most files are parameter files
     from amp_studio.schema import UnknownFamilyError
 
     family, machine = (options.family, options.machine) if options else (None, None)

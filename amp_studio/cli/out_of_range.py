@@ -4,8 +4,7 @@ from __future__ import annotations
 
 import sys
 
-from amp_studio.files import ParameterFile
-from amp_studio.files.out_of_range import RangeDecision, settle
+from amp_studio.files import ParameterFile, RangeDecision, settle
 from amp_studio.schema import Address
 
 from .console import ask, note

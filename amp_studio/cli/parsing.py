@@ -150,7 +150,7 @@ def _in_plain_words(message: str) -> str:
 
 def _unknown(what: str, name: str, known: Iterable[str]) -> str:
     """Return the message for an unknown name, with the nearest known ones."""
-    from amp_studio.schema.nearest import unknown_name
+    from amp_studio.schema import unknown_name
 
     return unknown_name(what, name, known)
 

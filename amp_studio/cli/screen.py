@@ -30,7 +30,7 @@ class Screen(io.TextIOWrapper):
 def _shown(text: str) -> str:
     if text.replace("\n", "").replace("\t", "").isprintable():
         return text
-    from amp_studio.schema.visible import visible  # the rooms are loaded when they are needed
+    from amp_studio.schema import visible  # the rooms are loaded when they are needed
 
     return visible(text, keep="\n\t")
 

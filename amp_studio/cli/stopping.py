@@ -14,7 +14,7 @@ from collections.abc import Iterator
 from typing import TYPE_CHECKING, Any, NoReturn
 
 if TYPE_CHECKING:
-    from amp_studio.transfer.progress import Stop
+    from amp_studio.transfer import Stop
 
 _asked: list[int] = []
 
@@ -41,8 +41,7 @@ def asked_politely() -> Iterator[Stop]:
 
     What comes later is ignored: the verb knows its result and prints it.
     """
-    from amp_studio.transfer.interrupts import interrupts
-    from amp_studio.transfer.progress import Stop
+    from amp_studio.transfer import Stop, interrupts
 
     stop = Stop()
     is_program = signal.getsignal(signal.SIGINT) is _stop

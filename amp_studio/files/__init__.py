@@ -7,27 +7,23 @@ understood is refused or kept whole.
 What this page loads when it is first asked for is needed to change files, not to check them.
 """
 
-from importlib import import_module
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
-from .atomic import ChangedOnDiskError, Notify, SaveError, check_output, digest_of, was_replaced, write_atomic
-from .parameter_file import (
-    Change,
-    Header,
-    ParameterFile,
-    RangeError,
-    describe,
-    fill_defaults,
-    secret_values,
-    without_secrets,
-)
-from .paths import ENDING, backup_path, is_there, real_path, same_file, text_of_name
-from .reading import FORMAT, Opened, ParameterFileError, open_file, read_content
-from .storage import content_of, save_file
+from amp_studio.front_pages import front_page
 
 if TYPE_CHECKING:
+    from .atomic import (
+        ChangedOnDiskError,
+        Notify,
+        SaveError,
+        append_line,
+        check_output,
+        digest_of,
+        was_replaced,
+        write_all,
+        write_atomic,
+    )
     from .axes import (
-        AxisError,
         alike_axes,
         are_alike,
         axis_head,
@@ -36,8 +32,8 @@ if TYPE_CHECKING:
         axis_letter,
         axis_profile,
         axis_title,
-        axis_type,
         fitted_axes,
+        other_use,
         shown_axes,
         unlike_axes,
     )
@@ -49,146 +45,70 @@ if TYPE_CHECKING:
         why_letters_are_fixed,
         why_types_are_fixed,
     )
-    from .axis_fitting import add_axis, delete_axis, name_axes, rename_axis, retype_axis
-    from .axis_values import AxisDifference, compare_axes, copy_axis, swap_axes
-    from .creation import new_file
-    from .diff import Comparison, Conflict, Difference, compare, merge
+    from .axis_fitting import add_axis, delete_axis, rename_axis, retype_axis
+    from .axis_match import as_axis, axis_letters, matched_by_letter
+    from .axis_values import AxisDifference, bits_of_axes, compare_axes, copy_axis, swap_axes
+    from .block_entry import BlockEntry, EnteredCell, plan_entry, plan_values
+    from .creation import MadeLike, made_like, new_file, new_like, of_one_machine
+    from .diff import Comparison, Difference, compare, in_one_unit
     from .document import Document, HistoryEntry, Unsaved, recover_backup
-    from .lock import InUseError
-    from .merging import Merge, Row, RowGroup, Typed
-    from .project import InvalidNameError, Project, ProjectInfo
-
-_PLACES = {
-    "AxisDifference": "axis_values",
-    "AxisError": "axes",
-    "Comparison": "diff",
-    "Conflict": "diff",
-    "Difference": "diff",
-    "Document": "document",
-    "HistoryEntry": "document",
-    "InUseError": "lock",
-    "InvalidNameError": "project",
-    "Merge": "merging",
-    "Project": "project",
-    "ProjectInfo": "project",
-    "Row": "merging",
-    "RowGroup": "merging",
-    "Typed": "merging",
-    "Unsaved": "document",
-    "add_axis": "axis_fitting",
-    "alike_axes": "axes",
-    "are_alike": "axes",
-    "axis_head": "axes",
-    "axis_instances": "axes",
-    "letters_offered": "axis_abilities",
-    "places_offered": "axis_abilities",
-    "axis_kind": "axes",
-    "axis_letter": "axes",
-    "axis_profile": "axes",
-    "axis_title": "axes",
-    "axis_type": "axes",
-    "compare": "diff",
-    "compare_axes": "axis_values",
-    "copy_axis": "axis_values",
-    "delete_axis": "axis_fitting",
-    "fitted_axes": "axes",
-    "merge": "diff",
-    "name_axes": "axis_fitting",
-    "new_file": "creation",
-    "parameters_of_axes": "axis_abilities",
-    "recover_backup": "document",
-    "rename_axis": "axis_fitting",
-    "retype_axis": "axis_fitting",
-    "shown_axes": "axes",
-    "swap_axes": "axis_values",
-    "why_axes_are_fixed": "axis_abilities",
-    "why_letters_are_fixed": "axis_abilities",
-    "why_types_are_fixed": "axis_abilities",
-    "unlike_axes": "axes",
-}
-"""Name -> its module."""
-
-
-def __getattr__(name: str) -> Any:
-    if name not in _PLACES:
-        raise AttributeError(f"module {__name__} has no attribute {name}")
-    found = globals()[name] = getattr(import_module(f".{_PLACES[name]}", __name__), name)
-    return found
-
-
-__all__ = [
-    "ENDING",
-    "FORMAT",
-    "AxisDifference",
-    "AxisError",
-    "Change",
-    "ChangedOnDiskError",
-    "Comparison",
-    "Conflict",
-    "Difference",
-    "Document",
-    "Header",
-    "HistoryEntry",
-    "InUseError",
-    "InvalidNameError",
-    "Merge",
-    "Notify",
-    "Opened",
-    "ParameterFile",
-    "ParameterFileError",
-    "Project",
-    "ProjectInfo",
-    "RangeError",
-    "Row",
-    "RowGroup",
-    "SaveError",
-    "Typed",
-    "Unsaved",
-    "add_axis",
-    "alike_axes",
-    "are_alike",
-    "axis_head",
-    "axis_instances",
-    "axis_kind",
-    "axis_letter",
-    "axis_profile",
-    "axis_title",
-    "axis_type",
-    "backup_path",
-    "check_output",
-    "compare",
-    "compare_axes",
-    "content_of",
-    "copy_axis",
-    "delete_axis",
-    "describe",
-    "digest_of",
-    "fill_defaults",
-    "fitted_axes",
-    "is_there",
-    "letters_offered",
-    "merge",
-    "name_axes",
-    "new_file",
-    "open_file",
-    "parameters_of_axes",
-    "places_offered",
-    "read_content",
-    "real_path",
-    "recover_backup",
-    "rename_axis",
-    "retype_axis",
-    "same_file",
-    "save_file",
-    "secret_values",
-    "shown_axes",
-    "swap_axes",
-    "text_of_name",
-    "unlike_axes",
-    "was_replaced",
-    "why_axes_are_fixed",
-    "why_letters_are_fixed",
-    "why_types_are_fixed",
-    "without_secrets",
-    "write_atomic",
-]
+    from .erased import erased_question
+    from .example_files import Example, examples, examples_folder
+    from .lock import EditLock, InUseError, now, user
+    from .merging import (
+        ENTRIES,
+        FACTS,
+        HEADER_TEXTS,
+        NOTES,
+        Choice,
+        Merge,
+        Row,
+        RowGroup,
+        RowId,
+        Side,
+        Typed,
+        in_order,
+    )
+    from .notes import (
+        NoteError,
+        all_notes,
+        group_note,
+        machine_note,
+        note_fault,
+        set_group_note,
+        set_machine_note,
+        set_value_note,
+        value_note,
+    )
+    from .origin import note_origin, origin_named, origin_of
+    from .other_schema import by_schema
+    from .parameter_file import (
+        Change,
+        Header,
+        Marks,
+        ParameterFile,
+        RangeError,
+        describe,
+        secret_values,
+        without_secrets,
+    )
+    from .paths import ENDING, backup_path, history_path, is_there, real_path, same_file, text_of_name
+    from .project import Project, ProjectInfo
+    from .range_decisions import RangeDecision, keep, out_of_range, settle
+    from .reading import (
+        Opened,
+        ParameterFileError,
+        file_content,
+        open_file,
+        read_content,
+        read_stored,
+        value_lines,
+    )
+    from .spreadsheet import cell_text, text_cell
+    from .storage import content_of, readable_content
+    from .stored_text import storage_text
+    from .times import day_and_time, local_time, with_days_and_times, with_local_times
+    from .versions import before_saves, with_defaults
+    from .yaml_text import scalar_text, with_item
+else:
+    __getattr__ = front_page(__name__)

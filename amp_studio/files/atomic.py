@@ -15,7 +15,7 @@ from collections.abc import Callable, Iterator
 from pathlib import Path
 
 from amp_studio.errors import AmpStudioError
-from amp_studio.schema.regular_file import HARMLESS, NO_LINK, demand_file, read_file
+from amp_studio.schema import HARMLESS, NO_LINK, demand_file, read_file
 
 from .attributes import keep_attributes
 from .paths import backup_path, companions, destination, real_path, same_file

@@ -9,8 +9,7 @@ from collections import Counter
 from collections.abc import Iterable
 
 from amp_studio.errors import AmpStudioError
-from amp_studio.schema import Address, AxisProfile, axis_group, axis_name, is_fitted
-from amp_studio.schema.machine_schema import labelled
+from amp_studio.schema import Address, AxisProfile, axis_group, axis_name, is_fitted, labelled
 
 from .parameter_file import ParameterFile
 

@@ -10,15 +10,17 @@ from collections.abc import Iterable, Sequence
 
 from amp_studio.schema import (
     Address,
+    AxisDeclaration,
+    AxisField,
+    AxisProfile,
     InvalidValueError,
     Value,
     axis_group,
     field_at,
     is_fitted,
+    quoted,
     with_field,
 )
-from amp_studio.schema.model import AxisDeclaration, AxisField, AxisProfile
-from amp_studio.schema.quoting import quoted
 
 from .axes import AxisError, axis_instances, axis_letter, axis_profile, fitted_axes, known_axis, shown_axes
 from .axis_abilities import letters_offered, parameters_of_axes, why_axes_are_fixed, why_letters_are_fixed

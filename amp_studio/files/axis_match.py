@@ -5,8 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass
 
-from amp_studio.schema import Address, read_address, written
-from amp_studio.schema.address import whole_of
+from amp_studio.schema import Address, read_address, whole_of, written
 
 from .axes import AxisError, axis_instances, axis_letter, fitted_axes, known_axis
 from .axis_values import axis_addresses, copied_values, moved

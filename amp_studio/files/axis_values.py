@@ -10,9 +10,7 @@ from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from functools import lru_cache
 
-from amp_studio.schema import Address, Schema, Value, same_value, written
-from amp_studio.schema.address import whole_of
-from amp_studio.schema.model import Parameter
+from amp_studio.schema import Address, Parameter, Schema, Value, same_value, whole_of, written
 
 from .axes import AxisError, are_alike, axis_kind, known_axis
 from .parameter_file import Change, ParameterFile

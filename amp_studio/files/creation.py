@@ -5,9 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 
-from amp_studio.schema import Parameter, Schema, Value, load_schema
-from amp_studio.schema.address import whole_of
-from amp_studio.schema.nearest import unknown_name
+from amp_studio.schema import Parameter, Schema, Value, load_schema, unknown_name, whole_of
 
 from .axis_fitting import name_axes
 from .axis_match import axis_letters, matched_by_letter

@@ -12,8 +12,16 @@ import json
 from dataclasses import dataclass, replace
 from pathlib import Path
 
-from amp_studio.schema import MASKED, Address, InvalidValueError, Value, read_address, write_value, written
-from amp_studio.schema.regular_file import read_file
+from amp_studio.schema import (
+    MASKED,
+    Address,
+    InvalidValueError,
+    Value,
+    read_address,
+    read_file,
+    write_value,
+    written,
+)
 
 from .atomic import append_line, check_output, digest_of, write_atomic
 from .lock import EditLock, InUseError, now, user

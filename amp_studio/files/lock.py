@@ -16,8 +16,7 @@ from datetime import UTC, datetime
 from pathlib import Path
 
 from amp_studio.errors import AmpStudioError
-from amp_studio.schema.regular_file import HARMLESS, NO_LINK, demand_file, read_file
-from amp_studio.schema.visible import visible
+from amp_studio.schema import HARMLESS, NO_LINK, demand_file, read_file, visible
 
 from .paths import hidden_path
 

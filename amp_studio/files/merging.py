@@ -9,7 +9,7 @@ from typing import Literal, NamedTuple
 
 from amp_studio.schema import Address, Schema, Value, read_address, same_value
 
-from .by_schema import by_schema
+from .other_schema import by_schema
 from .parameter_file import Change, ParameterFile
 
 Side = Literal["base", "a", "b"]

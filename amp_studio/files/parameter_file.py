@@ -10,7 +10,9 @@ from typing import NamedTuple
 
 from amp_studio.errors import AmpStudioError
 from amp_studio.schema import (
+    UNITS,
     Address,
+    Default,
     Evaluation,
     MachineSchema,
     Parameter,
@@ -27,8 +29,6 @@ from amp_studio.schema import (
     unit_named,
     unknown,
 )
-from amp_studio.schema.model import Default
-from amp_studio.schema.units import UNITS
 
 
 class Change(NamedTuple):

@@ -9,7 +9,7 @@ import re
 import stat
 from pathlib import Path
 
-from amp_studio.schema.regular_file import demand_file
+from amp_studio.schema import demand_file
 
 ENDING = ".amp"
 """Of parameter files."""

@@ -10,12 +10,19 @@ from pathlib import Path
 from typing import Any
 
 from amp_studio.errors import AmpStudioError
-from amp_studio.schema import UnknownFamilyError, family_ids, load_schema
-from amp_studio.schema.file_error import text_of
-from amp_studio.schema.nearest import did_you_mean
-from amp_studio.schema.quoting import quoted
-from amp_studio.schema.regular_file import read_file
-from amp_studio.schema.yaml_reader import YamlError, read_yaml, spelled_scalar, text_scalar
+from amp_studio.schema import (
+    UnknownFamilyError,
+    YamlError,
+    did_you_mean,
+    family_ids,
+    load_schema,
+    quoted,
+    read_file,
+    read_yaml,
+    spelled_scalar,
+    text_of,
+    text_scalar,
+)
 
 from .atomic import SaveError, digest_of, write_atomic
 from .document import recover_backup

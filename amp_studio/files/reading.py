@@ -15,6 +15,7 @@ from typing import Any, NamedTuple
 
 from amp_studio.schema import (
     Address,
+    DescriptionError,
     FileError,
     InvalidValueError,
     Parameter,
@@ -22,22 +23,26 @@ from amp_studio.schema import (
     UnitError,
     UnknownFamilyError,
     Value,
+    YamlError,
+    checked,
+    described_schema,
     dimension,
     load_schema,
     not_readable,
+    quoted,
     read_address,
+    read_file,
     read_number,
     read_value,
+    read_yaml,
+    short,
     shown,
+    spelled_scalar,
+    text_of,
+    text_scalar,
     unit_named,
     written,
 )
-from amp_studio.schema.described import DescriptionError, described_schema
-from amp_studio.schema.file_error import text_of
-from amp_studio.schema.quoting import quoted, short
-from amp_studio.schema.regular_file import read_file
-from amp_studio.schema.values import checked
-from amp_studio.schema.yaml_reader import YamlError, read_yaml, spelled_scalar, text_scalar
 
 from .atomic import digest
 from .parameter_file import ParameterFile

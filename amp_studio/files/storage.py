@@ -8,12 +8,14 @@ from typing import Any
 
 from amp_studio.schema import (
     InvalidValueError,
+    YamlError,
     read_address,
+    read_yaml,
+    short,
+    text_scalar,
     write_value,
     written,
 )
-from amp_studio.schema.quoting import short
-from amp_studio.schema.yaml_reader import YamlError, read_yaml, text_scalar
 
 from .atomic import Notify, SaveError, write_atomic
 from .parameter_file import Header, ParameterFile

@@ -10,7 +10,7 @@ import re
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from typing import Any
 
-from amp_studio.schema.yaml_reader import KeyPath, Span, YamlDocument, typed_scalar
+from amp_studio.schema import KeyPath, Span, YamlDocument, typed_scalar
 
 _BREAK = re.compile("\r\n|\n|\r")
 _LONGEST_KEY = 1000

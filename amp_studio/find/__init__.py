@@ -3,25 +3,15 @@
 Typing errors are forgiven, each hit has its reason, and the words of a family are indexed once.
 """
 
-from .entries import Entry, HitKind
-from .finder import Finder, Hit, index_of
-from .marks import MARKS, Mark, ValueMarks, noted, rows_of_file
-from .message_page import LinkedParameter, LinkedRule, LinkedValue, MessagePage, message_page
+from typing import TYPE_CHECKING
 
-__all__ = [
-    "MARKS",
-    "Entry",
-    "Finder",
-    "Hit",
-    "HitKind",
-    "LinkedParameter",
-    "LinkedRule",
-    "LinkedValue",
-    "Mark",
-    "MessagePage",
-    "ValueMarks",
-    "index_of",
-    "message_page",
-    "noted",
-    "rows_of_file",
-]
+from amp_studio.front_pages import front_page
+
+if TYPE_CHECKING:
+    from .entries import Entry, HitKind
+    from .finder import Finder, Hit, index_of
+    from .index import Index
+    from .marks import MARKS, Mark, ValueMarks, noted, rows_of_file
+    from .message_links import LinkedParameter, LinkedRule, MessagePage, message_page
+else:
+    __getattr__ = front_page(__name__)

@@ -6,8 +6,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import Literal
 
-from amp_studio.schema import Schema
-from amp_studio.schema.model import ControlMessage, Parameter
+from amp_studio.schema import ControlMessage, Parameter, Schema
 
 from .words import parts_of, words_of
 

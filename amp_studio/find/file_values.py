@@ -6,8 +6,7 @@ import re
 from collections.abc import Iterator
 from typing import NamedTuple
 
-from amp_studio.files import ParameterFile
-from amp_studio.files.notes import all_notes
+from amp_studio.files import ParameterFile, all_notes
 from amp_studio.schema import (
     Address,
     InvalidValueError,

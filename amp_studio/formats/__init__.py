@@ -4,40 +4,17 @@
 family alone is in that family's folder and found by its registration.
 """
 
-from .account import Account, NotWritten, Rounded, UnknownEntry, account_json, account_lines
-from .import_export import (
-    Export,
-    all_formats,
-    export_file,
-    export_of,
-    families_of,
-    file_of,
-    formats_of,
-    import_file,
-    offer_of,
-)
-from .text_format import FamilyNotGivenError, FormatError, ReadOptions, TextFormat, TextOffer, TextRead
+from typing import TYPE_CHECKING
 
-__all__ = [
-    "Account",
-    "Export",
-    "FamilyNotGivenError",
-    "FormatError",
-    "NotWritten",
-    "ReadOptions",
-    "Rounded",
-    "TextFormat",
-    "TextOffer",
-    "TextRead",
-    "UnknownEntry",
-    "account_json",
-    "account_lines",
-    "all_formats",
-    "export_file",
-    "export_of",
-    "families_of",
-    "file_of",
-    "formats_of",
-    "import_file",
-    "offer_of",
-]
+from amp_studio.front_pages import front_page
+
+if TYPE_CHECKING:
+    from .account import Account, account_json, account_lines
+    from .any_file import is_text_of_control, open_for_reading
+    from .bare_figures import default_system, read_figure, system_of, write_figure
+    from .import_export import all_formats, export_file, export_of, file_of, formats_of, import_file, offer_of
+    from .passthrough_lines import PassthroughLine, keep, kept, mark, marked, neighbours, plain, shown
+    from .spreadsheet_block import BlockCell, block_html, block_text, read_block, two_ways
+    from .text_format import FamilyNotGivenError, FormatError, ReadOptions, TextFormat, TextOffer, TextRead
+else:
+    __getattr__ = front_page(__name__)

@@ -6,8 +6,7 @@ import re
 from collections.abc import Callable
 from pathlib import Path
 
-from amp_studio.files import ENDING, ParameterFile, ParameterFileError
-from amp_studio.files.reading import file_content, read_content
+from amp_studio.files import ENDING, ParameterFile, ParameterFileError, file_content, read_content
 
 from .import_export import all_formats, import_file
 from .text_format import FamilyNotGivenError, FormatError

@@ -9,9 +9,17 @@ from __future__ import annotations
 from decimal import Decimal
 
 from amp_studio.files import ParameterFile
-from amp_studio.schema import Parameter, Schema, Value
-from amp_studio.schema.storage import from_stored, shown_number, stored_unit, to_stored
-from amp_studio.schema.values import checked, exact_number
+from amp_studio.schema import (
+    Parameter,
+    Schema,
+    Value,
+    checked,
+    exact_number,
+    from_stored,
+    shown_number,
+    stored_unit,
+    to_stored,
+)
 
 
 def system_of(file: ParameterFile) -> str:

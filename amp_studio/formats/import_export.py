@@ -7,13 +7,28 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
 
-from amp_studio.files import Header, Notify, ParameterFile, secret_values, without_secrets, write_atomic
-from amp_studio.files.erased import erased_question
-from amp_studio.files.notes import set_value_note
-from amp_studio.schema import Address, Schema, Value, load_schema, read_address
-from amp_studio.schema.nearest import unknown_name
-from amp_studio.schema.registration import load_part, registered_families, registration_of
-from amp_studio.schema.regular_file import read_file
+from amp_studio.files import (
+    Header,
+    Notify,
+    ParameterFile,
+    erased_question,
+    secret_values,
+    set_value_note,
+    without_secrets,
+    write_atomic,
+)
+from amp_studio.schema import (
+    Address,
+    Schema,
+    Value,
+    load_part,
+    load_schema,
+    read_address,
+    read_file,
+    registered_families,
+    registration_of,
+    unknown_name,
+)
 
 from . import values_csv
 from .account import Account, account_of_export, account_of_import

@@ -14,7 +14,7 @@ from html.parser import HTMLParser
 from typing import NamedTuple
 
 from amp_studio.errors import AmpStudioError
-from amp_studio.files.spreadsheet import cell_text, text_cell
+from amp_studio.files import cell_text, text_cell
 from amp_studio.schema import write_number
 
 LONGEST, LONGEST_MARKUP = 4_000_000, 1_500_000

@@ -9,10 +9,7 @@ from __future__ import annotations
 import csv
 import io
 
-from amp_studio.files import ParameterFile
-from amp_studio.files.notes import note_fault, value_note
-from amp_studio.files.reading import read_stored
-from amp_studio.files.spreadsheet import cell_text, text_cell
+from amp_studio.files import ParameterFile, cell_text, note_fault, read_stored, text_cell, value_note
 from amp_studio.schema import (
     Address,
     InvalidValueError,
@@ -20,10 +17,10 @@ from amp_studio.schema import (
     Value,
     is_mask,
     read_address,
+    short,
     write_value,
     written,
 )
-from amp_studio.schema.quoting import short
 
 from .text_format import FormatError, ReadOptions, TextFormat, TextRead
 

@@ -5,22 +5,14 @@ steps that have been reached and which are deferred; ``next_open`` is the next v
 ticked is kept in the head of the file (``tick``).
 """
 
-from .delivered import Delivered, as_delivered
-from .progress import GuideProgress, StepProgress, StepState, next_open, progress
-from .steps import SetupStep, find_step, step_of, steps_of
-from .ticks import tick
+from typing import TYPE_CHECKING
 
-__all__ = [
-    "Delivered",
-    "GuideProgress",
-    "SetupStep",
-    "StepProgress",
-    "StepState",
-    "as_delivered",
-    "find_step",
-    "next_open",
-    "progress",
-    "step_of",
-    "steps_of",
-    "tick",
-]
+from amp_studio.front_pages import front_page
+
+if TYPE_CHECKING:
+    from .delivered import as_delivered
+    from .steps import SetupStep, find_step, step_of, steps_of
+    from .steps_done import GuideProgress, StepProgress, StepState, next_open, progress
+    from .ticks import tick
+else:
+    __getattr__ = front_page(__name__)

@@ -10,10 +10,10 @@ from collections.abc import Sequence
 from typing import NamedTuple
 
 from amp_studio.files import ParameterFile
-from amp_studio.schema.model import Family
+from amp_studio.schema import Family
 from amp_studio.validate import NOT_SET, Finding, Validator
 
-from .progress import belongs_to, progress
+from .steps_done import belongs_to, progress
 
 
 class Delivered(NamedTuple):

@@ -6,9 +6,7 @@ from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from functools import lru_cache
 
-from amp_studio.schema import Group, Parameter, Schema
-from amp_studio.schema.model import Commissioning
-from amp_studio.schema.nearest import unknown_name
+from amp_studio.schema import Commissioning, Group, Parameter, Schema, unknown_name
 
 REST = "rest"
 """The id of the last step: what is in no other."""

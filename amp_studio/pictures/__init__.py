@@ -4,30 +4,19 @@ Which parameters a picture is drawn from are facts of the family (``pictures.yam
 set, inactive or out of range becomes a note, and nothing is guessed.
 """
 
-from .draw import FilePicture, draw, drawn_in, pictures_of
-from .editing import dragged, stepped
-from .record import scene_json
-from .scene import Dot, Drag, FilledArea, Handle, PictureNote, Polyline, Scene, ShapeSort, Text
-from .svg import scene_svg
-from .words import scene_in_words
+from typing import TYPE_CHECKING
 
-__all__ = [
-    "Dot",
-    "Drag",
-    "FilePicture",
-    "FilledArea",
-    "Handle",
-    "PictureNote",
-    "Polyline",
-    "Scene",
-    "ShapeSort",
-    "Text",
-    "dragged",
-    "draw",
-    "drawn_in",
-    "pictures_of",
-    "scene_in_words",
-    "scene_json",
-    "scene_svg",
-    "stepped",
-]
+from amp_studio.front_pages import front_page
+
+if TYPE_CHECKING:
+    from .editing import dragged, stepped
+    from .file_pictures import FilePicture, draw, drawn_in, pictures_of
+    from .frame import Placement, figure_text
+    from .labels import Label, Labels, labels_of
+    from .record import scene_json
+    from .scene import Dot, FilledArea, Handle, Point, Polyline, Scale, Scene, ShapeSort, Text
+    from .svg import ARROWS, scene_svg
+    from .table import CurveText
+    from .words import scene_in_words
+else:
+    __getattr__ = front_page(__name__)

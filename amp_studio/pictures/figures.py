@@ -11,11 +11,14 @@ from typing import Literal
 from amp_studio.files import ParameterFile
 from amp_studio.schema import (
     Address,
+    Direction,
+    ParameterId,
     UnknownParameterError,
     Value,
     axis_name,
     convert,
     dimension,
+    exact,
     fault,
     limits,
     real_value,
@@ -23,8 +26,6 @@ from amp_studio.schema import (
     size_of,
     write_figure,
 )
-from amp_studio.schema.model import Direction, ParameterId
-from amp_studio.schema.storage import exact
 
 from .scene import LEAST, MOST, Drag, Handle, PictureNote, Point
 

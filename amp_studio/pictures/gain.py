@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from amp_studio.files import ParameterFile
-from amp_studio.schema.model import ErrorRoles
+from amp_studio.schema import ErrorRoles
 
 from .figures import DrawnValue, ValueReader
 from .scene import Handle, Polyline, Scale, Scene, Text

@@ -5,7 +5,7 @@ from __future__ import annotations
 from itertools import pairwise
 
 from amp_studio.files import ParameterFile
-from amp_studio.schema.model import GearRoles
+from amp_studio.schema import GearRoles
 
 from .figures import DrawnValue, ValueReader
 from .scene import FilledArea, Handle, Polyline, Scale, Scene, Text

@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 from typing import Literal
 
 from amp_studio.files import ParameterFile
-from amp_studio.schema.model import HomePlace, TravelRoles
+from amp_studio.schema import HomePlace, TravelRoles
 
 from .figures import DrawnValue, ValueReader
 from .scene import Dot, FilledArea, Handle, Point, Polyline, Text

@@ -5,8 +5,7 @@ from __future__ import annotations
 from typing import Literal
 
 from amp_studio.files import ParameterFile
-from amp_studio.schema import shown
-from amp_studio.schema.model import JogRoles, ParameterId
+from amp_studio.schema import JogRoles, ParameterId, shown
 
 from .figures import DrawnValue, ValueReader
 from .parts import axes_with

@@ -6,7 +6,7 @@ from collections.abc import Iterable
 from itertools import combinations
 
 from amp_studio.files import ParameterFile, fitted_axes
-from amp_studio.schema.model import ParameterId
+from amp_studio.schema import ParameterId
 
 from .figures import ValueReader
 

@@ -7,12 +7,8 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 from amp_studio.files import ParameterFile
-from amp_studio.schema import UnitError, convert, shown
-from amp_studio.schema.model import RampKind, RampRoles, TimeOf
-from amp_studio.sim.errors import SimulationError
-from amp_studio.sim.events import Ramp
-from amp_studio.sim.pieces import Piece, change, length
-from amp_studio.sim.ramps import exponential_pieces, leg
+from amp_studio.schema import RampKind, RampRoles, TimeOf, UnitError, convert, shown
+from amp_studio.sim import Piece, Ramp, SimulationError, change, exponential_pieces, leg, length
 
 from .figures import DrawnValue, ValueReader, nice
 from .frame import figure_text

@@ -6,9 +6,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 from amp_studio.files import ParameterFile
-from amp_studio.schema import Address, Value
-from amp_studio.schema.model import TableRoles
-from amp_studio.schema.registration import load_part, registration_of
+from amp_studio.schema import Address, TableRoles, Value, load_part, registration_of
 
 from .figures import STEPS, ValueReader, multiple, nice
 from .scene import Drag, Handle, Point, Polyline, Scale, Scene, Text

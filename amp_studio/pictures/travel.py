@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 from typing import Literal
 
 from amp_studio.files import ParameterFile
-from amp_studio.schema.model import ReachRole, SpanRole, TravelRoles, ZoneRole
+from amp_studio.schema import ReachRole, SpanRole, TravelRoles, ZoneRole
 
 from .figures import DrawnValue, ValueReader
 from .homing import MARGIN, Home, TravelShapes, draw_home, draw_rail, letters, read_home

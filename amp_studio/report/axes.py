@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from amp_studio.files import ParameterFile, axis_instances, axis_kind, axis_letter, shown_axes
-from amp_studio.files.axes import other_use
+from amp_studio.files import ParameterFile, axis_instances, axis_kind, axis_letter, other_use, shown_axes
 from amp_studio.schema import Address
 
 

@@ -16,7 +16,7 @@ from jinja2.runtime import Context
 from jinja2.sandbox import ImmutableSandboxedEnvironment
 from jinja2.utils import missing
 
-from amp_studio.schema.nearest import did_you_mean
+from amp_studio.schema import did_you_mean
 
 _MOST_MADE = 2**24
 """Characters, elements or bits that one operation may make."""

@@ -12,15 +12,16 @@ from amp_studio.files import (
     ParameterFile,
     ParameterFileError,
     ProjectInfo,
+    all_notes,
     axis_instances,
     axis_kind,
     axis_letter,
     content_of,
     fitted_axes,
+    machine_note,
     open_file,
     without_secrets,
 )
-from amp_studio.files.notes import all_notes, machine_note
 from amp_studio.schema import Address, Schema, label_of
 from amp_studio.validate import NO_RULES, BuilderRules, Finding, Validator
 from amp_studio.version import __version__

@@ -6,8 +6,7 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 
 from amp_studio.files import ParameterFile, axis_letter
-from amp_studio.schema import MASKED, Value, show_value
-from amp_studio.schema.model import Severity
+from amp_studio.schema import MASKED, Severity, Value, show_value
 from amp_studio.validate import NOT_SET, Finding, Setting, Validator, rule_title
 
 from .axes import scope_of

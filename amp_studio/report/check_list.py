@@ -8,8 +8,7 @@ from dataclasses import dataclass
 from datetime import datetime
 from pathlib import Path
 
-from amp_studio.files import Notify, ParameterFile, axis_letter
-from amp_studio.files.local_time import with_local_times
+from amp_studio.files import Notify, ParameterFile, axis_letter, with_local_times
 from amp_studio.guide import GuideProgress, StepProgress
 from amp_studio.schema import Address, limits
 from amp_studio.validate import SEVERITIES

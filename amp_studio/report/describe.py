@@ -5,11 +5,13 @@ from __future__ import annotations
 from typing import Any
 
 from amp_studio.schema import (
+    BoundRef,
+    Choice,
     Parameter,
     Schema,
+    StateRule,
     label_of,
 )
-from amp_studio.schema.model import BoundRef, Choice, StateRule
 
 from .manual_page import GRADES, entry_units, erratum_text
 from .number_text import sharing_numbers

@@ -7,9 +7,7 @@ from dataclasses import dataclass
 from datetime import datetime
 from itertools import groupby
 
-from amp_studio.files import Comparison, Difference, ParameterFile
-from amp_studio.files.by_schema import by_schema
-from amp_studio.files.merging import in_order
+from amp_studio.files import Comparison, Difference, ParameterFile, by_schema, in_order
 from amp_studio.schema import Address, Value, same_value, show_value
 
 from .axes import place_of

@@ -6,8 +6,7 @@ from collections.abc import Iterator
 from datetime import datetime
 
 from amp_studio.files import ParameterFile
-from amp_studio.schema import Parameter, shown
-from amp_studio.schema.model import Bit
+from amp_studio.schema import Bit, Parameter, shown
 
 from .axes import place_of, printed_axes, scope_of
 from .language import Language, language_of

@@ -89,7 +89,7 @@ def language_of(code: str) -> Language:
     path = _FOLDER / f"{code}.yaml"
     if code not in language_codes():
         raise ValueError(f"Unknown language '{code}'. Known: {', '.join(language_codes())}")
-    from amp_studio.schema.yaml_reader import read_yaml
+    from amp_studio.schema import read_yaml
 
     data = read_yaml(path.read_text("utf-8")).data
     return Language(

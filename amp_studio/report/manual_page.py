@@ -11,8 +11,14 @@ from typing import Literal
 from amp_studio.guide import step_of, steps_of
 from amp_studio.schema import (
     Address,
+    Bit,
+    BoundRef,
+    Choice,
+    Erratum,
     Evaluation,
+    HelpNote,
     Parameter,
+    Range,
     Schema,
     UnknownParameterError,
     label_of,
@@ -22,7 +28,6 @@ from amp_studio.schema import (
     unknown,
     write_number,
 )
-from amp_studio.schema.model import Bit, BoundRef, Choice, Erratum, HelpNote, Range
 from amp_studio.validate import formulas
 
 from .number_text import instances_without_number, number_lines, short_span, split_count

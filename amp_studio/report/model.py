@@ -9,8 +9,7 @@ from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass
 from datetime import datetime
 
-from amp_studio.schema import MASKED
-from amp_studio.schema.model import ParameterState
+from amp_studio.schema import MASKED, ParameterState
 
 from .contents import SORTS, Contents
 from .note import Note, NoteKind

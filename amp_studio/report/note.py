@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Literal
 
-from amp_studio.schema.model import Severity
+from amp_studio.schema import Severity
 
 NoteKind = Severity | Literal["suppressed"]
 

@@ -9,8 +9,7 @@ from dataclasses import dataclass
 from datetime import datetime
 from pathlib import Path
 
-from amp_studio.files import Notify, write_atomic
-from amp_studio.files.spreadsheet import text_cell
+from amp_studio.files import Notify, text_cell, write_atomic
 from amp_studio.version import __version__
 
 from .language import Language, language_of

@@ -5,8 +5,7 @@ from __future__ import annotations
 import textwrap
 from itertools import zip_longest
 
-from amp_studio.schema import Parameter, Schema, shown, write_number
-from amp_studio.schema.model import Table
+from amp_studio.schema import Parameter, Schema, Table, shown, write_number
 
 _WIDTH = 100
 _INDENT = "  "

@@ -4,9 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from amp_studio.files import ParameterFile
-from amp_studio.files.local_time import with_local_times
-from amp_studio.files.notes import value_note
+from amp_studio.files import ParameterFile, value_note, with_local_times
 from amp_studio.schema import (
     MASKED,
     Address,

@@ -10,8 +10,7 @@ from dataclasses import dataclass
 from datetime import datetime
 from pathlib import Path
 
-from amp_studio.files import Notify
-from amp_studio.files.spreadsheet import text_cell
+from amp_studio.files import Notify, text_cell
 from amp_studio.sheet import Instruction, Sheet, SheetEntry, Stage
 from amp_studio.version import __version__
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import csv
 import io
 
-from amp_studio.files.spreadsheet import text_cell
+from amp_studio.files import text_cell
 
 from .model import Report, ReportRow
 

@@ -8,7 +8,7 @@ import tempfile
 from collections.abc import Iterator
 from pathlib import Path
 
-from amp_studio.schema.regular_file import read_file
+from amp_studio.schema import read_file
 
 from .templating import TemplateMistakeError
 

@@ -4,135 +4,175 @@ Loads ``parameter_db`` once into a compiled cache and answers questions about
 it; every other room asks here and knows no parameter by heart.
 """
 
-from .address import Address, UnknownParameterError, part_of, read_address, written
-from .addressing import (
-    Meant,
-    addresses_meant,
-    all_meant,
-    axis_group,
-    axis_meant,
-    axis_name,
-    is_fitted,
-    meant,
-    unknown,
-)
-from .bit_fields import field_at, field_value, with_field
-from .catalog import Schema, load_schema
-from .conditions import ACTIVE, Reference, StateInfo
-from .constraint import Limits, bounding, clip, fault, limits
-from .evaluation import Evaluation, same_value
-from .expression import canonical_value, program
-from .file_error import FileError
-from .folder import database_folder
-from .load import DatabaseError, FactEntry, UnknownFamilyError, family_ids, read_entries
-from .machine_schema import MachineSchema, labelled
-from .model import (
-    AxisProfile,
-    BuilderRule,
-    Choice,
-    Condition,
-    Erratum,
-    Group,
-    Parameter,
-    Plausible,
-    Rule,
-    Suppression,
-    Table,
-    Usual,
-)
-from .scales import Size, read_real, real_value, size_of
-from .units import UnitError, angular, canonical, canonical_unit, convert, dimension, shown, unit_named
-from .value import InvalidValueError, Value
-from .values import (
-    MASKED,
-    checked,
-    is_mask,
-    label_of,
-    not_readable,
-    read_number,
-    read_value,
-    show_value,
-    write_figure,
-    write_number,
-    write_value,
-)
+from typing import TYPE_CHECKING
 
-__all__ = [
-    "ACTIVE",
-    "MASKED",
-    "Address",
-    "AxisProfile",
-    "BuilderRule",
-    "Choice",
-    "Condition",
-    "DatabaseError",
-    "Erratum",
-    "Evaluation",
-    "FactEntry",
-    "FileError",
-    "Group",
-    "InvalidValueError",
-    "Limits",
-    "MachineSchema",
-    "Meant",
-    "Parameter",
-    "Plausible",
-    "Reference",
-    "Rule",
-    "Schema",
-    "Size",
-    "StateInfo",
-    "Suppression",
-    "Table",
-    "UnitError",
-    "UnknownFamilyError",
-    "UnknownParameterError",
-    "Usual",
-    "Value",
-    "addresses_meant",
-    "all_meant",
-    "angular",
-    "axis_group",
-    "axis_meant",
-    "axis_name",
-    "bounding",
-    "canonical",
-    "canonical_unit",
-    "canonical_value",
-    "checked",
-    "clip",
-    "convert",
-    "database_folder",
-    "dimension",
-    "family_ids",
-    "fault",
-    "field_at",
-    "field_value",
-    "is_fitted",
-    "is_mask",
-    "label_of",
-    "labelled",
-    "limits",
-    "load_schema",
-    "meant",
-    "not_readable",
-    "part_of",
-    "program",
-    "read_address",
-    "read_entries",
-    "read_number",
-    "read_real",
-    "read_value",
-    "real_value",
-    "same_value",
-    "show_value",
-    "shown",
-    "size_of",
-    "unit_named",
-    "unknown",
-    "with_field",
-    "write_figure",
-    "write_number",
-    "write_value",
-    "written",
-]
+from amp_studio.front_pages import front_page
+
+if TYPE_CHECKING:
+    from .address import Address, UnknownParameterError, read_address, whole_of, written
+    from .addressing import (
+        Meant,
+        addresses_meant,
+        all_meant,
+        axis_group,
+        axis_meant,
+        axis_name,
+        is_fitted,
+        meant,
+        unknown,
+    )
+    from .bit_fields import field_at, field_value, labels_of_word, with_field
+    from .catalog import Schema, load_schema
+    from .cel_engine import WORD_FUNCTIONS, Context, Program, functions_called
+    from .compiled_cache import cache_folder
+    from .conditions import ACTIVE, Reference, StateInfo
+    from .constraint import Limits, bounding, clip, fault, limits
+    from .described import DescriptionError, described_schema
+    from .described_parameters import (
+        DescribedControl,
+        DescribedGroup,
+        DescribedParameter,
+        DescribedSchema,
+        group_key,
+    )
+    from .evaluation import Evaluation, same_value
+    from .expression import (
+        ALWAYS_THERE,
+        EVALUATION_ERRORS,
+        NO_RESULT,
+        Circumstances,
+        Decision,
+        Expression,
+        Key,
+        Remembered,
+        context_of,
+        key_of,
+        program,
+        value_of,
+    )
+    from .file_error import FileError, ModelError, Slip, read_yaml_file, text_of
+    from .folder import database_folder
+    from .load import DatabaseError, FactEntry, UnknownFamilyError, family_ids, read_entries
+    from .machine_schema import MachineSchema, labelled
+    from .model import (
+        AxisDeclaration,
+        AxisField,
+        AxisProfile,
+        Bit,
+        BoundRef,
+        BuilderRule,
+        Choice,
+        Commissioning,
+        ControlMessage,
+        Default,
+        Direction,
+        Erratum,
+        ErrorRoles,
+        Family,
+        GearRoles,
+        Group,
+        Guide,
+        HelpNote,
+        HomePlace,
+        JogRoles,
+        Messages,
+        Model,
+        Parameter,
+        ParameterId,
+        ParameterState,
+        RampKind,
+        RampRoles,
+        Range,
+        ReachRole,
+        Rule,
+        Severity,
+        SpanRole,
+        StateRule,
+        Storage,
+        Suppression,
+        Table,
+        TableRoles,
+        TimeOf,
+        TravelRoles,
+        Usual,
+        ZoneRole,
+    )
+    from .model.compiled_json import record_text
+    from .model.parameter import ValueType
+    from .model.plausible import TravelSpan
+    from .model_errors import read_model
+    from .nearest import did_you_mean, unknown_name
+    from .quoting import quoted, short
+    from .registration import (
+        Registration,
+        added_facts,
+        load_part,
+        registered_families,
+        registration_of,
+        why_not_simulated,
+    )
+    from .regular_file import HARMLESS, NO_LINK, demand_file, read_file, read_table_text
+    from .scales import read_real, real_value, size_of, unit_size
+    from .storage import (
+        WORD,
+        StorageError,
+        choice_of,
+        code_of,
+        exact,
+        from_stored,
+        is_low_first,
+        register_number,
+        shown_number,
+        single,
+        stored_number,
+        stored_unit,
+        to_figure,
+        to_stored,
+        value_of_register,
+        value_of_stored,
+        value_of_words,
+        words_of,
+        words_taken,
+    )
+    from .units import (
+        UNITS,
+        UnitError,
+        angular,
+        canonical,
+        canonical_unit,
+        convert,
+        dimension,
+        shown,
+        unit_named,
+    )
+    from .value import InvalidValueError, Value
+    from .values import (
+        MASKED,
+        checked,
+        choice_key,
+        choice_value,
+        exact_number,
+        is_mask,
+        label_of,
+        not_readable,
+        read_exact,
+        read_number,
+        read_value,
+        show_value,
+        write_figure,
+        write_number,
+        write_value,
+    )
+    from .visible_text import visible
+    from .yaml_reader import (
+        KeyPath,
+        Span,
+        YamlDocument,
+        YamlError,
+        read_yaml,
+        spelled_scalar,
+        text_scalar,
+        typed_scalar,
+    )
+else:
+    __getattr__ = front_page(__name__)

@@ -208,7 +208,7 @@ class DescribedSchema:
         )
 
     def _id(self, first: DescribedParameter, known: Parameter | None) -> str:
-        wanted = known.id if known else f"{first.group.key}.{key_of(first.name) or 'setting'}"
+        wanted = known.id if known else f"{first.group.key}.{group_key(first.name) or 'setting'}"
         is_taken = wanted in self._ids or (known is None and wanted in self._of_this)
         parameter_id = f"{wanted}_{first.number}" if is_taken else wanted
         self._ids.add(parameter_id)
@@ -245,7 +245,7 @@ class DescribedSchema:
         return parameter.model_copy(update={"layouts": (layout,), "default": None})
 
 
-def key_of(text: str) -> str:
+def group_key(text: str) -> str:
     """Return a text as a part of an id."""
     return re.sub("[^a-z0-9]+", "_", text.casefold()).strip("_")[:60]
 
@@ -282,7 +282,7 @@ def _choices(described: DescribedParameter, control: DescribedControl) -> tuple[
     for raw, label in enumerate(described.labels):
         if not label:
             continue
-        key = key_of(label) or f"choice_{raw}"
+        key = group_key(label) or f"choice_{raw}"
         twice = key in found
         found[f"{key}_{raw}" if twice else key] = Choice(
             key=f"{key}_{raw}" if twice else key, label=f"{label} ({raw})" if twice else label, raw=raw

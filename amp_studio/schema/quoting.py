@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from .visible import visible
+from .visible_text import visible
 
 LONGEST = 60
 

@@ -12,7 +12,7 @@ from .model import Choice, Parameter
 from .quoting import quoted, short
 from .units import UNITS, UnitError, dimension, shown, unit_named
 from .value import LONGEST_NUMBER, InvalidValueError, Value, plain
-from .visible import visible
+from .visible_text import visible
 
 MASKED = "•••• (secret)"
 """The text shown instead of a secret value unless it is requested in clear; never read as a value."""

@@ -5,30 +5,15 @@
 ``Keying`` (``keying``), found through its registration.
 """
 
-from .build import SheetError, make_sheet
-from .keying import Instruction, Keying, Stage, keying_of
-from .model import LeftOut, Sheet, SheetEntry
-from .read_back import STATES, ReadBack, ReadBackError, Shown, compare_shown, judged, read_shown
-from .ticks import Ticks, TicksError, ticks_path
+from typing import TYPE_CHECKING
 
-__all__ = [
-    "STATES",
-    "Instruction",
-    "Keying",
-    "LeftOut",
-    "ReadBack",
-    "ReadBackError",
-    "Sheet",
-    "SheetEntry",
-    "SheetError",
-    "Shown",
-    "Stage",
-    "Ticks",
-    "TicksError",
-    "compare_shown",
-    "judged",
-    "keying_of",
-    "make_sheet",
-    "read_shown",
-    "ticks_path",
-]
+from amp_studio.front_pages import front_page
+
+if TYPE_CHECKING:
+    from .build import SheetError, make_sheet
+    from .keying import Instruction, Keyed, Keying, Stage, plain_text
+    from .model import Sheet, SheetEntry
+    from .read_back import STATES, ReadBack, ReadBackError, compare_shown, judged, read_shown
+    from .ticks import Ticks, TicksError, ticks_path
+else:
+    __getattr__ = front_page(__name__)

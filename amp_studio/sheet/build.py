@@ -6,12 +6,9 @@ from collections.abc import Hashable, Iterable, Sequence
 from dataclasses import dataclass, field
 
 from amp_studio.errors import AmpStudioError
-from amp_studio.files import Difference, ParameterFile, compare
-from amp_studio.files.by_schema import by_schema
+from amp_studio.files import Difference, ParameterFile, by_schema, compare
 from amp_studio.schema import Address, show_value
-from amp_studio.validate import NO_RULES, BuilderRules
-from amp_studio.validate.finding import Finding
-from amp_studio.validate.interim import Interim, NewValue
+from amp_studio.validate import NO_RULES, BuilderRules, Finding, Interim, NewValue
 
 from .keying import NOT_OFFERED, Keyed, Keying, keying_of
 from .model import LeftOut, Sheet, SheetEntry

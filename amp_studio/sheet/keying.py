@@ -9,10 +9,22 @@ from decimal import Decimal
 from fractions import Fraction
 
 from amp_studio.files import ParameterFile
-from amp_studio.schema import Address, Value, label_of, shown, write_number
-from amp_studio.schema.registration import load_part, registration_of
-from amp_studio.schema.storage import StorageError, exact, shown_number, stored_number, stored_unit, to_stored
-from amp_studio.schema.values import choice_key
+from amp_studio.schema import (
+    Address,
+    StorageError,
+    Value,
+    choice_key,
+    exact,
+    label_of,
+    load_part,
+    registration_of,
+    shown,
+    shown_number,
+    stored_number,
+    stored_unit,
+    to_stored,
+    write_number,
+)
 
 NOT_OFFERED = "it cannot be keyed in at the control"
 

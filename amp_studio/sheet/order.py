@@ -9,8 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Collection, Hashable, Sequence
 
-from amp_studio.validate.finding import Finding
-from amp_studio.validate.interim import Interim, NewValue
+from amp_studio.validate import Finding, Interim, NewValue
 
 _TRIES_A_VALUE = 40
 _TRIES = 4_000

@@ -11,8 +11,7 @@ from typing import Literal
 
 from amp_studio.errors import AmpStudioError
 from amp_studio.files import ParameterFile
-from amp_studio.schema import Address, UnknownParameterError
-from amp_studio.schema.quoting import quoted
+from amp_studio.schema import Address, UnknownParameterError, quoted
 
 from .model import Sheet, SheetEntry
 

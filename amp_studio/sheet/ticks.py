@@ -12,7 +12,7 @@ from pathlib import Path
 
 from amp_studio.errors import AmpStudioError
 from amp_studio.files import write_atomic
-from amp_studio.schema.regular_file import read_file
+from amp_studio.schema import read_file
 
 from .model import Sheet, SheetEntry
 

@@ -14,9 +14,7 @@ from pathlib import Path
 import numpy as np
 
 from amp_studio.files import text_of_name
-from amp_studio.schema import canonical, dimension, unit_named
-from amp_studio.schema.regular_file import read_table_text
-from amp_studio.schema.units import UnitError
+from amp_studio.schema import UnitError, canonical, dimension, read_table_text, unit_named
 
 from .errors import SimulationError
 from .series import Series

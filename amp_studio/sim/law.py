@@ -38,8 +38,7 @@ import numpy as np
 import numpy.typing as npt
 
 from amp_studio.files import ParameterFile, fitted_axes
-from amp_studio.schema import load_schema
-from amp_studio.schema.registration import load_part, registered_families, registration_of, why_not_simulated
+from amp_studio.schema import load_part, load_schema, registered_families, registration_of, why_not_simulated
 
 from .axis_parameters import AxisParameters
 from .compiled import Sample
@@ -51,7 +50,7 @@ from .trace import Recommendation, Trace
 
 Leader = Callable[["AxisLaw"], Mapping[str, npt.NDArray[np.float64]]]
 
-SCENARIOS = ("step", "velocity", "frequency", "tune", "load", "circle")
+USUAL_SCENARIOS = ("step", "velocity", "frequency", "tune", "load", "circle")
 """Scenarios of every family."""
 
 
@@ -185,7 +184,7 @@ class Law:
     axes: Callable[[ParameterFile], Sequence[str]] = fitted_axes
     without_axes: str = "No axis is fitted. Set the type of an axis first"
     settings: Mapping[str, str] = field(default_factory=dict)
-    scenarios: Sequence[str] = SCENARIOS
+    scenarios: Sequence[str] = USUAL_SCENARIOS
     advise: Callable[[AxisLaw, Trace], Sequence[Recommendation]] = _no_advice
     own: Mapping[str, Scenario] = field(default_factory=dict)
 
@@ -208,7 +207,7 @@ def law_of(family: str) -> Law:
 
 __all__ = [
     "RAMPS",
-    "SCENARIOS",
+    "USUAL_SCENARIOS",
     "AlarmText",
     "AxisLaw",
     "Law",

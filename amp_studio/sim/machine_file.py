@@ -16,10 +16,8 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
-from amp_studio.files import Notify, ParameterFile, text_of_name, write_atomic
-from amp_studio.files.yaml_text import scalar_text
-from amp_studio.schema import axis_name
-from amp_studio.schema.file_error import FileError, read_yaml_file
+from amp_studio.files import Notify, ParameterFile, scalar_text, text_of_name, write_atomic
+from amp_studio.schema import FileError, axis_name, read_yaml_file
 
 from .errors import SimulationError
 from .identification import FIGURES, figure_text, machine_settings

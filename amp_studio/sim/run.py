@@ -6,9 +6,7 @@ from collections.abc import Callable, Mapping
 from dataclasses import replace
 
 from amp_studio.files import ParameterFile, fitted_axes
-from amp_studio.schema import Address, axis_name
-from amp_studio.schema.nearest import unknown_name
-from amp_studio.schema.registration import load_part, registration_of
+from amp_studio.schema import Address, axis_name, load_part, registration_of, unknown_name
 
 from .advice import recommendations
 from .axis_parameters import AxisParameters, ParameterValue, ReadParameter

@@ -6,7 +6,7 @@ import math
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 
-from amp_studio.schema.nearest import unknown_name
+from amp_studio.schema import unknown_name
 
 from .axis_parameters import ParameterValue
 from .errors import SimulationError

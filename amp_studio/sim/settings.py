@@ -8,9 +8,7 @@ from __future__ import annotations
 import re
 from collections.abc import Mapping
 
-from amp_studio.schema import InvalidValueError, canonical, dimension, unit_named
-from amp_studio.schema.units import UNITS
-from amp_studio.schema.values import read_number
+from amp_studio.schema import UNITS, InvalidValueError, canonical, dimension, read_number, unit_named
 
 from .axis_parameters import ParameterValue
 from .errors import SimulationError

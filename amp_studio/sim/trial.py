@@ -5,8 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 
 from amp_studio.files import ParameterFile, RangeError
-from amp_studio.schema import Address, Value
-from amp_studio.schema.constraint import limits
+from amp_studio.schema import Address, Value, limits
 
 from .errors import SimulationError
 from .law import AxisLaw

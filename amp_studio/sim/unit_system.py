@@ -9,8 +9,7 @@ import re
 from dataclasses import replace
 
 from amp_studio.files import ParameterFile
-from amp_studio.schema import canonical
-from amp_studio.schema.units import UNITS
+from amp_studio.schema import UNITS, canonical
 
 from .errors import SimulationError
 from .rounding import rounded, shown

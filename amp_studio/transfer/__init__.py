@@ -4,3 +4,37 @@
 and compares them, ``emulated`` is the other end. An image is bytes for all of them; ``image`` knows what they mean.
 ``docs/protocols`` specifies the wire.
 """
+
+from typing import TYPE_CHECKING
+
+from amp_studio.front_pages import front_page
+
+if TYPE_CHECKING:
+    from .break_state import state_after_break
+    from .content import TakesAllOrRefuses, decode_content
+    from .driver import Abilities, ControlDriver, ControlIdentity, Receipt, Recognised, TakesLiveValues
+    from .errors import (
+        AtControl,
+        CancelledError,
+        ConnectionCutError,
+        ControlFullError,
+        ControlSilentError,
+        ImageChangedError,
+        ImageDamagedError,
+        ImageRejectedError,
+        NoConnectionError,
+        NotInEmergencyStopError,
+        ProtocolMismatchError,
+        TransferError,
+    )
+    from .exchange import QUIET, Exchange, Replacement
+    from .image import ImageError, decode_image, encode_image, patch_image
+    from .interruption import interrupts
+    from .line_driver import LineDriver
+    from .progress import Progress, Stop, quiet
+    from .sent_values import SentValues
+    from .status import ActiveFault, AxisStatus, ControlStatus, known_fault
+    from .waiting import OpenLink, Waiting
+    from .ways import PRINT_SHEET
+else:
+    __getattr__ = front_page(__name__)

@@ -9,7 +9,7 @@ from __future__ import annotations
 from typing import ClassVar, Protocol
 
 from amp_studio.files import ParameterFile
-from amp_studio.schema.registration import load_part, registered_families, registration_of
+from amp_studio.schema import load_part, registered_families, registration_of
 
 from .image import MAGIC, decode_image, encode_image
 

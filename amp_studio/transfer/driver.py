@@ -14,7 +14,7 @@ from typing import ClassVar, Protocol, runtime_checkable
 from .content import ContentKind
 from .errors import TransferError
 from .exchange import QUIET, Exchange, Replacement
-from .links.endpoint import Endpoint
+from .links import Endpoint
 
 
 @dataclass(frozen=True)

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from typing import Literal
 
 from amp_studio.errors import AmpStudioError
-from amp_studio.schema.visible import visible
+from amp_studio.schema import visible
 
 # "old": what it contained before this exchange; "new": the content that was sent; "mixed": some of both; "defaults": it has
 # lost its memory and starts again; "": nothing was to be sent.

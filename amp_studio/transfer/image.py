@@ -14,8 +14,7 @@ from __future__ import annotations
 import re
 
 from amp_studio.errors import AmpStudioError
-from amp_studio.files import Header, ParameterFile
-from amp_studio.files.reading import read_stored
+from amp_studio.files import Header, ParameterFile, read_stored
 from amp_studio.schema import (
     MASKED,
     Address,
@@ -25,16 +24,18 @@ from amp_studio.schema import (
     Schema,
     UnknownParameterError,
     Value,
+    choice_key,
+    choice_value,
     family_ids,
     load_schema,
     not_readable,
     read_address,
+    read_number,
     read_value,
+    value_of_stored,
     write_number,
     written,
 )
-from amp_studio.schema.storage import value_of_stored
-from amp_studio.schema.values import choice_key, choice_value, read_number
 
 MAGIC = "AMP-IMAGE 1"
 _HEAD = ("family", "signature", "machine", "application", "revision")

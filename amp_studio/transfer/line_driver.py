@@ -13,9 +13,7 @@ from .driver import Abilities, ControlIdentity, Receipt
 from .errors import CancelledError, ImageRejectedError, TransferError, WrongFamilyError, unforeseen
 from .exchange import QUIET, Exchange, Replacement
 from .image import ImageError
-from .links.endpoint import Endpoint
-from .links.opening import connect
-from .links.serial_settings import SerialSettings
+from .links import Endpoint, SerialSettings, connect
 from .sent_values import SentValues
 from .waiting import OpenLink, Waiting
 

@@ -8,7 +8,7 @@ from collections.abc import Callable
 
 from .errors import CancelledError
 from .exchange import QUIET, Exchange
-from .links.link import Link
+from .links import Link
 from .progress import SILENT
 
 SLICE = 0.1  # seconds between two looks at the cancel event

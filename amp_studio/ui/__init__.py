@@ -12,12 +12,16 @@ from pathlib import Path
 from types import TracebackType
 from typing import TYPE_CHECKING
 
+from amp_studio.front_pages import front_page
+
 from .base.display import MISSING, has_display
 
 if TYPE_CHECKING:
-    from .main_window import MainWindow
+    from PySide6.QtWidgets import QWidget
 
-__all__ = ["main"]
+    from .merge.program import merge_in_window
+else:
+    __getattr__ = front_page(__name__)
 
 if has_display():
     from .base.guard import guard_overrides
@@ -61,7 +65,7 @@ def main(arguments: Sequence[str] | None = None, emulate: bool = False) -> int:
     return code
 
 
-def _hook(window: MainWindow):  # type: ignore[no-untyped-def]  # the type of sys.excepthook has no name
+def _hook(window: QWidget):  # type: ignore[no-untyped-def]  # the type of sys.excepthook has no name
     """Return the hook that shows an internal error as a message; the traceback goes to the terminal.
 
     One error is reported once: what fails while the window is painted fails again at once. Its message waits for the event loop,

@@ -291,7 +291,7 @@ class MainWindow(StudioWindow):
         elif path.suffix.lower() == ENDING:
             self.files.open_path(path)
         else:
-            from amp_studio.formats.any_file import is_text_of_control  # not needed at program start
+            from amp_studio.formats import is_text_of_control  # not needed at program start
 
             if path.suffix or is_text_of_control(path):
                 self.files.formats.read_from(path)

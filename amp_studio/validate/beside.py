@@ -8,12 +8,19 @@ from collections.abc import Iterator
 from functools import lru_cache
 from pathlib import Path
 
-from amp_studio.files import ENDING, ParameterFile, ParameterFileError, backup_path, is_there, real_path
-from amp_studio.files.local_time import local_time
-from amp_studio.files.origin import origin_of
-from amp_studio.files.paths import history_path, text_of_name
-from amp_studio.schema import Address, Value
-from amp_studio.schema.regular_file import read_file
+from amp_studio.files import (
+    ENDING,
+    ParameterFile,
+    ParameterFileError,
+    backup_path,
+    history_path,
+    is_there,
+    local_time,
+    origin_of,
+    real_path,
+    text_of_name,
+)
+from amp_studio.schema import Address, Value, read_file
 
 from .builder_rules import NO_RULES, RULES_FILE, BuilderRules
 from .plausible import Earlier, values_of_fleet
@@ -35,7 +42,7 @@ def rules_beside(path: Path, file: ParameterFile) -> BuilderRules:
 
 def axes_by_letter(file: ParameterFile) -> dict[str, str]:
     """Return letter -> axis of a file, for letters that one axis alone has."""
-    from amp_studio.files.axis_match import axis_letters
+    from amp_studio.files import axis_letters
 
     letters = list(axis_letters(file).items())
     every = [letter for _, letter in letters]
@@ -121,8 +128,7 @@ def _last_download(path: Path) -> str:
 
 def _values_at(path: Path, file: ParameterFile, when: str) -> dict[Address, Value]:
     """Return the values that a file had at a time and has no more, by its history."""
-    from amp_studio.files.document import Document
-    from amp_studio.files.versions import before_saves
+    from amp_studio.files import Document, before_saves
 
     later = [entry for entry in Document(file, path, None).history() if entry.when > when]
     was = before_saves(file, later).values

@@ -5,9 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import Any, Protocol
 
-from amp_studio.schema import Address
-from amp_studio.schema.cel_engine import Context, Program
-from amp_studio.schema.expression import EVALUATION_ERRORS
+from amp_studio.schema import EVALUATION_ERRORS, Address, Context, Program
 
 from .plan import RuleCheck
 

@@ -11,12 +11,9 @@ from functools import cache
 from types import UnionType
 from typing import Any, Literal, Union, get_args, get_origin, get_type_hints
 
-from amp_studio.schema import InvalidValueError, read_number, write_number
-from amp_studio.schema.nearest import unknown_name
-from amp_studio.schema.quoting import quoted
-from amp_studio.schema.visible import visible
+from amp_studio.schema import InvalidValueError, quoted, read_number, unknown_name, visible, write_number
 
-from .formulas import formulas
+from .functions import formulas
 
 _LONGEST = 500
 """Most characters that are shown of the message of a formula about its arguments."""

@@ -17,6 +17,7 @@ from typing import NamedTuple
 
 from amp_studio.files import ParameterFile
 from amp_studio.schema import (
+    UNITS,
     Address,
     InvalidValueError,
     Parameter,
@@ -26,15 +27,14 @@ from amp_studio.schema import (
     axis_meant,
     dimension,
     meant,
+    quoted,
+    read_exact,
     read_real,
     read_value,
     shown,
     unit_named,
     write_number,
 )
-from amp_studio.schema.quoting import quoted
-from amp_studio.schema.units import UNITS
-from amp_studio.schema.values import read_exact
 
 from .expression_tree import ExpressionError, Node, read_expression
 

@@ -5,9 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 
 from amp_studio.files import ParameterFile
-from amp_studio.schema import Address
-from amp_studio.schema.conditions import ACTIVE
-from amp_studio.schema.expression import Key
+from amp_studio.schema import ACTIVE, Address, Key
 
 from .finding import Finding
 from .plan import Place, Plan

@@ -5,11 +5,19 @@ from __future__ import annotations
 import re
 from dataclasses import dataclass
 
-from amp_studio.schema import MASKED, Address, Rule, program, show_value, shown, write_number
-from amp_studio.schema.cel_engine import Context
-from amp_studio.schema.conditions import StateInfo
-from amp_studio.schema.expression import EVALUATION_ERRORS
-from amp_studio.schema.units import canonical_unit
+from amp_studio.schema import (
+    EVALUATION_ERRORS,
+    MASKED,
+    Address,
+    Context,
+    Rule,
+    StateInfo,
+    canonical_unit,
+    program,
+    show_value,
+    shown,
+    write_number,
+)
 
 from .finding import Finding
 from .plan import RuleCheck

@@ -12,7 +12,7 @@ import re
 from collections.abc import Callable, Mapping
 from dataclasses import replace
 
-from amp_studio.schema.nearest import did_you_mean
+from amp_studio.schema import did_you_mean
 
 from .expression_tree import Node, shown
 from .expression_worth import (

@@ -10,7 +10,7 @@ from typing import Any, Literal
 from amp_studio.schema import Parameter
 
 from .builder_rules import LONGEST_TEXT
-from .formulas import NUMBER_ANNOTATIONS
+from .functions import NUMBER_ANNOTATIONS
 
 _TEXT_SIZE, _LIST_SIZE = 6, 4
 """What a copy of an empty one costs; that of a number costs 1, some 50 ns."""

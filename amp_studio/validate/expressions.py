@@ -13,19 +13,21 @@ from string import Formatter
 from typing import Any, NamedTuple
 
 from amp_studio.errors import AmpStudioError
-from amp_studio.schema import Rule, program
-from amp_studio.schema.cel_engine import Program, functions_called
-from amp_studio.schema.expression import (
+from amp_studio.schema import (
     ALWAYS_THERE,
     NO_RESULT,
+    UNITS,
     Circumstances,
     Decision,
     Expression,
     Key,
+    Program,
     Remembered,
+    Rule,
+    functions_called,
+    program,
+    quoted,
 )
-from amp_studio.schema.quoting import quoted
-from amp_studio.schema.units import UNITS
 
 AT_HAND = ("it", "at")
 """Names in the conditions of ``blames`` and ``compares``: the value at hand, and its position in a list."""

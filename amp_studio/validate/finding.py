@@ -6,8 +6,7 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 from typing import NamedTuple
 
-from amp_studio.schema import Address, Value
-from amp_studio.schema.model import Severity
+from amp_studio.schema import Address, Severity, Value
 
 SEVERITIES: tuple[Severity, ...] = ("error", "warning", "advice")
 NOT_SET = "schema.unset"

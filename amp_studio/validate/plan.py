@@ -20,13 +20,13 @@ from amp_studio.schema import (
     Rule,
     Schema,
     UnknownParameterError,
+    quoted,
     read_address,
+    record_text,
 )
-from amp_studio.schema.model.compiled_json import record_text
-from amp_studio.schema.quoting import quoted
 
 from .expressions import Expressions, RuleError, check_rule, is_list
-from .formulas import rule_functions
+from .functions import rule_functions
 
 Place = Address | int
 """Where a finding is filed: under the value that is wrong, or under the place of the rule's check in the plan."""

@@ -8,12 +8,13 @@ from dataclasses import dataclass, field
 from decimal import ROUND_CEILING, ROUND_FLOOR, Decimal
 from functools import lru_cache
 
-from amp_studio.files import ParameterFile
-from amp_studio.files.local_time import with_local_times
+from amp_studio.files import ParameterFile, with_local_times
 from amp_studio.schema import (
     Address,
+    BoundRef,
     Limits,
     Parameter,
+    Remembered,
     Schema,
     Value,
     bounding,
@@ -24,8 +25,6 @@ from amp_studio.schema import (
     show_value,
     shown,
 )
-from amp_studio.schema.expression import Remembered
-from amp_studio.schema.model import BoundRef
 
 from .finding import Finding, Setting
 

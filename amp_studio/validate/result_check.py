@@ -4,13 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from amp_studio.files import Merge, Row
-from amp_studio.files.merging import Choice, Typed
+from amp_studio.files import Choice, Merge, Row, Typed
 from amp_studio.schema import same_value
 
 from .builder_rules import NO_RULES, BuilderRules
 from .finding import Finding
-from .new_findings import new_findings
+from .findings_between import new_findings
 from .validator import Validator
 
 

@@ -5,8 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sized
 from typing import Any, TypeVar
 
-from amp_studio.schema.file_error import ModelError, Slip
-from amp_studio.schema.model import Model
+from amp_studio.schema import Model, ModelError, Slip
 
 T = TypeVar("T", bound=Model)
 
@@ -33,7 +32,7 @@ def entry_model(data: Any, model: type[T]) -> tuple[T | None, list[Slip]]:
     ]
     long = {place[0] for place, _ in found}
     data = {key: value for key, value in data.items() if key not in long}
-    from amp_studio.schema.model_errors import (
+    from amp_studio.schema import (
         read_model,  # most files have no rules beside them, and need no pydantic
     )
 

@@ -14,24 +14,24 @@ from pathlib import Path
 from types import MappingProxyType
 from typing import Any
 
-from amp_studio.files import write_atomic
-from amp_studio.files.atomic import Notify, SaveError, digest_of
-from amp_studio.files.yaml_text import with_item
+from amp_studio.files import Notify, SaveError, digest_of, with_item, write_atomic
 from amp_studio.schema import (
     BuilderRule,
     DatabaseError,
     Evaluation,
     FactEntry,
+    KeyPath,
     Schema,
+    Slip,
     Suppression,
+    YamlError,
+    did_you_mean,
     family_ids,
     load_schema,
     read_address,
     read_entries,
+    read_yaml,
 )
-from amp_studio.schema.file_error import Slip
-from amp_studio.schema.nearest import did_you_mean
-from amp_studio.schema.yaml_reader import KeyPath, YamlError, read_yaml
 
 from .builder_rules import BuilderRules
 from .expression_tree import shown

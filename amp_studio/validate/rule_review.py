@@ -7,11 +7,18 @@ from dataclasses import dataclass, field
 from functools import cache
 from string import Formatter
 
-from amp_studio.schema import Parameter, Rule, Schema, family_ids, load_schema, read_address
-from amp_studio.schema.expression import ALWAYS_THERE
-from amp_studio.schema.nearest import did_you_mean
-from amp_studio.schema.units import UNITS
-from amp_studio.schema.yaml_reader import KeyPath
+from amp_studio.schema import (
+    ALWAYS_THERE,
+    UNITS,
+    KeyPath,
+    Parameter,
+    Rule,
+    Schema,
+    did_you_mean,
+    family_ids,
+    load_schema,
+    read_address,
+)
 
 from .expression_check import ExpressionCheck, meant
 from .expression_tree import RESERVED, ExpressionError, read_expression, shown
@@ -30,7 +37,7 @@ from .expression_worth import (
     text_worth,
 )
 from .expressions import TYPES
-from .formulas import rule_functions
+from .functions import rule_functions
 
 MOST_STEPS = 5_000_000
 """Of one rule over a whole file: about a quarter of a second."""

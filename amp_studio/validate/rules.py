@@ -9,34 +9,32 @@ from typing import Any
 
 from amp_studio.files import ParameterFile
 from amp_studio.schema import (
-    MASKED,
-    Address,
-    Evaluation,
-    Value,
-    canonical_unit,
-    convert,
-    show_value,
-    shown,
-    write_figure,
-)
-from amp_studio.schema.cel_engine import Context
-from amp_studio.schema.conditions import ACTIVE
-from amp_studio.schema.expression import (
+    ACTIVE,
     ALWAYS_THERE,
+    MASKED,
     NO_RESULT,
+    Address,
     Circumstances,
+    Context,
+    Evaluation,
     Expression,
     Key,
+    Value,
+    angular,
+    canonical_unit,
     context_of,
+    convert,
     key_of,
+    show_value,
+    shown,
     value_of,
+    write_figure,
 )
-from amp_studio.schema.units import angular
 
 from .blame import about
 from .builder_rules import LONGEST_TEXT
 from .finding import OWN_FAULT, Finding, Setting
-from .formulas import rule_functions
+from .functions import rule_functions
 from .plan import Listed, RuleCheck
 
 _SHOWN = 4

@@ -14,8 +14,7 @@ from collections.abc import Iterable, Mapping
 from dataclasses import replace
 from typing import NamedTuple
 
-from amp_studio.files import Change, ParameterFile, RangeError
-from amp_studio.files.parameter_file import Marks
+from amp_studio.files import Change, Marks, ParameterFile, RangeError
 from amp_studio.schema import Address, canonical, dimension
 
 from .builder_rules import BuilderRules, sort_out

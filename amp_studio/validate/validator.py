@@ -6,8 +6,7 @@ from collections.abc import Callable, Collection, Hashable, Iterable, Iterator, 
 from dataclasses import replace
 
 from amp_studio.files import ParameterFile
-from amp_studio.schema import Address, Rule
-from amp_studio.schema.cel_engine import Context
+from amp_studio.schema import Address, Context, Rule
 
 from .allowed import AllowedByRules
 from .builder_rules import NO_RULES, BuilderRules, Suppressed, sort_out

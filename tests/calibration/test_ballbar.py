@@ -8,15 +8,10 @@ from fractions import Fraction
 
 import pytest
 
-from amp_studio.calibration import (
-    CalibrationError,
-    MeasurementAnswers,
-    MeasurementError,
-    Wish,
-    propose,
-    read_measurement,
-)
+from amp_studio.calibration import CalibrationError, MeasurementAnswers, Wish, propose
 from amp_studio.calibration.ballbar import lost_motions
+from amp_studio.calibration.errors import MeasurementError
+from amp_studio.calibration.reading import read_measurement
 from amp_studio.files import new_file
 from amp_studio.schema import Value
 

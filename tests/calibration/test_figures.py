@@ -9,8 +9,10 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from amp_studio.calibration import MeasuredRun, Measurement, figures, mean_curve
-from amp_studio.calibration.measurement import MeasurementAnswers
+from amp_studio.calibration import Measurement
+from amp_studio.calibration.curve import mean_curve
+from amp_studio.calibration.figures import figures
+from amp_studio.calibration.measurement import MeasuredRun, MeasurementAnswers
 
 
 def measurement(up: np.ndarray, down: np.ndarray, targets: np.ndarray) -> Measurement:

@@ -18,9 +18,9 @@ from amp_studio.calibration import (
     Wish,
     compensation_of,
     propose,
-    read_measurement,
 )
 from amp_studio.calibration.edit import deleted, inserted, rechosen, replaced
+from amp_studio.calibration.reading import read_measurement
 from amp_studio.families.ninepc.formulas.calibration import (
     calibration_fault,
     calibration_net,

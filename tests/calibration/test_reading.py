@@ -7,13 +7,9 @@ from pathlib import Path
 
 import pytest
 
-from amp_studio.calibration import (
-    Measurement,
-    MeasurementAnswers,
-    MeasurementError,
-    read_measured_file,
-    read_measurement,
-)
+from amp_studio.calibration import Measurement, MeasurementAnswers, read_measured_file
+from amp_studio.calibration.errors import MeasurementError
+from amp_studio.calibration.reading import read_measurement
 
 KNOWN = MeasurementAnswers("mm", "um", "measured-target")
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 from pathlib import Path
 
-from amp_studio.files.examples import examples
+from amp_studio.files.example_files import examples
 
 
 def test_the_verbs_print_the_same_in_json(amp, tmp_path: Path) -> None:

@@ -27,7 +27,7 @@ from amp_studio.cli.verbs.shell.man import man_page
 from amp_studio.formats.import_export import all_formats
 from amp_studio.scenarios import scenario_names
 from amp_studio.schema import family_ids
-from amp_studio.sim import SCENARIOS as SIMULATED
+from amp_studio.sim.scenarios import SCENARIOS as SIMULATED
 from amp_studio.transfer.links.endpoint import Endpoint
 from amp_studio.transfer.links.tcp import TcpLink
 from amp_studio.transfer.plain.line import ByteLine

@@ -8,7 +8,8 @@ from pathlib import Path
 import pytest
 
 from amp_studio.files import open_file
-from amp_studio.sim import simulate, trace_csv
+from amp_studio.sim import simulate
+from amp_studio.sim.write import trace_csv
 
 MILL = Path(__file__).parents[2] / "examples" / "mill-1394" / "MILL_1394.amp"
 GIVEN = (

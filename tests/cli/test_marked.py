@@ -8,8 +8,9 @@ from pathlib import Path
 
 import pytest
 
-from amp_studio.files import digest_of, open_file, save_file
+from amp_studio.files import digest_of, open_file
 from amp_studio.files.notes import set_value_note
+from amp_studio.files.storage import save_file
 from amp_studio.transfer.client.record import add_exchange, changes_of, exchange_now
 from amp_studio.transfer.image import encode_image
 

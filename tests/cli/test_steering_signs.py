@@ -8,7 +8,7 @@ import subprocess
 import sys
 from pathlib import Path
 
-from amp_studio.schema.visible import visible
+from amp_studio.schema.visible_text import visible
 
 HEAD = "amp_studio: 1\nfamily: 9pc\n"
 STARTS = """

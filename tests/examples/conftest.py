@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 
 from amp_studio.files import ParameterFile, open_file
-from amp_studio.files.examples import examples_folder
+from amp_studio.files.example_files import examples_folder
 
 EXAMPLES = sorted(path.relative_to(examples_folder()).as_posix() for path in examples_folder().rglob("*.amp"))
 

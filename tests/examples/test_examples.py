@@ -10,10 +10,12 @@ from pathlib import Path
 import pytest
 
 from amp_studio.cli import run
-from amp_studio.files import Document, ParameterFile, Project, axis_type, fitted_axes, open_file
+from amp_studio.files import Document, ParameterFile, Project, fitted_axes, open_file
+from amp_studio.files.axes import axis_type
 from amp_studio.report import print_report
 from amp_studio.schema import Address, read_address
-from amp_studio.sim import simulate, simulated_axes, simulated_families
+from amp_studio.sim import simulate, simulated_axes
+from amp_studio.sim.law import simulated_families
 
 SOURCE = re.compile(
     r"\b(?:page (?:(?:\d{1,2}|[AB])(?:-\d{1,2}|(?:\.\d{1,2})+)|\d{1,3})|ours)\b|^printed default\b"

@@ -11,8 +11,8 @@ from collections.abc import Iterator
 from pathlib import Path
 
 from amp_studio import cli
-from amp_studio.files import save_file
 from amp_studio.files.reading import read_content
+from amp_studio.files.storage import save_file
 from amp_studio.formats import export_file
 from amp_studio.transfer.client.kept import save_image
 from amp_studio.transfer.image import encode_image

@@ -5,7 +5,8 @@ from __future__ import annotations
 from pathlib import Path
 
 from amp_studio.families.grblhal.described import schema_of
-from amp_studio.files import Header, ParameterFile, fill_defaults, read_content
+from amp_studio.files import Header, ParameterFile, read_content
+from amp_studio.files.parameter_file import fill_defaults
 from amp_studio.files.storage import readable_content
 from amp_studio.schema.described import DescriptionError
 from amp_studio.validate import Validator

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from functools import cache
 
-from amp_studio.calibration import CalibrationError, MeasurementAnswers, Wish, propose, read_measurement
+from amp_studio.calibration import CalibrationError, MeasurementAnswers, Wish, propose
+from amp_studio.calibration.reading import read_measurement
 from amp_studio.families.ninepc.formulas.calibration import calibration_fault
 from amp_studio.files import ParameterFile, new_file
 from amp_studio.schema import Value

@@ -86,7 +86,7 @@ class Monkey:
         from PySide6.QtWidgets import QApplication
 
         import amp_studio.ui  # its guard comes before every other class of the window
-        from amp_studio.files.examples import examples
+        from amp_studio.files.example_files import examples
         from amp_studio.ui.main_window import MainWindow
 
         assert amp_studio.ui.main

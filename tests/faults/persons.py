@@ -12,7 +12,7 @@ from amp_studio.cli.completion import answer
 from amp_studio.families.ninepc.emulated.panel import NinePcPanel
 from amp_studio.files import new_file
 from amp_studio.schema import UnknownParameterError, addresses_meant, family_ids
-from amp_studio.schema.visible import visible
+from amp_studio.schema.visible_text import visible
 from amp_studio.transfer.client.drivers import open_driver
 from amp_studio.transfer.client.parameters import read_digest
 from amp_studio.transfer.emulated.control import Control

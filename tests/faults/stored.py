@@ -17,10 +17,11 @@ from amp_studio.cli.check_cache import CheckCache
 from amp_studio.cli.check_formats import CheckResult
 from amp_studio.cli.parsing import parse
 from amp_studio.cli.verbs.checks.validate import VERB
-from amp_studio.files import ParameterFileError, new_file, recover_backup, save_file
+from amp_studio.files import ParameterFileError, new_file, recover_backup
 from amp_studio.files.atomic import SaveError
 from amp_studio.files.lock import EditLock, InUseError
 from amp_studio.files.reading import read_content
+from amp_studio.files.storage import save_file
 from amp_studio.schema import DatabaseError
 from amp_studio.schema.compiled_cache import read_cached, write_cached
 from amp_studio.schema.load import compile_family

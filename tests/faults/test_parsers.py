@@ -64,7 +64,7 @@ READERS = {
     "family_places.py": "",  # looks for a line in what pip has installed; other characters are no such line
     "files/atomic.py": "damaged backups",
     "files/document.py": "damaged journal and history",
-    "files/examples.py": "",  # the program's own examples, of which the heads are shown
+    "files/example_files.py": "",  # the program's own examples, of which the heads are shown
     "files/lock.py": "damaged lock notes",
     "files/paths.py": "",  # shortens a name
     "files/project.py": "damaged project.yaml",
@@ -119,7 +119,7 @@ READERS = {
     "transfer/links/opening.py": "",  # the fingerprint of the emulator's certificate
     "transfer/links/pseudo_terminal.py": "damaged frames",
     "transfer/links/rfc2217.py": "damaged telnet",
-    "transfer/links/serial_ports.py": "",  # the system's text about its ports is only shown
+    "transfer/links/usb_ports.py": "",  # the system's text about its ports is only shown
     "transfer/links/security.py": "",  # the operator's own certificate: read by ssl
     "transfer/links/tls.py": "hostile clients",
     "transfer/links/tcp.py": "hostile clients",

@@ -23,9 +23,8 @@ from amp_studio.files import (
     content_of,
     new_file,
     read_content,
-    save_file,
 )
-from amp_studio.files.storage import readable_content
+from amp_studio.files.storage import readable_content, save_file
 from amp_studio.formats import FormatError, export_file, formats_of, import_file
 from amp_studio.schema import (
     Address,

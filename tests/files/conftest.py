@@ -12,7 +12,8 @@ from textwrap import dedent
 
 import pytest
 
-from amp_studio.files import ParameterFile, new_file, save_file
+from amp_studio.files import ParameterFile, new_file
+from amp_studio.files.storage import save_file
 from amp_studio.schema import Value, family_ids, load_schema
 from amp_studio.schema import load as loading
 from amp_studio.schema.load import load_compiled

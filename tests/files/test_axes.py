@@ -5,18 +5,17 @@ from __future__ import annotations
 import pytest
 
 from amp_studio.files import (
-    AxisError,
     ParameterFile,
     axis_instances,
     axis_title,
-    axis_type,
     copy_axis,
     delete_axis,
     fitted_axes,
-    name_axes,
     new_file,
     retype_axis,
 )
+from amp_studio.files.axes import AxisError, axis_type
+from amp_studio.files.axis_fitting import name_axes
 from amp_studio.schema import Value
 
 

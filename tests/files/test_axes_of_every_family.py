@@ -8,7 +8,6 @@ from pathlib import Path
 import pytest
 
 from amp_studio.files import (
-    AxisError,
     ParameterFile,
     add_axis,
     alike_axes,
@@ -29,8 +28,9 @@ from amp_studio.files import (
     swap_axes,
     why_axes_are_fixed,
 )
+from amp_studio.files.axes import AxisError
 from amp_studio.files.axis_values import words_of_axes
-from amp_studio.files.examples import examples
+from amp_studio.files.example_files import examples
 from amp_studio.schema import Value, load_schema
 
 

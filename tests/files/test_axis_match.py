@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import pytest
 
-from amp_studio.files import AxisError, ParameterFile, compare, new_file
+from amp_studio.files import ParameterFile, compare, new_file
+from amp_studio.files.axes import AxisError
 from amp_studio.files.axis_match import as_axis, axis_letters, matched_by_letter
 from amp_studio.schema import Value
 

@@ -16,8 +16,8 @@ from amp_studio.files import (
     digest_of,
     open_file,
     recover_backup,
-    save_file,
 )
+from amp_studio.files.storage import save_file
 from amp_studio.schema import Value
 
 CALIBRATION = ("home.calibration", "1")

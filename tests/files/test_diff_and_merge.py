@@ -6,7 +6,8 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from amp_studio.files import Conflict, Difference, ParameterFile, compare, merge, new_file
+from amp_studio.files import Difference, ParameterFile, compare, new_file
+from amp_studio.files.diff import Conflict, merge
 from amp_studio.schema import Address, Value, load_schema
 from tests.campaigns import examples
 

@@ -21,10 +21,10 @@ from amp_studio.files import (
     SaveError,
     Unsaved,
     open_file,
-    save_file,
 )
 from amp_studio.files import lock as locking
 from amp_studio.files.atomic import digest_of
+from amp_studio.files.storage import save_file
 from amp_studio.schema import Value
 
 CALIBRATION, POSITION = ("home.calibration", "1"), ("home.position", "1")

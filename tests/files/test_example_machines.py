@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from amp_studio.files.examples import examples, examples_folder
+from amp_studio.files.example_files import examples, examples_folder
 
 
 def test_every_example_is_listed_with_its_family_and_what_it_is() -> None:

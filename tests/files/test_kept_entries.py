@@ -9,7 +9,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from amp_studio.files import ParameterFile, ParameterFileError, content_of, open_file, read_content, save_file
+from amp_studio.files import ParameterFile, ParameterFileError, content_of, open_file, read_content
+from amp_studio.files.storage import save_file
 from amp_studio.schema import Value, load_schema
 from tests.files.commented import COMMENTED
 

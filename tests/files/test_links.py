@@ -163,7 +163,7 @@ def test_renaming_a_link_moves_nothing_of_the_file(project: Project, on_disk: Pa
 
 
 def test_a_link_that_leads_nowhere_keeps_its_name_in_a_project(project: Project, on_disk: Path) -> None:
-    from amp_studio.files import InvalidNameError
+    from amp_studio.files.project import InvalidNameError
 
     (project.folder / "taken.amp").symlink_to("nowhere")
     with pytest.raises(InvalidNameError, match="there is a file 'taken' already"):

@@ -6,7 +6,7 @@ import pytest
 
 from amp_studio.files import open_file
 from amp_studio.files.creation import made_like, new_file, new_like, of_one_machine
-from amp_studio.files.examples import examples
+from amp_studio.files.example_files import examples
 from amp_studio.schema import Value, family_ids, load_schema
 
 

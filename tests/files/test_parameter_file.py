@@ -11,18 +11,18 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from amp_studio.files import (
-    AxisError,
     Change,
     Document,
     ParameterFile,
     RangeError,
     describe,
-    fill_defaults,
     fitted_axes,
     new_file,
     open_file,
-    save_file,
 )
+from amp_studio.files.axes import AxisError
+from amp_studio.files.parameter_file import fill_defaults
+from amp_studio.files.storage import save_file
 from amp_studio.schema import InvalidValueError, UnitError, UnknownParameterError, Value
 
 POSITIVE, NEGATIVE = ("zone.overtravel_positive", "1"), ("zone.overtravel_negative", "1")

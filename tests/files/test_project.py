@@ -9,15 +9,15 @@ import pytest
 from amp_studio.files import (
     Document,
     InUseError,
-    InvalidNameError,
     ParameterFileError,
     Project,
     ProjectInfo,
     backup_path,
     new_file,
     open_file,
-    save_file,
 )
+from amp_studio.files.project import InvalidNameError
+from amp_studio.files.storage import save_file
 from amp_studio.schema import Value
 
 CALIBRATION = ("home.calibration", "1")

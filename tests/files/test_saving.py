@@ -326,7 +326,8 @@ def test_a_document_whose_save_fails_is_still_open_with_its_changes(
 KILLED = """
     import os, signal, sys
     from pathlib import Path
-    from amp_studio.files import open_file, save_file
+    from amp_studio.files import open_file
+    from amp_studio.files.storage import save_file
     from amp_studio.schema import Value
 
     original = Path(sys.argv[1])

@@ -7,8 +7,9 @@ from pathlib import Path
 import pytest
 
 from amp_studio.files import ParameterFile, new_file, open_file
-from amp_studio.files.examples import examples
-from amp_studio.formats import Account, Export, FormatError, export_file, formats_of, import_file
+from amp_studio.files.example_files import examples
+from amp_studio.formats import Account, FormatError, export_file, formats_of, import_file
+from amp_studio.formats.import_export import Export
 from amp_studio.schema import Value, same_value
 from amp_studio.schema.storage import register_number, value_of_register
 

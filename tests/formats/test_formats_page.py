@@ -11,7 +11,8 @@ from ruamel.yaml import YAML
 
 from amp_studio.families.num.formats.layout import TableLayout
 from amp_studio.families.num.formats.table import FORMAT
-from amp_studio.formats import all_formats, families_of
+from amp_studio.formats import all_formats
+from amp_studio.formats.import_export import families_of
 from amp_studio.schema import Schema
 from tests.families.num.small_num import SAMPLE, taken
 

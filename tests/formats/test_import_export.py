@@ -8,7 +8,7 @@ import pytest
 
 from amp_studio.cli import run
 from amp_studio.files import ParameterFile, compare, new_file, open_file
-from amp_studio.files.examples import examples_folder
+from amp_studio.files.example_files import examples_folder
 from amp_studio.formats import FormatError, export_file, import_file
 from amp_studio.schema import Value
 from amp_studio.validate import Validator

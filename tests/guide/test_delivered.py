@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 
 from amp_studio.files import ParameterFile, new_file, open_file
-from amp_studio.files.examples import examples_folder
+from amp_studio.files.example_files import examples_folder
 from amp_studio.guide import as_delivered
 from amp_studio.schema import Value, family_ids
 from amp_studio.validate import NOT_SET, Finding, Validator

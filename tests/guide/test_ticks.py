@@ -4,8 +4,9 @@ from pathlib import Path
 
 import pytest
 
-from amp_studio.files import Document, ParameterFileError, merge, open_file
+from amp_studio.files import Document, ParameterFileError, open_file
 from amp_studio.files.creation import new_file
+from amp_studio.files.diff import merge
 from amp_studio.files.storage import content_of, save_file
 from amp_studio.guide import find_step, tick
 

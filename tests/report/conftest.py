@@ -9,7 +9,8 @@ from pathlib import Path
 
 import pytest
 
-from amp_studio.files import ParameterFile, fill_defaults, fitted_axes, new_file
+from amp_studio.files import ParameterFile, fitted_axes, new_file
+from amp_studio.files.parameter_file import fill_defaults
 from amp_studio.report import Contents, print_report
 from amp_studio.report.contents import Sort
 from amp_studio.schema import Value

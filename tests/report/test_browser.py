@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 
 from amp_studio.files import ParameterFile, open_file
-from amp_studio.files.examples import examples_folder
+from amp_studio.files.example_files import examples_folder
 from amp_studio.report import print_report
 
 from .browser import CHROMIUM, Browser

@@ -5,7 +5,8 @@ from __future__ import annotations
 import pytest
 
 from amp_studio.files import ParameterFile, new_file
-from amp_studio.report import Contents, build_report, help_parts, page_of
+from amp_studio.report import Contents, help_parts, page_of
+from amp_studio.report.build import build_report
 from amp_studio.report.page import render_html
 from amp_studio.report.text import render_text
 from amp_studio.schema import Value, family_ids, load_schema

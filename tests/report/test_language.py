@@ -11,10 +11,12 @@ from pathlib import Path
 import pytest
 
 from amp_studio.files import ParameterFile, ProjectInfo, compare, new_file, open_file
-from amp_studio.files.examples import examples_folder
+from amp_studio.files.example_files import examples_folder
 from amp_studio.files.notes import set_value_note
 from amp_studio.guide import steps_of
-from amp_studio.report import SORTS, UNIT_CHOICES, Contents, Sort, build_report, print_report
+from amp_studio.report import SORTS, UNIT_CHOICES, Contents, print_report
+from amp_studio.report.build import build_report
+from amp_studio.report.contents import Sort
 from amp_studio.report.differences import differences_paper, machines_paper
 from amp_studio.report.drawings import drawings
 from amp_studio.report.form import form_paper

@@ -7,9 +7,11 @@ from pathlib import Path
 import pytest
 
 from amp_studio.files import Header, ParameterFile, new_file
-from amp_studio.report import FORMATS, SORTS, Contents, build_report, print_report
+from amp_studio.report import SORTS, Contents, print_report
+from amp_studio.report.build import build_report
 from amp_studio.report.contents import Sort
 from amp_studio.report.model import Grid
+from amp_studio.report.write import FORMATS
 from amp_studio.schema import Schema, Value
 
 

@@ -7,7 +7,8 @@ from html.parser import HTMLParser
 import pytest
 
 from amp_studio.files import ParameterFile
-from amp_studio.report import SORTS, Contents, build_report
+from amp_studio.report import SORTS, Contents
+from amp_studio.report.build import build_report
 from amp_studio.report.contents import Sort
 from amp_studio.report.page import render_html
 

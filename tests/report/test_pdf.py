@@ -11,7 +11,8 @@ from pathlib import Path
 import pytest
 
 from amp_studio.files import ParameterFile
-from amp_studio.report import SORTS, Contents, build_report, print_report
+from amp_studio.report import SORTS, Contents, print_report
+from amp_studio.report.build import build_report
 from amp_studio.report.contents import Sort
 from amp_studio.report.pdf import typeset
 

@@ -8,17 +8,11 @@ from pathlib import Path
 
 import pytest
 
-from amp_studio.files import (
-    ParameterFile,
-    ProjectInfo,
-    content_of,
-    digest_of,
-    fitted_axes,
-    new_file,
-    save_file,
-)
+from amp_studio.files import ParameterFile, ProjectInfo, content_of, digest_of, fitted_axes, new_file
 from amp_studio.files.notes import set_group_note, set_machine_note, set_value_note
-from amp_studio.report import SORTS, Contents, build_report
+from amp_studio.files.storage import save_file
+from amp_studio.report import SORTS, Contents
+from amp_studio.report.build import build_report
 from amp_studio.report.contents import Sort
 from amp_studio.report.model import Grid, Listing, ReportRow
 from amp_studio.report.page import render_html

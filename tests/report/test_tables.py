@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from amp_studio.files import open_file
-from amp_studio.files.examples import examples_folder
-from amp_studio.report import build_report
+from amp_studio.files.example_files import examples_folder
+from amp_studio.report.build import build_report
 
 
 def test_of_a_table_only_what_is_set_is_printed() -> None:

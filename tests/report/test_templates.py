@@ -11,9 +11,11 @@ from pathlib import Path
 
 import pytest
 
-from amp_studio.files import ParameterFile, save_file
-from amp_studio.report import Contents, build_report, print_report, templating
+from amp_studio.files import ParameterFile
+from amp_studio.files.storage import save_file
+from amp_studio.report import Contents, print_report, templating
 from amp_studio.report.apart import made
+from amp_studio.report.build import build_report
 from amp_studio.report.page import render_html
 from amp_studio.report.templating import TEMPLATES
 

@@ -9,8 +9,9 @@ from pathlib import Path
 import pytest
 
 from amp_studio.files import Header, ParameterFile, SaveError, new_file
-from amp_studio.report import FORMATS, SORTS, Contents, print_report
+from amp_studio.report import SORTS, Contents, print_report
 from amp_studio.report.contents import Sort
+from amp_studio.report.write import FORMATS
 from amp_studio.schema import Value, family_ids, load_schema
 
 ODD = '#panic("x") $x$ *b* _i_ `c` \\ " <script>alert(1)</script> &amp; {{ 1 }} {% if %} // /* @ref = \x00\x1b[2J\u202e 机 é'

@@ -6,7 +6,8 @@ from pathlib import Path
 
 import pytest
 
-from amp_studio.files import InvalidNameError, ParameterFileError, Project, ProjectInfo, open_file
+from amp_studio.files import ParameterFileError, Project, ProjectInfo, open_file
+from amp_studio.files.project import InvalidNameError
 from amp_studio.formats import import_file
 from amp_studio.schema import UnknownFamilyError, database_folder, family_ids, load_schema
 from amp_studio.schema import load as loading

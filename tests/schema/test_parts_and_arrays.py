@@ -5,7 +5,8 @@ from __future__ import annotations
 import pytest
 
 from amp_studio.files import new_file
-from amp_studio.schema import Rule, Schema, Value, fault, load_schema, part_of
+from amp_studio.schema import Rule, Schema, Value, fault, load_schema
+from amp_studio.schema.address import part_of
 from amp_studio.validate.plan import checks_of
 
 SPINDLES = """

@@ -5,7 +5,8 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from amp_studio.sim import SCENARIOS, SimulationError
+from amp_studio.sim import SimulationError
+from amp_studio.sim.scenarios import SCENARIOS
 from tests.sim.tiny import changed, tiny
 
 SETTINGS = {"move.radius": 20.0, "move.feedrate": 3000.0}

@@ -7,9 +7,10 @@ from math import isfinite
 import numpy as np
 import pytest
 
-from amp_studio.sim import SCENARIOS, SimulationError, Trace
+from amp_studio.sim import SimulationError, Trace
 from amp_studio.sim.linear import linear_model
 from amp_studio.sim.loops import Loops
+from amp_studio.sim.scenarios import SCENARIOS
 from amp_studio.sim.scenarios.sweep import Tone, sweep
 from tests.sim.tiny import tiny
 

@@ -9,7 +9,8 @@ import pytest
 
 from amp_studio.files import ParameterFile, open_file
 from amp_studio.schema import Value
-from amp_studio.sim import SCENARIOS, SimulationError, simulate, trace_summary, trace_text
+from amp_studio.sim import SimulationError, simulate, trace_summary, trace_text
+from amp_studio.sim.scenarios import SCENARIOS
 from amp_studio.sim.scenarios.figures import grows, steady
 from tests.sim.tiny import tiny
 

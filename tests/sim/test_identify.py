@@ -17,9 +17,9 @@ from amp_studio.sim import (
     plot_svg,
     read_machine,
     simulate,
-    trace_csv,
     write_machine,
 )
+from amp_studio.sim.write import trace_csv
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
 MILL = open_file(EXAMPLES / "mill-1394/MILL_1394.amp").file

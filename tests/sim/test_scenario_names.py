@@ -7,7 +7,9 @@ import sys
 
 from amp_studio.families import SCENARIOS as OWN
 from amp_studio.scenarios import scenario_names
-from amp_studio.sim import SCENARIOS, law_of, simulated_families
+from amp_studio.sim import law_of
+from amp_studio.sim.law import simulated_families
+from amp_studio.sim.scenarios import SCENARIOS
 
 
 def test_every_scenario_of_every_family_is_named() -> None:

@@ -8,7 +8,8 @@ import pytest
 
 from amp_studio.cli import run
 from amp_studio.files import open_file
-from amp_studio.sim import SCENARIOS, SimulationError, listing, simulate
+from amp_studio.sim import SimulationError, listing, simulate
+from amp_studio.sim.scenarios import SCENARIOS
 from amp_studio.sim.settings import read_settings
 
 MILL = Path(__file__).parents[2] / "examples" / "mill-1394" / "MILL_1394.amp"

@@ -5,9 +5,9 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from amp_studio.sim import SCENARIOS
 from amp_studio.sim.motion import Until, run_axis
 from amp_studio.sim.ramps import move
+from amp_studio.sim.scenarios import SCENARIOS
 from tests.sim.tiny import tiny
 
 

@@ -11,8 +11,9 @@ import pytest
 from amp_studio.cli import run
 from amp_studio.files import ParameterFile, open_file
 from amp_studio.schema import Value
-from amp_studio.sim import SimulationError, listing, plot_svg, simulate, trace_csv
+from amp_studio.sim import SimulationError, listing, plot_svg, simulate
 from amp_studio.sim.unit_system import described, in_text
+from amp_studio.sim.write import trace_csv
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
 ROUTER = EXAMPLES / "acromill-router" / "ROUTER.amp"

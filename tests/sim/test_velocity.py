@@ -6,7 +6,8 @@ import math
 
 import pytest
 
-from amp_studio.sim import SCENARIOS, SimulationError
+from amp_studio.sim import SimulationError
+from amp_studio.sim.scenarios import SCENARIOS
 from tests.sim.tiny import tiny
 
 VELOCITY = SCENARIOS["velocity"].run

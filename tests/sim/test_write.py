@@ -16,7 +16,6 @@ from amp_studio.sim import (
     SimulationError,
     Trace,
     plot_svg,
-    trace_csv,
     trace_summary,
     trace_text,
     write_trace,
@@ -25,6 +24,7 @@ from amp_studio.sim.picture import thinned
 from amp_studio.sim.rounding import rounded_down, rounded_up, shown
 from amp_studio.sim.scenarios.step import run_step
 from amp_studio.sim.ticks import ticks
+from amp_studio.sim.write import trace_csv
 
 from .tiny import tiny
 

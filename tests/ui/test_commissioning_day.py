@@ -13,7 +13,7 @@ from PySide6.QtWidgets import QWidget
 from pytestqt.qtbot import QtBot
 
 from amp_studio.files import ParameterFile
-from amp_studio.files.examples import examples
+from amp_studio.files.example_files import examples
 from amp_studio.schema import Value
 from amp_studio.ui.base.workspace import Workspace
 from amp_studio.ui.dialogs.file_dialogs import ReportDialog

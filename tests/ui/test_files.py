@@ -11,7 +11,7 @@ from PySide6.QtCore import QStandardPaths
 from PySide6.QtWidgets import QFileDialog
 
 from amp_studio.files import Document, backup_path, content_of, open_file
-from amp_studio.files.examples import examples
+from amp_studio.files.example_files import examples
 from amp_studio.schema import Value
 from amp_studio.ui.dialogs import file_dialogs
 from amp_studio.ui.dialogs.new_file_dialog import NewFileDialog

@@ -10,7 +10,8 @@ from openpyxl import load_workbook
 from PySide6.QtCore import Qt
 from PySide6.QtWidgets import QFileDialog
 
-from amp_studio.files import Project, ProjectInfo, new_file, open_file, save_file
+from amp_studio.files import Project, ProjectInfo, new_file, open_file
+from amp_studio.files.storage import save_file
 from amp_studio.schema import Value
 from amp_studio.ui.main_window import MainWindow
 from amp_studio.ui.merge.machines_dialog import MachinesDialog

@@ -15,7 +15,7 @@ from pathlib import Path
 import amp_studio.ui
 from PySide6.QtCore import QElapsedTimer, QEventLoop, QTimer
 from PySide6.QtWidgets import QApplication
-from amp_studio.files.examples import examples
+from amp_studio.files.example_files import examples
 from amp_studio.ui.main_window import MainWindow
 
 def memory():

@@ -9,7 +9,7 @@ import pytest
 
 from amp_studio.files import fitted_axes
 from amp_studio.files.creation import new_like
-from amp_studio.files.examples import examples
+from amp_studio.files.example_files import examples
 from amp_studio.schema import Value
 from amp_studio.ui.dialogs.new_file_dialog import NewFileDialog
 from amp_studio.ui.main_window import MainWindow

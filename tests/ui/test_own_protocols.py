@@ -7,7 +7,8 @@ from pathlib import Path
 from pytestqt.qtbot import QtBot
 
 from amp_studio.families.acromill.emulated.card import AcrCard
-from amp_studio.files import new_file, save_file
+from amp_studio.files import new_file
+from amp_studio.files.storage import save_file
 from amp_studio.schema import Value
 from amp_studio.transfer.emulated.line_device import DeviceSetup
 from amp_studio.transfer.emulated.memory import Memory

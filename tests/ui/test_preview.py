@@ -12,7 +12,7 @@ from PySide6.QtPrintSupport import QPrintDialog, QPrinter
 from PySide6.QtTest import QTest
 from pytestqt.qtbot import QtBot
 
-from amp_studio.files.examples import examples
+from amp_studio.files.example_files import examples
 from amp_studio.report import Contents, PrintedFigure
 from amp_studio.schema import Address
 from amp_studio.ui.dialogs.file_dialogs import ReportDialog

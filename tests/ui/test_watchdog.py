@@ -11,7 +11,7 @@ import pytest
 from PySide6.QtTest import QTest
 from pytestqt.qtbot import QtBot
 
-from amp_studio.files.examples import examples
+from amp_studio.files.example_files import examples
 from amp_studio.report import CHAPTERS, Contents
 from amp_studio.transfer.client.parameters import download_file
 from amp_studio.transfer.exchange import Exchange

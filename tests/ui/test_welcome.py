@@ -13,7 +13,7 @@ from PySide6.QtTest import QTest
 from pytestqt.qtbot import QtBot
 
 from amp_studio.files import content_of
-from amp_studio.files.examples import examples
+from amp_studio.files.example_files import examples
 from amp_studio.schema import Value
 from amp_studio.ui.base.time_words import in_words
 from amp_studio.ui.dialogs.new_file_dialog import NewFileDialog

@@ -14,7 +14,7 @@ from PySide6.QtWidgets import QApplication, QDialog, QWidget
 from pytestqt.qtbot import QtBot
 
 from amp_studio.files import Merge, Project, ProjectInfo
-from amp_studio.files.examples import examples
+from amp_studio.files.example_files import examples
 from amp_studio.pictures import pictures_of
 from amp_studio.schema import Value
 from amp_studio.ui import _hook

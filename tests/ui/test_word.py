@@ -9,7 +9,7 @@ import pytest
 from PySide6.QtCore import Qt
 from PySide6.QtWidgets import QComboBox, QSpinBox
 
-from amp_studio.files.storage_text import storage_text
+from amp_studio.files.stored_text import storage_text
 from amp_studio.schema import Value
 from amp_studio.ui.main_window import MainWindow
 

@@ -18,8 +18,9 @@ from ruamel.yaml import YAML
 
 from amp_studio.files import Change as Edit
 from amp_studio.files import ParameterFile, new_file, open_file
-from amp_studio.files.examples import examples_folder
-from amp_studio.schema import Address, Value, canonical_value, family_ids
+from amp_studio.files.example_files import examples_folder
+from amp_studio.schema import Address, Value, family_ids
+from amp_studio.schema.expression import canonical_value
 from amp_studio.validate import Finding, Setting, Validator
 
 HERE = Path(__file__).parent

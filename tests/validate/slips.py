@@ -16,11 +16,11 @@ from pathlib import Path
 from random import Random
 
 from amp_studio.files import ParameterFile, open_file
-from amp_studio.files.examples import examples_folder
+from amp_studio.files.example_files import examples_folder
 from amp_studio.schema import Address, Value, show_value, written
 from amp_studio.schema.units import dimension
 from amp_studio.validate import Earlier, Validator
-from amp_studio.validate.new_findings import new_findings
+from amp_studio.validate.findings_between import new_findings
 
 KINDS = ("x 10", "/ 10", "x 25.4", "sign", "zero", "x 2", "swapped", "neighbour", "bit", "choice")
 NEIGHBOURS = re.compile(r"(\d)(?=(\.?)(\d))")

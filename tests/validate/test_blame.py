@@ -12,7 +12,8 @@ from rule_machines import FAMILIES, cases, trial_machine
 from amp_studio.files import ParameterFile
 from amp_studio.report import finding_json
 from amp_studio.schema import Address, Rule, Value, load_schema
-from amp_studio.validate import BuilderRules, Finding, RuleError, Validator
+from amp_studio.validate import BuilderRules, Finding, Validator
+from amp_studio.validate.expressions import RuleError
 from amp_studio.validate.plan import RuleCheck, checks_of
 from amp_studio.validate.rules import RuleChecks
 

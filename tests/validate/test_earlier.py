@@ -10,7 +10,7 @@ import pytest
 
 from amp_studio.cli import run
 from amp_studio.files import Document, open_file
-from amp_studio.files.examples import examples_folder
+from amp_studio.files.example_files import examples_folder
 from amp_studio.schema import Value
 from amp_studio.validate import Earlier, Validator, earlier_beside
 

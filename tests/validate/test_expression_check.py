@@ -13,7 +13,7 @@ from amp_studio.schema import Rule, family_ids, load_schema
 from amp_studio.validate.expression_check import ExpressionCheck
 from amp_studio.validate.expression_tree import Node, read_expression
 from amp_studio.validate.expression_worth import DECIMAL, YES_NO, list_worth, text_worth
-from amp_studio.validate.formulas import rule_functions
+from amp_studio.validate.functions import rule_functions
 from amp_studio.validate.rule_review import MOST_STEPS, _functions, review
 
 NAMES = {

@@ -9,8 +9,7 @@ import pytest
 from amp_studio.schema import Rule, program
 from amp_studio.schema.cel_engine import Context
 from amp_studio.schema.expression import Circumstances, Key
-from amp_studio.validate import RuleError
-from amp_studio.validate.expressions import Expressions
+from amp_studio.validate.expressions import Expressions, RuleError
 
 WHENS = (
     "true",

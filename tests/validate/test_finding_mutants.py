@@ -21,7 +21,7 @@ from amp_studio.schema import Rule, load_schema, program
 from amp_studio.schema.expression import Expression
 from amp_studio.validate import Finding
 from amp_studio.validate.expressions import Expressions
-from amp_studio.validate.formulas import rule_functions
+from amp_studio.validate.functions import rule_functions
 from amp_studio.validate.plan import RuleCheck, checks_of
 from amp_studio.validate.rules import RuleChecks
 

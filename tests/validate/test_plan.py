@@ -12,9 +12,9 @@ from amp_studio.files import ParameterFile
 from amp_studio.schema import Evaluation, Rule, Schema, Value, family_ids, load_schema
 from amp_studio.schema.catalog import schema_of
 from amp_studio.schema.load import compile_family
-from amp_studio.validate import BuilderRules, RuleError, Validator
-from amp_studio.validate.expressions import check_rule
-from amp_studio.validate.formulas import rule_functions
+from amp_studio.validate import BuilderRules, Validator
+from amp_studio.validate.expressions import RuleError, check_rule
+from amp_studio.validate.functions import rule_functions
 from amp_studio.validate.plan import checks_of, make_plan
 
 FAMILY = """

@@ -9,7 +9,7 @@ from plausible_machines import RECIPES, false_findings, plausible_machines
 from rule_machines import FAMILIES, machines, sound
 
 from amp_studio.files import ParameterFile, open_file
-from amp_studio.files.examples import examples_folder
+from amp_studio.files.example_files import examples_folder
 from amp_studio.schema import Address, Value
 from amp_studio.validate import Finding, Validator, explain, read_builder_rules
 from tests.campaigns import CAMPAIGN

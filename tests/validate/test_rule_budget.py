@@ -12,7 +12,7 @@ from rule_machines import FAMILIES
 from amp_studio.files import Change, ParameterFile
 from amp_studio.schema import Value, load_schema
 from amp_studio.validate import Finding, Validator, explain, read_builder_rules, rule_file, trial
-from amp_studio.validate.formulas import GENERAL
+from amp_studio.validate.functions import GENERAL
 from amp_studio.validate.plan import make_plan
 from amp_studio.validate.rule_file import MOST_FAULTS
 

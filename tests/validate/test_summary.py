@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 
 from amp_studio.files import ParameterFileError, content_of, new_file
-from amp_studio.files.examples import examples
+from amp_studio.files.example_files import examples
 from amp_studio.schema import Value
 from amp_studio.validate.summary import summary_of
 

@@ -5,9 +5,14 @@ from __future__ import annotations
 import re
 from fractions import Fraction
 
-from amp_studio.calibration.compensation import CalibrationTable, Compensation, FittedTable, TuningPage
-from amp_studio.calibration.curve import ErrorCurve
-from amp_studio.calibration.errors import CalibrationError
+from amp_studio.calibration import (
+    CalibrationError,
+    CalibrationTable,
+    Compensation,
+    ErrorCurve,
+    FittedTable,
+    TuningPage,
+)
 from amp_studio.files import ParameterFile
 
 from .formulas.ballscrew import is_ballscrew_table

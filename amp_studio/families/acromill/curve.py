@@ -4,8 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from amp_studio.pictures.scene import Point
-from amp_studio.pictures.table import CurveText
+from amp_studio.pictures import CurveText, Point
 
 from .formulas.ballscrew import ballscrew_words, is_ballscrew_table
 

@@ -12,6 +12,7 @@ from functools import partial
 
 from amp_studio.files import ParameterFile
 from amp_studio.sim import (
+    USUAL_SCENARIOS,
     AlarmText,
     AxisLaw,
     AxisParameters,
@@ -23,10 +24,9 @@ from amp_studio.sim import (
     SimulationError,
     Source,
     Trace,
+    error_at_speed,
+    with_model,
 )
-from amp_studio.sim.law import SCENARIOS
-from amp_studio.sim.model import with_model
-from amp_studio.sim.steady import error_at_speed
 
 from . import law_events as events
 from . import law_plant as plant
@@ -307,6 +307,6 @@ LAW = Law(
     bind=bind,
     axes=axes,
     without_axes="Number of Axes (view.number_of_axes) is 0: set it to simulate an axis",
-    scenarios=(*SCENARIOS, "home", "jog", "travel"),
+    scenarios=(*USUAL_SCENARIOS, "home", "jog", "travel"),
     advise=advise,
 )

@@ -4,9 +4,7 @@ from __future__ import annotations
 
 import math
 
-from amp_studio.sim.axis_parameters import AxisParameters
-from amp_studio.sim.errors import SimulationError
-from amp_studio.sim.events import Homing, Jogging, Ramp, Travel
+from amp_studio.sim import AxisParameters, Homing, Jogging, Ramp, SimulationError, Travel
 
 LINES = 4096.0
 """Pulses from marker to marker: an encoder of appendix C, after multiplication (page 113)."""

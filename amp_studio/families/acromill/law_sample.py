@@ -13,9 +13,7 @@ from __future__ import annotations
 
 import math
 
-from amp_studio.sim.arrays import Vector
-from amp_studio.sim.counts import nearest
-from amp_studio.sim.signals import (
+from amp_studio.sim import (
     COMMAND,
     COMMAND_ACCELERATION,
     COMMAND_VELOCITY,
@@ -27,6 +25,8 @@ from amp_studio.sim.signals import (
     POSITION,
     STOP,
     VELOCITY_LOOP,
+    Vector,
+    nearest,
 )
 
 # Parameters. V, s, pulses.

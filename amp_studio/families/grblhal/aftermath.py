@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from amp_studio.transfer.break_state import state_after_break
-from amp_studio.transfer.errors import AtControl, TransferError
+from amp_studio.transfer import AtControl, TransferError, state_after_break
 
 from .content import GrblContent
 from .kind import HOMING, JOG_LIMITS, LOCATE_RATE, PER_AXIS_RATES, RESET_ACTIONS, SEEK_RATE, SOFT_LIMITS

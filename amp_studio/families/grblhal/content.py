@@ -10,7 +10,7 @@ import re
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
 
-from amp_studio.transfer.image import ImageError
+from amp_studio.transfer import ImageError
 
 MAGIC = "grblHAL settings 1"
 LARGEST = 1 << 20

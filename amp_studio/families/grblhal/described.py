@@ -4,16 +4,24 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 
-from amp_studio.schema import Parameter, Schema, UnitError, load_schema, unit_named
-from amp_studio.schema.described import DescriptionError
-from amp_studio.schema.described_parameters import (
+from amp_studio.schema import (
+    ControlMessage,
+    Default,
     DescribedControl,
     DescribedGroup,
     DescribedParameter,
     DescribedSchema,
-    key_of,
+    DescriptionError,
+    Family,
+    Messages,
+    Parameter,
+    Schema,
+    UnitError,
+    ValueType,
+    group_key,
+    load_schema,
+    unit_named,
 )
-from amp_studio.schema.model import ControlMessage, Default, Family, Messages, ValueType
 
 from .description import (
     AXES,
@@ -143,7 +151,7 @@ class _Maker:
         same = next((g for g in self.known.groups if g.name == group.name), None)
         parent = self.told.groups.get(group.parent)
         inside = parent is not None and parent.number not in (group.number, parent.parent)
-        key = same.key if same else key_of(group.name) or f"group_{group.number}"
+        key = same.key if same else group_key(group.name) or f"group_{group.number}"
         if inside and parent:
             return DescribedGroup(key, parent.name, group.name, order)
         return DescribedGroup(key, group.name, order=order)

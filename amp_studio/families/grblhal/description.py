@@ -19,8 +19,7 @@ import re
 from dataclasses import dataclass, field
 from typing import TypeVar
 
-from amp_studio.schema.described import DescriptionError
-from amp_studio.schema.quoting import short
+from amp_studio.schema import DescriptionError, short
 
 T = TypeVar("T")
 MOST_BYTES = 2**20

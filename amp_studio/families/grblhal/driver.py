@@ -7,21 +7,23 @@ import time
 from collections.abc import Callable, Iterator
 from typing import ClassVar
 
-from amp_studio.transfer.driver import Abilities, ControlIdentity, Receipt
-from amp_studio.transfer.errors import (
+from amp_studio.transfer import (
+    Abilities,
     ConnectionCutError,
+    ControlIdentity,
+    ControlStatus,
     ImageChangedError,
+    LineDriver,
     NoConnectionError,
+    OpenLink,
     ProtocolMismatchError,
+    Receipt,
+    Replacement,
+    SentValues,
     TransferError,
+    quiet,
 )
-from amp_studio.transfer.exchange import Replacement
-from amp_studio.transfer.line_driver import LineDriver
-from amp_studio.transfer.links.link import LinkError
-from amp_studio.transfer.progress import quiet
-from amp_studio.transfer.sent_values import SentValues
-from amp_studio.transfer.status import ControlStatus
-from amp_studio.transfer.waiting import OpenLink
+from amp_studio.transfer.links import LinkError
 
 from .aftermath import after_break, names_of
 from .content import GrblContent, read_content, write_content

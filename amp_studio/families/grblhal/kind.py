@@ -7,9 +7,15 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 
 from amp_studio.files import Header, ParameterFile
-from amp_studio.schema import InvalidValueError, Schema, Value, load_schema
-from amp_studio.schema.described import DescriptionError, described_schema
-from amp_studio.transfer.image import ImageError
+from amp_studio.schema import (
+    DescriptionError,
+    InvalidValueError,
+    Schema,
+    Value,
+    described_schema,
+    load_schema,
+)
+from amp_studio.transfer import ImageError
 
 from .bounds import BoundsError, check_text
 from .content import GrblContent, read_content, write_content

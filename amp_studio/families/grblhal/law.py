@@ -7,8 +7,20 @@ from collections.abc import Sequence
 from functools import partial
 
 from amp_studio.files import ParameterFile
-from amp_studio.sim import AxisLaw, AxisParameters, Law, Machine, Prediction, Ramp, SimulationError, Source
-from amp_studio.sim.events import Failure, Homing, Jogging, Travel
+from amp_studio.sim import (
+    AxisLaw,
+    AxisParameters,
+    Failure,
+    Homing,
+    Jogging,
+    Law,
+    Machine,
+    Prediction,
+    Ramp,
+    SimulationError,
+    Source,
+    Travel,
+)
 
 from . import law_sample as loop
 

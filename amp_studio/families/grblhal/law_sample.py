@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from amp_studio.sim.arrays import Vector
-from amp_studio.sim.signals import (
+from amp_studio.sim import (
     COMMAND,
     COMMAND_VELOCITY,
     MODE,
@@ -12,6 +11,7 @@ from amp_studio.sim.signals import (
     OUTPUT_TEST,
     POSITION,
     POSITION_LOOP,
+    Vector,
 )
 
 GAIN, STEPS = 0, 1  # 1/s, steps for 1 u

@@ -9,17 +9,18 @@ from __future__ import annotations
 import re
 from collections import deque
 
-from amp_studio.schema.visible import visible
-from amp_studio.transfer.driver import Recognised
-from amp_studio.transfer.errors import (
+from amp_studio.schema import visible
+from amp_studio.transfer import (
     CancelledError,
     ControlSilentError,
     NoConnectionError,
+    OpenLink,
     ProtocolMismatchError,
+    Recognised,
     TransferError,
+    Waiting,
 )
-from amp_studio.transfer.links.link import LinkError
-from amp_studio.transfer.waiting import OpenLink, Waiting
+from amp_studio.transfer.links import LinkError
 
 from .states import SUSPENDED, state_in, state_text
 

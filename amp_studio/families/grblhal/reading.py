@@ -5,10 +5,8 @@ from __future__ import annotations
 import re
 from collections.abc import Callable, Mapping
 
-from amp_studio.schema.described import DescriptionError
-from amp_studio.schema.visible import visible
-from amp_studio.transfer.errors import ProtocolMismatchError
-from amp_studio.transfer.progress import Progress, quiet
+from amp_studio.schema import DescriptionError, visible
+from amp_studio.transfer import Progress, ProtocolMismatchError, quiet
 
 from .content import ENUMERATIONS, IDENTITY, OFFSETS, GrblContent, write_content
 from .description import read_description

@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Mapping
 
-from amp_studio.schema.visible import visible
+from amp_studio.schema import visible
 
 from .content import GrblContent
 from .line import GrblRefusalError

@@ -12,10 +12,20 @@ from collections.abc import Mapping
 from decimal import Decimal
 
 from amp_studio.files import ParameterFile
-from amp_studio.schema import Address, InvalidValueError, MachineSchema, Parameter, Schema, Value
-from amp_studio.schema.quoting import quoted
-from amp_studio.schema.storage import from_stored, stored_unit, to_figure
-from amp_studio.schema.values import checked, exact_number
+from amp_studio.schema import (
+    Address,
+    InvalidValueError,
+    MachineSchema,
+    Parameter,
+    Schema,
+    Value,
+    checked,
+    exact_number,
+    from_stored,
+    quoted,
+    stored_unit,
+    to_figure,
+)
 
 BUILD = "build"
 """The group of what is compiled in."""

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 
-from amp_studio.schema.visible import visible
+from amp_studio.schema import visible
 
 LASTING = ("Idle", "Alarm")
 """States in which the memory is written (protocol.c ``protocol_execute_realtime``)."""

@@ -2,9 +2,7 @@
 
 from __future__ import annotations
 
-from amp_studio.transfer.driver import ControlIdentity
-from amp_studio.transfer.errors import ProtocolMismatchError
-from amp_studio.transfer.status import AxisStatus, ControlStatus, known_fault
+from amp_studio.transfer import AxisStatus, ControlIdentity, ControlStatus, ProtocolMismatchError, known_fault
 
 LETTERS = "XYZABCUV"
 PINS = {

@@ -10,9 +10,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from itertools import chain
 
-from amp_studio.transfer.driver import Receipt
-from amp_studio.transfer.progress import Progress
-from amp_studio.transfer.sent_values import SentValues
+from amp_studio.transfer import Progress, Receipt, SentValues
 
 from .content import GrblContent
 from .description import Setting

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from amp_studio.schema.registration import Registration
+from amp_studio.schema import Registration
 
 REGISTRATION = Registration(
     family="9pc",

@@ -6,8 +6,7 @@ from collections.abc import Sequence
 from dataclasses import replace
 from fractions import Fraction
 
-from amp_studio.pictures.scene import Point
-from amp_studio.pictures.table import CurveText
+from amp_studio.pictures import CurveText, Point
 
 from .formulas.calibration import DECIMALS, CalibrationText, read_calibration
 

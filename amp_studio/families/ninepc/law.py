@@ -11,10 +11,17 @@ from dataclasses import dataclass, replace
 from functools import partial
 
 from amp_studio.schema import canonical, load_schema
-from amp_studio.sim.axis_parameters import AxisParameters
-from amp_studio.sim.errors import SimulationError
-from amp_studio.sim.law import SCENARIOS, AlarmText, AxisLaw, Law, Ramp, Source
-from amp_studio.sim.rounding import shown
+from amp_studio.sim import (
+    USUAL_SCENARIOS,
+    AlarmText,
+    AxisLaw,
+    AxisParameters,
+    Law,
+    Ramp,
+    SimulationError,
+    Source,
+    shown,
+)
 
 from . import law_dac as dac
 from . import law_events as events
@@ -265,7 +272,7 @@ def _bounded(source: Source, unit: str) -> Source:
 
 LAW = Law(
     bind,
-    scenarios=(*SCENARIOS, "home", "jog", "travel"),
+    scenarios=(*USUAL_SCENARIOS, "home", "jog", "travel"),
     settings=SETTINGS,
     advise=advise,
     own={PROCEDURE.name: PROCEDURE},

@@ -8,9 +8,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from amp_studio.sim.law import AxisLaw, Source
-from amp_studio.sim.rounding import rounded_down, rounded_up, shown
-from amp_studio.sim.trace import Recommendation, Trace
+from amp_studio.sim import AxisLaw, Recommendation, Source, Trace, rounded_down, rounded_up, shown
 
 from . import law_samples as samples
 from .law_figures import Loop, following_error, printed_excess_error, response_time

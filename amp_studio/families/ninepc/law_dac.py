@@ -9,8 +9,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from amp_studio.sim.axis_parameters import AxisParameters
-from amp_studio.sim.errors import SimulationError
+from amp_studio.sim import AxisParameters, SimulationError
 
 from . import law_samples as samples
 from .formulas.tuning import dac_monitor_function

@@ -6,11 +6,7 @@ import math
 from dataclasses import dataclass
 from typing import Any
 
-from amp_studio.sim.axis_parameters import AxisParameters
-from amp_studio.sim.errors import SimulationError
-from amp_studio.sim.law import AxisLaw
-from amp_studio.sim.machine import Machine
-from amp_studio.sim.rounding import shown
+from amp_studio.sim import AxisLaw, AxisParameters, Machine, SimulationError, shown
 
 from . import law_notes as notes_of
 from . import law_samples as samples

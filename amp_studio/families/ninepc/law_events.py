@@ -4,9 +4,7 @@ from __future__ import annotations
 
 import math
 
-from amp_studio.sim.axis_parameters import AxisParameters
-from amp_studio.sim.errors import SimulationError
-from amp_studio.sim.events import CodedScale, Failure, Homing, Jogging, Ramp, Travel
+from amp_studio.sim import AxisParameters, CodedScale, Failure, Homing, Jogging, Ramp, SimulationError, Travel
 
 from .law_feedback import COUNTS, DEVICE, Feedback
 from .law_ramps import SCAN, SCANS

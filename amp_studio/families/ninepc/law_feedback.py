@@ -4,8 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from amp_studio.sim.axis_parameters import AxisParameters
-from amp_studio.sim.errors import SimulationError
+from amp_studio.sim import AxisParameters, SimulationError
 
 from .law_reading import above_zero, if_set
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
-from amp_studio.sim.law import Prediction
+from amp_studio.sim import Prediction
 
 
 @dataclass(frozen=True)

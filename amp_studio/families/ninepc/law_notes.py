@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 
-from amp_studio.sim.rounding import shown
+from amp_studio.sim import shown
 
 from .law_units import (
     ODD_FRAMES,

@@ -2,10 +2,7 @@
 
 from __future__ import annotations
 
-from amp_studio.sim.axis_parameters import AxisParameters
-from amp_studio.sim.errors import SimulationError
-from amp_studio.sim.law import Ramp
-from amp_studio.sim.rounding import shown
+from amp_studio.sim import AxisParameters, Ramp, SimulationError, shown
 
 from .law_reading import LARGEST, SMALLEST, demand, if_set, not_negative
 

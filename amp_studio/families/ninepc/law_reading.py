@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from amp_studio.sim.axis_parameters import AxisParameters
-from amp_studio.sim.errors import SimulationError
+from amp_studio.sim import AxisParameters, SimulationError
 
 SMALLEST, LARGEST = 1e-9, 1e9
 """Beyond both no figure of a machine is, in any unit of these parameters."""

@@ -9,8 +9,7 @@ from __future__ import annotations
 
 import math
 
-from amp_studio.sim.arrays import Vector
-from amp_studio.sim.signals import (
+from amp_studio.sim import (
     COMMAND,
     COMMAND_VELOCITY,
     FEED_SHARE,
@@ -23,6 +22,7 @@ from amp_studio.sim.signals import (
     POSITION_LOOP,
     REFERENCE_LAG,
     STOP,
+    Vector,
 )
 
 # -- parameters ------------------------------------------------------------------------------------

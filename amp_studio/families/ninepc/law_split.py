@@ -10,10 +10,7 @@ from functools import partial
 import numpy as np
 import numpy.typing as npt
 
-from amp_studio.sim.axis_parameters import AxisParameters
-from amp_studio.sim.errors import SimulationError
-from amp_studio.sim.law import AlarmText, AxisLaw, Leader
-from amp_studio.sim.rounding import shown
+from amp_studio.sim import AlarmText, AxisLaw, AxisParameters, Leader, SimulationError, shown
 
 from . import law_samples as samples
 

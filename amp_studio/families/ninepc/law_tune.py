@@ -13,16 +13,27 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from amp_studio.sim.axis_parameters import ParameterValue
-from amp_studio.sim.errors import SimulationError
-from amp_studio.sim.law import AxisLaw, Ramp
-from amp_studio.sim.model import assumptions
-from amp_studio.sim.motion import Motion, Until, run_axis
-from amp_studio.sim.ramps import end_of, move
-from amp_studio.sim.rounding import rounded_down, shown
-from amp_studio.sim.scenario import Scenario, above_zero, refuse_unknown
-from amp_studio.sim.scenarios.columns import column_units, per_minute
-from amp_studio.sim.trace import Figure, Trace
+from amp_studio.sim import (
+    AxisLaw,
+    Figure,
+    Motion,
+    ParameterValue,
+    Ramp,
+    Scenario,
+    SimulationError,
+    Trace,
+    Until,
+    above_zero,
+    assumptions,
+    column_units,
+    end_of,
+    move,
+    per_minute,
+    refuse_unknown,
+    rounded_down,
+    run_axis,
+    shown,
+)
 
 from . import law_samples as samples
 from .law_notes import TUNING_START

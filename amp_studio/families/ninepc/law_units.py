@@ -31,7 +31,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 
 from amp_studio.schema import Table
-from amp_studio.sim.errors import SimulationError
+from amp_studio.sim import SimulationError
 
 FULL = 65536.0
 """Gain for rated torque at a velocity error (or sum) of 1 rad/s."""

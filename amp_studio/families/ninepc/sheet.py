@@ -8,9 +8,8 @@ the rules of the family decide what they do not.
 from __future__ import annotations
 
 from amp_studio.files import ParameterFile
-from amp_studio.schema import Address, Value
-from amp_studio.schema.storage import StorageError, stored_number, stored_unit, to_stored
-from amp_studio.sheet.keying import Instruction, Keyed, Keying, Stage, plain_text
+from amp_studio.schema import Address, StorageError, Value, stored_number, stored_unit, to_stored
+from amp_studio.sheet import Instruction, Keyed, Keying, Stage, plain_text
 
 MEASURES, CAREFUL, OTHER, WIDER, FASTER = range(5)
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from amp_studio.calibration.compensation import Compensation, TuningPage
+from amp_studio.calibration import Compensation, TuningPage
 
 COMPENSATION = Compensation(
     reversal="travel.backlash",

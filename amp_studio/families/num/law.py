@@ -13,10 +13,17 @@ from dataclasses import replace
 from functools import partial
 
 from amp_studio.files import ParameterFile
-from amp_studio.sim.axis_parameters import AxisParameters
-from amp_studio.sim.errors import SimulationError
-from amp_studio.sim.law import SCENARIOS, AxisLaw, Law, Prediction, Ramp, Source
-from amp_studio.sim.machine import Machine
+from amp_studio.sim import (
+    USUAL_SCENARIOS,
+    AxisLaw,
+    AxisParameters,
+    Law,
+    Machine,
+    Prediction,
+    Ramp,
+    SimulationError,
+    Source,
+)
 
 from . import law_events as events
 from . import law_sample as sample
@@ -213,6 +220,6 @@ LAW = Law(
     axes,
     "No axis is servo-controlled. Declare one in P2N0 and P3N0, with its name and group in P9",
     SETTINGS,
-    scenarios=(*SCENARIOS, "home", "jog", "travel"),
+    scenarios=(*USUAL_SCENARIOS, "home", "jog", "travel"),
     advise=advise,
 )

@@ -7,9 +7,7 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from amp_studio.sim.law import AxisLaw, Source
-from amp_studio.sim.rounding import rounded_down, shown
-from amp_studio.sim.trace import Recommendation, Trace
+from amp_studio.sim import AxisLaw, Recommendation, Source, Trace, rounded_down, shown
 
 from . import law_sample as sample
 from .formulas.servo import FOLLOWING_ERROR_MARGIN

@@ -4,9 +4,7 @@ from __future__ import annotations
 
 import math
 
-from amp_studio.sim.axis_parameters import AxisParameters
-from amp_studio.sim.errors import SimulationError
-from amp_studio.sim.events import Homing, Jogging, Travel
+from amp_studio.sim import AxisParameters, Homing, Jogging, SimulationError, Travel
 
 NEGATIVE, NO_SWITCH = "travel.homing_negative", "travel.switch_not_tested"
 PLACE, LOW, HIGH = "travel.switch_position", "travel.limit_min", "travel.limit_max"

@@ -4,10 +4,7 @@ from __future__ import annotations
 
 import math
 
-from amp_studio.sim.axis_parameters import AxisParameters
-from amp_studio.sim.errors import SimulationError
-from amp_studio.sim.law import AlarmText
-from amp_studio.sim.rounding import shown
+from amp_studio.sim import AlarmText, AxisParameters, SimulationError, shown
 
 from . import law_sample as sample
 from .law_words import Words

@@ -7,9 +7,7 @@ from collections.abc import Mapping
 from dataclasses import replace
 from functools import partial
 
-from amp_studio.sim.axis_parameters import AxisParameters
-from amp_studio.sim.errors import SimulationError
-from amp_studio.sim.law import AlarmText, AxisLaw, Leader, Prediction
+from amp_studio.sim import AlarmText, AxisLaw, AxisParameters, Leader, Prediction, SimulationError
 
 from . import law_sample as sample
 

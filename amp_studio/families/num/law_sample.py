@@ -12,8 +12,7 @@ from __future__ import annotations
 
 import math
 
-from amp_studio.sim.arrays import Vector
-from amp_studio.sim.signals import (
+from amp_studio.sim import (
     COMMAND,
     COMMAND_VELOCITY,
     MODE,
@@ -24,6 +23,7 @@ from amp_studio.sim.signals import (
     REFERENCE_LAG,
     STOP,
     VELOCITY_LOOP,
+    Vector,
 )
 
 from .formulas.servo import DAC_POINTS_AT_10_V, GAIN_BAND

@@ -9,8 +9,7 @@ import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from amp_studio.sim.axis_parameters import AxisParameters
-from amp_studio.sim.errors import SimulationError
+from amp_studio.sim import AxisParameters, SimulationError
 
 from . import law_sample as sample
 from .formulas import (

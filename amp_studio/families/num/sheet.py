@@ -6,7 +6,7 @@ import re
 
 from amp_studio.files import ParameterFile
 from amp_studio.schema import Address, InvalidValueError, Value
-from amp_studio.sheet.keying import Instruction, Keyed, Keying
+from amp_studio.sheet import Instruction, Keyed, Keying
 
 from .formats.words import WordMeaning, words_of
 

@@ -13,6 +13,7 @@ from functools import partial
 from amp_studio.files import ParameterFile
 from amp_studio.schema import load_schema
 from amp_studio.sim import (
+    USUAL_SCENARIOS,
     AlarmText,
     AxisLaw,
     AxisParameters,
@@ -24,10 +25,9 @@ from amp_studio.sim import (
     SimulationError,
     Source,
     Trace,
+    error_at_speed,
+    with_model,
 )
-from amp_studio.sim.law import SCENARIOS
-from amp_studio.sim.model import with_model
-from amp_studio.sim.steady import error_at_speed
 
 from . import law_plant as plant
 from . import law_sample as loop
@@ -332,7 +332,7 @@ LAW = Law(
     bind=bind,
     axes=axes,
     settings=SETTINGS,
-    scenarios=(*SCENARIOS, "home", "travel"),
+    scenarios=(*USUAL_SCENARIOS, "home", "travel"),
     advise=advise,
     own=COMMANDS,
 )

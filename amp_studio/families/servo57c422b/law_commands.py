@@ -8,14 +8,28 @@ from dataclasses import replace
 
 import numpy as np
 
-from amp_studio.sim import AxisLaw, Recommendation, SimulationError, Trace
-from amp_studio.sim.model import assumptions
-from amp_studio.sim.motion import Until, run_axis
-from amp_studio.sim.ramps import end_of, move, profile_of
-from amp_studio.sim.scenario import Scenario, Settings, above_zero, number, refuse_unknown
-from amp_studio.sim.scenarios.columns import alarms_of, column_units, per_minute
-from amp_studio.sim.scenarios.step import SCENARIO as STEP
-from amp_studio.sim.trace import Figure
+from amp_studio.sim import (
+    STEP,
+    AxisLaw,
+    Figure,
+    Recommendation,
+    Scenario,
+    Settings,
+    SimulationError,
+    Trace,
+    Until,
+    above_zero,
+    alarms_of,
+    assumptions,
+    column_units,
+    end_of,
+    move,
+    number,
+    per_minute,
+    profile_of,
+    refuse_unknown,
+    run_axis,
+)
 
 from . import law_tune as tune
 from .formulas.cam import word_bytes

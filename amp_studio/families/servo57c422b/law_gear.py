@@ -6,8 +6,7 @@ import math
 from collections.abc import Iterator, Sequence
 from itertools import pairwise
 
-from amp_studio.sim import SimulationError
-from amp_studio.sim.pieces import Piece
+from amp_studio.sim import Piece, SimulationError
 
 from .formulas.motion import GEAR_SCALE
 from .law_sample import SCAN

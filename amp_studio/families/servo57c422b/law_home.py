@@ -5,10 +5,7 @@ from __future__ import annotations
 import math
 from typing import Literal
 
-from amp_studio.sim import Ramp
-from amp_studio.sim.axis_parameters import AxisParameters
-from amp_studio.sim.errors import SimulationError
-from amp_studio.sim.events import Homing, Travel
+from amp_studio.sim import AxisParameters, Homing, Ramp, SimulationError, Travel
 
 from . import switch_bits as bits
 

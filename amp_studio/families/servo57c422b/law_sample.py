@@ -23,8 +23,7 @@ from __future__ import annotations
 
 import math
 
-from amp_studio.sim.arrays import Vector
-from amp_studio.sim.signals import (
+from amp_studio.sim import (
     COMMAND,
     COMMAND_VELOCITY,
     MODE,
@@ -35,6 +34,7 @@ from amp_studio.sim.signals import (
     POSITION,
     POSITION_LOOP,
     STOP,
+    Vector,
 )
 
 SCAN = 0.00125

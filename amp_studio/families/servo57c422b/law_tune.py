@@ -13,13 +13,22 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from amp_studio.sim import AxisLaw, SimulationError
-from amp_studio.sim.linear import linear_model
-from amp_studio.sim.motion import Motion, Until, run_axis
-from amp_studio.sim.pieces import Piece
-from amp_studio.sim.profiles import POLYNOMIAL
-from amp_studio.sim.ramps import end_of, move, profile_of
-from amp_studio.sim.signals import OUTPUT_TEST, POSITION_LOOP, VELOCITY_LOOP
+from amp_studio.sim import (
+    OUTPUT_TEST,
+    POLYNOMIAL,
+    POSITION_LOOP,
+    VELOCITY_LOOP,
+    AxisLaw,
+    Motion,
+    Piece,
+    SimulationError,
+    Until,
+    end_of,
+    linear_model,
+    move,
+    profile_of,
+    run_axis,
+)
 
 from . import law_sample as loop
 

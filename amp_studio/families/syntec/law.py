@@ -12,11 +12,19 @@ from dataclasses import dataclass
 from functools import partial
 
 from amp_studio.files import ParameterFile, fitted_axes
-from amp_studio.sim.axis_parameters import AxisParameters
-from amp_studio.sim.errors import SimulationError
-from amp_studio.sim.law import SCENARIOS, AlarmText, AxisLaw, Law, Prediction, Ramp, Source
-from amp_studio.sim.machine import Machine
-from amp_studio.sim.rounding import shown
+from amp_studio.sim import (
+    USUAL_SCENARIOS,
+    AlarmText,
+    AxisLaw,
+    AxisParameters,
+    Law,
+    Machine,
+    Prediction,
+    Ramp,
+    SimulationError,
+    Source,
+    shown,
+)
 
 from . import law_events as events
 from . import law_sample as sample
@@ -353,6 +361,6 @@ LAW = Law(
     bind,
     axes,
     "No axis has a port. Give one its port (Pr21) and its type (Pr221)",
-    scenarios=(*SCENARIOS, "home", "jog", "travel"),
+    scenarios=(*USUAL_SCENARIOS, "home", "jog", "travel"),
     advise=advise,
 )

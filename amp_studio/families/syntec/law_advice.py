@@ -5,9 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 
-from amp_studio.sim.law import AxisLaw
-from amp_studio.sim.rounding import shown
-from amp_studio.sim.trace import Recommendation, Trace
+from amp_studio.sim import AxisLaw, Recommendation, Trace, shown
 
 from . import law_sample as sample
 

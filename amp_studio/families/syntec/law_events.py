@@ -4,9 +4,7 @@ from __future__ import annotations
 
 import math
 
-from amp_studio.sim.axis_parameters import AxisParameters
-from amp_studio.sim.errors import SimulationError
-from amp_studio.sim.events import Failure, Homing, Jogging, Travel
+from amp_studio.sim import AxisParameters, Failure, Homing, Jogging, SimulationError, Travel
 
 METHOD, OFFSET, DIRECTION = "home.search_method", "home.offset", "home.direction"
 FIRST, SECOND, GRID = "home.first_speed", "home.second_speed", "home.grid"

@@ -11,8 +11,7 @@ from __future__ import annotations
 
 import math
 
-from amp_studio.sim.arrays import Vector
-from amp_studio.sim.signals import (
+from amp_studio.sim import (
     COMMAND,
     COMMAND_VELOCITY,
     MODE,
@@ -23,6 +22,7 @@ from amp_studio.sim.signals import (
     REFERENCE_LAG,
     STOP,
     VELOCITY_LOOP,
+    Vector,
 )
 
 PARTS = 8

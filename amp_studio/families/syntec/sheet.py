@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from amp_studio.files import ParameterFile
 from amp_studio.schema import Address
-from amp_studio.sheet.keying import Instruction, Keying
+from amp_studio.sheet import Instruction, Keying
 
 
 def _obstacle(file: ParameterFile, address: Address) -> str:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from amp_studio.scenarios import SCENARIOS as PLACES
-from amp_studio.schema.registration import load_part
+from amp_studio.schema import load_part
 from amp_studio.sim.scenario import Scenario
 
 SCENARIOS: dict[str, Scenario] = {name: load_part(place) for name, place in PLACES.items()}

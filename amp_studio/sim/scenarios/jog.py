@@ -6,7 +6,7 @@ import math
 from collections.abc import Mapping
 from dataclasses import replace
 
-from amp_studio.schema.nearest import unknown_name
+from amp_studio.schema import unknown_name
 from amp_studio.sim.axis_parameters import ParameterValue
 from amp_studio.sim.errors import SimulationError
 from amp_studio.sim.law import AxisLaw

@@ -10,7 +10,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from amp_studio.schema.nearest import unknown_name
+from amp_studio.schema import unknown_name
 from amp_studio.sim.advice import NONE_SOUND, gain_recommendations, why_not_sound
 from amp_studio.sim.aims import AIMS, Aim
 from amp_studio.sim.errors import SimulationError

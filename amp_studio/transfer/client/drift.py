@@ -12,10 +12,17 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Literal
 
-from amp_studio.files import ENDING, ParameterFile, ParameterFileError, Project, is_there, open_file
-from amp_studio.files.local_time import local_time
+from amp_studio.files import (
+    ENDING,
+    ParameterFile,
+    ParameterFileError,
+    Project,
+    is_there,
+    local_time,
+    open_file,
+)
 from amp_studio.transfer.exchange import Exchange
-from amp_studio.transfer.links.endpoint import parse_endpoint
+from amp_studio.transfer.links import parse_endpoint
 
 from .fleet import ExchangeOf, FleetResult, with_each
 from .parameters import fetch_image, sha256

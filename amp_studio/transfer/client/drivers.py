@@ -4,16 +4,11 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-from amp_studio.schema import load_schema
-from amp_studio.schema.quoting import quoted
-from amp_studio.schema.registration import load_part, registered_families, registration_of
+from amp_studio.schema import load_part, load_schema, quoted, registered_families, registration_of
 from amp_studio.transfer.driver import ControlDriver, DriverFactory, Recognised
 from amp_studio.transfer.errors import NoConnectionError
 from amp_studio.transfer.exchange import QUIET, Exchange
-from amp_studio.transfer.links.endpoint import Endpoint, parse_endpoint
-from amp_studio.transfer.links.link import LinkError
-from amp_studio.transfer.links.opening import connect
-from amp_studio.transfer.links.password import PasswordError
+from amp_studio.transfer.links import Endpoint, LinkError, PasswordError, connect, parse_endpoint
 from amp_studio.transfer.waiting import Waiting
 from amp_studio.transfer.ways import HOUSE, PRINT_SHEET, in_order_of_ways
 

@@ -9,10 +9,10 @@ from dataclasses import dataclass
 from typing import Any, Generic, Literal, TypeVar
 
 from amp_studio.files import ParameterFile
-from amp_studio.schema.quoting import quoted
+from amp_studio.schema import quoted
 from amp_studio.transfer.errors import AtControl, TransferError, unforeseen
 from amp_studio.transfer.exchange import Exchange
-from amp_studio.transfer.links.endpoint import parse_endpoint
+from amp_studio.transfer.links import parse_endpoint
 
 from .exchange import Outcome
 from .parameters import download_file, fetch_image, sha256

@@ -15,9 +15,17 @@ from datetime import datetime
 from pathlib import Path
 
 from amp_studio.errors import AmpStudioError
-from amp_studio.files import ENDING, ChangedOnDiskError, ParameterFile, content_of, open_file, write_atomic
-from amp_studio.files.reading import ParameterFileError, read_content
-from amp_studio.schema.regular_file import read_file
+from amp_studio.files import (
+    ENDING,
+    ChangedOnDiskError,
+    ParameterFile,
+    ParameterFileError,
+    content_of,
+    open_file,
+    read_content,
+    write_atomic,
+)
+from amp_studio.schema import read_file
 from amp_studio.transfer.content import decode_content, family_of, kind_of
 from amp_studio.transfer.image import MAGIC, ImageError
 

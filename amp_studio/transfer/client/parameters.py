@@ -11,7 +11,7 @@ from pathlib import Path
 from typing import Self
 
 from amp_studio.files import ParameterFile
-from amp_studio.schema.quoting import quoted
+from amp_studio.schema import quoted
 from amp_studio.transfer.content import ContentKind, decode_content
 from amp_studio.transfer.driver import ControlDriver
 from amp_studio.transfer.exchange import QUIET, Exchange

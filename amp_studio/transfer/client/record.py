@@ -11,12 +11,18 @@ import os
 from dataclasses import asdict, dataclass, fields
 from pathlib import Path
 
-from amp_studio.files import ENDING, ParameterFile, compare, real_path, text_of_name
-from amp_studio.files.atomic import append_line
-from amp_studio.files.local_time import local_time
-from amp_studio.files.lock import now, user
-from amp_studio.schema import MASKED, Value, write_value, written
-from amp_studio.schema.regular_file import read_file
+from amp_studio.files import (
+    ENDING,
+    ParameterFile,
+    append_line,
+    compare,
+    local_time,
+    now,
+    real_path,
+    text_of_name,
+    user,
+)
+from amp_studio.schema import MASKED, Value, read_file, write_value, written
 from amp_studio.transfer.content import decode_content
 from amp_studio.transfer.errors import AtControl
 from amp_studio.transfer.exchange import Exchange

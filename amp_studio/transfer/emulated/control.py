@@ -21,8 +21,8 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
-from amp_studio.files.lock import EditLock, InUseError
-from amp_studio.transfer.house.message import Code, Commit, Committed, Flags, OpenDownload, RefusalError
+from amp_studio.files import EditLock, InUseError
+from amp_studio.transfer.house import Code, Commit, Committed, Flags, OpenDownload, RefusalError
 
 from .memory import Memory
 from .record import Identity, StateError, is_answer, load_json, load_record, to_json, written

@@ -17,14 +17,10 @@ import time
 from collections.abc import Callable, Iterable, Iterator
 from functools import partial
 
-from amp_studio.schema.quoting import quoted
-from amp_studio.schema.visible import visible
-from amp_studio.transfer.house.frame import encode_frame
-from amp_studio.transfer.house.message import Code, Flags, RefusalError, Refused, pack
-from amp_studio.transfer.interrupts import interrupts
-from amp_studio.transfer.links.endpoint import Endpoint, parse_endpoint
-from amp_studio.transfer.links.link import Link, LinkError, Listener
-from amp_studio.transfer.links.opening import listen
+from amp_studio.schema import quoted, visible
+from amp_studio.transfer.house import Code, Flags, RefusalError, Refused, encode_frame, pack
+from amp_studio.transfer.interruption import interrupts
+from amp_studio.transfer.links import Endpoint, Link, LinkError, Listener, listen, parse_endpoint
 
 from .control import Control
 from .faults import Faults, FaultyLine, arm

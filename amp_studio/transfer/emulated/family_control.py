@@ -10,11 +10,10 @@ from dataclasses import dataclass, field, replace
 from pathlib import Path
 
 from amp_studio.files import new_file
-from amp_studio.schema.quoting import quoted
-from amp_studio.schema.registration import load_part, registration_of
+from amp_studio.schema import load_part, quoted, registration_of
 from amp_studio.transfer.image import decode_image, encode_image, patch_image
-from amp_studio.transfer.interrupts import interrupts
-from amp_studio.transfer.links.endpoint import Endpoint, parse_endpoint
+from amp_studio.transfer.interruption import interrupts
+from amp_studio.transfer.links import Endpoint, parse_endpoint
 from amp_studio.transfer.ways import HOUSE, in_order_of_ways
 
 from .control import Control

@@ -12,8 +12,8 @@ import signal
 from dataclasses import dataclass
 from typing import Any
 
-from amp_studio.schema.quoting import quoted
-from amp_studio.transfer.links.link import Link, LinkError
+from amp_studio.schema import quoted
+from amp_studio.transfer.links import Link, LinkError
 
 from .control import Control
 

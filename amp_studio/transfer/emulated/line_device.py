@@ -13,12 +13,9 @@ from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 from typing import Protocol, runtime_checkable
 
-from amp_studio.schema.visible import visible
-from amp_studio.transfer.interrupts import interrupts
-from amp_studio.transfer.links.endpoint import Endpoint
-from amp_studio.transfer.links.link import Link, LinkError, Listener
-from amp_studio.transfer.links.opening import listen
-from amp_studio.transfer.links.pseudo_terminal import PtyLink
+from amp_studio.schema import visible
+from amp_studio.transfer.interruption import interrupts
+from amp_studio.transfer.links import Endpoint, Link, LinkError, Listener, PtyLink, listen
 
 from .emulator import LONGEST_COMMAND, LONGEST_LINE, print_line, standard_input
 from .family_control import EmulatedOptions, memory_folder

@@ -12,8 +12,8 @@ import os
 from collections.abc import Callable, Iterator
 from pathlib import Path
 
-from amp_studio.files.atomic import write_all
-from amp_studio.schema.regular_file import HARMLESS, NO_LINK, demand_file, read_file
+from amp_studio.files import write_all
+from amp_studio.schema import HARMLESS, NO_LINK, demand_file, read_file
 
 TEMPORARY = ".tmp"
 LARGEST = 1 << 26

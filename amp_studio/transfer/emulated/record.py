@@ -7,8 +7,8 @@ import re
 from dataclasses import asdict, dataclass, field, fields
 from typing import Any
 
-from amp_studio.schema.quoting import short
-from amp_studio.transfer.house.message import Committed, Flags
+from amp_studio.schema import short
+from amp_studio.transfer.house import Committed, Flags
 
 from .memory import Memory
 

@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from amp_studio.transfer.house.frame import Frame, FrameDecoder, encode_frame
-from amp_studio.transfer.house.message import (
+from amp_studio.transfer.house import (
     PROTOCOL_VERSION,
     Abort,
     Aborted,
@@ -11,6 +10,8 @@ from amp_studio.transfer.house.message import (
     Code,
     Commit,
     Data,
+    Frame,
+    FrameDecoder,
     Gap,
     Hello,
     Message,
@@ -22,6 +23,7 @@ from amp_studio.transfer.house.message import (
     Refused,
     UploadReady,
     Welcome,
+    encode_frame,
     pack,
     shorten,
     unpack,

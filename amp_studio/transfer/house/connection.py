@@ -16,7 +16,7 @@ from amp_studio.transfer.errors import (
     TransferError,
     WrongFamilyError,
 )
-from amp_studio.transfer.links.link import LinkError
+from amp_studio.transfer.links import LinkError
 from amp_studio.transfer.progress import CUT, SILENT, Progress, Stop, quiet
 from amp_studio.transfer.waiting import OpenLink
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from amp_studio.transfer.content import HouseContent
 from amp_studio.transfer.driver import Abilities, ControlIdentity, Receipt
 from amp_studio.transfer.exchange import QUIET, Exchange, Replacement
-from amp_studio.transfer.links.endpoint import Endpoint
+from amp_studio.transfer.links import Endpoint
 
 from .message import Flags
 from .session import Session

@@ -13,9 +13,7 @@ import platformdirs
 
 from amp_studio.transfer.errors import ControlSilentError, NoConnectionError, TransferError
 from amp_studio.transfer.exchange import QUIET, Exchange, Replacement
-from amp_studio.transfer.links.endpoint import Endpoint, parse_endpoint
-from amp_studio.transfer.links.link import LinkError
-from amp_studio.transfer.links.opening import connect
+from amp_studio.transfer.links import Endpoint, LinkError, connect, parse_endpoint
 from amp_studio.transfer.waiting import OpenLink
 
 from .broken_transfers import BrokenTransfers, NoBrokenTransfers

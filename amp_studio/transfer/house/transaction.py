@@ -6,7 +6,7 @@ from collections import deque
 from collections.abc import Callable
 from itertools import count
 
-from amp_studio.transfer.links.link import Link
+from amp_studio.transfer.links import Link
 
 from .frame import FrameDecoder, encode_frame
 from .message import AnyMessage, Code, Message, RefusalError, Refused, pack, unpack

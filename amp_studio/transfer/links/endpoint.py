@@ -10,7 +10,7 @@ from pathlib import Path
 from typing import Any, Literal
 from urllib.parse import parse_qsl, quote
 
-from amp_studio.schema.quoting import quoted
+from amp_studio.schema import quoted
 
 from .security import Security
 from .serial_settings import DATA_BITS, FLOWS, PARITIES, STOP_BITS, Flow, Parity, SerialSettings

@@ -9,7 +9,7 @@ from __future__ import annotations
 from typing import Protocol
 
 from amp_studio.errors import AmpStudioError
-from amp_studio.schema.visible import visible
+from amp_studio.schema import visible
 
 from .endpoint import Endpoint
 

@@ -7,11 +7,8 @@ import threading
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
 
-from amp_studio.schema.quoting import quoted
-from amp_studio.transfer.links.endpoint import Endpoint, parse_endpoint
-from amp_studio.transfer.links.link import Link, LinkError
-from amp_studio.transfer.links.opening import connect
-from amp_studio.transfer.links.serial_line import SerialLink
+from amp_studio.schema import quoted
+from amp_studio.transfer.links import Endpoint, Link, LinkError, SerialLink, connect, parse_endpoint
 from amp_studio.transfer.progress import Progress, quiet
 
 from .line import ByteLine, Patience, PlainFileError

@@ -9,7 +9,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 from amp_studio.transfer.errors import TransferError
-from amp_studio.transfer.links.link import Link, LinkError
+from amp_studio.transfer.links import Link, LinkError
 from amp_studio.transfer.progress import SILENT, Progress, quiet
 
 from .blocks import CAN, CANCEL

@@ -20,7 +20,7 @@ from amp_studio.files import (
     why_letters_are_fixed,
     why_types_are_fixed,
 )
-from amp_studio.schema.model import AxisProfile
+from amp_studio.schema import AxisProfile
 from amp_studio.ui.base.modal import run_dialog
 from amp_studio.ui.base.workspace import Workspace
 from amp_studio.ui.dialogs.axis_dialogs import AddAxisDialog, AxisDialog

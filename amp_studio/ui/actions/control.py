@@ -10,8 +10,7 @@ from typing import TYPE_CHECKING
 from PySide6.QtGui import QAction
 from PySide6.QtWidgets import QFileDialog, QStackedWidget
 
-from amp_studio.files import Document, ParameterFile
-from amp_studio.files.out_of_range import settle
+from amp_studio.files import Document, ParameterFile, settle
 from amp_studio.ui.base.emulated_control import EmulatedControl
 from amp_studio.ui.base.known_controls import ControlVerb
 from amp_studio.ui.base.questions import show_message
@@ -32,7 +31,7 @@ from .sheet import enter_by_hand
 from .tuning import tune
 
 if TYPE_CHECKING:
-    from amp_studio.transfer.client.parameters import Copy
+    from amp_studio.transfer.client import Copy
 
 COPIES = "Backups of a control (*.img *.before-*.amp);;All files (*)"
 
@@ -191,7 +190,7 @@ class ControlActions(Translated):
 
     def _has_a_way(self, workspace: Workspace) -> bool:
         """Return whether a way to a control of the family is known; else the sheet to key in is made instead."""
-        from amp_studio.transfer.client.drivers import protocols_of
+        from amp_studio.transfer.client import protocols_of
 
         return bool(protocols_of(workspace.file.schema.family.family))
 
@@ -205,7 +204,7 @@ class ControlActions(Translated):
         self.window.guarded(partial(self._use, address), self.tr("Connect"))
 
     def _use(self, address: str) -> None:
-        from amp_studio.transfer.links.endpoint import parse_endpoint
+        from amp_studio.transfer.links import parse_endpoint
 
         parse_endpoint(address)
         workspace = self.window.workspace
@@ -298,7 +297,7 @@ class ControlActions(Translated):
 
     def restore(self) -> None:
         """Ask for a backup and offer to put it back; raises ValueError for a file with errors that is no proven backup."""
-        from amp_studio.transfer.client.kept import open_copy
+        from amp_studio.transfer.client import open_copy
         from amp_studio.ui.control.page import ControlBackup
 
         workspace = self.window.workspace

@@ -48,8 +48,7 @@ class DocumentActions(Translated):
 
     def form(self) -> None:
         """Write the tables of this machine with room for values that are filled in by hand."""
-        from amp_studio.report.form import form_paper
-        from amp_studio.report.paper import write_paper
+        from amp_studio.report import form_paper, write_paper
         from amp_studio.ui.dialogs.file_dialogs import PAPER_KINDS, path_of_kind
 
         workspace = self._workspace()
@@ -72,7 +71,7 @@ class DocumentActions(Translated):
 
     def new_template(self) -> None:
         """Write a template to begin with beside the open file, and show its folder; raises FileExistsError where there is one."""
-        from amp_studio.report.starting_template import write_starting_template
+        from amp_studio.report import write_starting_template
 
         folder = real_path(self._workspace().path).parent
         written = in_background(

@@ -8,8 +8,7 @@ from functools import partial
 from PySide6.QtGui import QAction, QKeySequence
 from PySide6.QtWidgets import QMessageBox
 
-from amp_studio.files import RangeError, describe, real_path
-from amp_studio.files.lock import user
+from amp_studio.files import RangeError, describe, real_path, user
 from amp_studio.schema import Address, InvalidValueError
 from amp_studio.ui.base.modal import run_dialog
 from amp_studio.ui.base.questions import ask, show_message

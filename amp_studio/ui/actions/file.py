@@ -13,19 +13,19 @@ from PySide6.QtWidgets import QFileDialog
 
 from amp_studio.files import (
     Document,
+    EditLock,
     InUseError,
     Unsaved,
     backup_path,
+    day_and_time,
+    examples_folder,
+    note_origin,
     open_file,
     real_path,
     recover_backup,
     same_file,
     write_atomic,
 )
-from amp_studio.files.examples import examples_folder
-from amp_studio.files.local_time import day_and_time
-from amp_studio.files.lock import EditLock
-from amp_studio.files.origin import note_origin
 from amp_studio.ui.base.modal import run_dialog
 from amp_studio.ui.base.questions import ask
 from amp_studio.ui.base.task import in_background

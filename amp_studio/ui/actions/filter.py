@@ -56,7 +56,7 @@ class FilterActions(Translated):
 
     def _read_download(self, page: FilePage) -> None:
         """Read what the last download was, in the background; where there is none the page has the reason."""
-        from amp_studio.transfer.client.last_download import NoDownloadError, last_download
+        from amp_studio.transfer.client import NoDownloadError, last_download
 
         file, path = page.workspace.file, page.workspace.path
         try:

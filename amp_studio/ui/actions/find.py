@@ -8,8 +8,7 @@ from functools import partial
 from PySide6.QtCore import QTimer
 from PySide6.QtGui import QAction, QKeySequence
 
-from amp_studio.find import Entry, Finder, Hit, index_of
-from amp_studio.find.index import Index
+from amp_studio.find import Entry, Finder, Hit, Index, index_of
 from amp_studio.schema import family_ids, load_schema
 from amp_studio.ui.base.menu_commands import commands
 from amp_studio.ui.base.modal import is_alive

@@ -9,8 +9,7 @@ from typing import TYPE_CHECKING
 
 from PySide6.QtWidgets import QFileDialog, QInputDialog
 
-from amp_studio.files import Document, ParameterFile, check_output, write_atomic
-from amp_studio.files.out_of_range import keep, out_of_range
+from amp_studio.files import Document, ParameterFile, check_output, keep, out_of_range, write_atomic
 from amp_studio.schema import family_ids, load_schema
 from amp_studio.ui.base.questions import ask
 from amp_studio.ui.base.task import in_background

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from amp_studio.files.lock import now, user
+from amp_studio.files import now, user
 from amp_studio.guide import SetupStep, next_open, step_of, tick
 from amp_studio.schema import Address
 from amp_studio.ui.base.translated import Translated, tr, worded

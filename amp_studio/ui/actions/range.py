@@ -8,17 +8,23 @@ from itertools import pairwise
 from PySide6.QtCore import QMimeData, Qt
 from PySide6.QtGui import QAction, QGuiApplication, QKeySequence
 
-from amp_studio.files import alike_axes, axis_instances, describe, fitted_axes
-from amp_studio.files.block_entry import BlockEntry, plan_entry, plan_values
-from amp_studio.formats.spreadsheet_block import (
+from amp_studio.files import (
+    BlockEntry,
+    alike_axes,
+    axis_instances,
+    describe,
+    fitted_axes,
+    plan_entry,
+    plan_values,
+)
+from amp_studio.formats import (
     BlockCell,
     block_html,
     block_text,
     read_block,
     two_ways,
 )
-from amp_studio.schema import Address, InvalidValueError, Value, write_value
-from amp_studio.schema.quoting import quoted
+from amp_studio.schema import Address, InvalidValueError, Value, quoted, write_value
 from amp_studio.ui.base.modal import run_dialog
 from amp_studio.ui.base.translated import Translated, tr
 from amp_studio.ui.page.file_page import FilePage

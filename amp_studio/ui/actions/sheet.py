@@ -55,8 +55,8 @@ def _of_control(control: ControlExchange) -> tuple[ParameterFile, str] | None:
     address = control.chosen_address()
     if address is None:
         return None
-    from amp_studio.transfer.client.parameters import sha256
-    from amp_studio.transfer.content import decode_content
+    from amp_studio.transfer import decode_content
+    from amp_studio.transfer.client import sha256
 
     workspace = control.window.workspace
     assert workspace is not None
@@ -78,7 +78,7 @@ def _of_file(control: ControlExchange) -> tuple[ParameterFile, str] | None:
 
 
 def _read(path: Path) -> ParameterFile:
-    from amp_studio.transfer.client.kept import open_copy
+    from amp_studio.transfer.client import open_copy
 
     if path.suffix != ".img":
         return open_file(path).file

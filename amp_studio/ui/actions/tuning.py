@@ -9,7 +9,7 @@ from amp_studio.ui.control.exchange import ControlExchange
 from amp_studio.ui.window.studio_window import StudioWindow
 
 if TYPE_CHECKING:
-    from amp_studio.transfer.client.live import LiveTuning
+    from amp_studio.transfer.client import LiveTuning
     from amp_studio.ui.base.workspace import Workspace
 
 
@@ -32,8 +32,7 @@ def _connect(workspace: Workspace, exchanges: ControlExchange) -> LiveTuning | N
     address = exchanges.chosen_address()
     if address is None:
         return None
-    from amp_studio.transfer.client.drivers import open_driver
-    from amp_studio.transfer.client.live import LiveTuning
+    from amp_studio.transfer.client import LiveTuning, open_driver
 
     path = workspace.path
     driver = open_driver(address, workspace.file.schema.family.family)

@@ -10,8 +10,7 @@ from PySide6.QtGui import QAction, QActionGroup
 from PySide6.QtWidgets import QMenu
 
 from amp_studio.files import ParameterFile
-from amp_studio.schema import Value
-from amp_studio.schema.registration import why_not_simulated
+from amp_studio.schema import Value, why_not_simulated
 from amp_studio.ui.base.loading import load
 from amp_studio.ui.base.task import in_background
 from amp_studio.ui.base.translated import Translated, tr
@@ -203,7 +202,7 @@ class ViewActions(Translated):
 def _motion_view(file: ParameterFile) -> type[MotionView]:
     """Load the view with the plots, and the simulator with what it knows of the family of a file. For a thread."""
     load("amp_studio.sim", "amp_studio.ui.motion.view")
-    from amp_studio.sim.listings import listing
+    from amp_studio.sim import listing
     from amp_studio.ui.motion.view import MotionView
 
     listing(file)

@@ -14,8 +14,8 @@ from xml.etree import ElementTree as ET
 
 from PySide6.QtCore import QCoreApplication, QLibraryInfo, QLocale, QTranslator
 
-from amp_studio.report.language import language_of
-from amp_studio.report.wording import counted as english_count
+from amp_studio.report import counted as english_count
+from amp_studio.report import language_of
 
 FOLDER = Path(__file__).parents[1] / "translations"
 LANGUAGES: Final = {"en": "English", "de": "Deutsch"}

@@ -11,14 +11,31 @@ from pathlib import Path
 from PySide6.QtCore import QObject, QTimer, Signal
 from PySide6.QtGui import QUndoCommand, QUndoStack
 
-from amp_studio.files import Change, Document, Opened, ParameterFile, describe, digest_of
-from amp_studio.files.block_entry import BlockEntry, plan_entry
-from amp_studio.files.lock import now
-from amp_studio.files.parameter_file import Marks
+from amp_studio.files import (
+    BlockEntry,
+    Change,
+    Document,
+    Marks,
+    Opened,
+    ParameterFile,
+    describe,
+    digest_of,
+    now,
+    plan_entry,
+)
 from amp_studio.guide import GuideProgress, progress
 from amp_studio.schema import Address, Value, axis_name, show_value
-from amp_studio.validate import NOT_SET, Earlier, Finding, Validator, earlier_beside, rules_beside
-from amp_studio.validate.cell_expression import Entered, enter, read_plain
+from amp_studio.validate import (
+    NOT_SET,
+    Earlier,
+    Entered,
+    Finding,
+    Validator,
+    earlier_beside,
+    enter,
+    read_plain,
+    rules_beside,
+)
 
 JOURNAL_MS = 500
 """Milliseconds after an edit until the journal is written, so that a kill loses at most the last second."""

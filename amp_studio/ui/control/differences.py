@@ -10,8 +10,7 @@ from PySide6.QtGui import QKeyEvent
 from PySide6.QtWidgets import QHeaderView, QTreeWidget, QTreeWidgetItem
 
 from amp_studio.files import Difference, ParameterFile, axis_letter, shown_axes
-from amp_studio.report import dangers_of_change
-from amp_studio.report.model import Danger
+from amp_studio.report import Danger, dangers_of_change
 from amp_studio.schema import Address
 from amp_studio.ui.base.figures import show_value
 from amp_studio.ui.base.theme import ROW, SMALL_ICON, colour, font, icon, severity_icon

@@ -19,8 +19,7 @@ from amp_studio.ui.base.workspace import Workspace
 from amp_studio.ui.window.studio_window import StudioWindow
 
 if TYPE_CHECKING:
-    from amp_studio.transfer.driver import ControlIdentity
-    from amp_studio.transfer.exchange import Exchange
+    from amp_studio.transfer import ControlIdentity, Exchange
 
 
 def stages() -> dict[str, str]:
@@ -41,7 +40,7 @@ def exchange_dialog(
     """Return the dialog in which work with a control is shown and can be stopped."""
 
     def run(progress: TaskProgress, cancel: threading.Event) -> Any:
-        from amp_studio.transfer.exchange import Exchange
+        from amp_studio.transfer import Exchange
 
         return work(Exchange(progress, cancel))
 
@@ -103,7 +102,7 @@ class ControlExchange(Translated):
         """Return who answers at an address; nothing is read or changed. Raises as ``open_driver_at``."""
 
         def work(exchange: Exchange) -> ControlIdentity:
-            from amp_studio.transfer.client.drivers import open_driver_at
+            from amp_studio.transfer.client import open_driver_at
 
             with closing(open_driver_at(address, family, exchange)) as driver:
                 return driver.identify(exchange)
@@ -115,7 +114,7 @@ class ControlExchange(Translated):
 
     def _noted(self, address: str, verb: ControlVerb, act: Callable[[], Any], family: str) -> Any:
         """Return the result of an exchange; one that fails is remembered as such."""
-        from amp_studio.transfer.errors import TransferError
+        from amp_studio.transfer import TransferError
 
         try:
             return act()
@@ -127,7 +126,7 @@ class ControlExchange(Translated):
         """Return the image of the control, byte for byte; raises an error for a control of another family."""
 
         def work(exchange: Exchange) -> bytes:
-            from amp_studio.transfer.client.parameters import fetch_image
+            from amp_studio.transfer.client import fetch_image
 
             return fetch_image(address, exchange, family=family)
 

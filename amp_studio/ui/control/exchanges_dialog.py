@@ -5,8 +5,7 @@ from __future__ import annotations
 from PySide6.QtCore import Qt
 from PySide6.QtWidgets import QDialog, QHeaderView, QLabel, QTreeWidget, QTreeWidgetItem, QVBoxLayout, QWidget
 
-from amp_studio.files import real_path, text_of_name
-from amp_studio.files.local_time import day_and_time
+from amp_studio.files import day_and_time, real_path, text_of_name
 from amp_studio.ui.base.translated import counted, worded
 from amp_studio.ui.base.workspace import Workspace
 
@@ -15,7 +14,7 @@ class ExchangesDialog(QDialog):
     """Lists the exchanges, the newest first; under each the parameters that it changed."""
 
     def __init__(self, workspace: Workspace, parent: QWidget | None = None) -> None:
-        from amp_studio.transfer.client.record import read_exchanges
+        from amp_studio.transfer.client import read_exchanges
 
         super().__init__(parent)
         self.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)

@@ -29,7 +29,7 @@ from amp_studio.ui.base.translated import counted
 from amp_studio.ui.base.workspace import Workspace
 
 if TYPE_CHECKING:
-    from amp_studio.transfer.client.fleet import ExchangeOf, FleetRow
+    from amp_studio.transfer.client import ExchangeOf, FleetRow
 
 
 class FleetDialog(QDialog):
@@ -95,7 +95,7 @@ class FleetDialog(QDialog):
 
     def _named(self) -> list[str]:
         """Return the addresses; raises ValueError."""
-        from amp_studio.transfer.client.fleet import check_addresses
+        from amp_studio.transfer.client import check_addresses
 
         found = [line.strip() for line in self.addresses.toPlainText().splitlines() if line.strip()]
         if not found:
@@ -105,7 +105,7 @@ class FleetDialog(QDialog):
 
     def verify(self) -> None:
         """Compare the file with what each control contains."""
-        from amp_studio.transfer.client.fleet import verify_each
+        from amp_studio.transfer.client import verify_each
 
         named, file = self._named(), self._workspace.file.copy()
         stop_on_failure = self.stop.isChecked()
@@ -113,7 +113,7 @@ class FleetDialog(QDialog):
 
     def download(self) -> None:
         """Download the file to each control; what each contained is kept beside the file first."""
-        from amp_studio.transfer.client.fleet import download_each
+        from amp_studio.transfer.client import download_each
 
         named = self._named()
         if not self._is_ready(self._workspace):
@@ -138,7 +138,7 @@ class FleetDialog(QDialog):
         path = self._workspace.path
 
         def work(progress: TaskProgress, cancel: threading.Event) -> list[FleetRow]:
-            from amp_studio.transfer.exchange import Exchange
+            from amp_studio.transfer import Exchange
 
             shown = _of_each(progress)
             return exchange_with_all(lambda address: Exchange(shown(address), cancel, keep=path, record=path))
@@ -162,8 +162,8 @@ class FleetDialog(QDialog):
 
     def save(self) -> None:
         """Ask for a name and write the table of results."""
-        from amp_studio.report.paper import results_paper, write_paper
-        from amp_studio.transfer.client.fleet import HEADS
+        from amp_studio.report import results_paper, write_paper
+        from amp_studio.transfer.client import HEADS
 
         near = str(self._workspace.path.with_name("controls.csv"))
         text, _ = QFileDialog.getSaveFileName(

@@ -40,7 +40,7 @@ from .session import ControlSession
 from .steps import ExchangeSteps
 
 if TYPE_CHECKING:
-    from amp_studio.transfer.client.parameters import Copy
+    from amp_studio.transfer.client import Copy
 
 
 @dataclass(frozen=True, slots=True)

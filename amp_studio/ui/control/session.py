@@ -15,17 +15,13 @@ from typing import TYPE_CHECKING, Any, Literal
 
 from PySide6.QtCore import QObject, Signal
 
-from amp_studio.files import ParameterFile
-from amp_studio.files.by_schema import by_schema
+from amp_studio.files import ParameterFile, by_schema
 from amp_studio.schema import Address
 from amp_studio.ui.base.task import Task, TaskProgress
 
 if TYPE_CHECKING:
-    from amp_studio.transfer.client.parameters import Copy, Outcome
-    from amp_studio.transfer.client.verification import ImageComparison
-    from amp_studio.transfer.driver import Abilities, ControlDriver, ControlIdentity
-    from amp_studio.transfer.errors import TransferError
-    from amp_studio.transfer.exchange import Exchange
+    from amp_studio.transfer import Abilities, ControlDriver, ControlIdentity, Exchange, TransferError
+    from amp_studio.transfer.client import Copy, ImageComparison, Outcome
 
 SessionPhase = Literal["away", "connecting", "ready", "running", "done", "failed"]
 """Not connected; being read; read; something is sent; it was sent and read back; it did not reach its end."""
@@ -89,15 +85,14 @@ class ControlSession(QObject):
 
     def enter_password(self, password: str) -> None:
         """Try again with a password, which is known until the program ends."""
-        from amp_studio.transfer.links.endpoint import parse_endpoint
-        from amp_studio.transfer.links.passwords import enter_password
+        from amp_studio.transfer.links import enter_password, parse_endpoint
 
         enter_password(parse_endpoint(self.address), password)
         self.read()
 
     def _driver(self, exchange: Exchange) -> ControlDriver:
-        from amp_studio.transfer.client.drivers import open_driver_at
-        from amp_studio.transfer.links.passwords import ask_with
+        from amp_studio.transfer.client import open_driver_at
+        from amp_studio.transfer.links import ask_with
 
         def nobody(_: str) -> str:
             self.wants_password = True  # the page has a field for it
@@ -108,10 +103,8 @@ class ControlSession(QObject):
         return open_driver_at(self.address, self.family, exchange)
 
     def _look(self, exchange: Exchange) -> ReadControl:
-        from amp_studio.transfer.client.exchange import look_at
-        from amp_studio.transfer.content import decode_content
-        from amp_studio.transfer.driver import TakesLiveValues
-        from amp_studio.transfer.image import ImageError
+        from amp_studio.transfer import ImageError, TakesLiveValues, decode_content
+        from amp_studio.transfer.client import look_at
 
         with closing(self._driver(exchange)) as driver:
             control, content, _ = look_at(driver, exchange)
@@ -148,7 +141,7 @@ class ControlSession(QObject):
 
     def comparison(self, file: ParameterFile) -> ImageComparison | None:
         """Return the file compared with what the control contains; None before it was read."""
-        from amp_studio.transfer.client.verification import verify_content
+        from amp_studio.transfer.client import verify_content
 
         return verify_content(file, self.seen.content) if self.seen is not None else None
 
@@ -160,12 +153,10 @@ class ControlSession(QObject):
         assert seen is not None
 
         def work(exchange: Exchange) -> Outcome:
-            from amp_studio.transfer.client import parameters
+            from amp_studio.transfer.client import download_file, sha256
 
-            expected = parameters.sha256(seen.content)
-            return parameters.download_file(
-                file, self.address, exchange, expected=expected, known=seen.content
-            )
+            expected = sha256(seen.content)
+            return download_file(file, self.address, exchange, expected=expected, known=seen.content)
 
         self._write("download", work, path)
 
@@ -175,11 +166,9 @@ class ControlSession(QObject):
         assert seen is not None
 
         def work(exchange: Exchange) -> Outcome:
-            from amp_studio.transfer.client import parameters
+            from amp_studio.transfer.client import restore_copy, sha256
 
-            return parameters.restore_copy(
-                copy, self.address, exchange, expected=parameters.sha256(seen.content)
-            )
+            return restore_copy(copy, self.address, exchange, expected=sha256(seen.content))
 
         self._write("restore", work, path)
 
@@ -187,7 +176,7 @@ class ControlSession(QObject):
         """Write one value of a file into the control now; it is read back and recorded."""
 
         def work(exchange: Exchange) -> Outcome:
-            from amp_studio.transfer.client.live import LiveTuning
+            from amp_studio.transfer.client import LiveTuning
 
             with closing(LiveTuning(self._driver(exchange), path, address=self.address, record=path)) as live:
                 live.look(exchange)
@@ -210,7 +199,7 @@ class ControlSession(QObject):
             then()
 
         def failed(error: Exception) -> None:
-            from amp_studio.transfer.errors import TransferError
+            from amp_studio.transfer import TransferError
 
             self.failure = error if isinstance(error, TransferError) else None
             self.error, self.phase = str(error), "failed"
@@ -234,7 +223,7 @@ class ControlSession(QObject):
         self.phase = phase
 
         def run(progress: TaskProgress, cancel: threading.Event) -> Any:
-            from amp_studio.transfer.exchange import Exchange
+            from amp_studio.transfer import Exchange
 
             return work(Exchange(progress, cancel, keep=path, record=path, notify=self.notes.append))
 

@@ -118,7 +118,7 @@ class SheetDialog(QDialog):
         self._fill()
 
     def _fill(self) -> None:
-        from amp_studio.report.sheet import PrintedSheet
+        from amp_studio.report import PrintedSheet
 
         self.update_button.setEnabled(False)
         self.list.blockSignals(True)
@@ -238,7 +238,7 @@ class SheetDialog(QDialog):
 
     def save(self) -> None:
         """Ask for a name and write the sheet; the ending sets the format."""
-        from amp_studio.report.sheet import PrintedSheet, write_sheet
+        from amp_studio.report import PrintedSheet, write_sheet
 
         near = self._workspace.path.with_name(f"{self._workspace.path.stem}-sheet.pdf")
         text, _ = QFileDialog.getSaveFileName(self, self.sheet.title, str(near), _FILTERS)

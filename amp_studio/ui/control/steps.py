@@ -12,7 +12,7 @@ from amp_studio.ui.base.theme import GAP, GAP2, GAP3, SMALL_ICON, font, severity
 from amp_studio.ui.base.translated import tr
 
 if TYPE_CHECKING:
-    from amp_studio.report.model import Danger
+    from amp_studio.report import Danger
 
     from .session import ControlSession
 

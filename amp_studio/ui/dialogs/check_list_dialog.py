@@ -18,7 +18,7 @@ from amp_studio.ui.window.studio_window import StudioWindow
 
 def write_check_list_of(window: StudioWindow, workspace: Workspace) -> None:
     """Ask for a file and write the check list into it, then open it; nothing where the dialog is cancelled."""
-    from amp_studio.report.check_list import build_check_list, write_check_list
+    from amp_studio.report import build_check_list, write_check_list
 
     endings = tr("PDF (*.pdf);;Web page (*.html);;Text (*.txt)")
     start = workspace.path.with_name(f"{workspace.path.stem}-check-list.pdf")

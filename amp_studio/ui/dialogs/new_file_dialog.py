@@ -21,15 +21,16 @@ from amp_studio.files import (
     ParameterFile,
     Project,
     axis_letter,
+    examples,
     fitted_axes,
     letters_offered,
     new_file,
+    new_like,
+    of_one_machine,
     open_file,
     parameters_of_axes,
     why_axes_are_fixed,
 )
-from amp_studio.files.creation import new_like, of_one_machine
-from amp_studio.files.examples import examples
 from amp_studio.schema import Schema, family_ids, load_schema
 from amp_studio.ui.base.theme import severity_ink
 

@@ -6,7 +6,7 @@ from PySide6.QtCore import Qt
 from PySide6.QtGui import QKeyEvent
 from PySide6.QtWidgets import QComboBox, QDialog, QDialogButtonBox, QFormLayout, QPlainTextEdit, QWidget
 
-from amp_studio.files.notes import (
+from amp_studio.files import (
     group_note,
     machine_note,
     set_group_note,

@@ -15,8 +15,7 @@ from PySide6.QtWidgets import (
 )
 
 from amp_studio.report import cells_of
-from amp_studio.schema import Address
-from amp_studio.schema.model import Table
+from amp_studio.schema import Address, Table
 from amp_studio.ui.base.theme import scheme
 from amp_studio.ui.base.workspace import Workspace
 from amp_studio.ui.forms.pages import LINK, drawn, link

@@ -20,8 +20,7 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
-from amp_studio.report import FindingGroup, finding_groups, fix_lines, why_parts
-from amp_studio.report.wording import severity_name
+from amp_studio.report import FindingGroup, finding_groups, fix_lines, severity_name, why_parts
 from amp_studio.schema import Address, written
 from amp_studio.ui.base.theme import severity_html, severity_icon
 from amp_studio.ui.base.translated import worded

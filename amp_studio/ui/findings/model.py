@@ -7,8 +7,7 @@ from typing import Any
 
 from PySide6.QtCore import QAbstractItemModel, QModelIndex, QPersistentModelIndex, Qt
 
-from amp_studio.report import FindingGroup, finding_axes, finding_groups, fix_text
-from amp_studio.report.wording import severity_name
+from amp_studio.report import FindingGroup, finding_axes, finding_groups, fix_text, severity_name
 from amp_studio.ui.base.translated import worded
 from amp_studio.ui.base.workspace import Workspace
 from amp_studio.validate import Finding

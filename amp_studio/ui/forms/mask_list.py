@@ -6,8 +6,7 @@ from PySide6.QtCore import QPoint, QRect, QSize, Qt, Signal
 from PySide6.QtGui import QColor, QFontMetrics
 from PySide6.QtWidgets import QFrame, QHBoxLayout, QLabel, QListWidget, QListWidgetItem, QVBoxLayout, QWidget
 
-from amp_studio.schema import Parameter, field_value
-from amp_studio.schema.model import Bit
+from amp_studio.schema import Bit, Parameter, field_value
 from amp_studio.ui.base.theme import GAP, GAP2, ROW, colour, font, scheme
 
 _MOST_ROWS = 12

@@ -4,8 +4,7 @@ from __future__ import annotations
 
 from PySide6.QtWidgets import QInputDialog, QLineEdit, QMessageBox, QWidget
 
-from amp_studio.files import ParameterFile
-from amp_studio.files.out_of_range import RangeDecision
+from amp_studio.files import ParameterFile, RangeDecision
 from amp_studio.schema import Address, write_value
 from amp_studio.ui.base.questions import ask, show_message
 from amp_studio.ui.base.translated import Translated

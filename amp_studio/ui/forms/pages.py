@@ -5,8 +5,7 @@ from __future__ import annotations
 import html
 
 from amp_studio.report import cells_of
-from amp_studio.schema import Schema
-from amp_studio.schema.model import Table
+from amp_studio.schema import Schema, Table
 from amp_studio.ui.base.translated import worded
 
 LINK = "param:"

@@ -15,8 +15,7 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
-from amp_studio.files import AxisDifference, axis_letter, axis_title, compare_axes, fitted_axes
-from amp_studio.files.axis_values import bits_of_axes
+from amp_studio.files import AxisDifference, axis_letter, axis_title, bits_of_axes, compare_axes, fitted_axes
 from amp_studio.schema import Address, Value
 from amp_studio.ui.base.figures import show_value
 from amp_studio.ui.base.theme import ROW

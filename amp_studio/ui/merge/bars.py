@@ -19,7 +19,7 @@ from PySide6.QtWidgets import (
     QToolButton,
 )
 
-from amp_studio.report.wording import severity_name
+from amp_studio.report import severity_name
 from amp_studio.ui.base.theme import ICON, MESSAGE, STATUS, TOOLS, font, icon, severity_icon
 from amp_studio.ui.base.translated import worded
 from amp_studio.validate import Finding

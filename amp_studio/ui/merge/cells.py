@@ -5,11 +5,8 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import NamedTuple
 
-from amp_studio.files import Merge, Row
-from amp_studio.files.diff import in_one_unit
-from amp_studio.schema import MASKED, Parameter, Value, shown
-from amp_studio.schema.bit_fields import labels_of_word
-from amp_studio.schema.visible import visible
+from amp_studio.files import Merge, Row, in_one_unit
+from amp_studio.schema import MASKED, Parameter, Value, labels_of_word, shown, visible
 from amp_studio.ui.base.figures import show_value
 from amp_studio.ui.base.translated import tr
 from amp_studio.ui.table.cell_look import grouped

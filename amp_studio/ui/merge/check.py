@@ -6,12 +6,10 @@ import threading
 
 from PySide6.QtCore import QObject, QTimer, Signal
 
-from amp_studio.files import Merge, Row
-from amp_studio.files.merging import Choice
+from amp_studio.files import Choice, Merge, Row
 from amp_studio.ui.base.task import Task, TaskProgress
 from amp_studio.ui.base.workspace import Workspace
-from amp_studio.validate import Finding, Validator
-from amp_studio.validate.result_check import ResultCheck
+from amp_studio.validate import Finding, ResultCheck, Validator
 
 _PAINTED_MS = 50
 """Milliseconds until new rows are painted; a check that runs beside that would hold it up."""

@@ -15,13 +15,13 @@ from amp_studio.files import (
     Document,
     backup_path,
     check_output,
+    file_content,
     is_there,
     open_file,
+    readable_content,
     text_of_name,
     write_atomic,
 )
-from amp_studio.files.reading import file_content
-from amp_studio.files.storage import readable_content
 from amp_studio.ui.base.task import in_background
 from amp_studio.ui.window.studio_window import StudioWindow
 

@@ -20,8 +20,7 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
-from amp_studio.files import Row, Typed
-from amp_studio.files.merging import Choice, Side
+from amp_studio.files import Choice, Row, Side, Typed
 from amp_studio.ui.base.theme import Token, colour, font, icon, scheme
 from amp_studio.ui.motion.tuning_target import effect_words
 from amp_studio.validate import SEVERITIES, Finding

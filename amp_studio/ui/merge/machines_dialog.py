@@ -26,15 +26,14 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
-from amp_studio.files import ParameterFile, check_output, open_file, same_file
-from amp_studio.files.axis_match import matched_by_letter
-from amp_studio.report.differences import (
+from amp_studio.files import ParameterFile, check_output, matched_by_letter, open_file, same_file
+from amp_studio.report import (
     MachineLine,
     machine_lines,
     machine_names,
     machines_paper,
+    write_paper,
 )
-from amp_studio.report.paper import write_paper
 from amp_studio.schema import Address
 from amp_studio.ui.base.task import in_background
 from amp_studio.ui.base.theme import GAP2, GAP3, ROW

@@ -14,7 +14,7 @@ from PySide6.QtCore import (
     Qt,
 )
 
-from amp_studio.report.differences import MachineLine
+from amp_studio.report import MachineLine
 from amp_studio.ui.base.theme import colour, font
 
 Index = QModelIndex | QPersistentModelIndex

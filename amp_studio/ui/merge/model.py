@@ -8,9 +8,20 @@ from typing import Any
 
 from PySide6.QtCore import QAbstractItemModel, QModelIndex, QPersistentModelIndex, Qt, Signal
 
-from amp_studio.files import Merge, Row, RowGroup, Typed
-from amp_studio.files.axis_match import axis_letters
-from amp_studio.files.merging import ENTRIES, FACTS, HEADER_TEXTS, NOTES, Choice, RowId, Side
+from amp_studio.files import (
+    ENTRIES,
+    FACTS,
+    HEADER_TEXTS,
+    NOTES,
+    Choice,
+    Merge,
+    Row,
+    RowGroup,
+    RowId,
+    Side,
+    Typed,
+    axis_letters,
+)
 from amp_studio.schema import (
     Value,
     fault,
@@ -18,9 +29,9 @@ from amp_studio.schema import (
     read_real,
     read_value,
     same_value,
+    visible,
+    whole_of,
 )
-from amp_studio.schema.address import whole_of
-from amp_studio.schema.visible import visible
 from amp_studio.ui.table.cell_look import THIN
 
 from .cells import Cell, cells_of

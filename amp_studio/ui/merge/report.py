@@ -7,8 +7,7 @@ from pathlib import Path
 
 from PySide6.QtWidgets import QFileDialog, QWidget
 
-from amp_studio.files import Merge, check_output
-from amp_studio.files.merging import Side
+from amp_studio.files import Merge, Side, check_output
 from amp_studio.ui.base.modal import is_alive
 from amp_studio.ui.base.task import in_background
 from amp_studio.ui.base.translated import tr
@@ -49,7 +48,6 @@ def save_merge_report(
 
 
 def _write(merge: Merge, names: Mapping[Side, str], path: Path) -> None:
-    from amp_studio.report.merge_paper import merge_paper
-    from amp_studio.report.paper import write_paper
+    from amp_studio.report import merge_paper, write_paper
 
     write_paper(merge_paper(merge, names), path)

@@ -11,12 +11,21 @@ from pathlib import Path
 
 from PySide6.QtCore import QObject
 
-from amp_studio.files import HistoryEntry, ParameterFile, backup_path, open_file, real_path
-from amp_studio.files.axis_match import as_axis, axis_letters, matched_by_letter
-from amp_studio.files.by_schema import by_schema
-from amp_studio.files.local_time import day_and_time
-from amp_studio.files.parameter_file import Marks
-from amp_studio.files.versions import before_saves, with_defaults
+from amp_studio.files import (
+    HistoryEntry,
+    Marks,
+    ParameterFile,
+    as_axis,
+    axis_letters,
+    backup_path,
+    before_saves,
+    by_schema,
+    day_and_time,
+    matched_by_letter,
+    open_file,
+    real_path,
+    with_defaults,
+)
 from amp_studio.ui.base.task import TaskProgress
 from amp_studio.ui.base.workspace import Workspace
 
@@ -156,15 +165,14 @@ class MergeSources(QObject):
 
     def last_download(self, file: ParameterFile) -> MergeSource:
         """Return what the last download put into a control; raises NoDownloadError."""
-        from amp_studio.transfer.client.last_download import last_download
+        from amp_studio.transfer.client import last_download
 
         found = last_download(file, self._workspace.path)
         return MergeSource(self.tr("Last download"), day_and_time(found.when), found.file)
 
     def kept_copy(self, file: ParameterFile, path: Path) -> MergeSource:
         """Return a copy of what a control contained; raises CopyError, ParameterFileError, ValueError."""
-        from amp_studio.transfer.client.kept import CopyError, open_copy
-        from amp_studio.transfer.client.verification import completed
+        from amp_studio.transfer.client import CopyError, completed, open_copy
 
         copy = open_copy(path)
         if copy.file is None:
@@ -174,8 +182,8 @@ class MergeSources(QObject):
 
     def of_content(self, file: ParameterFile, image: bytes, address: str) -> MergeSource:
         """Return what a control contains; raises ImageError, ValueError."""
-        from amp_studio.transfer.client.verification import completed
-        from amp_studio.transfer.content import decode_content
+        from amp_studio.transfer import decode_content
+        from amp_studio.transfer.client import completed
 
         content = self._fitting(decode_content(image), address)
         note = self.tr("read from the control at {time}").format(
@@ -188,8 +196,8 @@ class MergeSources(QObject):
         file = self._file.copy()
 
         def read(progress: TaskProgress, cancel: threading.Event) -> MergeSource:
-            from amp_studio.transfer.client.parameters import fetch_image
-            from amp_studio.transfer.exchange import Exchange
+            from amp_studio.transfer import Exchange
+            from amp_studio.transfer.client import fetch_image
 
             image = fetch_image(address, Exchange(progress, cancel), family=file.schema.family.family)
             return self.of_content(file, image, address)

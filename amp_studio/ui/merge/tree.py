@@ -9,9 +9,7 @@ from PySide6.QtCore import QItemSelectionModel, QModelIndex, QPersistentModelInd
 from PySide6.QtGui import QAction, QGuiApplication, QKeySequence, QResizeEvent
 from PySide6.QtWidgets import QAbstractItemView, QTreeView
 
-from amp_studio.files import Row
-from amp_studio.files.merging import Side
-from amp_studio.files.spreadsheet import text_cell
+from amp_studio.files import Row, Side, text_cell
 
 from .delegate import MergeDelegate
 from .header import MergeHeader

@@ -10,8 +10,7 @@ from PySide6.QtCore import Qt, QTimer, Signal
 from PySide6.QtGui import QKeySequence, QShortcut
 from PySide6.QtWidgets import QDialog, QListWidgetItem, QTreeView, QVBoxLayout, QWidget
 
-from amp_studio.files import Merge, ParameterFile, Row
-from amp_studio.files.merging import Choice, Side
+from amp_studio.files import Choice, Merge, ParameterFile, Row, Side
 from amp_studio.schema import Address, same_value
 from amp_studio.ui.base.task import PATIENCE_MS, Task
 from amp_studio.ui.base.workspace import Workspace

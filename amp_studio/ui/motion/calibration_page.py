@@ -30,13 +30,16 @@ from amp_studio.calibration import (
     Compensation,
     axes_of,
     compensation_of,
+    deleted,
+    inserted,
+    left_over,
     present_table,
+    rechosen,
+    replaced,
     shown_unit,
 )
-from amp_studio.calibration.edit import deleted, inserted, left_over, rechosen, replaced
 from amp_studio.files import ParameterFile
-from amp_studio.schema import Address, Value, shown
-from amp_studio.schema.values import read_exact
+from amp_studio.schema import Address, Value, read_exact, shown
 from amp_studio.ui.base.theme import GAP2, ROW, colour, font
 from amp_studio.ui.base.translated import worded
 

@@ -18,10 +18,7 @@ from PySide6.QtWidgets import (
 )
 
 from amp_studio.files import ParameterFile, SaveError
-from amp_studio.sim import SimulationError, Trace, identify, write_machine
-from amp_studio.sim.identification import figure_text
-from amp_studio.sim.picture import picture_of
-from amp_studio.sim.rounding import shown
+from amp_studio.sim import SimulationError, Trace, figure_text, identify, picture_of, shown, write_machine
 from amp_studio.ui.base.task import in_background
 from amp_studio.ui.base.theme import GAP2, GAP3
 from amp_studio.ui.base.translated import worded

@@ -11,10 +11,7 @@ import pyqtgraph as pg
 from PySide6.QtCore import Qt, QTimer, Signal
 from PySide6.QtGui import QColor, QFont, QKeyEvent
 
-from amp_studio.sim.picture import Curve, Panel, Picture, Ring, unheld
-from amp_studio.sim.rounding import shown
-from amp_studio.sim.series import Series
-from amp_studio.sim.ticks import ring_levels
+from amp_studio.sim import Curve, Panel, Picture, Ring, Series, ring_levels, shown, unheld
 from amp_studio.ui.base.plot_axis import plot_axes
 from amp_studio.ui.base.theme import Token, colour, scheme
 from amp_studio.ui.base.translated import worded

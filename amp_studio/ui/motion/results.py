@@ -20,7 +20,7 @@ from PySide6.QtWidgets import (
 
 from amp_studio.schema import Schema, shown
 from amp_studio.sim import Recommendation, Trace
-from amp_studio.sim.rounding import shown as shown_number
+from amp_studio.sim import shown as shown_number
 from amp_studio.ui.base.theme import severity_ink, state_colour
 from amp_studio.ui.base.translated import worded
 from amp_studio.ui.forms.pages import LINK

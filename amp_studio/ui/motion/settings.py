@@ -7,8 +7,7 @@ from collections.abc import Callable, Iterable, Mapping, Sequence
 from PySide6.QtCore import Qt
 from PySide6.QtWidgets import QComboBox, QFormLayout, QLineEdit, QScrollArea, QWidget
 
-from amp_studio.schema import dimension, shown, unit_named
-from amp_studio.schema.values import read_number
+from amp_studio.schema import dimension, read_number, shown, unit_named
 from amp_studio.ui.base.translated import worded
 
 MODE = "move.mode"

@@ -9,8 +9,7 @@ from PySide6.QtWidgets import QComboBox, QHBoxLayout, QLabel, QPushButton, QVBox
 
 from amp_studio.files import ParameterFile
 from amp_studio.schema import axis_name
-from amp_studio.sim import SimulationError, Trace, simulate, simulated_axes
-from amp_studio.sim.picture import picture_of
+from amp_studio.sim import SimulationError, Trace, picture_of, simulate, simulated_axes
 from amp_studio.ui.base.task import Task
 
 from .plot import MotionPlot

@@ -7,16 +7,15 @@ from typing import TYPE_CHECKING, Any
 
 from PySide6.QtCore import QObject, Signal
 
-from amp_studio.calibration.steps import with_followers
+from amp_studio.calibration import with_followers
 from amp_studio.files import ParameterFile
 from amp_studio.schema import Address, Schema, Value
 from amp_studio.ui.base.translated import tr
 from amp_studio.ui.base.workspace import Workspace
 
 if TYPE_CHECKING:
-    from amp_studio.transfer.client.exchange import Outcome
-    from amp_studio.transfer.client.live import LiveTuning
-    from amp_studio.transfer.exchange import Exchange
+    from amp_studio.transfer import Exchange
+    from amp_studio.transfer.client import LiveTuning, Outcome
 
 ControlWork = Callable[["Exchange"], Any]
 RunExchange = Callable[[str, ControlWork], Any]

@@ -21,11 +21,9 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
-from amp_studio.calibration import CalibrationError, TuningPage
-from amp_studio.calibration.steps import stepped, steps_of
+from amp_studio.calibration import CalibrationError, TuningPage, stepped, steps_of
 from amp_studio.files import ParameterFile
-from amp_studio.schema import Address, Value, axis_name, limits, shown, write_number
-from amp_studio.schema.values import read_exact
+from amp_studio.schema import Address, Value, axis_name, limits, read_exact, shown, write_number
 from amp_studio.ui.base.figures import show_value
 from amp_studio.ui.base.theme import GAP2, ROW, colour
 from amp_studio.ui.base.translated import worded

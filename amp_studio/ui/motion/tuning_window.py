@@ -23,7 +23,7 @@ from PySide6.QtWidgets import (
 
 from amp_studio.calibration import compensation_of
 from amp_studio.files import RangeError
-from amp_studio.schema.registration import registration_of
+from amp_studio.schema import registration_of
 from amp_studio.ui.base.loading import load
 from amp_studio.ui.base.modal import run_dialog
 from amp_studio.ui.base.questions import ask
@@ -38,7 +38,7 @@ from .tuning_target import ControlTarget, ControlWork, FileTarget, TuningTarget
 from .tuning_values import ValuesPage, undo_actions
 
 if TYPE_CHECKING:
-    from amp_studio.transfer.client.live import LiveTuning
+    from amp_studio.transfer.client import LiveTuning
 
     from .calibration_page import CalibrationPage
     from .step_answer import StepAnswer

@@ -30,15 +30,16 @@ from amp_studio.schema import Address, Value, angular
 from amp_studio.sim import (
     Recommendation,
     SimulationError,
+    SimulationListing,
     Trace,
     address_of,
     law_of,
     listing,
+    picture_of,
+    settling_span,
     simulate,
     write_trace,
 )
-from amp_studio.sim.listings import SimulationListing
-from amp_studio.sim.picture import picture_of, settling_span
 from amp_studio.ui.base.task import Task, TaskProgress
 from amp_studio.ui.base.theme import severity_ink
 from amp_studio.ui.base.translated import worded

@@ -10,7 +10,7 @@ from pathlib import Path
 from PySide6.QtCore import QObject, Signal
 
 from amp_studio.ui.base.task import Task, TaskProgress
-from amp_studio.validate.summary import FileSummary, summary_of
+from amp_studio.validate import FileSummary, summary_of
 
 
 class FileSummaries(QObject):

@@ -18,11 +18,9 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
-from amp_studio.files import axis_letter
-from amp_studio.files.local_time import with_local_times
+from amp_studio.files import axis_letter, with_local_times
 from amp_studio.guide import GuideProgress, SetupStep, StepProgress, StepState
-from amp_studio.schema import Address, Parameter
-from amp_studio.schema.model import Guide
+from amp_studio.schema import Address, Guide, Parameter
 from amp_studio.ui.base.theme import FIGURE_SPACE, GAP, GAP2, GAP3, SMALL_CONTROL, Token, colour, font, icon
 from amp_studio.ui.base.translated import counted, worded
 from amp_studio.ui.base.workspace import Workspace

@@ -15,8 +15,7 @@ from PySide6.QtGui import QDesktopServices, QKeyEvent
 from PySide6.QtWidgets import QProgressBar, QVBoxLayout, QWidget
 
 from amp_studio.files import describe, real_path
-from amp_studio.report import Contents
-from amp_studio.report.templating import OWN
+from amp_studio.report import OWN, Contents
 from amp_studio.schema import Address
 from amp_studio.ui.base.loading import load
 from amp_studio.ui.base.task import Task, TaskProgress

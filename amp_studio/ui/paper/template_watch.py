@@ -9,7 +9,7 @@ from pathlib import Path
 
 from PySide6.QtCore import QFileSystemWatcher, QObject, QTimer, Signal
 
-from amp_studio.report.templating import OWN
+from amp_studio.report import OWN
 
 SETTLE_MS = 150
 """Milliseconds to wait, as an editor may write a file in several steps."""

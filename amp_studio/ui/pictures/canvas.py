@@ -9,8 +9,7 @@ from PySide6.QtGui import QHideEvent, QKeyEvent, QMouseEvent, QPainter, QPaintEv
 from PySide6.QtWidgets import QSizePolicy, QToolTip, QWidget
 
 from amp_studio.files import RangeError
-from amp_studio.pictures import Handle, Scene, dragged, stepped
-from amp_studio.pictures.frame import Placement
+from amp_studio.pictures import Handle, Placement, Scene, dragged, stepped
 from amp_studio.schema import Address, Value
 from amp_studio.ui.base.theme import colour
 from amp_studio.ui.base.workspace import Workspace

@@ -8,10 +8,19 @@ from typing import NamedTuple
 from PySide6.QtCore import QPointF, QRectF, QSizeF, Qt
 from PySide6.QtGui import QBrush, QColor, QFont, QFontMetricsF, QPainter, QPen, QPolygonF
 
-from amp_studio.pictures import Dot, FilledArea, Handle, Polyline, Scene, ShapeSort
-from amp_studio.pictures.frame import Placement
-from amp_studio.pictures.labels import Label, Labels, labels_of
-from amp_studio.pictures.svg import ARROWS
+from amp_studio.pictures import (
+    ARROWS,
+    Dot,
+    FilledArea,
+    Handle,
+    Label,
+    Labels,
+    Placement,
+    Polyline,
+    Scene,
+    ShapeSort,
+    labels_of,
+)
 from amp_studio.schema import Address
 from amp_studio.ui.base.theme import GAP, GAP2, RADIUS, Token, colour, font, severity_ink
 

@@ -12,15 +12,15 @@ from PySide6.QtWidgets import QFileDialog
 
 from amp_studio.files import (
     ENDING,
+    EditLock,
     ParameterFileError,
     Project,
+    file_content,
     is_there,
     read_content,
     same_file,
     write_atomic,
 )
-from amp_studio.files.lock import EditLock
-from amp_studio.files.reading import file_content
 from amp_studio.schema import UnknownFamilyError, load_schema
 from amp_studio.ui.base.questions import ask
 from amp_studio.ui.base.task import PATIENCE_MS, ProgressDialog, in_background

@@ -19,12 +19,12 @@ from amp_studio.ui.base.time_words import in_words
 from amp_studio.ui.forms.folder_view import show_in_folder
 from amp_studio.ui.forms.place_tree import COUNTS, INK, KEY, PICTURE, RIGHT, PlaceTree
 from amp_studio.ui.page.file_page import FilePage
-from amp_studio.validate.summary import FileSummary
+from amp_studio.validate import FileSummary
 
 from .files import ProjectFiles
 
 if TYPE_CHECKING:
-    from amp_studio.transfer.client.folder_content import FolderContent, FolderFile
+    from amp_studio.transfer.client import FolderContent, FolderFile
 
 _SETTLE_MS = 300
 """Milliseconds to wait, as a program may write several files."""
@@ -311,7 +311,7 @@ class ProjectTree(QWidget):
 
 
 def _content_of(folder: Path, *_: object) -> FolderContent:
-    from amp_studio.transfer.client.folder_content import folder_content  # a start does without
+    from amp_studio.transfer.client import folder_content  # a start does without
 
     return folder_content(folder)
 

@@ -15,7 +15,7 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
-from amp_studio.files.block_entry import BlockEntry, EnteredCell
+from amp_studio.files import BlockEntry, EnteredCell
 from amp_studio.ui.base.figures import show_value
 from amp_studio.ui.base.theme import GAP2, GAP3, colour, font, icon, severity_icon
 from amp_studio.ui.base.workspace import Workspace

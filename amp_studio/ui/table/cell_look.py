@@ -10,12 +10,9 @@ from dataclasses import dataclass
 from functools import lru_cache
 from typing import Literal
 
-from amp_studio.files import unlike_axes
-from amp_studio.files.local_time import with_days_and_times
-from amp_studio.files.notes import value_note
-from amp_studio.report.wording import state_name
-from amp_studio.schema import Address, UnitError, Value, convert, shown, write_value
-from amp_studio.schema.bit_fields import labels_of_word
+from amp_studio.files import unlike_axes, value_note, with_days_and_times
+from amp_studio.report import state_name
+from amp_studio.schema import Address, UnitError, Value, convert, labels_of_word, shown, write_value
 from amp_studio.ui.base.figures import show_value
 from amp_studio.ui.base.translated import Translated, tr, worded
 from amp_studio.ui.base.workspace import Workspace

@@ -5,14 +5,16 @@ from __future__ import annotations
 import html
 from collections.abc import Callable, Iterable, Iterator
 
-from amp_studio.files import axis_letter
-from amp_studio.files.local_time import day_and_time, with_days_and_times
-from amp_studio.files.notes import group_note, value_note
-from amp_studio.files.storage_text import storage_text
-from amp_studio.report import GRADES, facts, help_parts, tables_of
-from amp_studio.report.wording import severity_name, state_name
-from amp_studio.schema import Address, Value, limits, real_value, same_value, shown
-from amp_studio.schema.bit_fields import labels_of_word
+from amp_studio.files import (
+    axis_letter,
+    day_and_time,
+    group_note,
+    storage_text,
+    value_note,
+    with_days_and_times,
+)
+from amp_studio.report import GRADES, facts, help_parts, severity_name, state_name, tables_of
+from amp_studio.schema import Address, Value, labels_of_word, limits, real_value, same_value, shown
 from amp_studio.ui.base.figures import show_value
 from amp_studio.ui.base.hazard import hazard_html
 from amp_studio.ui.base.theme import colour, icon_html, severity_html

@@ -238,8 +238,8 @@ class DetailPanel(QWidget):
         self._workspace.edit(self.tr("Use the calculated value"), wanted)
 
     def _read_download(self, address: Address) -> None:
-        from amp_studio.files.local_time import day_and_time
-        from amp_studio.transfer.client.last_download import NoDownloadError, last_download
+        from amp_studio.files import day_and_time
+        from amp_studio.transfer.client import NoDownloadError, last_download
 
         file, path = self._workspace.file.copy(), self._workspace.path
 

@@ -14,8 +14,7 @@ from typing import Any
 from PySide6.QtCore import QAbstractTableModel, QModelIndex, QPersistentModelIndex, Qt, Signal
 
 from amp_studio.files import axis_head, shown_axes
-from amp_studio.schema import Address, Parameter
-from amp_studio.schema.address import whole_of
+from amp_studio.schema import Address, Parameter, whole_of
 from amp_studio.ui.base.translated import worded
 from amp_studio.ui.base.workspace import Workspace
 

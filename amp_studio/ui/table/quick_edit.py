@@ -8,7 +8,7 @@ from PySide6.QtCore import Qt
 from PySide6.QtGui import QKeyEvent
 from PySide6.QtWidgets import QDialog, QFormLayout, QLabel, QLineEdit, QWidget
 
-from amp_studio.report.wording import state_name
+from amp_studio.report import state_name
 from amp_studio.schema import Address, UnknownParameterError, meant
 from amp_studio.ui.base.translated import worded
 from amp_studio.ui.forms.choice_box import ChoiceBox

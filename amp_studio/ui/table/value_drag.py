@@ -6,8 +6,7 @@ from collections.abc import Mapping
 
 from PySide6.QtCore import QObject, QTimer
 
-from amp_studio.files import RangeError
-from amp_studio.files.parameter_file import Marks
+from amp_studio.files import Marks, RangeError
 from amp_studio.schema import Address, Value
 from amp_studio.ui.base.workspace import Workspace
 

@@ -21,8 +21,7 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
-from amp_studio.schema import Address, field_value
-from amp_studio.schema.model import Bit
+from amp_studio.schema import Address, Bit, field_value
 from amp_studio.ui.base.theme import GAP3, ROW
 from amp_studio.ui.base.workspace import Workspace
 

@@ -25,7 +25,7 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
-from amp_studio.files.examples import Example, examples
+from amp_studio.files import Example, examples
 from amp_studio.schema import family_ids, load_schema
 from amp_studio.ui.actions.control import ControlActions
 from amp_studio.ui.actions.file import FileActions

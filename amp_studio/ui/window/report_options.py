@@ -7,8 +7,16 @@ from collections.abc import Mapping
 from PySide6.QtCore import QObject, Signal
 from PySide6.QtWidgets import QCheckBox, QComboBox, QFormLayout, QLabel, QVBoxLayout, QWidget
 
-from amp_studio.report.contents import CHAPTERS, PAPER_SIZES, SORTS, UNIT_CHOICES, Chapter, Contents
-from amp_studio.report.language import language_codes, language_of
+from amp_studio.report import (
+    CHAPTERS,
+    PAPER_SIZES,
+    SORTS,
+    UNIT_CHOICES,
+    Chapter,
+    Contents,
+    language_codes,
+    language_of,
+)
 from amp_studio.ui.base.theme import GAP
 from amp_studio.ui.base.translated import language_in_use
 

@@ -11,7 +11,7 @@ from PySide6.QtCore import QByteArray, QRect, QSettings, QStandardPaths
 from PySide6.QtGui import QGuiApplication
 from PySide6.QtWidgets import QDockWidget, QMainWindow
 
-from amp_studio.schema.regular_file import read_file
+from amp_studio.schema import read_file
 from amp_studio.ui.base.known_controls import KnownControl, read_controls, stored_controls
 from amp_studio.ui.base.theme import ThemeChoice, as_choice
 from amp_studio.ui.pictures.split import PictureLayout

@@ -6,7 +6,7 @@ from PySide6.QtCore import QObject, QSize, Qt, Signal
 from PySide6.QtWidgets import QLabel, QStatusBar, QToolButton
 
 from amp_studio.files import fitted_axes
-from amp_studio.report.wording import severity_name
+from amp_studio.report import severity_name
 from amp_studio.ui.base.theme import GAP2, GAP3, SMALL_ICON, STATUS, font, icon, severity_icon
 from amp_studio.ui.base.translated import worded
 from amp_studio.ui.base.workspace import Workspace

@@ -10,6 +10,7 @@ from amp_studio.files import ParameterFile
 from amp_studio.schema import (
     Address,
     Parameter,
+    Remembered,
     Schema,
     Usual,
     Value,
@@ -19,7 +20,6 @@ from amp_studio.schema import (
     shown,
     write_figure,
 )
-from amp_studio.schema.expression import Remembered
 from amp_studio.validate.finding import Finding
 
 from .slip import significant_digits, slip_of_default

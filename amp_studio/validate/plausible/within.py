@@ -5,8 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from amp_studio.files import ParameterFile
-from amp_studio.schema import Address, canonical, dimension, show_value
-from amp_studio.schema.model.plausible import TravelSpan
+from amp_studio.schema import Address, TravelSpan, canonical, dimension, show_value
 from amp_studio.validate.finding import Finding
 
 OUTSIDE = "plausible.outside-travel"

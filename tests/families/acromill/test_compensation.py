@@ -13,8 +13,8 @@ from amp_studio.calibration import (
     compensation_of,
     present_table,
     propose,
-    read_measurement,
 )
+from amp_studio.calibration.reading import read_measurement
 from amp_studio.files import ParameterFile, new_file
 from amp_studio.schema import Value
 

@@ -8,7 +8,8 @@ from amp_studio.families.acromill import law_sample as loop
 from amp_studio.families.acromill.law import LAW
 from amp_studio.files import ParameterFile
 from amp_studio.schema import Value, load_schema
-from amp_studio.sim import SimulationError, bind_axis, simulate, simulated_axes
+from amp_studio.sim import SimulationError, simulate, simulated_axes
+from amp_studio.sim.run import bind_axis
 from amp_studio.sim.signals import (
     COMMAND,
     COMMAND_ACCELERATION,

@@ -13,7 +13,8 @@ from amp_studio.cli import run
 from amp_studio.families.grblhal.described import schema_of
 from amp_studio.families.grblhal.description import MOST_BYTES
 from amp_studio.families.grblhal.settings import compiled_in
-from amp_studio.files import Header, ParameterFile, ParameterFileError, open_file, save_file
+from amp_studio.files import Header, ParameterFile, ParameterFileError, open_file
+from amp_studio.files.storage import save_file
 from amp_studio.schema import Schema, Value, fault, load_schema
 from amp_studio.schema.described import DescriptionError
 from amp_studio.validate import Validator

@@ -8,8 +8,10 @@ from pathlib import Path
 import pytest
 
 from amp_studio.cli import run
-from amp_studio.files import AxisError, name_axes, new_file, open_file
-from amp_studio.files.storage_text import storage_text
+from amp_studio.files import new_file, open_file
+from amp_studio.files.axes import AxisError
+from amp_studio.files.axis_fitting import name_axes
+from amp_studio.files.stored_text import storage_text
 from amp_studio.schema import Value
 
 

@@ -13,8 +13,8 @@ from amp_studio.calibration import (
     compensation_of,
     lost_motion,
     propose,
-    read_measurement,
 )
+from amp_studio.calibration.reading import read_measurement
 from amp_studio.files import new_file
 
 UM = MeasurementAnswers("mm", "um", "measured-target")

@@ -11,7 +11,7 @@ from amp_studio.cli import run
 from amp_studio.families.num.formats.table import FORMAT
 from amp_studio.families.num.formats.words import WORD_TYPES, Spelling, words_of
 from amp_studio.files import ParameterFile, open_file
-from amp_studio.files.examples import examples_folder
+from amp_studio.files.example_files import examples_folder
 from amp_studio.formats import export_file, import_file
 from amp_studio.schema import Schema, Value, load_schema
 from amp_studio.validate import Validator

@@ -9,9 +9,10 @@ from amp_studio.families.servo57c422b.law import LAW
 from amp_studio.families.servo57c422b.law_plant import VISCOUS
 from amp_studio.files import ParameterFile
 from amp_studio.schema import Value, load_schema
-from amp_studio.sim import AxisLaw, SimulationError, bind_axis, simulate, simulated_axes
+from amp_studio.sim import AxisLaw, SimulationError, simulate, simulated_axes
 from amp_studio.sim.motion import Until, run_axis
 from amp_studio.sim.ramps import end_of, move
+from amp_studio.sim.run import bind_axis
 from amp_studio.sim.signals import (
     COMMAND,
     COMMAND_VELOCITY,

@@ -54,7 +54,7 @@ def test_ports_are_listed_with_their_usb_names(
     links = tmp_path / "by-id"
     links.mkdir()
     (links / "usb-FTDI_FT232R-if00").symlink_to("/dev/ttyUSB0")
-    monkeypatch.setattr("amp_studio.transfer.links.serial_ports.BY_ID", links)
+    monkeypatch.setattr("amp_studio.transfer.links.usb_ports.BY_ID", links)
     monkeypatch.setattr("serial.tools.list_ports.comports", lambda: [port, bare])
     assert run(["ports", "--json"]) == 0
     assert json.loads(capsys.readouterr().out)["ports"] == [

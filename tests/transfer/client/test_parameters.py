@@ -9,7 +9,7 @@ import pytest
 
 from amp_studio.cli import run
 from amp_studio.files import new_file, open_file
-from amp_studio.files.out_of_range import out_of_range
+from amp_studio.files.range_decisions import out_of_range
 from amp_studio.schema import Value
 from amp_studio.transfer.image import decode_image
 from tests.transfer.conftest import StartControl

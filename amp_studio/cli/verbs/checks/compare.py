@@ -28,17 +28,17 @@ VERB = Verb(
 def run(options: Options) -> int:
     """Print or write what differs between machines; 1 where anything does."""
     from amp_studio.cli.comparing import matched_by_letter_noted
-    from amp_studio.report.differences import (
+    from amp_studio.report import (
         SIDE_BY_SIDE,
         alike_of,
+        counted,
         groups_by_value,
         machine_groups,
         machine_names,
         machine_rows,
         machines_paper,
+        write_paper,
     )
-    from amp_studio.report.paper import write_paper
-    from amp_studio.report.wording import counted
     from amp_studio.schema import MASKED, show_value, write_value
 
     files = [opened(path, options) for path in options.paths]

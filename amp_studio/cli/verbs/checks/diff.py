@@ -52,8 +52,7 @@ VERB = Verb(
 def run(options: Options) -> int:
     """Compare two files, or a file and a control, or a file with another version of itself; 1 where they differ."""
     from amp_studio.cli.comparing import difference_json, matched_by_letter_noted, print_comparison
-    from amp_studio.files import Merge, compare
-    from amp_studio.files.by_schema import by_schema
+    from amp_studio.files import Merge, by_schema, compare
 
     _check_sides(options)
     a, a_digest = _side(options, options.a)
@@ -90,8 +89,7 @@ def _write_paper(
     digests: tuple[str | None, str | None],
     more: tuple[ParameterFile, list[Difference]],
 ) -> None:
-    from amp_studio.report.differences import differences_paper
-    from amp_studio.report.paper import write_paper
+    from amp_studio.report import differences_paper, write_paper
 
     facts = [
         (f"SHA-256 of {side}", digest)
@@ -109,7 +107,7 @@ def _write_paper(
 def _check_sides(options: Options) -> None:
     """Raise UsageError unless there is one other side that A can have."""
     from amp_studio.files import backup_path, is_there
-    from amp_studio.transfer.links.endpoint import is_endpoint
+    from amp_studio.transfer.links import is_endpoint
 
     named = [options.b, options.axes, options.defaults, options.backup, options.last_download]
     if sum(map(bool, named)) != 1:
@@ -129,14 +127,14 @@ def _other_side(options: Options, a: ParameterFile) -> tuple[ParameterFile, str 
     if options.b:
         return *_side(options, options.b), options.b
     if options.defaults:
-        from amp_studio.files.versions import with_defaults
+        from amp_studio.files import with_defaults
 
         return with_defaults(a), None, "its defaults"
     if options.axes:
         return _other_axis(a, *options.axes), None, "the other axis"
     if options.backup:
         return *_side(options, str(backup_path(Path(options.a)))), "its backup"
-    from amp_studio.transfer.client.last_download import last_download
+    from amp_studio.transfer.client import last_download
 
     last = last_download(a, Path(options.a))
     note(f"last download: {last.when} to {last.control}")
@@ -145,7 +143,7 @@ def _other_side(options: Options, a: ParameterFile) -> tuple[ParameterFile, str 
 
 def _other_axis(file: ParameterFile, target: str, source: str) -> ParameterFile:
     """Return a file in which the first axis has the values of the second; axes are named by number or letter."""
-    from amp_studio.files.axis_match import as_axis, axis_letters
+    from amp_studio.files import as_axis, axis_letters
 
     named = {letter.casefold(): axis for axis, letter in axis_letters(file).items()}
     target, source = (named.get(axis.casefold(), axis) for axis in (target, source))
@@ -187,13 +185,12 @@ def _of_other_schema(b: ParameterFile, by_a: ParameterFile) -> list[Difference]:
 
 def _side(options: Options, text: str) -> tuple[ParameterFile, str | None]:
     """Return a side of a comparison, with the digest of its image where it is a control's."""
-    from amp_studio.transfer.links.endpoint import is_endpoint
+    from amp_studio.transfer.links import is_endpoint
 
     if not is_endpoint(text):
         return opened(Path(text), options), None
-    from amp_studio.transfer.client.parameters import fetch_image, sha256
-    from amp_studio.transfer.content import decode_content
-    from amp_studio.transfer.exchange import Exchange
+    from amp_studio.transfer import Exchange, decode_content
+    from amp_studio.transfer.client import fetch_image, sha256
 
     image = fetch_image(text, Exchange(progress()))
     return decode_content(image), sha256(image)

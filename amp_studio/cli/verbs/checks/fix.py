@@ -66,8 +66,7 @@ def run(options: Options) -> int:
 
 def _wanted(validator: Validator, options: Options) -> Callable[[Finding], bool]:
     """Return the function that decides whether the fix of a finding is requested; raises UsageError for an unknown rule or parameter."""
-    from amp_studio.schema import addresses_meant
-    from amp_studio.schema.nearest import unknown_name
+    from amp_studio.schema import addresses_meant, unknown_name
     from amp_studio.validate import GENERAL_RULES
 
     rules = {*GENERAL_RULES, *(rule.id for rule in (*validator.file.schema.rules, *validator.own.rules))}

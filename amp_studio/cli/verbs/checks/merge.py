@@ -13,8 +13,7 @@ from amp_studio.cli.output import check_new
 from amp_studio.cli.verb import Options, Verb, VerbArgument
 
 if TYPE_CHECKING:
-    from amp_studio.files import Merge, ParameterFile, Row
-    from amp_studio.files.merging import Choice, Side
+    from amp_studio.files import Choice, Merge, ParameterFile, Row, Side
     from amp_studio.validate import Finding
 
 VERB = Verb(
@@ -54,7 +53,7 @@ _NAMES = {side: name for name, side in SIDES.items()}
 def run(options: Options) -> int:
     """Merge three files by parameter; 1 where there are conflicts that nobody has settled."""
     from amp_studio.files import Merge
-    from amp_studio.report.finding_lines import finding_text
+    from amp_studio.report import finding_text
 
     _check_paths(options)
     merge = Merge(*_sources(options))
@@ -84,11 +83,11 @@ def _in_window(merge: Merge, options: Options) -> int:
     """Have a person merge in the window; 1 where the window was closed without a result."""
     if options.dry_run or options.json:
         raise UsageError("--window goes with neither --dry-run nor --json")
-    from amp_studio.ui.base.display import MISSING, has_display
+    from amp_studio.ui import MISSING, has_display
 
     if not has_display():
         raise UsageError(MISSING)
-    from amp_studio.ui.merge.program import merge_in_window
+    from amp_studio.ui import merge_in_window
 
     is_written = merge_in_window(merge, options.ours, options.output, lambda result: _write(result, options))
     print(f"{options.output}: {'written' if is_written else 'not written'}")
@@ -120,8 +119,7 @@ def _sources(options: Options) -> tuple[ParameterFile, ParameterFile, ParameterF
 
 def _settle(merge: Merge, texts: list[str]) -> None:
     """Take sides: ``theirs`` settles every conflict, ``1300=theirs`` one parameter; later ones count."""
-    from amp_studio.schema import field_at, meant
-    from amp_studio.schema.quoting import quoted
+    from amp_studio.schema import field_at, meant, quoted
 
     for text in texts:
         param, sign, name = text.rpartition("=")
@@ -145,8 +143,7 @@ def _settle(merge: Merge, texts: list[str]) -> None:
 
 def _new_findings(merge: Merge, result: ParameterFile, beside: Path) -> list[Finding]:
     """Return the errors and warnings of the result that neither ours nor theirs has by itself."""
-    from amp_studio.validate import Validator, rules_beside
-    from amp_studio.validate.new_findings import new_findings
+    from amp_studio.validate import Validator, new_findings, rules_beside
 
     own = rules_beside(beside, result)
     before = [f for file in (merge.a, merge.b) for f in Validator(file, own).run()]
@@ -158,9 +155,7 @@ def _write(result: ParameterFile, options: Options) -> None:
 
     For git it takes the place of what is there, under the name that ours has, and without a backup: git has it.
     """
-    from amp_studio.files import text_of_name, write_atomic
-    from amp_studio.files.reading import file_content
-    from amp_studio.files.storage import readable_content
+    from amp_studio.files import file_content, readable_content, text_of_name, write_atomic
 
     previous = file_content(options.ours)
     result.header.signature = result.schema.signature
@@ -174,7 +169,7 @@ def _write(result: ParameterFile, options: Options) -> None:
 def _print(merge: Merge, options: Options) -> None:
     """Print each conflict and what the result has, and how many are open."""
     from amp_studio.cli.comparing import named, shown
-    from amp_studio.report.wording import counted
+    from amp_studio.report import counted
 
     for row in merge.conflicts:
         took = f"{_taken(merge.choice(row))} is {'taken' if row not in merge.open_conflicts else 'kept'}"
@@ -200,7 +195,7 @@ def _taken(choice: Choice | None) -> str:
 
 
 def _document(merge: Merge, result: ParameterFile, new: list[Finding], options: Options) -> dict[str, Any]:
-    from amp_studio.report.finding_lines import finding_json
+    from amp_studio.report import finding_json
 
     changed = [row for row in merge.differing if merge.choice(row) not in ("a", None)]
     return {

@@ -74,7 +74,7 @@ WITH_REASONS = ("text", "json")
 def run(options: Options) -> int:
     """Check files, and those in folders: 1 where there are errors, 2 where a file cannot be read, after the others."""
     from amp_studio.cli.check_formats import CHECK_FORMATS
-    from amp_studio.schema.regular_file import read_file
+    from amp_studio.schema import read_file
 
     form = CHECK_FORMATS[options.format]
     if options.why and options.format not in WITH_REASONS:
@@ -250,8 +250,7 @@ def _check(options: Options, path: Path) -> CheckResult:
 def _in_motion(file: ParameterFile, *, as_document: bool) -> tuple[object, int]:
     """Return what the check of the motion found, as text or for a JSON document, and how much of it is bad."""
     from amp_studio.cli.motion_text import as_json, text
-    from amp_studio.sim import SimulationError
-    from amp_studio.sim.motion_check import check_motion
+    from amp_studio.sim import SimulationError, check_motion
 
     try:
         checks = tuple(check_motion(file))

@@ -33,7 +33,7 @@ def run(options: Options) -> int:
     from amp_studio.cli.by_hand import note_by_hand, ways_offered
     from amp_studio.cli.exchange_endings import exchange_of, note_errors, print_outcome
     from amp_studio.cli.fleet import check_fleet, download_to_several, is_fleet
-    from amp_studio.transfer.client.parameters import download_file
+    from amp_studio.transfer.client import download_file
 
     file, path = opened(options.path, options), options.path
     errors = note_errors(file, path)

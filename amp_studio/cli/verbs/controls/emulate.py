@@ -11,7 +11,7 @@ from amp_studio.cli.errors import UsageError
 from amp_studio.cli.verb import Options, Verb, VerbArgument
 
 if TYPE_CHECKING:
-    from amp_studio.transfer.links.endpoint import Endpoint
+    from amp_studio.transfer.links import Endpoint
 
 VERB = Verb(
     __doc__,
@@ -54,7 +54,7 @@ VERB = Verb(
 
 def run(options: Options) -> int:
     """Be a control until stopped."""
-    from amp_studio.transfer.emulated.family_control import EmulatedOptions, emulate
+    from amp_studio.transfer.emulated import EmulatedOptions, emulate
 
     family(options.family)
     return emulate(
@@ -73,8 +73,7 @@ def run(options: Options) -> int:
 
 def _secured(options: Options) -> Endpoint:
     """Return where the control listens and what it asks of who connects; notes who else can reach it."""
-    from amp_studio.transfer.links.endpoint import parse_endpoint
-    from amp_studio.transfer.links.security import Security, can_others_read, exposure, read_password
+    from amp_studio.transfer.links import Security, can_others_read, exposure, parse_endpoint, read_password
 
     place = parse_endpoint(options.listen)
     if (options.key is not None) > (options.certificate is not None):

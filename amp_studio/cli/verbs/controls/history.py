@@ -12,7 +12,7 @@ from amp_studio.cli.errors import UsageError
 from amp_studio.cli.verb import Options, Verb, VerbArgument
 
 if TYPE_CHECKING:
-    from amp_studio.transfer.client.record import RecordedExchange
+    from amp_studio.transfer.client import RecordedExchange
 
 VERB = Verb(
     __doc__,
@@ -26,7 +26,7 @@ VERB = Verb(
 def run(options: Options) -> int:
     """List the exchanges of a file, or of all files of a folder; oldest first."""
     from amp_studio.files import open_file, real_path, text_of_name
-    from amp_studio.transfer.client.record import RECORD, read_exchanges
+    from amp_studio.transfer.client import RECORD, read_exchanges
 
     path: Path = options.path
     if path.is_dir():
@@ -53,7 +53,7 @@ def run(options: Options) -> int:
 
 
 def _show(each: RecordedExchange) -> None:
-    from amp_studio.files.local_time import local_time
+    from amp_studio.files import local_time
 
     print(f"      {each.text}")
     print(f"      at {local_time(each.when)} ({each.when}), family {each.family}")

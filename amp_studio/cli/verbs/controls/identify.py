@@ -25,12 +25,9 @@ def run(options: Options) -> int:
     """Print who answers at an address, and what it contains."""
     from amp_studio.cli.by_hand import note_by_hand, ways_offered
     from amp_studio.files import fitted_axes
-    from amp_studio.report.wording import counted
-    from amp_studio.transfer.client.drivers import open_driver_at
-    from amp_studio.transfer.client.exchange import look_at
-    from amp_studio.transfer.content import decode_content
-    from amp_studio.transfer.exchange import Exchange
-    from amp_studio.transfer.image import ImageError
+    from amp_studio.report import counted
+    from amp_studio.transfer import Exchange, ImageError, decode_content
+    from amp_studio.transfer.client import look_at, open_driver_at
 
     if options.family:
         family(options.family)

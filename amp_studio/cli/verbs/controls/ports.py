@@ -13,7 +13,7 @@ VERB = Verb(__doc__, JSON, examples=("amp-studio ports",))
 
 def run(options: Options) -> int:
     """List the serial ports."""
-    from amp_studio.transfer.links.serial_ports import serial_ports
+    from amp_studio.transfer.links import serial_ports
 
     found = serial_ports()
     if options.json:

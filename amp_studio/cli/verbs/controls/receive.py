@@ -14,8 +14,8 @@ from amp_studio.cli.stopping import asked_politely
 from amp_studio.cli.verb import Options, Verb, VerbArgument
 
 if TYPE_CHECKING:
-    from amp_studio.transfer.plain.ymodem import PlainFile
-    from amp_studio.transfer.progress import Progress
+    from amp_studio.transfer import Progress
+    from amp_studio.transfer.plain import PlainFile
 
 PROTOCOLS = ("xmodem", "xmodem-1k", "xmodem-checksum", "ymodem", "raw")
 """The usual one first; here, because help loads no room (a test compares them)."""
@@ -45,10 +45,9 @@ VERB = Verb(
 def run(options: Options) -> int:
     """Receive files and write them once all are there; 2 where that fails, with nothing written."""
     from amp_studio.cli.tape import tape
-    from amp_studio.files.atomic import write_atomic
-    from amp_studio.report.wording import counted
-    from amp_studio.transfer.plain.files import protocol_of, receive_files
-    from amp_studio.transfer.plain.line import Patience
+    from amp_studio.files import write_atomic
+    from amp_studio.report import counted
+    from amp_studio.transfer.plain import Patience, protocol_of, receive_files
 
     endpoint, protocol = protocol_of(options.source, options.protocol, PROTOCOLS)
     output = options.output
@@ -101,7 +100,7 @@ def _counted_bytes(show: Progress) -> Progress:
 def _in_folder(folder: Path, files: list[PlainFile]) -> list[Path]:
     """Return where files go; refuses names that are there already or come twice."""
     from amp_studio.files import is_there
-    from amp_studio.transfer.plain.ymodem import file_name
+    from amp_studio.transfer.plain import file_name
 
     targets = [folder / file_name(file.name) for file in files]
     taken = [path for path in targets if is_there(path) or targets.count(path) > 1]

@@ -28,8 +28,7 @@ VERB = Verb(
 def run(options: Options) -> int:
     """Put back what a control has contained; codes as of a download."""
     from amp_studio.cli.exchange_endings import exchange_of, note_errors, print_outcome
-    from amp_studio.transfer.client.kept import digest_path, open_copy
-    from amp_studio.transfer.client.parameters import restore_copy
+    from amp_studio.transfer.client import digest_path, open_copy, restore_copy
 
     path = options.copy
     copy = open_copy(path)

@@ -12,7 +12,7 @@ from amp_studio.cli.stopping import asked_politely
 from amp_studio.cli.verb import Options, Verb, VerbArgument
 
 if TYPE_CHECKING:
-    from amp_studio.transfer.plain.ymodem import PlainFile
+    from amp_studio.transfer.plain import PlainFile
 
 PROTOCOLS = ("xmodem", "xmodem-1k", "ymodem", "raw")
 """The usual one first; here, because help loads no room (a test compares them)."""
@@ -31,9 +31,8 @@ VERB = Verb(
 def run(options: Options) -> int:
     """Send files; 2 if nothing has arrived, 4 if it is not known how much."""
     from amp_studio.cli.tape import tape
-    from amp_studio.report.wording import counted
-    from amp_studio.transfer.plain.files import protocol_of, send_files
-    from amp_studio.transfer.plain.line import Patience
+    from amp_studio.report import counted
+    from amp_studio.transfer.plain import Patience, protocol_of, send_files
 
     endpoint, protocol = protocol_of(options.to, options.protocol, PROTOCOLS)
     if len(options.files) > 1 and protocol != "ymodem":
@@ -56,9 +55,8 @@ def run(options: Options) -> int:
 
 
 def _read(path: Path) -> PlainFile:
-    from amp_studio.schema.regular_file import read_file
-    from amp_studio.transfer.plain.receiver import LARGEST
-    from amp_studio.transfer.plain.ymodem import PlainFile
+    from amp_studio.schema import read_file
+    from amp_studio.transfer.plain import LARGEST, PlainFile
 
     content = read_file(path, LARGEST)
     return PlainFile(path.name, content)

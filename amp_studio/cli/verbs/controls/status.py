@@ -9,7 +9,7 @@ from amp_studio.cli.verb import Options, Verb, VerbArgument
 
 TYPE_CHECKING = False  # the typing module is not loaded for it
 if TYPE_CHECKING:
-    from amp_studio.transfer.status import ControlStatus
+    from amp_studio.transfer import ControlStatus
 
 VERB = Verb(
     __doc__,
@@ -32,7 +32,7 @@ def run(options: Options) -> int:
     import time
     from contextlib import closing
 
-    from amp_studio.transfer.client.status import StatusReader
+    from amp_studio.transfer.client import StatusReader
 
     if options.family:
         family(options.family)

@@ -38,11 +38,10 @@ def run(options: Options) -> int:
     from amp_studio.cli.by_hand import note_by_hand
     from amp_studio.cli.fleet import check_fleet, is_fleet, record_upload, upload_several
     from amp_studio.cli.out_of_range import settle_values
-    from amp_studio.files.erased import erased_question
-    from amp_studio.report.wording import counted
-    from amp_studio.transfer.client.kept import IMAGE, digest_path, save_image
-    from amp_studio.transfer.client.parameters import fetch_image, sha256
-    from amp_studio.transfer.exchange import Exchange
+    from amp_studio.files import erased_question
+    from amp_studio.report import counted
+    from amp_studio.transfer import Exchange
+    from amp_studio.transfer.client import IMAGE, digest_path, fetch_image, save_image, sha256
 
     output, source = options.output, options.source[0]
     check_fleet(options, options.source)
@@ -76,9 +75,8 @@ def run(options: Options) -> int:
 
 
 def _readable(image: bytes, output: Path) -> ParameterFile:
-    from amp_studio.transfer.client.kept import IMAGE
-    from amp_studio.transfer.content import decode_content
-    from amp_studio.transfer.image import ImageError
+    from amp_studio.transfer import ImageError, decode_content
+    from amp_studio.transfer.client import IMAGE
 
     try:
         return decode_content(image)

@@ -34,10 +34,8 @@ def run(options: Options) -> int:
     from amp_studio.cli.by_hand import ways_offered
     from amp_studio.cli.comparing import difference_json, print_comparison, print_difference
     from amp_studio.cli.fleet import check_fleet, is_fleet, verify_several
-    from amp_studio.transfer.client.parameters import fetch_image, sha256
-    from amp_studio.transfer.client.record import record_look
-    from amp_studio.transfer.client.verification import verify_content
-    from amp_studio.transfer.exchange import Exchange
+    from amp_studio.transfer import Exchange
+    from amp_studio.transfer.client import fetch_image, record_look, sha256, verify_content
 
     if options.all:
         from amp_studio.cli.drift import verify_all_verb  # compares many, and prints papers

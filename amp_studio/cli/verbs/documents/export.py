@@ -26,7 +26,7 @@ def run(options: Options) -> int:
     """Write a parameter file in a text format."""
     from amp_studio.cli.accounts import print_account
     from amp_studio.formats import export_file
-    from amp_studio.report.wording import counted
+    from amp_studio.report import counted
 
     check_replaced(options.output, options.path)
     file = opened(options.path, options)

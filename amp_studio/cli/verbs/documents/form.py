@@ -34,8 +34,7 @@ VERB = Verb(
 def run(options: Options) -> int:
     """Write tables to fill in by hand."""
     from amp_studio.files import new_file
-    from amp_studio.report.form import form_paper
-    from amp_studio.report.paper import write_paper
+    from amp_studio.report import form_paper, write_paper
 
     if is_family(options.what):
         file, everything = new_file(options.what, options.machine), True

@@ -46,7 +46,7 @@ def run(options: Options) -> int:
     from amp_studio.cli.accounts import print_account
     from amp_studio.cli.out_of_range import settle_values
     from amp_studio.formats import FamilyNotGivenError, import_file
-    from amp_studio.report.wording import counted
+    from amp_studio.report import counted
     from amp_studio.schema import UnknownFamilyError
 
     check_new(options.output, "an import", options.text)

@@ -69,7 +69,7 @@ _LARGEST = 1 << 20  # bytes of a list of what the screen shows
 
 def run(options: Options) -> int:
     """Print or write the sheet; with ``--check`` compare what the screen shows: 1 where something is not as keyed in."""
-    from amp_studio.report.wording import counted
+    from amp_studio.report import counted
     from amp_studio.sheet import SheetError, Ticks, TicksError, make_sheet, ticks_path
     from amp_studio.validate import rules_beside
 
@@ -104,16 +104,15 @@ def run(options: Options) -> int:
 
 def _present(text: str) -> tuple[ParameterFile, str]:
     """Return what a control contains and its source: a file, a kept copy, or the control itself."""
-    from amp_studio.transfer.links.endpoint import is_endpoint
+    from amp_studio.transfer.links import is_endpoint
 
     if is_endpoint(text):
-        from amp_studio.transfer.client.parameters import fetch_image, sha256
-        from amp_studio.transfer.content import decode_content
-        from amp_studio.transfer.exchange import Exchange
+        from amp_studio.transfer import Exchange, decode_content
+        from amp_studio.transfer.client import fetch_image, sha256
 
         content = fetch_image(text, Exchange(progress()))
         return decode_content(content), f"{text}, sha256 {sha256(content)}"
-    from amp_studio.transfer.client.kept import open_copy
+    from amp_studio.transfer.client import open_copy
 
     path = Path(text)
     if path.suffix != ".img":
@@ -142,7 +141,7 @@ def _named(names: Iterable[str], file: ParameterFile, sheet: Sheet) -> list[Shee
 
 
 def _check(options: Options, file: ParameterFile, sheet: Sheet, ticks: Ticks) -> int:
-    from amp_studio.schema.regular_file import read_file
+    from amp_studio.schema import read_file
     from amp_studio.sheet import STATES, ReadBackError, compare_shown, read_shown
 
     content = read_file(options.check, _LARGEST)
@@ -177,8 +176,7 @@ def _told(each: ReadBack) -> str:
 
 
 def _print(options: Options, sheet: Sheet, ticks: Ticks, found: dict[str, ReadBack]) -> None:
-    from amp_studio.report.sheet import PrintedSheet, text_lines, write_sheet
-    from amp_studio.report.wording import counted
+    from amp_studio.report import PrintedSheet, counted, text_lines, write_sheet
 
     shown = dict(ticks.shown) | {number: each.shown for number, each in found.items() if each.shown}
     printed = PrintedSheet(

@@ -23,7 +23,7 @@ VERB = Verb(
 
 def run(options: Options) -> int:
     """List the formulas of a family, describe one, or calculate it."""
-    from amp_studio.schema.nearest import unknown_name
+    from amp_studio.schema import unknown_name
     from amp_studio.validate import calculate, calculators, shown_result
 
     known = calculators(family(options.family).family.family)

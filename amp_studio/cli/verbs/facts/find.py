@@ -82,7 +82,7 @@ class _Source:
 
 def run(options: Options) -> int:
     """Find what has the words, or nearly; print the best first, with the reason."""
-    from amp_studio.schema.quoting import quoted
+    from amp_studio.schema import quoted
 
     sources, words = _sources(options)
     query = " ".join(words)
@@ -200,7 +200,7 @@ def _where(source: _Source, named: bool) -> str:
 
 def _page_lines(page: MessagePage, hit: Hit) -> Iterator[str]:
     """Yield a message as a person reads it: what it means, where to look, what helps."""
-    from amp_studio.report.wording import counted
+    from amp_studio.report import counted
 
     message = page.message
     if message.means:

@@ -21,7 +21,7 @@ VERB = Verb(
 def run(options: Options) -> int:
     """Print every parameter definition of a family."""
     from amp_studio.report import definition, one_line
-    from amp_studio.schema.nearest import unknown_name
+    from amp_studio.schema import unknown_name
 
     schema = family(options.family)
     wanted = options.group and options.group.casefold()

@@ -21,7 +21,7 @@ VERB = Verb(
 def run(options: Options) -> int:
     """List the printed tables of a family, or print one."""
     from amp_studio.report import cells_of, table_lines
-    from amp_studio.schema.nearest import unknown_name
+    from amp_studio.schema import unknown_name
 
     known = family(options.family).tables
     if options.table is not None and options.table not in known:

@@ -79,7 +79,7 @@ def run(options: Options) -> int:
 
 
 def _expected(least: int, most: int) -> str:
-    from amp_studio.report.wording import counted
+    from amp_studio.report import counted
 
     if most == 0:
         return "no argument"

@@ -83,7 +83,7 @@ def run(options: Options) -> int:
     """Print values."""
     from amp_studio.cli.marked import marks_asked, with_marks
     from amp_studio.machine import bit_row, value_row
-    from amp_studio.report.wording import state_name
+    from amp_studio.report import state_name
     from amp_studio.schema import Meant, all_meant, real_value, show_value
     from amp_studio.schema import shown as unit_shown
 

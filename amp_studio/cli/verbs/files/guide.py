@@ -18,7 +18,7 @@ from amp_studio.cli.verb import Options, Verb, VerbArgument
 if TYPE_CHECKING:
     from amp_studio.files import ParameterFile
     from amp_studio.guide import GuideProgress, SetupStep, StepProgress
-    from amp_studio.report.check_list import OpenValue
+    from amp_studio.report import OpenValue
     from amp_studio.schema import Address, Schema
 
 VERB = Verb(
@@ -179,10 +179,10 @@ def _facts(step: SetupStep) -> dict[str, Any]:
 
 def _change(options: Options, file: ParameterFile) -> None:
     """Tick steps, take ticks away, and set open values to their defaults."""
-    from amp_studio.files.lock import now as stamp
-    from amp_studio.files.lock import user
+    from amp_studio.files import now as stamp
+    from amp_studio.files import user
     from amp_studio.guide import progress, tick
-    from amp_studio.report.wording import counted
+    from amp_studio.report import counted
     from amp_studio.validate import Validator
 
     for names, by in ((options.done, f"{stamp()} by {user()}"), (options.not_done, None)):
@@ -199,7 +199,7 @@ def _change(options: Options, file: ParameterFile) -> None:
 
 
 def _write(options: Options, file: ParameterFile, come: GuideProgress, path: Path) -> int:
-    from amp_studio.report.check_list import build_check_list, write_check_list
+    from amp_studio.report import build_check_list, write_check_list
 
     write_check_list(build_check_list(file, come, path, language=options.language), options.output, note)
     print(options.output)
@@ -209,7 +209,7 @@ def _write(options: Options, file: ParameterFile, come: GuideProgress, path: Pat
 def _next(options: Options, file: ParameterFile, come: GuideProgress, only: SetupStep | None) -> int:
     """Print the next open value, of the file or of one step, and what is known about it."""
     from amp_studio.guide import next_open, step_of
-    from amp_studio.report.check_list import open_value
+    from amp_studio.report import open_value
     from amp_studio.schema import addresses_meant
 
     behind = addresses_meant(file.evaluation, options.after)[-1] if options.after else None
@@ -237,8 +237,7 @@ def _shown(value: OpenValue) -> str:
 
 
 def _overview(file: ParameterFile, come: GuideProgress, path: Path) -> Iterator[str]:
-    from amp_studio.report.check_list import open_value
-    from amp_studio.report.wording import counted
+    from amp_studio.report import counted, open_value
 
     yield f"{path}: {come.done} of {len(come.needed)} steps done, {come.set} of {come.total} values set"
     order = file.schema.commissioning
@@ -257,8 +256,8 @@ def _overview(file: ParameterFile, come: GuideProgress, path: Path) -> Iterator[
 
 
 def _step_line(each: StepProgress, width: int) -> str:
-    from amp_studio.files.local_time import with_local_times
-    from amp_studio.report.wording import counted
+    from amp_studio.files import with_local_times
+    from amp_studio.report import counted
     from amp_studio.validate import SEVERITIES
 
     parts = [f"{each.set} of {each.total} set"] if each.total else []
@@ -274,8 +273,8 @@ def _step_line(each: StepProgress, width: int) -> str:
 
 def _step_lines(file: ParameterFile, each: StepProgress) -> Iterator[str]:
     """Yield a step with every value of it that is active."""
-    from amp_studio.files.local_time import with_local_times
-    from amp_studio.report.check_list import open_value
+    from amp_studio.files import with_local_times
+    from amp_studio.report import open_value
     from amp_studio.schema import show_value
 
     step, here = each.step, file.machine_schema
@@ -336,7 +335,7 @@ def _values_json(file: ParameterFile, each: StepProgress) -> list[dict[str, Any]
 
 
 def _step_json(file: ParameterFile, each: StepProgress) -> dict[str, Any]:
-    from amp_studio.report.finding_lines import finding_json
+    from amp_studio.report import finding_json
 
     return _facts(each.step) | {
         "state": each.state,
@@ -355,7 +354,7 @@ def _step_json(file: ParameterFile, each: StepProgress) -> dict[str, Any]:
 
 def _open_json(file: ParameterFile, address: Address) -> dict[str, Any]:
     from amp_studio.guide import step_of
-    from amp_studio.report.check_list import open_value
+    from amp_studio.report import open_value
 
     value = open_value(file, address)
     return {

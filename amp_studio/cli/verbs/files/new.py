@@ -35,7 +35,7 @@ def run(options: Options) -> int:
     """Make a parameter file with the family's defaults."""
     from amp_studio.cli.like import file_like
     from amp_studio.files import new_file
-    from amp_studio.report.wording import counted
+    from amp_studio.report import counted
 
     schema = family(options.family)
     axes = [a.strip() for a in options.axes.split(",")] if options.axes else []

@@ -46,8 +46,7 @@ GROUP = "group:"
 
 def run(options: Options) -> int:
     """List notes, print one, write one or remove one."""
-    from amp_studio.files import Document
-    from amp_studio.files.notes import NoteError
+    from amp_studio.files import Document, NoteError
 
     if options.about is None:
         return _list(options)
@@ -78,7 +77,7 @@ def run(options: Options) -> int:
 
 
 def _list(options: Options) -> int:
-    from amp_studio.files.notes import all_notes
+    from amp_studio.files import all_notes
 
     found = list(all_notes(opened(options.path)))
     if options.json:
@@ -98,8 +97,7 @@ def _list(options: Options) -> int:
 
 def _about(file: ParameterFile, options: Options) -> Address | str:
     """Return the address, or the key of the group; an empty one for the machine."""
-    from amp_studio.schema import UnknownParameterError
-    from amp_studio.schema.nearest import unknown_name
+    from amp_studio.schema import UnknownParameterError, unknown_name
 
     if options.about.startswith(GROUP):
         name = str(options.about.removeprefix(GROUP))
@@ -116,7 +114,7 @@ def _about(file: ParameterFile, options: Options) -> Address | str:
 
 
 def _present(file: ParameterFile, about: Address | str) -> str:
-    from amp_studio.files.notes import group_note, machine_note, value_note
+    from amp_studio.files import group_note, machine_note, value_note
 
     if isinstance(about, str):
         return group_note(file, about) if about else machine_note(file)
@@ -124,7 +122,7 @@ def _present(file: ParameterFile, about: Address | str) -> str:
 
 
 def _write(file: ParameterFile, about: Address | str, text: str) -> bool:
-    from amp_studio.files.notes import set_group_note, set_machine_note, set_value_note
+    from amp_studio.files import set_group_note, set_machine_note, set_value_note
 
     if isinstance(about, str):
         return set_group_note(file, about, text) if about else set_machine_note(file, text)

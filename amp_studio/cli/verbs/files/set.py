@@ -33,10 +33,9 @@ VERB = Verb(
 
 def run(options: Options) -> int:
     """Change values, all or none."""
-    from amp_studio.files import Document, RangeError
-    from amp_studio.files.lock import now
+    from amp_studio.files import Document, RangeError, now
     from amp_studio.machine import read_assignments
-    from amp_studio.report.wording import state_name
+    from amp_studio.report import state_name
     from amp_studio.schema import show_value
 
     with Document.open(options.path) as document:

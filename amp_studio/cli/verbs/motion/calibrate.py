@@ -210,8 +210,7 @@ def _demand_answers(measurement: Measurement | None) -> None:
 def _edited(
     options: Options, file: ParameterFile, offered: Compensation, axis: str
 ) -> dict[Address, Value | None]:
-    from amp_studio.calibration import present_table, shown_unit
-    from amp_studio.calibration.edit import deleted, inserted, rechosen, replaced
+    from amp_studio.calibration import deleted, inserted, present_table, rechosen, replaced, shown_unit
     from amp_studio.schema import Value
 
     form = offered.table
@@ -242,7 +241,7 @@ def _error(
     options: Options, form: TableForm, table: CalibrationTable, at: Fraction, figure: Fraction
 ) -> Fraction:
     """Return the error that a figure means; measured with the calibration on it comes on top of the table's."""
-    from amp_studio.calibration.edit import left_over
+    from amp_studio.calibration import left_over
 
     error = form.error(table, at, figure)
     return left_over(table, at, error) if options.compensation == "on" else error
@@ -256,7 +255,7 @@ def _pair(text: str) -> tuple[Fraction, Fraction]:
 
 
 def _number(text: str) -> Fraction:
-    from amp_studio.schema.values import read_exact
+    from amp_studio.schema import read_exact
 
     number, rest = read_exact(text)
     if rest.strip():
@@ -295,7 +294,7 @@ def _lines(
 
 def _measured(measurement: Measurement, proposal: Proposal) -> Iterator[str]:
     """Yield what was read, its figures, and what error is expected to remain."""
-    from amp_studio.report.wording import counted
+    from amp_studio.report import counted
     from amp_studio.schema import shown
 
     figures, unit = proposal.figures, shown(proposal.unit)

@@ -15,7 +15,7 @@ from amp_studio.cli.verb import Options, Verb
 
 if TYPE_CHECKING:
     from amp_studio.files import ParameterFile
-    from amp_studio.sim.motion_check import MotionCheck
+    from amp_studio.sim import MotionCheck
 
 VERB = Verb(
     __doc__,
@@ -34,8 +34,7 @@ def run(options: Options) -> int:
     """Check a file in motion: 1 where something is bad."""
     from amp_studio.files import axis_instances
     from amp_studio.schema import axis_meant
-    from amp_studio.sim import simulated_axes
-    from amp_studio.sim.motion_check import check_motion
+    from amp_studio.sim import check_motion, simulated_axes
 
     if options.output:
         check_replaced(options.output, options.path)
@@ -58,7 +57,7 @@ def run(options: Options) -> int:
 def _write(options: Options, file: ParameterFile, checks: Sequence[MotionCheck]) -> None:
     from html import escape
 
-    from amp_studio.files.atomic import write_atomic
+    from amp_studio.files import write_atomic
 
     rows = [
         (
@@ -94,7 +93,7 @@ def _write(options: Options, file: ParameterFile, checks: Sequence[MotionCheck])
 def _pdf(title: str, summary: str, head: Sequence[str], rows: Sequence[Sequence[str]]) -> bytes:
     import json
 
-    from amp_studio.report.pdf import typeset
+    from amp_studio.report import typeset
 
     cells = ", ".join(f"[#{json.dumps(cell, ensure_ascii=False)}]" for row in (head, *rows) for cell in row)
     source = (

@@ -7,10 +7,9 @@ from __future__ import annotations
 
 import re
 
-from amp_studio.schema.visible import visible
-from amp_studio.transfer.emulated.family_control import EmulatedOptions
-from amp_studio.transfer.emulated.line_device import DeviceSetup, serve_device
-from amp_studio.transfer.links.endpoint import Endpoint
+from amp_studio.schema import visible
+from amp_studio.transfer.emulated import DeviceSetup, EmulatedOptions, serve_device
+from amp_studio.transfer.links import Endpoint
 
 from .settings import COMMANDS_LISTED, CardSettings, CommandError
 

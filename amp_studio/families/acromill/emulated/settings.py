@@ -12,7 +12,7 @@ import struct
 from collections.abc import Callable
 from dataclasses import dataclass
 
-from amp_studio.transfer.emulated.memory import Memory
+from amp_studio.transfer.emulated import Memory
 
 AXES = "XYZABCUV"
 SAVED = "saved"

@@ -17,19 +17,25 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
 
 from amp_studio.files import ParameterFile
-from amp_studio.formats.bare_figures import default_system, read_figure, system_of, write_figure
-from amp_studio.formats.import_export import file_of
-from amp_studio.formats.passthrough_lines import (
+from amp_studio.formats import (
+    FormatError,
     PassthroughLine,
+    ReadOptions,
+    TextFormat,
+    TextRead,
+    default_system,
+    file_of,
     keep,
     kept,
     mark,
     marked,
     neighbours,
     plain,
+    read_figure,
     shown,
+    system_of,
+    write_figure,
 )
-from amp_studio.formats.text_format import FormatError, ReadOptions, TextFormat, TextRead
 from amp_studio.schema import Address, InvalidValueError, Schema, Value, load_schema, same_value, written
 
 from .acr_command import Command, CommandArgument, CommandSetting, commands_of, program_commands_of

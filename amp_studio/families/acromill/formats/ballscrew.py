@@ -8,10 +8,8 @@ from __future__ import annotations
 import re
 
 from amp_studio.files import ParameterFile
-from amp_studio.formats.text_format import FormatError, ReadOptions, TextFormat, TextRead
-from amp_studio.schema import InvalidValueError, Schema, Value
-from amp_studio.schema.quoting import quoted
-from amp_studio.schema.values import checked
+from amp_studio.formats import FormatError, ReadOptions, TextFormat, TextRead
+from amp_studio.schema import InvalidValueError, Schema, Value, checked, quoted
 
 _TABLE = "ballscrew.table"
 _WORD = re.compile(r"([A-Z])([0-9]{1,6})E-?\.[0-9]{5}")

@@ -9,7 +9,7 @@ from __future__ import annotations
 import re
 from collections.abc import Sequence
 
-from amp_studio.validate.arguments import finite, whole
+from amp_studio.validate import finite, whole
 
 _WORD = re.compile(r"([A-Z])(\d+)E(-?\.\d{5})")
 

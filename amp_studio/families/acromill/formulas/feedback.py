@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from amp_studio.validate.arguments import finite, positive, whole
+from amp_studio.validate import finite, positive, whole
 
 
 def pulses_per_revolution(lines: float, multiplier: float) -> int:

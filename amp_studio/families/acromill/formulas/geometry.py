@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 
-from amp_studio.validate.arguments import finite, not_negative
+from amp_studio.validate import finite, not_negative
 
 
 def compensated_radius(geometric: float, wear: float) -> float:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from amp_studio.validate.arguments import finite, not_negative, positive
+from amp_studio.validate import finite, not_negative, positive
 
 
 def ramp_for(speed: float, seconds: float) -> float:

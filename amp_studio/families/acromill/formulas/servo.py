@@ -6,7 +6,7 @@ import cmath
 import math
 from collections.abc import Sequence
 
-from amp_studio.validate.arguments import finite, not_negative, positive, whole
+from amp_studio.validate import finite, not_negative, positive, whole
 
 LOPASS_SHARE = 0.1
 """The low-pass frequency must not exceed this part of the servo update frequency (page 128)."""

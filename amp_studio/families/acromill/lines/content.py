@@ -14,12 +14,17 @@ from functools import cache
 from amp_studio.families.acromill.formats import acr_script, ballscrew
 from amp_studio.families.acromill.formats.acr_command import CommandSetting, commands_of
 from amp_studio.files import ParameterFile
-from amp_studio.formats.bare_figures import default_system, system_of, write_figure
-from amp_studio.formats.import_export import file_of
-from amp_studio.formats.text_format import FormatError, ReadOptions, TextRead
+from amp_studio.formats import (
+    FormatError,
+    ReadOptions,
+    TextRead,
+    default_system,
+    file_of,
+    system_of,
+    write_figure,
+)
 from amp_studio.schema import InvalidValueError, load_schema
-from amp_studio.transfer.content import TakesAllOrRefuses
-from amp_studio.transfer.image import ImageError
+from amp_studio.transfer import ImageError, TakesAllOrRefuses
 
 KIND = "ACR script 1"
 FAMILY = "acromill"

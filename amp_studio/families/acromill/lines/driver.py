@@ -13,21 +13,22 @@ from typing import ClassVar
 
 from amp_studio.families.acromill.formats.acr_command import CommandSetting
 from amp_studio.schema import load_schema
-from amp_studio.transfer.driver import ControlIdentity, Receipt
-from amp_studio.transfer.errors import (
+from amp_studio.transfer import (
     ConnectionCutError,
     ControlFullError,
+    ControlIdentity,
     ControlSilentError,
     ImageDamagedError,
     ImageRejectedError,
+    LineDriver,
+    OpenLink,
     ProtocolMismatchError,
+    Receipt,
+    Replacement,
+    SentValues,
     TransferError,
 )
-from amp_studio.transfer.exchange import Replacement
-from amp_studio.transfer.line_driver import LineDriver
-from amp_studio.transfer.links.serial_settings import SerialSettings
-from amp_studio.transfer.sent_values import SentValues
-from amp_studio.transfer.waiting import OpenLink
+from amp_studio.transfer.links import SerialSettings
 
 from .content import (
     FAMILY,

@@ -9,15 +9,16 @@ import contextlib
 import re
 from collections.abc import Callable, Iterator
 
-from amp_studio.transfer.errors import (
+from amp_studio.transfer import (
     CancelledError,
     ConnectionCutError,
     ControlSilentError,
     NoConnectionError,
+    OpenLink,
     ProtocolMismatchError,
+    Waiting,
 )
-from amp_studio.transfer.links.link import Link, LinkError
-from amp_studio.transfer.waiting import OpenLink, Waiting
+from amp_studio.transfer.links import Link, LinkError
 
 LONGEST = 160  # signs of half a line that somebody may have left
 TRIES = 8  # of one line

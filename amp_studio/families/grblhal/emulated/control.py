@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-from amp_studio.transfer.emulated.family_control import EmulatedOptions
-from amp_studio.transfer.emulated.line_device import serve_device
-from amp_studio.transfer.links.endpoint import Endpoint
+from amp_studio.transfer.emulated import EmulatedOptions, serve_device
+from amp_studio.transfer.links import Endpoint
 
 from .firmware import Firmware
 

@@ -14,7 +14,7 @@ from typing import Any
 
 from amp_studio.schema import load_schema
 from amp_studio.sim import SimulationError
-from amp_studio.transfer.emulated.line_device import DeviceSetup
+from amp_studio.transfer.emulated import DeviceSetup
 
 from .motion import GrblMotion, MotionBlock
 from .stored_settings import FAMILY, OUT_OF_RANGE, RefusedError, StoredSettings

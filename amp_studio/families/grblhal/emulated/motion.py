@@ -11,9 +11,7 @@ from dataclasses import dataclass
 
 from amp_studio.families.grblhal.law import LAW, homing, travel
 from amp_studio.schema import load_schema
-from amp_studio.sim import AxisLaw, AxisParameters
-from amp_studio.sim.axis_parameters import ParameterValue
-from amp_studio.sim.simulated_machine import SimulatedAxis, SimulatedMachine
+from amp_studio.sim import AxisLaw, AxisParameters, ParameterValue, SimulatedAxis, SimulatedMachine
 
 from .stored_settings import CLASSIC, FAMILY, StoredSettings
 

@@ -11,8 +11,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 
 from amp_studio.files import new_file
-from amp_studio.schema import Parameter
-from amp_studio.schema.storage import code_of
+from amp_studio.schema import Parameter, code_of
 
 FAMILY, CLASSIC = "grblhal", "grbl-1.1"
 BAD_NUMBER, NEGATIVE, SOFT_LIMITS_NEED_HOMING, OUT_OF_RANGE, NOT_THERE = 2, 4, 10, 52, 53

@@ -17,11 +17,8 @@ from amp_studio.families.grblhal.settings import (
     values_of_settings,
 )
 from amp_studio.files import ParameterFile
-from amp_studio.formats.text_format import FormatError, ReadOptions, TextFormat, TextOffer, TextRead
-from amp_studio.schema import Address, Schema, Value, fault
-from amp_studio.schema.nearest import unknown_name
-from amp_studio.schema.quoting import quoted, short
-from amp_studio.schema.storage import StorageError
+from amp_studio.formats import FormatError, ReadOptions, TextFormat, TextOffer, TextRead
+from amp_studio.schema import Address, Schema, StorageError, Value, fault, quoted, short, unknown_name
 
 from .log import Log, LoggedListing, figure, is_listing, read_log
 from .relatives import Relative, is_relative, read_relative

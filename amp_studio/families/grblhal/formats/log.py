@@ -17,7 +17,7 @@ import re
 from collections.abc import Container, Iterator
 from dataclasses import dataclass, field
 
-from amp_studio.formats.text_format import FormatError
+from amp_studio.formats import FormatError
 
 MARK = "\ufeff"
 _ESCAPES = re.compile(r"\x1b\[[0-9;?]*[A-Za-z]|[\x00-\x08\x0b-\x1f\x7f\u200b-\u200f]")

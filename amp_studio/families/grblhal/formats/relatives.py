@@ -16,8 +16,8 @@ from dataclasses import dataclass, field
 from decimal import Decimal
 from typing import Any
 
-from amp_studio.formats.text_format import FormatError
-from amp_studio.schema.yaml_reader import YamlError, read_yaml
+from amp_studio.formats import FormatError
+from amp_studio.schema import YamlError, read_yaml
 
 AXES = "XYZABC"
 _MARLIN = re.compile(r"^[^;\n]{0,40}?\bM(?:92|201|203)[ \t]+[XYZ][-+0-9.]", re.MULTILINE)

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from amp_studio.transfer.emulated.family_control import EmulatedOptions, run_house
-from amp_studio.transfer.links.endpoint import Endpoint
+from amp_studio.transfer.emulated import EmulatedOptions, run_house
+from amp_studio.transfer.links import Endpoint
 
 from .panel import NinePcPanel, axes_supported
 

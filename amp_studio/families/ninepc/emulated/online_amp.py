@@ -10,17 +10,22 @@ from __future__ import annotations
 
 from fractions import Fraction
 
-from amp_studio.calibration.compensation import CalibrationTable
-from amp_studio.calibration.edit import deleted, inserted, replaced
-from amp_studio.calibration.errors import CalibrationError
-from amp_studio.calibration.proposal import present_table
-from amp_studio.calibration.steps import stepped, steps_of, with_followers
+from amp_studio.calibration import (
+    CalibrationError,
+    CalibrationTable,
+    deleted,
+    inserted,
+    present_table,
+    replaced,
+    stepped,
+    steps_of,
+    with_followers,
+)
 from amp_studio.families.ninepc.compensation import COMPENSATION
 from amp_studio.files import ParameterFile, RangeError, axis_instances
-from amp_studio.schema import Address, InvalidValueError, Value, axis_meant, show_value
-from amp_studio.schema.values import read_exact
-from amp_studio.transfer.emulated.control import Control
-from amp_studio.transfer.image import decode_image, encode_image
+from amp_studio.schema import Address, InvalidValueError, Value, axis_meant, read_exact, show_value
+from amp_studio.transfer import decode_image, encode_image
+from amp_studio.transfer.emulated import Control
 
 IN_ESTOP = ("servo.reversal_error", "home.calibration")
 """What is changed in E-Stop only (pages 36-2 and 36-4)."""

@@ -10,13 +10,10 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 
 from amp_studio.files import ParameterFile
-from amp_studio.schema import UnknownParameterError, write_number
-from amp_studio.schema.quoting import quoted
-from amp_studio.schema.storage import stored_number
-from amp_studio.transfer.emulated.control import Control
-from amp_studio.transfer.emulated.panel import Start
-from amp_studio.transfer.house.message import Flags
-from amp_studio.transfer.image import ImageError, decode_image, patch_image
+from amp_studio.schema import UnknownParameterError, quoted, stored_number, write_number
+from amp_studio.transfer import ImageError, decode_image, patch_image
+from amp_studio.transfer.emulated import Control, Start
+from amp_studio.transfer.house import Flags
 
 from .online_amp import OnlineAmp
 from .power_up import CORRECTED, MOST_AXES, corrected_limits, held_in_estop

@@ -11,8 +11,7 @@ from collections.abc import Iterator
 from fractions import Fraction
 
 from amp_studio.files import ParameterFile
-from amp_studio.schema import Address, write_number
-from amp_studio.schema.storage import StorageError, stored_unit, to_stored
+from amp_studio.schema import Address, StorageError, stored_unit, to_stored, write_number
 
 AXES = tuple("12345678")
 MOST_AXES = 8

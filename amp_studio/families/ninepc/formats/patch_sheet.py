@@ -10,7 +10,7 @@ from __future__ import annotations
 import re
 
 from amp_studio.files import ParameterFile
-from amp_studio.formats.text_format import FormatError, ReadOptions, TextFormat, TextRead
+from amp_studio.formats import FormatError, ReadOptions, TextFormat, TextRead
 from amp_studio.schema import (
     InvalidValueError,
     Schema,
@@ -18,14 +18,16 @@ from amp_studio.schema import (
     UnknownParameterError,
     Value,
     angular,
+    checked,
     dimension,
+    quoted,
+    read_number,
     show_value,
+    stored_number,
     unit_named,
+    value_of_stored,
     write_number,
 )
-from amp_studio.schema.quoting import quoted
-from amp_studio.schema.storage import stored_number, value_of_stored
-from amp_studio.schema.values import checked, read_number
 
 _HEAD = "# Patch sheet"
 

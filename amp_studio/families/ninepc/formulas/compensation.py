@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from amp_studio.validate.arguments import finite, not_negative, percent_of
+from amp_studio.validate import finite, not_negative, percent_of
 
 
 def compensation_radius(entry: float, is_diameter: bool) -> float:

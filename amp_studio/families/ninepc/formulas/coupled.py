@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from amp_studio.validate.arguments import finite, not_negative
+from amp_studio.validate import finite, not_negative
 
 from .servo import following_error
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from amp_studio.validate.arguments import not_negative, positive
+from amp_studio.validate import not_negative, positive
 
 LARGEST_DEPTH_PERCENT = 255.0
 """Upper end of Percent of Cutting Depth (page 26-2)."""

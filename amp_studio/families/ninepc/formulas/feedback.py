@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 
-from amp_studio.validate.arguments import positive, whole
+from amp_studio.validate import positive, whole
 
 COUNTS_PER_LINE = 4
 """Quadrature: each line of an encoder gives four counts (page 7-33)."""

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from itertools import groupby
 
-from amp_studio.validate.arguments import whole
+from amp_studio.validate import whole
 
 
 def remembered_retract_moves(jogged: Sequence[str], limit: float) -> int:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 
-from amp_studio.validate.arguments import finite, not_negative, percent_of, positive
+from amp_studio.validate import finite, not_negative, percent_of, positive
 
 JERK_SCANS = (2, 60)
 """Shortest and longest S-curve in coarse scans (page 10-19)."""

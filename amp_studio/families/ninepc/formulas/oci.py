@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 
-from amp_studio.validate.arguments import whole
+from amp_studio.validate import whole
 
 OVERHEAD_BYTES = 28
 """Watchlist bytes of an item besides its data (page 34-4)."""

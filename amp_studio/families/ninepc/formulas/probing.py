@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 
-from amp_studio.validate.arguments import finite, not_negative, positive
+from amp_studio.validate import finite, not_negative, positive
 
 
 def probe_radius(diameter: float) -> float:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 
-from amp_studio.validate.arguments import finite, not_negative, percent_of, positive, whole
+from amp_studio.validate import finite, not_negative, percent_of, positive, whole
 
 POSITION_GAIN_UNIT = 0.001
 """Following error per unit of feedrate at gain 1 (page 7-25)."""

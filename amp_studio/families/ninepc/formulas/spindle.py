@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 
-from amp_studio.validate.arguments import finite, not_negative, percent_of, positive, whole
+from amp_studio.validate import finite, not_negative, percent_of, positive, whole
 
 DEGREES_PER_GAIN_UNIT = 0.36
 """The gain of a spindle counts rpm per 0.001 revolution, which is 0.36 degrees (page 12-15)."""

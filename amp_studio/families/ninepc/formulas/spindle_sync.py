@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from amp_studio.validate.arguments import finite, not_negative
+from amp_studio.validate import finite, not_negative
 
 from .feedback import lowest_terms
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 
-from amp_studio.validate.arguments import not_negative, positive, whole
+from amp_studio.validate import not_negative, positive, whole
 
 
 def fine_foreground_minimum_ms(axes_on_largest_drive: float) -> int:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from amp_studio.validate.arguments import finite, not_negative, whole
+from amp_studio.validate import finite, not_negative, whole
 
 
 def split_t_word(word: float, digits: float, geometry_as_wear: bool) -> tuple[int, int, int]:

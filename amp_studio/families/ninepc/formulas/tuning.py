@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable
 
-from amp_studio.validate.arguments import finite, positive, whole
+from amp_studio.validate import finite, positive, whole
 
 DAC_FUNCTIONS = (100, 200, 300, 400, 500, 600)
 """Velocity feedback, following error, velocity integrator, velocity error, coarse IPCs, final velocity

@@ -9,10 +9,8 @@ from __future__ import annotations
 import re
 from typing import Literal
 
-from amp_studio.transfer.emulated.family_control import EmulatedOptions
-from amp_studio.transfer.emulated.line_device import DeviceSetup, serve_device
-from amp_studio.transfer.links.endpoint import Endpoint
-from amp_studio.transfer.links.serial_settings import Parity
+from amp_studio.transfer.emulated import DeviceSetup, EmulatedOptions, serve_device
+from amp_studio.transfer.links import Endpoint, Parity
 
 from .delivered import delivered_table
 from .parameter_memory import ParameterMemory, TableError, TableHeader, content_of

@@ -9,7 +9,7 @@ import re
 from collections.abc import Iterator
 from dataclasses import dataclass
 
-from amp_studio.transfer.emulated.memory import Memory
+from amp_studio.transfer.emulated import Memory
 
 TABLE = "table"
 """The words as of the last load that came to its end; a table as the control unloads it."""

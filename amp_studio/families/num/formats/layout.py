@@ -10,7 +10,7 @@ import re
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, field
 
-from amp_studio.formats.text_format import FormatError
+from amp_studio.formats import FormatError
 from amp_studio.schema import InvalidValueError
 
 from .words import Spelling, Word, name_of

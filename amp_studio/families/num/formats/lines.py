@@ -6,7 +6,7 @@ import re
 from collections.abc import Iterator
 from dataclasses import dataclass
 
-from amp_studio.formats.text_format import FormatError
+from amp_studio.formats import FormatError
 
 from .layout import XOFF, TableLayout
 from .words import Word

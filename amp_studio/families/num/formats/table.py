@@ -12,7 +12,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass, field
 
 from amp_studio.files import ParameterFile
-from amp_studio.formats.text_format import FormatError, ReadOptions, TextFormat, TextRead
+from amp_studio.formats import FormatError, ReadOptions, TextFormat, TextRead
 from amp_studio.schema import InvalidValueError, Schema, Value
 
 from .layout import MOST_VALUES, Cells, Placed, TableLayout, compose, runs

@@ -19,14 +19,16 @@ from amp_studio.schema import (
     InvalidValueError,
     Parameter,
     Schema,
+    Storage,
     Value,
     angular,
+    checked,
+    code_of,
     dimension,
+    from_stored,
+    to_figure,
     write_number,
 )
-from amp_studio.schema.model import Storage
-from amp_studio.schema.storage import code_of, from_stored, to_figure
-from amp_studio.schema.values import checked
 
 Word = tuple[int, int]
 """The numbers of parameter and word: (21, 3) for P21N3."""

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from math import gcd
 
-from amp_studio.validate.arguments import positive, whole
+from amp_studio.validate import positive, whole
 
 _LARGEST = 32767
 """MULTI and DIVI must be below 32768 (page 5-6)."""

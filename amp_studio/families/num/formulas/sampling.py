@@ -5,7 +5,7 @@ Where the control takes another value than it is given, the functions called ``.
 
 from __future__ import annotations
 
-from amp_studio.validate.arguments import finite, not_negative, positive, whole
+from amp_studio.validate import finite, not_negative, positive, whole
 
 PERIOD_LIMITS = (2000.0, 20000.0)
 """Shortest and longest sampling period (page 9-10)."""

@@ -9,7 +9,7 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 
-from amp_studio.validate.arguments import finite, not_negative, percent_of, positive, whole
+from amp_studio.validate import finite, not_negative, percent_of, positive, whole
 
 from .units import internal_unit_mm, rotary_unit_deg, servo_coefficient, to_internal
 

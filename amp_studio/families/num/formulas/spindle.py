@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from amp_studio.validate.arguments import finite, not_negative, positive, whole
+from amp_studio.validate import finite, not_negative, positive, whole
 
 from .servo import DAC_POINTS_AT_9_V
 

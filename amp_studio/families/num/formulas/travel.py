@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from amp_studio.validate.arguments import finite
+from amp_studio.validate import finite
 
 
 def axis_travel(least: float, most: float) -> float:

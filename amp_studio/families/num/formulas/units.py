@@ -8,8 +8,7 @@ from __future__ import annotations
 
 from functools import lru_cache
 
-from amp_studio.schema import Value, load_schema
-from amp_studio.schema.scales import unit_size
+from amp_studio.schema import Value, load_schema, unit_size
 
 _LARGEST_COUNT = 1e8
 """Internal units in the longest travel: 10 km at 0.1 mm, 1 m at 0.00001 mm (page 4-18)."""

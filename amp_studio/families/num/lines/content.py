@@ -8,11 +8,9 @@ from amp_studio.families.num.formats.lines import blocks_of, split_table
 from amp_studio.families.num.formats.table import FORMAT, KEY
 from amp_studio.families.num.formats.words import name_of
 from amp_studio.files import ParameterFile
-from amp_studio.formats.import_export import file_of
-from amp_studio.formats.text_format import FormatError, ReadOptions
+from amp_studio.formats import FormatError, ReadOptions, file_of
 from amp_studio.schema import load_schema
-from amp_studio.transfer.content import TakesAllOrRefuses
-from amp_studio.transfer.image import ImageError
+from amp_studio.transfer import ImageError, TakesAllOrRefuses
 
 KIND = "NUM table 1"
 FAMILY = "num"

@@ -12,23 +12,22 @@ from dataclasses import dataclass, replace
 from typing import ClassVar, Self
 
 from amp_studio.schema import load_schema
-from amp_studio.transfer.driver import ControlIdentity, Receipt
-from amp_studio.transfer.errors import (
+from amp_studio.transfer import (
     ConnectionCutError,
+    ControlIdentity,
     ControlSilentError,
     ImageDamagedError,
+    ImageError,
     ImageRejectedError,
+    LineDriver,
     NoConnectionError,
+    OpenLink,
+    Receipt,
+    Replacement,
+    SentValues,
     TransferError,
 )
-from amp_studio.transfer.exchange import Replacement
-from amp_studio.transfer.image import ImageError
-from amp_studio.transfer.line_driver import LineDriver
-from amp_studio.transfer.links.endpoint import Endpoint
-from amp_studio.transfer.links.link import Link, LinkError
-from amp_studio.transfer.links.serial_settings import Parity, SerialSettings
-from amp_studio.transfer.sent_values import SentValues
-from amp_studio.transfer.waiting import OpenLink
+from amp_studio.transfer.links import Endpoint, Link, LinkError, Parity, SerialSettings
 
 from .content import FAMILY, NumTableContent, content_of_table, reference_of, table_text, words_of_table
 from .table_reader import XOFF, XON, TableReader, with_parity

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from amp_studio.transfer.errors import ImageDamagedError
-from amp_studio.transfer.links.serial_settings import Parity
+from amp_studio.transfer import ImageDamagedError
+from amp_studio.transfer.links import Parity
 
 XON, XOFF = 0x11, 0x13
 LARGEST = 1 << 18

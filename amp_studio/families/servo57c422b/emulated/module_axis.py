@@ -8,8 +8,7 @@ from amp_studio.families.servo57c422b.law import LAW
 from amp_studio.families.servo57c422b.law_home import homing, travel
 from amp_studio.families.servo57c422b.law_sample import SCAN
 from amp_studio.families.servo57c422b.lines.content import AXIS_Y, RegisterContent, settings, written_content
-from amp_studio.sim import AxisLaw, AxisParameters, Ramp, SimulationError, bind_axis
-from amp_studio.sim.simulated_machine import SimulatedAxis
+from amp_studio.sim import AxisLaw, AxisParameters, Ramp, SimulatedAxis, SimulationError, bind_axis
 
 SPEED, ACCELERATION = 65.536, 0.065536
 """Register 19, 20 for 1 count/s, 21 to 24 for 1 count/s2 (4-13, 4-14)."""

@@ -5,10 +5,9 @@ from __future__ import annotations
 import binascii
 import re
 
-from amp_studio.schema.quoting import quoted
-from amp_studio.transfer.emulated.family_control import EmulatedOptions
-from amp_studio.transfer.emulated.line_device import DeviceSetup, serve_device
-from amp_studio.transfer.links.endpoint import Endpoint
+from amp_studio.schema import quoted
+from amp_studio.transfer.emulated import DeviceSetup, EmulatedOptions, serve_device
+from amp_studio.transfer.links import Endpoint
 
 from .module import AXES, NAME, REGISTERS, Module
 

@@ -11,8 +11,12 @@ import re
 from collections import Counter
 
 from amp_studio.files import ParameterFile
-from amp_studio.formats.passthrough_lines import (
+from amp_studio.formats import (
+    FormatError,
     PassthroughLine,
+    ReadOptions,
+    TextFormat,
+    TextRead,
     keep,
     kept,
     mark,
@@ -21,9 +25,7 @@ from amp_studio.formats.passthrough_lines import (
     plain,
     shown,
 )
-from amp_studio.formats.text_format import FormatError, ReadOptions, TextFormat, TextRead
-from amp_studio.schema import Address, InvalidValueError, Schema, show_value
-from amp_studio.schema.storage import is_low_first
+from amp_studio.schema import Address, InvalidValueError, Schema, is_low_first, show_value
 
 from .basic_text import BasicLine, BasicStatement, read_lines
 from .registers import NumberInRegisters, Registers, RegisterValues, Written, contents_of, registers_of

@@ -10,7 +10,7 @@ import re
 from collections.abc import Iterator
 from dataclasses import dataclass, field
 
-from amp_studio.formats.text_format import FormatError
+from amp_studio.formats import FormatError
 
 _TOKEN = re.compile(
     r"""

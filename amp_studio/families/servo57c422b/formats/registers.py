@@ -12,17 +12,21 @@ from dataclasses import dataclass
 from functools import lru_cache
 
 from amp_studio.files import Header, ParameterFile
-from amp_studio.formats.text_format import FormatError
-from amp_studio.schema import Address, Parameter, Schema, Value, written
-from amp_studio.schema.storage import (
+from amp_studio.formats import FormatError
+from amp_studio.schema import (
     WORD,
+    Address,
+    Parameter,
+    Schema,
     StorageError,
+    Value,
     is_low_first,
     register_number,
     value_of_register,
     value_of_words,
     words_of,
     words_taken,
+    written,
 )
 
 

@@ -4,8 +4,7 @@ from __future__ import annotations
 
 import re
 
-from amp_studio.schema import InvalidValueError
-from amp_studio.schema.quoting import quoted
+from amp_studio.schema import InvalidValueError, quoted
 
 _DECIMAL = re.compile(r"[+-]?[0-9]{1,20}(?:\.0{0,20})?")
 _HEXADECIMAL = re.compile(r"([0-9][0-9A-F]{0,19})H", re.IGNORECASE)

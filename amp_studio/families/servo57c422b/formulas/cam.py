@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 
-from amp_studio.validate.arguments import finite, not_negative, positive, whole
+from amp_studio.validate import finite, not_negative, positive, whole
 
 from .registers import SCAN_MS
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from amp_studio.validate.arguments import positive
+from amp_studio.validate import positive
 
 CHANNEL_HZ = 250000.0
 """Maximum frequency of an encoder input, each channel (page A-1)."""

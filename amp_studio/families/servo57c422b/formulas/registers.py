@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from amp_studio.validate.arguments import finite, not_negative, whole
+from amp_studio.validate import finite, not_negative, whole
 
 SCAN_MS = 1.25
 """Update rate of velocity and position loops (page A-2)."""

@@ -17,11 +17,9 @@ from amp_studio.families.servo57c422b.formats.registers import (
     registers_of,
 )
 from amp_studio.files import ParameterFile
-from amp_studio.formats.import_export import file_of
-from amp_studio.formats.text_format import FormatError, TextRead
+from amp_studio.formats import FormatError, TextRead, file_of
 from amp_studio.schema import load_schema
-from amp_studio.transfer.content import TakesAllOrRefuses
-from amp_studio.transfer.image import ImageError
+from amp_studio.transfer import ImageError, TakesAllOrRefuses
 
 KIND = "57C422B registers 1"
 FAMILY = "57c422b"

@@ -11,20 +11,23 @@ from collections.abc import Callable, Iterator
 from typing import ClassVar
 
 from amp_studio.schema import load_schema
-from amp_studio.transfer.driver import Abilities, ControlIdentity, Receipt
-from amp_studio.transfer.errors import (
+from amp_studio.transfer import (
+    QUIET,
+    Abilities,
     CancelledError,
+    ControlIdentity,
     ControlSilentError,
+    ControlStatus,
     ImageRejectedError,
+    LineDriver,
     NotInEmergencyStopError,
+    OpenLink,
     ProtocolMismatchError,
+    Receipt,
+    Replacement,
+    SentValues,
     TransferError,
 )
-from amp_studio.transfer.exchange import QUIET, Replacement
-from amp_studio.transfer.line_driver import LineDriver
-from amp_studio.transfer.sent_values import SentValues
-from amp_studio.transfer.status import ControlStatus
-from amp_studio.transfer.waiting import OpenLink
 
 from .content import AXIS_Y, FAMILY, RegisterContent, settings, words_of_content, written_content
 from .register_line import MOST, RegisterLine

@@ -5,9 +5,14 @@ from __future__ import annotations
 import binascii
 import re
 
-from amp_studio.transfer.errors import ControlSilentError, NoConnectionError, ProtocolMismatchError
-from amp_studio.transfer.links.link import Link, LinkError
-from amp_studio.transfer.waiting import OpenLink, Waiting
+from amp_studio.transfer import (
+    ControlSilentError,
+    NoConnectionError,
+    OpenLink,
+    ProtocolMismatchError,
+    Waiting,
+)
+from amp_studio.transfer.links import Link, LinkError
 
 MOST = 32  # registers of one answer
 LONGEST = 320  # bytes of a line

@@ -5,8 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
-from amp_studio.transfer.driver import ControlIdentity
-from amp_studio.transfer.status import ActiveFault, AxisStatus, ControlStatus, known_fault
+from amp_studio.transfer import ActiveFault, AxisStatus, ControlIdentity, ControlStatus, known_fault
 
 MODE, STATUS, FAULT, POSITION, VELOCITY, ERROR, PERIOD = 65, 72, 73, 74, 78, 80, 83
 SHOWN = ((MODE, 1), (STATUS, 12))

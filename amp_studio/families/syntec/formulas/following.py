@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from amp_studio.validate.arguments import not_negative, positive
+from amp_studio.validate import not_negative, positive
 
 from .resolution import STANDARD_BLU
 

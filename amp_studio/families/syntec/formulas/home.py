@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from amp_studio.validate.arguments import not_negative, positive
+from amp_studio.validate import not_negative, positive
 
 INACCURATE_TURNS = 0.1
 """Home grids that differ by more bring MOT-022 (page 2.2.5.1)."""

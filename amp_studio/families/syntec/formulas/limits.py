@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from amp_studio.validate.arguments import finite
+from amp_studio.validate import finite
 
 
 def protected_range(first: float, second: float) -> tuple[float, float] | None:

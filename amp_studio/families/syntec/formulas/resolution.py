@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from amp_studio.validate.arguments import finite, positive
+from amp_studio.validate import finite, positive
 
 STANDARD_BLU = 0.001
 """Length of the BLU as delivered, in mm or deg (page 1.2.6)."""

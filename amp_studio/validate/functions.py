@@ -8,8 +8,7 @@ from collections.abc import Callable, Mapping
 from functools import cache, wraps
 from typing import Any
 
-from amp_studio.schema.cel_engine import WORD_FUNCTIONS
-from amp_studio.schema.registration import load_part, registration_of
+from amp_studio.schema import WORD_FUNCTIONS, load_part, registration_of
 
 NUMBER_ANNOTATIONS = frozenset(("float", "int", "float | None", inspect.Parameter.empty))
 """How functions for rules declare that an argument is a number; built-in ones declare nothing."""

@@ -5,11 +5,8 @@ from __future__ import annotations
 from collections.abc import Mapping
 from datetime import datetime
 
-from amp_studio.files import Merge, ParameterFile, Row, RowGroup, Typed
-from amp_studio.files.diff import in_one_unit
-from amp_studio.files.merging import Choice, Side
-from amp_studio.schema import Value, show_value
-from amp_studio.schema.visible import visible
+from amp_studio.files import Choice, Merge, ParameterFile, Row, RowGroup, Side, Typed, in_one_unit
+from amp_studio.schema import Value, show_value, visible
 
 from .axes import place_of
 from .paper import Paper, PaperTable

@@ -7,8 +7,7 @@ from dataclasses import dataclass
 from typing import NamedTuple
 
 from amp_studio.files import ParameterFile
-from amp_studio.schema import Address, Rule, Schema, show_value
-from amp_studio.schema.model import ControlMessage
+from amp_studio.schema import Address, ControlMessage, Rule, Schema, show_value
 from amp_studio.validate import Finding
 
 from .places import place_of

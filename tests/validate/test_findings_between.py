@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from amp_studio.validate import Finding
-from amp_studio.validate.new_findings import new_findings
+from amp_studio.validate.findings_between import new_findings
 
 PITCH = ("servo.lead_screw_pitch", "1")
 

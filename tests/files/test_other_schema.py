@@ -9,8 +9,10 @@ import pytest
 
 from amp_studio.cli import run
 from amp_studio.families.grblhal.described import schema_of
-from amp_studio.files import Header, ParameterFile, compare, merge, new_file, save_file
-from amp_studio.files.by_schema import by_schema
+from amp_studio.files import Header, ParameterFile, compare, new_file
+from amp_studio.files.diff import merge
+from amp_studio.files.other_schema import by_schema
+from amp_studio.files.storage import save_file
 from amp_studio.schema import Value
 from tests.families.grblhal.recorded import THREE_AXES, with_lines
 

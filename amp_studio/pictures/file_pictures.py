@@ -7,8 +7,7 @@ from dataclasses import dataclass, replace
 from functools import partial
 
 from amp_studio.files import ParameterFile
-from amp_studio.schema import Address, axis_name
-from amp_studio.schema.model import ParameterId, RampRoles
+from amp_studio.schema import Address, ParameterId, RampRoles, axis_name
 
 from .gain import draw_gain
 from .gears import draw_gears, spindles

@@ -2,9 +2,19 @@
 
 from __future__ import annotations
 
-from amp_studio.schema import Address, InvalidValueError, Parameter, Schema, Value, write_value, written
-from amp_studio.schema.storage import StorageError, choice_of, code_of
-from amp_studio.schema.values import checked
+from amp_studio.schema import (
+    Address,
+    InvalidValueError,
+    Parameter,
+    Schema,
+    StorageError,
+    Value,
+    checked,
+    choice_of,
+    code_of,
+    write_value,
+    written,
+)
 
 from .parameter_file import Header, ParameterFile
 

@@ -9,7 +9,7 @@ from datetime import datetime, timedelta
 import pytest
 
 from amp_studio.files import ParameterFile
-from amp_studio.files.local_time import day_and_time, local_time, with_local_times
+from amp_studio.files.times import day_and_time, local_time, with_local_times
 from amp_studio.schema import Value, load_schema
 from amp_studio.validate import Validator
 

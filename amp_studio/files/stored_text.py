@@ -4,8 +4,18 @@ from __future__ import annotations
 
 import re
 
-from amp_studio.schema import Address, Parameter, Value, write_number
-from amp_studio.schema.storage import StorageError, single, stored_number, stored_unit, to_figure, words_of
+from amp_studio.schema import (
+    Address,
+    Parameter,
+    StorageError,
+    Value,
+    single,
+    stored_number,
+    stored_unit,
+    to_figure,
+    words_of,
+    write_number,
+)
 
 from .parameter_file import ParameterFile
 

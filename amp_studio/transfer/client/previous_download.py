@@ -7,9 +7,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from amp_studio.errors import AmpStudioError
-from amp_studio.files import ParameterFile, real_path, secret_values, text_of_name
-from amp_studio.files.by_schema import by_schema
-from amp_studio.files.reading import read_stored
+from amp_studio.files import ParameterFile, by_schema, read_stored, real_path, secret_values, text_of_name
 from amp_studio.schema import InvalidValueError, read_address
 
 from .kept import open_copy

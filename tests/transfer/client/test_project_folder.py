@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from amp_studio.transfer.client.folder_content import folder_content
+from amp_studio.transfer.client.project_folder import folder_content
 from amp_studio.transfer.client.record import add_exchange, exchange_now
 
 

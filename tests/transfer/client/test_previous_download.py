@@ -11,7 +11,7 @@ import pytest
 from amp_studio.files import Document, ParameterFile, new_file
 from amp_studio.schema import Value
 from amp_studio.transfer.client.kept import keep_image
-from amp_studio.transfer.client.last_download import NoDownloadError, last_download
+from amp_studio.transfer.client.previous_download import NoDownloadError, last_download
 from amp_studio.transfer.client.record import add_exchange, changes_of, exchange_now
 from amp_studio.transfer.image import encode_image
 
