@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import Any
 
 from amp_studio.files import Notify, write_atomic
+from amp_studio.schema import write_number
 
 from .errors import SimulationError
 from .rounding import shown
@@ -114,7 +115,7 @@ def trace_summary(trace: Trace, named: Callable[[str], str] = str) -> dict[str, 
         "advice": [
             {
                 "param": named(a.parameter),
-                "value": f"{a.value!r} {a.unit}".rstrip(),
+                "value": f"{write_number(a.value)} {a.unit}".rstrip(),
                 "why": a.why,
                 "price": a.price,
             }
