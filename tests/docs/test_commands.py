@@ -262,7 +262,7 @@ def test_forms_name_verbs_and_options_that_there_are() -> None:
 def keys_of(found: object) -> list[str]:
     """Return the keys of a JSON document, and in brackets those of the parts of a list."""
     if isinstance(found, list):
-        return ["[", *found[0], "]"] if found and isinstance(found[0], dict) else []
+        return ["[", *keys_of(found[0]), "]"] if found and isinstance(found[0], dict) else []
     assert isinstance(found, dict)
     return [
         word

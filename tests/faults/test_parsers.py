@@ -124,7 +124,6 @@ READERS = {
     "transfer/links/tls.py": "hostile clients",
     "transfer/links/tcp.py": "hostile clients",
     "ui/__init__.py": "",  # paths of files to open: by the gate of every file
-    "ui/actions/control.py": "damaged control image",
     "ui/base/display.py": "",  # whether names of displays are set
     "ui/actions/file.py": "",  # copies an example of the program, which is opened as every file is
     "ui/window/file_tabs.py": "",  # writes to the clipboard

@@ -22,7 +22,8 @@ LOW = ("zone.limit3_min", "2")
 
 @pytest.fixture
 def pictures(window):
-    """Return the page of pictures of the example mill, with the travel alone."""
+    """Return the page of pictures of the example mill in the place of the table, with the travel alone."""
+    window.resize(1200, 540)  # no room beside the table or below it
     action(window, "Pictures").trigger()
     page = window.page.pictures
     page.show_picture("travel")
@@ -306,6 +307,7 @@ def test_every_family_has_a_page_of_pictures(
 
 
 def test_pictures_open_at_the_handle_of_the_selected_value_and_the_parameter_panel_follows(window, qtbot):
+    window.resize(1200, 540)  # no room beside the table or below it
     window.go_to(("servo.gain_break_point", "3"))
     action(window, "Pictures").trigger()
     page = window.page.pictures

@@ -233,7 +233,7 @@ def test_the_layout_can_be_reset(window: MainWindow, qtbot: QtBot) -> None:
     for name in ("Groups", "Findings"):
         window.findChild(QDockWidget, name).close()
     action(window, "Reset Layout").trigger()
-    for name, width in (("Groups", 248), ("Parameter", 308)):
+    for name, width in (("Groups", 212), ("Parameter", 240)):
         dock = window.findChild(QDockWidget, name)
         qtbot.waitUntil(dock.isVisible, timeout=WAIT_MS)
         assert abs(dock.width() - width) < 30, name

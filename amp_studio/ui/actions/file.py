@@ -92,12 +92,12 @@ class FileActions(Translated):
         dialog = NewFileDialog(self.window, family or now, project=project, recent=self.recent.paths())
         if not run_dialog(dialog):
             return
-        file = dialog.make()
+        file, origin = dialog.make(), dialog.source()  # before the next question: nothing is asked of a closed dialog
         path = dialog.path() or self.ask_path(
             self.tr("New parameter file"), Path(file.header.name or "machine")
         )
         if path:
-            if (origin := dialog.source()) is not None:
+            if origin is not None:
                 note_origin(file, path, origin)
             self.write_new(path, lambda: Document.create(file, path))
 

@@ -43,7 +43,8 @@ class ColumnWidths:
 
 
 def column_widths(table: ParameterTable, painter: CellPainter, room: int) -> ColumnWidths:
-    """Return the widths for a table that is ``room`` wide."""
+    """Return the widths for a table that is ``room`` wide; a room that is hardly there at all has none."""
+    room = max(room, 0)
     looks = _looks(table)
     slots = [max(map(painter.slot, column), default=0) for column in looks]
     block = _widest(painter, looks[0], slots[0]) if table.has_block else 0
