@@ -171,7 +171,11 @@ class Schema:
             instances = {m: self.on(m).instances(parameter) for m in machines}
             numbers = {m: self.on(m).numbers(parameter) for m in machines}
             choices = _codes(parameter.choices)
-            bits = [(b.bit, b.width, b.label, _codes(b.choices)) for b in parameter.bits or () if not b.needs]
+            bits = [
+                (b.bit, b.width, b.was or b.label, _codes(b.choices))
+                for b in parameter.bits or ()
+                if not b.needs
+            ]
             storage = parameter.storage.model_dump() if parameter.storage else None
             for word in ("code", "command"):
                 if storage and storage[word] is None:

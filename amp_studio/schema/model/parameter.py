@@ -91,6 +91,8 @@ class Bit(Model):
     """A field of several bits with a signed number (two's complement)."""
     unknown: bool = False
     """The manual's figure is lost: the bit is kept and shown raw."""
+    was: str = ""
+    """The label with which it was published: files and controls out there have the signature of that."""
     needs: str = ""
     """The builds that have it, where the plain one does not: it may be above the width of the plain word."""
 

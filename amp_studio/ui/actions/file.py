@@ -92,7 +92,10 @@ class FileActions(Translated):
         dialog = NewFileDialog(self.window, family or now, project=project, recent=self.recent.paths())
         if not run_dialog(dialog):
             return
-        file, origin = dialog.make(), dialog.source()  # before the next question: nothing is asked of a closed dialog
+        file, origin = (
+            dialog.make(),
+            dialog.source(),
+        )  # before the next question: nothing is asked of a closed dialog
         path = dialog.path() or self.ask_path(
             self.tr("New parameter file"), Path(file.header.name or "machine")
         )
