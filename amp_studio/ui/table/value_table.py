@@ -102,7 +102,7 @@ class ValueTable(QTableView):
     def selectionCommand(
         self, index: QModelIndex | QPersistentModelIndex, event: QEvent | None = None
     ) -> QItemSelectionModel.SelectionFlag:
-        """Say what becomes selected; a cell that the program chooses is so alone, also while Ctrl of a shortcut is still held down."""
+        """Return what becomes selected: a cell that the program chooses is so alone, also while the Ctrl of a shortcut is down."""
         if event is None and QApplication.keyboardModifiers() & Qt.KeyboardModifier.ControlModifier:
             return QItemSelectionModel.SelectionFlag.ClearAndSelect
         return super().selectionCommand(index, event)
