@@ -236,13 +236,13 @@ class Stage:
 
     def exchange(self) -> None:
         """What a download would change, and what was exchanged before."""
-        from amp_studio.transfer.client.record import Exchange, add_exchange
+        from amp_studio.transfer.client.record import RecordedExchange, add_exchange
 
         workspace = self.window.workspace
         self.control_page()
         for when, verb, text in (("2026-03-10T07:12:00Z", "upload", "written into MILL_1394.amp"),
                                  ("2026-03-12T08:30:00Z", "download", "complete and read back equal")):  # fmt: skip
-            add_exchange(workspace.path, Exchange(when, "operator", verb, workspace.path.name, "9pc", "tcp://192.168.0.20:4001",
+            add_exchange(workspace.path, RecordedExchange(when, "operator", verb, workspace.path.name, "9pc", "tcp://192.168.0.20:4001",
                 "3f6c1a90be52", "a14be0097d21", "new" if verb == "download" else "", "", text,
                 (("1400 Home Calibration, X", "0.5 mm", "1 mm"),) if verb == "download" else ()))  # fmt: skip
         self.window.control.recorded()
