@@ -5,9 +5,9 @@ from __future__ import annotations
 from pathlib import Path
 
 import pytest
-from PySide6.QtCore import Qt
+from PySide6.QtCore import QEvent, QSize, Qt
 from PySide6.QtTest import QTest
-from PySide6.QtWidgets import QApplication
+from PySide6.QtWidgets import QApplication, QDockWidget
 
 from amp_studio.schema import Value
 from amp_studio.ui.main_window import MainWindow
@@ -186,3 +186,28 @@ def test_findings_never_open_by_themselves_and_fold_with_the_next_group_once_the
     window.go_to(SPEEDS)
     QApplication.processEvents()
     assert not window.findings.isVisible()
+
+
+def test_a_panel_that_opens_while_the_window_becomes_small_is_seen_below(
+    open_window, path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """To show a dock may bring the waiting resize of the window, which takes its contents away."""
+    window = open_window(path)
+    parameter = window.findChild(QDockWidget, "Parameter")
+    parameter.close()
+
+    def shown() -> None:
+        QDockWidget.show(parameter)
+        window.docks.fit(QSize(1150, 623))
+
+    monkeypatch.setattr(parameter, "show", shown)
+    window.docks.show("Parameter")
+    assert window.page.detail.isVisible()
+
+
+def test_an_explanation_that_outlasts_its_file_leads_nowhere(open_window, path: Path) -> None:
+    window = open_window(path)
+    page = window.page
+    window.files.close(page)
+    QApplication.sendPostedEvents(None, QEvent.Type.DeferredDelete)
+    page.go_to(("servo.excess_error", "1"))

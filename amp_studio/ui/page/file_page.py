@@ -12,6 +12,7 @@ from PySide6.QtWidgets import QVBoxLayout, QWidget
 from amp_studio.files import axis_letter, describe
 from amp_studio.schema import Address, Parameter, shown
 from amp_studio.ui.base.figures import write_figure
+from amp_studio.ui.base.modal import is_alive
 from amp_studio.ui.base.translated import counted, worded
 from amp_studio.ui.base.workspace import Workspace
 from amp_studio.ui.findings.panel import FindingsPanel
@@ -234,6 +235,8 @@ class FilePage(QWidget):
 
     def go_to(self, address: Address) -> None:
         """Select an address and come to the front; shows its group when the table does not contain it."""
+        if not is_alive(self):  # asked by an explanation that is still open
+            return
         self.front_wanted.emit(self)
         self.uncover()
         self.select(address)

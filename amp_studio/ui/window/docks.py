@@ -273,6 +273,11 @@ class Docks(Translated):
             self.fold(False)
         if dock.isHidden():
             dock.show()
+            if (
+                title in self._taken and dock.isHidden()
+            ):  # the window is too small for a separate side: it is below now
+                self.show(title)
+                return
             self._resize(dock)
         dock.raise_()
         dock.widget().setFocus()
