@@ -88,6 +88,18 @@ def test_the_sheet_says_that_the_file_has_changed_and_is_made_again(
     assert [row[1] for row in cells(dialog)] == ["1740"]
 
 
+def test_a_file_that_has_become_one_of_another_machine_type_gets_no_sheet(
+    dialog: SheetDialog, window: MainWindow
+) -> None:
+    before = cells(dialog)
+    window.edits.commit(("control.type", ""), "lathe")
+    dialog.update_button.click()
+    assert dialog.text.text().startswith(
+        "The file is for the machine type lathe, and the control contains one for mill"
+    )
+    assert cells(dialog) == before
+
+
 def test_ticks_that_cannot_be_kept_are_not_silent(dialog: SheetDialog, person: Person, path: Path) -> None:
     path.with_name(path.name + ".ticks.json").mkdir()
     dialog.items()[0].setCheckState(0, Qt.CheckState.Checked)

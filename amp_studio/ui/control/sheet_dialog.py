@@ -23,7 +23,7 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
-from amp_studio.sheet import STATES, Instruction, Sheet, SheetEntry, Ticks, judged
+from amp_studio.sheet import STATES, Instruction, Sheet, SheetEntry, SheetError, Ticks, judged
 from amp_studio.ui.base.questions import show_message
 from amp_studio.ui.base.task import in_background
 from amp_studio.ui.base.theme import Token, colour, severity_icon
@@ -114,7 +114,11 @@ class SheetDialog(QDialog):
 
     def refresh(self) -> None:
         """Make the sheet again: the file has changed."""
-        self.sheet, self.ticks = self._make()
+        try:
+            self.sheet, self.ticks = self._make()
+        except SheetError as error:  # the file has become one of another machine type
+            self.text.setText(f"{str(error)[:1].upper()}{str(error)[1:]}.")
+            return
         self._fill()
 
     def _fill(self) -> None:
