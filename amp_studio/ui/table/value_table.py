@@ -33,7 +33,7 @@ from amp_studio.schema import Address, InvalidValueError, Parameter
 from amp_studio.ui.base.theme import font
 
 from .cell_editor import CellEditor, Refusal
-from .column_widths import LEAST_NAMES, ColumnWidths, column_widths
+from .column_widths import LEAST_NAMES, ColumnWidths, ContentWidths, column_widths, content_widths
 from .more_columns import MoreColumns
 from .parameter_table import AddressRole, ParameterTable
 from .selected_cells import SelectedCells
@@ -62,6 +62,8 @@ class ValueTable(QTableView):
         self._table = model
         self._is_fitting = self._is_dragged = False
         self._filling: tuple[QModelIndex, QModelIndex] | None = None
+        self._content: ContentWidths | None = None
+        """What the contents need, until they or the font change."""
         """First and last cell of the range from which the fill handle is dragged."""
         self.last: Address | None = None
         self._shown: list[Parameter] = []
@@ -367,6 +369,7 @@ class ValueTable(QTableView):
         is_same = self._shown is self._table.asked
         self._is_dragged = self._is_dragged and is_same
         self._lay_block()
+        self._content = None
         self._fit_columns()
         index = self._table.index_of(self.last) if self.last else QModelIndex()
         if not index.isValid() or not index.flags() & Qt.ItemFlag.ItemIsEnabled:
@@ -397,7 +400,13 @@ class ValueTable(QTableView):
         if self._is_dragged:
             return
         room = self.width() - _MARGIN
-        self._take_widths(column_widths(self._table, self._delegate.painter, room))
+        self._take_widths(self._widths(room))
+
+    def _widths(self, room: int) -> ColumnWidths:
+        """Return the widths for a room; the contents are measured when they have changed, not whenever the room has."""
+        if self._content is None:
+            self._content = content_widths(self._table, self._delegate.painter)
+        return column_widths(self._content, room)
 
     def _take_widths(self, widths: ColumnWidths) -> None:
         self._is_fitting = True
@@ -422,9 +431,10 @@ class ValueTable(QTableView):
 
     def _grow(self, *_: object) -> None:
         """Widen the columns for which a new value is too wide; none becomes narrower under the hand."""
+        self._content = None
         if self._is_dragged or not self._table.rows:
             return
-        wanted = column_widths(self._table, self._delegate.painter, self.width() - _MARGIN)
+        wanted = self._widths(self.width() - _MARGIN)
         present = [self.horizontalHeader().sectionSize(n) for n in range(len(wanted.columns))]
         columns = [max(now, new) for now, new in zip(present, wanted.columns, strict=True)]
         frozen = max(self.verticalHeader().width(), wanted.frozen)
@@ -441,6 +451,11 @@ class ValueTable(QTableView):
         self._corner.setGeometry(0, 0, self.verticalHeader().width(), heads.height())
         self._corner.raise_()
         self._more.place()
+
+    def changeEvent(self, event: QEvent) -> None:
+        if event.type() in (QEvent.Type.FontChange, QEvent.Type.StyleChange, QEvent.Type.LanguageChange):
+            self._content = None
+        super().changeEvent(event)
 
     def resizeEvent(self, event: QResizeEvent) -> None:
         super().resizeEvent(event)

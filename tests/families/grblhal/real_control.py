@@ -26,16 +26,18 @@ class RealControl:
         return f"tcp://127.0.0.1:{self.port}?protocol=grbl"
 
     def start(self) -> None:
-        """Give it power, on a port that was free."""
-        with socket.socket() as free:
-            free.bind(("127.0.0.1", 0))
-            self.port = free.getsockname()[1]
-        # Without a time factor of 0 it reads a byte a millisecond of the clock, and computes all the while.
-        self._process = subprocess.Popen(
-            [self._firmware, "-n", "-t", "0", "-p", str(self.port), "-e", self._memory], stdin=subprocess.DEVNULL,
-            stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, cwd=self._memory.parent,
-        )  # fmt: skip
-        _wait_listening(self.port)
+        """Give it power, on a port that was free; on another where a stranger was quicker."""
+        listens = False
+        while not listens:
+            with socket.socket() as free:
+                free.bind(("127.0.0.1", 0))
+                self.port = free.getsockname()[1]
+            # Without a time factor of 0 it reads a byte a millisecond of the clock, and computes all the while.
+            self._process = subprocess.Popen(
+                [self._firmware, "-n", "-t", "0", "-p", str(self.port), "-e", self._memory], stdin=subprocess.DEVNULL,
+                stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, cwd=self._memory.parent,
+            )  # fmt: skip
+            listens = _listens(self.port, self._process)
 
     def kill(self) -> None:
         """Take its power away at once."""
@@ -45,15 +47,18 @@ class RealControl:
             self._process = None
 
 
-def _wait_listening(port: int) -> None:
-    """Wait until the port is taken; the firmware has one client, so nobody connects to find out."""
+def _listens(port: int, process: subprocess.Popen[bytes]) -> bool:
+    """Return whether the port is taken and the firmware runs; it has one client, so nobody connects to find out."""
     end = time.monotonic() + 60
     while time.monotonic() < end:
+        if process.poll() is not None:
+            return False
         with socket.socket() as probe:
             try:
                 probe.bind(("127.0.0.1", port))
             except OSError:
-                return
+                time.sleep(0.02)  # it may be about to end because the port is another's
+                return process.poll() is None
         time.sleep(0.02)
     raise AssertionError("the firmware does not listen")
 
