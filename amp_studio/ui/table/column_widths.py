@@ -6,6 +6,7 @@ leave at the right: no digit and no unit is ever cut.
 
 from __future__ import annotations
 
+from collections.abc import Collection
 from dataclasses import dataclass
 from heapq import nlargest
 
@@ -58,7 +59,8 @@ class ContentWidths:
 
 def content_widths(table: ParameterTable, painter: CellPainter) -> ContentWidths:
     """Measure every cell of a table: a thousand rows take 15 ms, so it is done once for what is in them."""
-    looks = _looks(table)
+    every = range(len(table.rows))
+    looks = _looks(table, every)
     slots = [max(map(painter.slot, column), default=0) for column in looks]
     block = _widest(painter, looks[0], slots[0]) if table.has_block else 0
     full = [_widest(painter, column, slot) for column, slot in zip(looks, slots, strict=True)]
@@ -69,7 +71,32 @@ def content_widths(table: ParameterTable, painter: CellPainter) -> ContentWidths
         command = _widest_text([table.command(n) for n in range(len(table.rows))]) + 2 * GAP3
         full.append(min(command, _MOST_COMMAND))
         short.append(min(command, _LEAST_TEXT))
-    return ContentWidths(_number_width(table), _names_width(table), full, short, slots, block)
+    return ContentWidths(_number_width(table), _names_width(table, every), full, short, slots, block)
+
+
+def grown(
+    content: ContentWidths, table: ParameterTable, painter: CellPainter, rows: Collection[int]
+) -> ContentWidths:
+    """Return the widths with what the cells of some rows need now: an edit measures those that it has changed."""
+    looks = _looks(table, rows)
+    slots = [
+        max(was, *map(painter.slot, column), 0) for was, column in zip(content.slots, looks, strict=True)
+    ]
+    wider = [
+        now - was for now, was in zip(slots, content.slots, strict=True)
+    ]  # of the numbers in other rows too
+    needed = [_widest(painter, column, slot) for column, slot in zip(looks, slots, strict=True)]
+    at_least = [
+        _widest(painter, column, slot, is_short=True) for column, slot in zip(looks, slots, strict=True)
+    ]
+    block = max(content.block + wider[0], needed[0]) if table.has_block else 0
+    if table.has_block:
+        needed[0] = at_least[0] = 1
+    full, short = list(content.full), list(content.short)
+    for n in range(len(looks)):
+        full[n], short[n] = max(full[n] + wider[n], needed[n]), max(short[n] + wider[n], at_least[n])
+    names = max(content.names, _names_width(table, rows))
+    return ContentWidths(content.number, names, full, short, slots, block)
 
 
 def column_widths(content: ContentWidths, room: int) -> ColumnWidths:
@@ -91,14 +118,10 @@ def _shared(full: list[int], short: list[int], room: int) -> list[int]:
     return [few + int((most - few) * share) for most, few in zip(full, short, strict=True)]
 
 
-def _looks(table: ParameterTable) -> list[list[CellLook]]:
-    """Return the looks of the cells of each column that exist."""
+def _looks(table: ParameterTable, rows: Collection[int]) -> list[list[CellLook]]:
+    """Return the looks of the cells of each column that exist, in some rows."""
     return [
-        [
-            look
-            for row in range(len(table.rows))
-            if (look := table.look(row, column)) and look.kind != "absent"
-        ]
+        [look for row in rows if (look := table.look(row, column)) and look.kind != "absent"]
         for column in range(len(table.columns))
     ]
 
@@ -124,8 +147,8 @@ def _number_width(table: ParameterTable) -> int:
     return max(42, _widest_text([table.number(n) for n in range(len(table.rows))], "small") + GAP3)
 
 
-def _names_width(table: ParameterTable) -> int:
-    """Return the width of the longest name, with the unit of its row."""
-    names = _widest_text([table.row_name(n) for n in range(len(table.rows))])
-    units = _widest_text([table.unit_of_row(n) for n in range(len(table.rows))], "small")
+def _names_width(table: ParameterTable, rows: Collection[int]) -> int:
+    """Return the width of the longest name of some rows, with the unit of its row."""
+    names = _widest_text([table.row_name(n) for n in rows])
+    units = _widest_text([table.unit_of_row(n) for n in rows], "small")
     return names + (units + GAP3 if units else 0) + 2 * GAP3

@@ -57,7 +57,7 @@ RowFilter = Callable[[TableRow, list[Address]], bool]
 class ParameterTable(QAbstractTableModel):
     """The parameters of one group or search with the values of the open file. Numbers and names are the row heads."""
 
-    values_changed = Signal()
+    values_changed = Signal(list)
     """Values in the same rows are new; after this they are painted."""
 
     def __init__(self, workspace: Workspace) -> None:
@@ -427,7 +427,7 @@ class ParameterTable(QAbstractTableModel):
             self._forget_heads()  # the number of a row is that of its first value that exists
         self.headerDataChanged.emit(Qt.Orientation.Horizontal, 0, max(0, len(columns) - 1))
         self._forget_looks()
-        self.values_changed.emit()
+        self.values_changed.emit(addresses)
 
     def _forget_heads(self) -> None:
         self._heads.clear()

@@ -33,7 +33,7 @@ from amp_studio.schema import Address, InvalidValueError, Parameter
 from amp_studio.ui.base.theme import font
 
 from .cell_editor import CellEditor, Refusal
-from .column_widths import LEAST_NAMES, ColumnWidths, ContentWidths, column_widths, content_widths
+from .column_widths import LEAST_NAMES, ColumnWidths, ContentWidths, column_widths, content_widths, grown
 from .more_columns import MoreColumns
 from .parameter_table import AddressRole, ParameterTable
 from .selected_cells import SelectedCells
@@ -429,9 +429,13 @@ class ValueTable(QTableView):
                 if self._table.is_in_block(row):
                     self.setSpan(row, 0, 1, self._table.columnCount())
 
-    def _grow(self, *_: object) -> None:
+    def _grow(self, changed: list[Address]) -> None:
         """Widen the columns for which a new value is too wide; none becomes narrower under the hand."""
-        self._content = None
+        content, self._content = self._content, None
+        if content is not None and changed:
+            looked_at = (*changed, *self._table.values.worst)  # a mark of a finding needs room too
+            rows = {i.row() for a in looked_at if (i := self._table.index_of(a)).isValid()}
+            self._content = grown(content, self._table, self._delegate.painter, rows)
         if self._is_dragged or not self._table.rows:
             return
         wanted = self._widths(self.width() - _MARGIN)
