@@ -16,6 +16,7 @@ from amp_studio.ui.base.task import Task
 from amp_studio.ui.base.translated import Translated
 from amp_studio.ui.page.file_page import FilePage
 from amp_studio.ui.page.message_page import MessageWindow
+from amp_studio.ui.table.cell_look import prepare_labels
 from amp_studio.ui.window.studio_window import StudioWindow
 from amp_studio.validate import Validator
 
@@ -259,3 +260,4 @@ def _every_family() -> tuple[Finder, ...]:
 def _make_ready(finder: Finder, validator: Validator, *_: object) -> None:
     index_of(finder.schema, finder.machine)
     validator.prepare_edits()
+    prepare_labels(finder.schema)

@@ -12,7 +12,7 @@ from typing import Literal
 
 from amp_studio.files import unlike_axes, value_note, with_days_and_times
 from amp_studio.report import state_name
-from amp_studio.schema import Address, UnitError, Value, convert, labels_of_word, shown, write_value
+from amp_studio.schema import Address, Schema, UnitError, Value, convert, labels_of_word, shown, write_value
 from amp_studio.ui.base.figures import show_value
 from amp_studio.ui.base.translated import Translated, tr, worded
 from amp_studio.ui.base.workspace import Workspace
@@ -64,6 +64,14 @@ def short_labels(labels: tuple[str, ...]) -> dict[str, str]:
     for step in (_without_common_words, _without_brackets, _codes_alone, _with_short_words):
         short = _kept_apart(short, step(short))
     return short
+
+
+def prepare_labels(schema: Schema) -> None:
+    """Work out the shorter texts of all choices and bits of a family now; another thread may do so."""
+    for parameter in schema.parameters.values():
+        for labelled in (parameter.choices, parameter.bits):
+            if labelled:
+                short_labels(tuple(each.label for each in labelled))
 
 
 def _kept_apart(before: dict[str, str], after: dict[str, str]) -> dict[str, str]:
