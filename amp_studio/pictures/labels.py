@@ -7,7 +7,7 @@ goes further away and gets a line to it, then it loses its value; what has no ro
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import Literal
 
 from amp_studio.schema import Address
@@ -125,7 +125,7 @@ class _Placing:
     def _kept_inside(self, box: Box) -> Box:
         left = min(box.left, self._width - 2.0 - box.width)
         top = min(box.top, self._height - self._line)
-        return replace(box, left=max(left, 2.0), top=max(top, 0.0))
+        return Box(max(left, 2.0), max(top, 0.0), box.width, box.height)
 
     def _is_free(self, box: Box, *, signs: bool = False) -> bool:
         if box.left + box.width > self._width or box.top + box.height > self._height:
@@ -205,9 +205,12 @@ class _Placing:
 
     def _found(self, text: Text, point: Point, value: str, far: int, *, signs: bool) -> Box | None:
         """Return the first free place of a text within so many lines; where it belongs at all, first."""
-        places = list(self._around(text, point, value, far))
-        inside = [box for box in places if self._kept_inside(box) == box]
-        for box in (self._kept_inside(places[0]), *inside, *map(self._kept_inside, places[1:])):
+        around = self._around(text, point, value, far)
+        first = self._kept_inside(next(around))
+        if self._is_free(first, signs=signs):  # most are free where they belong: no other place is asked for
+            return first
+        places = [(box, self._kept_inside(box)) for box in around]
+        for box in (*(box for box, kept in places if kept == box), *(kept for _, kept in places)):
             if self._is_free(box, signs=signs):
                 return box
         return None

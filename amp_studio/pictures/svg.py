@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from functools import lru_cache
 from html import escape
 
 from .frame import Placement
@@ -156,6 +157,7 @@ def _arrow(x: float, y: float, kind: str) -> str:
     return shaft + "".join(f"M{tip[0]:.1f} {tip[1]:.1f}L{a:.1f} {b:.1f}" for a, b in sides)
 
 
+@lru_cache(4096)
 def measured(text: str, strong: bool) -> float:
     """Return how wide a text is in the widest of the fonts that an SVG names, about, in points."""
     wide = sum(_LETTERS.get(letter, CAPITAL if letter.isupper() else LETTER) for letter in text)

@@ -17,9 +17,9 @@ if TYPE_CHECKING:
     from .axis_parameters import AxisParameters, ParameterValue
     from .counts import nearest
     from .errors import SimulationError
-    from .events import CodedScale, Failure, Homing, Jogging, Travel
+    from .events import CodedScale, Failure, Homing, Jogging, Ramp, Travel
     from .identification import figure_text, identified_text, identify, machine_settings
-    from .law import USUAL_SCENARIOS, AlarmText, AxisLaw, Law, Leader, Prediction, Ramp, Source, law_of
+    from .law import USUAL_SCENARIOS, AlarmText, AxisLaw, Law, Leader, Prediction, Source, law_of
     from .linear import linear_model
     from .listings import SimulationListing, listing
     from .machine import Machine
