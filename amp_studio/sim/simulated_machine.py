@@ -10,6 +10,7 @@ import math
 from collections.abc import Mapping
 from dataclasses import replace
 
+from .errors import SimulationError
 from .events import Around, Homing, Ramp, Travel
 from .homing import Homed, home_axis
 from .law import AlarmText, AxisLaw
@@ -22,6 +23,8 @@ AWAKE = 0.5
 """s after the last order in which an axis is still stepped; then it is at rest and costs nothing."""
 SLICE = 0.02
 """s of the machine's time between two looks at its limits."""
+RUNAWAY = "RUNAWAY"
+"""Code of an axis whose loop is not stable, where the control itself stops it with none."""
 LONGEST_ADVANCE = 1.0
 """s of the machine's time that are made up at most, after its process had no processor."""
 
@@ -146,11 +149,24 @@ class SimulatedAxis:
         left = min(duration, LONGEST_ADVANCE)
         while left > 0.0 and self._left > 0.0:
             step = min(left, SLICE)
-            self._moving.advance(step)
+            try:
+                self._moving.advance(step)
+            except (
+                SimulationError
+            ) as error:  # a loop that is not stable: the control goes on without this axis
+                self._run_away(error.what)
+                return
             left -= step
             self._left = AWAKE if self._moving.is_busy else self._left - step
             self._look()
         self._settle()
+
+    def _run_away(self, text: str) -> None:
+        """Take the drive away from an axis whose motion has no bounds; it is where its command was."""
+        at = self.command
+        self._moving = MovingAxis(self.law, engine="plain", keep=False, coast=COAST)
+        self._offset, self._left, self._homed = at, 0.0, None
+        self.alarm, self.is_enabled = AlarmText(RUNAWAY, text), False
 
     def _look(self) -> None:
         """Stop at a limit, and note what the law stopped for."""

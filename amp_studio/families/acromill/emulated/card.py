@@ -11,13 +11,15 @@ from amp_studio.schema import visible
 from amp_studio.transfer.emulated import DeviceSetup, EmulatedOptions, serve_device
 from amp_studio.transfer.links import Endpoint
 
+from .card_motion import WORDS, CardMotion
 from .settings import COMMANDS_LISTED, CardSettings, CommandError
 
 BANNER = ("ACR8000 (c) 1993-1998 by AMCS Inc.", "Version 1.17.08 CARD 0")
 LONGEST = 128  # signs of a line; more are neither taken nor echoed (assumed)
 PIECE = 256
 BACKSPACE, DELETE, RETURN = 0x08, 0x7F, 0x0D
-COMMANDS = "power, patch COMMAND, echo on|off, status, quit"
+COMMANDS = "power, patch COMMAND, echo on|off, home AXES, mdi G28 X1, stop, status, quit"
+_LIVE = re.compile(r"(?:PRINT\s+|\?\s*)(P|BIT)\s*([0-9]{1,5})\s*", re.IGNORECASE)
 
 
 class AcrCard:
@@ -25,6 +27,7 @@ class AcrCard:
 
     def __init__(self, setup: DeviceSetup) -> None:
         self.settings = CardSettings(setup.memory)
+        self.motion = CardMotion(self.settings)
         self._out = bytearray()
         self._line = bytearray()
         self._program = 0
@@ -33,6 +36,10 @@ class AcrCard:
     def connected(self) -> None:
         """Nobody connects to a terminal line: the card sends nothing, and keeps what it has of a line."""
         self._out.clear()
+
+    def advance(self, duration: float) -> None:
+        """Let time pass, s: the axes move."""
+        self.motion.advance(duration)
 
     def answer(self) -> bytes:
         """Return the next signs to be sent."""
@@ -87,9 +94,22 @@ class AcrCard:
                 return ["ON" if self._echoes else "OFF"]
             case word if found := re.fullmatch("PROG([0-9])", word):
                 self._program = int(found[1])
+            case word if word.partition(" ")[0] in WORDS:
+                return self.motion.obey(*line.strip().upper().partition(" ")[::2])
+            case word if (found := _LIVE.fullmatch(word)) and (live := self._live(found)):
+                return [live]
             case _:
                 return self.settings.obey(line)
         return []
+
+    def _live(self, found: re.Match[str]) -> str:
+        """Return a system parameter or a bit as it is now; "" for one that is none (-1 for a set bit is assumed)."""
+        number = int(found[2])
+        if found[1] == "BIT":
+            bit = self.motion.bit(number)
+            return "" if bit is None else "-1" if bit else "0"
+        value = self.motion.parameter(number)
+        return "" if value is None else f"{value:.10g}".upper()
 
     def command(self, line: str) -> str:
         """Do what the operator asks for: ``power`` goes off and on, ``patch`` is a command from another terminal."""
@@ -98,6 +118,7 @@ class AcrCard:
             case "power", "":
                 self.settings.load()
                 self.settings.variables.clear()
+                self.motion.switch_off()
                 self._line.clear()
                 self._out.clear()
                 self._program = 0
@@ -105,8 +126,14 @@ class AcrCard:
                 self._echoes = rest == "on"
             case "patch", _ if rest:
                 return visible("; ".join(self.settings.obey(rest)) or line)
+            case "home", _:
+                return self.motion.home(rest.replace(",", "").replace(" ", ""))
+            case "mdi", _ if rest:
+                return self.motion.mdi(rest)
+            case "stop", "":
+                self.motion.stop()
             case "status", "":
-                return f"P{self._program:02d} {len(self._line)} signs of a line"
+                return f"P{self._program:02d} {len(self._line)} signs of a line; {self.motion.status()}"
             case _:
                 raise ValueError(f"no command: {COMMANDS}")
         return visible(line)

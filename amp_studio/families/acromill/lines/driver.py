@@ -18,6 +18,7 @@ from amp_studio.transfer import (
     ControlFullError,
     ControlIdentity,
     ControlSilentError,
+    ControlStatus,
     ImageDamagedError,
     ImageRejectedError,
     LineDriver,
@@ -41,6 +42,17 @@ from .content import (
     positions_of,
     same_figures,
     settings,
+)
+from .status import (
+    BIT_STEP,
+    ENCODER,
+    ENCODER_STEP,
+    NOT_EXCESS,
+    PRIMARY,
+    SECONDARY,
+    SETPOINT_STEP,
+    CardAxis,
+    status_of,
 )
 from .terminal import Terminal
 
@@ -83,6 +95,9 @@ class TerminalDriver(AcrContent, LineDriver):
         self._terminal = Terminal(open_link, self._waiting)
         self._answered: set[str] = set()
         """The settings that the card has answered for in the readings of this driver so far."""
+        self._known: ControlIdentity | None = None
+        self._pulses: dict[str, float] = {}
+        """PPU of each axis, read once for the status."""
 
     def close(self) -> None:
         """Close the line."""
@@ -102,6 +117,32 @@ class TerminalDriver(AcrContent, LineDriver):
             name=rows[0][:SHOWN] if rows and version else "ACR card",
             revision=version,
             signature=load_schema(FAMILY).signature,
+        )
+
+    def status(self) -> ControlStatus:
+        """Return encoder positions, setpoints and excess-error bits of all axes: queries alone."""
+        if self._known is None:
+            self._known = self._identity()
+            found = {axis: self._figures(f"PPU {axis}", 1) for axis in AXES}
+            self._pulses = {axis: float(figures[0]) for axis, figures in found.items() if figures}
+        axes = [self._axis_figures(n, axis) for n, axis in enumerate(AXES) if axis in self._pulses]
+        return status_of(self._known, "in" if self.system == "inch" else "mm", axes)
+
+    def _axis_figures(self, n: int, axis: str) -> CardAxis:
+        encoder = self._shown(f"?P{ENCODER + n * ENCODER_STEP}")
+        primary, secondary = (self._shown(f"?P{first + n * SETPOINT_STEP}") for first in (PRIMARY, SECONDARY))
+        within = self._shown(f"?BIT{NOT_EXCESS + n * BIT_STEP}")
+        return CardAxis(axis, self._pulses[axis], encoder, primary, secondary, within != 0.0)
+
+    def _shown(self, query: str) -> float:
+        """Return a figure that may change from one look to the next, so that it is asked for until it is one; raises TransferError."""
+        rows: list[str] = []
+        for _ in range(SET_TRIES):
+            rows = self._terminal.obey(query)
+            if len(rows) == 1 and re.fullmatch(_FIGURE, rows[0], re.IGNORECASE):
+                return float(rows[0])
+        raise ProtocolMismatchError(
+            f"the card answers '{query}' with '{rows[0][:SHOWN] if rows else 'nothing'}'"
         )
 
     def _names(self, content: bytes) -> dict[str, str]:
