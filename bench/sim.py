@@ -22,13 +22,13 @@ import scipy.signal
 from measure import Measure, timed
 
 from amp_studio.sim import AxisLaw, Machine, Ramp
-from amp_studio.sim import kernel as shared
-from amp_studio.sim.arrays import Vector
-from amp_studio.sim.compiled import compiled
-from amp_studio.sim.machine import DELAY_SHARE, machine_array
-from amp_studio.sim.motion import Until, prepared, run_axis, steps
-from amp_studio.sim.ramps import end_of, move
-from amp_studio.sim.signals import COMMAND, COMMAND_VELOCITY, MOTOR, OUTPUT, POSITION
+from amp_studio.sim.axis.motion import Until, prepared, run_axis, steps
+from amp_studio.sim.command.ramps import end_of, move
+from amp_studio.sim.engine import kernel as shared
+from amp_studio.sim.engine.arrays import Vector
+from amp_studio.sim.engine.compiled import compiled
+from amp_studio.sim.engine.machine import DELAY_SHARE, machine_array
+from amp_studio.sim.engine.signals import COMMAND, COMMAND_VELOCITY, MOTOR, OUTPUT, POSITION
 
 SECONDS = 10.0
 """Simulated time of a run."""

@@ -340,7 +340,7 @@ class Stage:
 
     def template(self) -> None:
         """The cover by the template to begin with, and a mistake in it."""
-        from amp_studio.report.starting_template import write_starting_template
+        from amp_studio.report.templating.starting import write_starting_template
 
         panel, folder = self.window.preview.panel, self.window.workspace.path.parent
         path = write_starting_template(folder)

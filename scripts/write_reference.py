@@ -43,7 +43,7 @@ from reference_search import guide_entries, search_script
 
 from amp_studio.guide import step_of, steps_of
 from amp_studio.report import facts, help_parts
-from amp_studio.report.manual_page import formula_lines
+from amp_studio.report.parameter.manual_page import formula_lines
 from amp_studio.report.wording import severity_name
 from amp_studio.schema import Group, Parameter, Schema, family_ids, load_schema, read_address
 

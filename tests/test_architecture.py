@@ -11,6 +11,7 @@ import subprocess
 import sys
 import textwrap
 import tomllib
+from collections import Counter
 from collections.abc import Iterator
 from functools import cache
 from importlib.metadata import packages_distributions
@@ -116,6 +117,15 @@ def test_no_file_is_named_for_everything_and_nothing(checkout: Path) -> None:
         if {path.stem, path.parent.name} & CATCH_ALL_NAMES
     ]
     assert found == []
+
+
+def test_no_folder_has_more_modules_than_a_reader_takes_in(checkout: Path) -> None:
+    counts = Counter(
+        path.parent.relative_to(checkout).as_posix()
+        for path in (checkout / "amp_studio").rglob("*.py")
+        if path.name != "__init__.py"
+    )
+    assert {folder: count for folder, count in counts.items() if count > 30} == {}
 
 
 def imported_libraries(package: Path) -> Iterator[tuple[str, Path]]:

@@ -12,12 +12,16 @@ from amp_studio.front_pages import front_page
 
 if TYPE_CHECKING:
     from .apart import run_apart
-    from .by_rule import FindingGroup, finding_axes, finding_groups, fix_lines, fix_text
-    from .check_list import OpenValue, build_check_list, open_value, write_check_list
     from .contents import CHAPTERS, PAPER_SIZES, SORTS, UNIT_CHOICES, Chapter, Contents
     from .dangers import dangers_of_change
-    from .describe import definition
-    from .differences import (
+    from .findings.alike import alike, same_finding_text
+    from .findings.by_rule import FindingGroup, finding_axes, finding_groups, fix_lines, fix_text
+    from .findings.lines import finding_json, finding_parts, finding_text, suppressed_text
+    from .language import language_codes, language_of
+    from .model import Danger, ExchangeLine, PrintedFigure
+    from .output.pdf import Place, SetReport, typeset
+    from .papers.check_list import OpenValue, build_check_list, open_value, write_check_list
+    from .papers.differences import (
         SIDE_BY_SIDE,
         MachineLine,
         alike_of,
@@ -29,20 +33,16 @@ if TYPE_CHECKING:
         machine_rows,
         machines_paper,
     )
-    from .finding_lines import finding_json, finding_parts, finding_text, suppressed_text
-    from .findings import alike, same_finding_text
-    from .form import form_paper
-    from .language import language_codes, language_of
-    from .manual_page import GRADES, facts, help_parts, one_line, page_of
-    from .model import Danger, ExchangeLine, PrintedFigure
-    from .paper import Paper, PaperTable, check_paper_ending, results_paper, write_paper
-    from .paper_of_merge import merge_paper
-    from .pdf import Place, SetReport, typeset
-    from .printed_table import cells_of, table_lines, tables_of
-    from .sheet import PrintedSheet, text_lines, write_sheet
-    from .starting_template import write_starting_template
-    from .templating import OWN
-    from .why import why_parts, why_text
+    from .papers.form import form_paper
+    from .papers.merge import merge_paper
+    from .papers.paper import Paper, PaperTable, check_paper_ending, results_paper, write_paper
+    from .papers.sheet import PrintedSheet, text_lines, write_sheet
+    from .parameter.describe import definition
+    from .parameter.manual_page import GRADES, facts, help_parts, one_line, page_of
+    from .parameter.printed_table import cells_of, table_lines, tables_of
+    from .parameter.why import why_parts, why_text
+    from .templating.starting import write_starting_template
+    from .templating.templates import OWN
     from .wording import counted, severity_name, state_name
     from .write import print_report, set_report
 else:

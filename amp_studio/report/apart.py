@@ -17,8 +17,8 @@ from typing import BinaryIO, Literal
 from amp_studio.errors import AmpStudioError
 
 from .model import Report
-from .template_copy import copied_template
-from .templating import TemplateMistakeError
+from .templating.folder_copy import copied_template
+from .templating.templates import TemplateMistakeError
 
 _PATIENCE_S = 40.0
 """Of both: jinja2 has half of it (``templating``)."""
@@ -85,8 +85,8 @@ def made(what: What, report: Report, own: Path | None, ppi: int = 0) -> list[byt
 
     Raises TemplateMistakeError.
     """
-    from .page import render_html
-    from .pdf import render_pdf, set_pages
+    from .output.page import render_html
+    from .output.pdf import render_pdf, set_pages
 
     with copied_template(own) if own else contextlib.nullcontext() as copy:
         if what == "html":

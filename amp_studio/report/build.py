@@ -30,10 +30,10 @@ from .axes import printed_axes, scope_of
 from .contents import SORTS, UNIT_CHOICES, Contents
 from .dangers import dangers_of
 from .drawings import drawings
-from .findings import notes_of, suppressed_notes
+from .findings.alike import notes_of, suppressed_notes
 from .language import language_of
-from .manual_page import help_parts
 from .model import ExchangeLine, PrintedFigure, Report, ReportRow
+from .parameter.manual_page import help_parts
 from .rows import Rows, row_of, rows_of
 from .sections import numbers_of, sections_of
 from .wording import counted, joined_places

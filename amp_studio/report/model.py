@@ -12,7 +12,7 @@ from datetime import datetime
 from amp_studio.schema import MASKED, ParameterState
 
 from .contents import SORTS, Contents
-from .note import Note, NoteKind
+from .findings.note import Note, NoteKind
 
 MARKS: dict[str, str] = {
     "*": "differs from the printed default",

@@ -14,7 +14,7 @@ from .axes import axis_label, axis_note, printed_axes, scope_of
 from .contents import Sort
 from .language import ENGLISH, Language
 from .model import Column, Grid, GridLine, Listing, ReportRow, Section
-from .number_text import split_count
+from .parameter.number_text import split_count
 
 _WIDEST_GRID = 8
 """Most axes in one grid; further axes get another grid below."""

@@ -12,13 +12,13 @@ from amp_studio.validate import NO_RULES, BuilderRules
 from .apart import What, made_apart
 from .build import build_report
 from .contents import Contents
-from .everything import render_json, render_workbook
 from .model import ExchangeLine, PrintedFigure, Report
-from .page import render_html
-from .pdf import SetReport, render_pdf
-from .table_csv import render_csv
-from .templating import TemplateMistakeError, own_template
-from .text import render_text
+from .output.everything import render_json, render_workbook
+from .output.page import render_html
+from .output.pdf import SetReport, render_pdf
+from .output.table_csv import render_csv
+from .output.text import render_text
+from .templating.templates import TemplateMistakeError, own_template
 
 FORMATS: dict[str, Callable[[Report], bytes]] = {
     ".pdf": render_pdf,

@@ -1,9 +1,10 @@
 """The simulation: how an axis moves with its parameters, before the machine moves.
 
 `run.simulate` is the single call from an open file to a trace. A family brings its law (`law.py`: two sample functions and
-the figures of an axis, bound from a file); the rest knows no family: the machine (`machine.py`, `plant.py`), the command
-(`profiles.py`, `ramps.py`), the loop over both (`kernel.py`, `compiled.py`, `motion.py`), the scenarios, and what is written
-(`write.py`). Every assumption is documented where it is made, is part of each trace, and is listed in docs/simulation.md.
+the figures of an axis, bound from a file); the rest knows no family: what is commanded (`command/`), machine and loop over
+both (`engine/`), axes that run or are stepped (`axis/`), the scenarios, gains (`tuning/`), a machine out of a record
+(`identification/`), and what is drawn and written (`plot/`, `write.py`). Every assumption is documented where it is made, is
+part of each trace, and is listed in docs/simulation.md.
 """
 
 from typing import TYPE_CHECKING
@@ -13,31 +14,17 @@ from amp_studio.front_pages import front_page
 from . import one_thread as one_thread
 
 if TYPE_CHECKING:
-    from .arrays import Vector
+    from .axis.motion import Motion, Until, run_axis
+    from .axis.simulated_machine import SimulatedAxis, SimulatedMachine
     from .axis_parameters import AxisParameters, ParameterValue
-    from .counts import nearest
-    from .errors import SimulationError
-    from .events import CodedScale, Failure, Homing, Jogging, Ramp, Travel
-    from .identification import figure_text, identified_text, identify, machine_settings
-    from .law import USUAL_SCENARIOS, AlarmText, AxisLaw, Law, Leader, Prediction, Source, law_of
-    from .linear import linear_model
-    from .listings import SimulationListing, listing
-    from .machine import Machine
-    from .machine_file import machine_for, read_machine, write_machine
-    from .model import assumptions, with_model
-    from .motion import Motion, Until, run_axis
-    from .motion_check import MotionCheck, check_motion
-    from .picture import Curve, Panel, Picture, Ring, picture_of, settling_span, unheld
-    from .pieces import Piece, change, length
-    from .profiles import POLYNOMIAL
-    from .ramps import end_of, exponential_pieces, leg, move, profile_of
-    from .rounding import rounded_down, rounded_up, shown
-    from .run import bind_axis, simulate, simulated_axes
-    from .scenario import Scenario, Settings, above_zero, number, refuse_unknown
-    from .scenarios.columns import alarms_of, column_units, per_minute
-    from .scenarios.step import SCENARIO as STEP
-    from .series import Series
-    from .signals import (
+    from .command.events import CodedScale, Failure, Homing, Jogging, Ramp, Travel
+    from .command.pieces import Piece, change, length
+    from .command.ramps import end_of, exponential_pieces, leg, move, profile_of
+    from .engine.arrays import Vector
+    from .engine.counts import nearest
+    from .engine.machine import Machine
+    from .engine.profiles import POLYNOMIAL
+    from .engine.signals import (
         COMMAND,
         COMMAND_ACCELERATION,
         COMMAND_VELOCITY,
@@ -53,12 +40,26 @@ if TYPE_CHECKING:
         STOP,
         VELOCITY_LOOP,
     )
-    from .simulated_machine import SimulatedAxis, SimulatedMachine
+    from .errors import SimulationError
+    from .identification.identify import figure_text, identified_text, identify, machine_settings
+    from .identification.machine_file import machine_for, read_machine, write_machine
+    from .law import USUAL_SCENARIOS, AlarmText, AxisLaw, Law, Leader, Prediction, Ramp, Source, law_of
+    from .listings import SimulationListing, listing
+    from .model import assumptions, with_model
+    from .motion_check import MotionCheck, check_motion
+    from .plot.picture import Curve, Panel, Picture, Ring, picture_of, settling_span, unheld
+    from .plot.svg import plot_svg
+    from .plot.ticks import ring_levels
+    from .rounding import rounded_down, rounded_up, shown
+    from .run import bind_axis, simulate, simulated_axes
+    from .scenario import Scenario, Settings, above_zero, number, refuse_unknown
+    from .scenarios.columns import alarms_of, column_units, per_minute
+    from .scenarios.step import SCENARIO as STEP
+    from .series import Series
     from .steady import error_at_speed
-    from .svg import plot_svg
-    from .ticks import ring_levels
     from .trace import Figure, Recommendation, Trace, titled
-    from .trial import address_of, named_parameter
+    from .tuning.linear import linear_model
+    from .tuning.trial import address_of, named_parameter
     from .write import trace_summary, trace_text, write_trace
 else:
     __getattr__ = front_page(__name__)

@@ -4,7 +4,7 @@ A law is two functions at most, at the top of a module of the family, over flat 
 Python and as machine code with equal results:
 
     from math import floor
-    from amp_studio.sim.signals import COMMAND, FEED_SHARE, MONITOR, MOTOR, OUTPUT, POSITION, STOP
+    from amp_studio.sim.engine.signals import COMMAND, FEED_SHARE, MONITOR, MOTOR, OUTPUT, POSITION, STOP
 
     GAIN, LIMIT = 0, 1            # indices into p
     LAST = 0                      # index into s
@@ -41,10 +41,10 @@ from amp_studio.files import ParameterFile, fitted_axes
 from amp_studio.schema import load_part, load_schema, registered_families, registration_of, why_not_simulated
 
 from .axis_parameters import AxisParameters
-from .compiled import Sample
+from .command.events import RAMPS, Homing, Jogging, Ramp, Travel
+from .engine.compiled import Sample
+from .engine.machine import Machine
 from .errors import SimulationError
-from .events import RAMPS, Homing, Jogging, Ramp, Travel
-from .machine import Machine
 from .scenario import Scenario
 from .trace import Recommendation, Trace
 

@@ -5,9 +5,9 @@ from __future__ import annotations
 from dataclasses import replace
 
 from .axis_parameters import AxisParameters
+from .engine.machine import Machine
 from .errors import SimulationError
 from .law import AxisLaw
-from .machine import Machine
 from .rounding import shown
 
 AT_SPEED = 60.0 / 1000.0

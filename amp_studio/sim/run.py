@@ -8,7 +8,6 @@ from dataclasses import replace
 from amp_studio.files import ParameterFile, fitted_axes
 from amp_studio.schema import Address, axis_name, load_part, registration_of, unknown_name
 
-from .advice import recommendations
 from .axis_parameters import AxisParameters, ParameterValue, ReadParameter
 from .doubts import doubts
 from .errors import SimulationError
@@ -19,7 +18,8 @@ from .scenarios import SCENARIOS
 from .scenarios.circle import SECOND
 from .settings import read_settings, refuse_other_unit
 from .trace import Trace
-from .trial import Trial
+from .tuning.advice import recommendations
+from .tuning.trial import Trial
 from .unit_system import axis_unit, in_unit, length_unit
 
 

@@ -11,8 +11,8 @@ from amp_studio.files import Notify, write_atomic
 from amp_studio.schema import write_number
 
 from .errors import SimulationError
+from .plot.svg import plot_svg
 from .rounding import shown
-from .svg import plot_svg
 from .trace import Trace
 
 PIXELS_PER_INCH = 144

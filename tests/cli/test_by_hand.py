@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 from new_family import write_family
 
-from amp_studio.cli.by_hand import ways_offered
+from amp_studio.cli.controls.by_hand import ways_offered
 from amp_studio.schema.registration import Registration, register, unregister
 from amp_studio.transfer.errors import ControlSilentError, NotInEmergencyStopError
 

@@ -10,8 +10,8 @@ from typing import Any
 
 import pytest
 
-from amp_studio.cli import check_cache
-from amp_studio.cli.check_formats import CHECK_FORMATS
+from amp_studio.cli.checks import cache as check_cache
+from amp_studio.cli.checks.formats import CHECK_FORMATS
 from amp_studio.cli.verbs.checks import validate
 from amp_studio.files import Document
 from amp_studio.validate import companions_of
@@ -300,6 +300,6 @@ def test_a_check_reads_nothing_that_is_not_in_its_key(amp, machines: Path, opene
     read = {Path(text).name for text in opened_files if text.startswith(str(machines))}
     compared = {each.name for n in "01" for each in companions_of(machines / f"{n}.amp")}
     assert read <= {"0.amp", "1.amp", "rules.yaml", machines.name} | compared, (
-        "what is read more belongs into the key (cli/check_cache.py)"
+        "what is read more belongs into the key (cli/checks/cache.py)"
     )
     assert {"0.amp", "1.amp", "rules.yaml", "0.amp.bak"} <= read

@@ -15,7 +15,7 @@ from xml.etree import ElementTree as ET
 import jsonschema
 import pytest
 
-from amp_studio.cli.check_formats import CHECK_FORMATS, uri_of
+from amp_studio.cli.checks.formats import CHECK_FORMATS, uri_of
 from amp_studio.cli.verbs.checks import validate
 from amp_studio.schema.yaml_reader import read_yaml
 

@@ -118,7 +118,7 @@ def text_of(report: Path) -> str:
             ["pdftotext", "-raw", report, "-"], capture_output=True, text=True, check=True
         ).stdout
     from amp_studio.report.build import build_report
-    from amp_studio.report.pdf import typst_source
+    from amp_studio.report.output.pdf import typst_source
 
     return typst_source(build_report(open_file(report.with_name("machine.amp")).file))
 

@@ -10,8 +10,8 @@ import numpy as np
 
 from amp_studio.files import ParameterFile, ParameterFileError, open_file
 from amp_studio.sim import SimulationError, machine_for, read_machine, simulate
-from amp_studio.sim.drive_record import drive_record_of, speed_factor
-from amp_studio.sim.friction import fit_friction
+from amp_studio.sim.identification.drive_record import drive_record_of, speed_factor
+from amp_studio.sim.identification.friction import fit_friction
 
 from .texts import REPOSITORY, mutants, violations
 

@@ -13,8 +13,8 @@ from collections.abc import Callable, Iterator
 from pathlib import Path
 from unittest import mock
 
-from amp_studio.cli.check_cache import CheckCache
-from amp_studio.cli.check_formats import CheckResult
+from amp_studio.cli.checks.cache import CheckCache
+from amp_studio.cli.checks.formats import CheckResult
 from amp_studio.cli.parsing import parse
 from amp_studio.cli.verbs.checks.validate import VERB
 from amp_studio.files import ParameterFileError, new_file, recover_backup
@@ -177,7 +177,7 @@ def fuzz_check_caches(folder: Path, seed: int, count: int) -> list[str]:
     """Read damaged results of earlier checks: they are as they were kept, or there are none."""
     chance, path = random.Random(seed), folder / "x.amp"
     path.write_text(SMALL, encoding="utf-8")
-    with mock.patch("amp_studio.cli.check_cache.cache_folder", return_value=folder / "cache"):
+    with mock.patch("amp_studio.cli.checks.cache.cache_folder", return_value=folder / "cache"):
         cache = CheckCache(parse("validate", VERB, [str(path)]))
     (key,) = cache.keys([path])
     assert key is not None

@@ -25,8 +25,8 @@ NAMES = {"stdin", "argv", "environ"}
 READERS = {
     "calibration/cells.py": "damaged points of a laser",
     "calibration/reading.py": "damaged points of a laser",
-    "cli/check_cache.py": "damaged results of checks",
-    "cli/check_formats.py": "",  # what the program itself has printed
+    "cli/checks/cache.py": "damaged results of checks",
+    "cli/checks/formats.py": "",  # what the program itself has printed
     "cli/console.py": "odd values",
     "cli/verbs/checks/diff.py": "damaged control image",
     "cli/verbs/checks/validate.py": "damaged parameter file",
@@ -41,7 +41,7 @@ READERS = {
     "families/grblhal/driver.py": "damaged answers of a Grbl control",
     "families/grblhal/emulated/firmware.py": "odd bytes at an emulated Grbl control",
     "families/grblhal/kind.py": "damaged copies of Grbl settings",
-    "cli/fleet.py": "damaged control image",
+    "cli/controls/fleet.py": "damaged control image",
     "families/acromill/emulated/card.py": "odd keys and bytes at emulated NUM and ACR controls",
     "families/acromill/emulated/settings.py": "odd keys and bytes at emulated NUM and ACR controls",
     "families/acromill/formats/acr_script.py": "damaged texts of controls",
@@ -75,13 +75,13 @@ READERS = {
     "formats/spreadsheet_block.py": "pasted blocks of cells",
     "formats/values_csv.py": "damaged texts of controls",
     "report/language.py": "",  # a file of the program itself
-    "report/page.py": "",  # the program's own drawings, in letters of base64
-    "report/pdf.py": "",  # what Typst found on pages that it has set
-    "report/starting_template.py": "",  # a file of the program itself
+    "report/output/page.py": "",  # the program's own drawings, in letters of base64
+    "report/output/pdf.py": "",  # what Typst found on pages that it has set
+    "report/templating/starting.py": "",  # a file of the program itself
     "report/apart.py": "hostile templates of a project",
     "report/write.py": "hostile templates of a project",
-    "report/template_copy.py": "hostile templates of a project",
-    "report/templating.py": "hostile templates of a project",
+    "report/templating/folder_copy.py": "hostile templates of a project",
+    "report/templating/templates.py": "hostile templates of a project",
     "schema/compiled_cache.py": "damaged cache",
     "schema/file_error.py": "damaged YAML",
     "schema/load.py": "damaged facts",
@@ -91,10 +91,10 @@ READERS = {
     "cli/verbs/documents/sheet.py": "damaged lists of a control's screen",
     "sheet/read_back.py": "damaged lists of a control's screen",
     "sheet/ticks.py": "damaged ticks of a sheet",
-    "sim/machine_file.py": "damaged machines of an axis",
-    "sim/drive_record.py": "damaged records of a drive",
+    "sim/identification/machine_file.py": "damaged machines of an axis",
+    "sim/identification/drive_record.py": "damaged records of a drive",
     "sim/one_thread.py": "",  # sets a variable that is not there, reads none
-    "sim/compiled.py": "",  # one switch of numba, compared with "0"
+    "sim/engine/compiled.py": "",  # one switch of numba, compared with "0"
     "schema/units.py": "",  # a file of the program itself
     "transfer/client/kept.py": "damaged copies of a control",
     "transfer/client/live.py": "damaged control image",

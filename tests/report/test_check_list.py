@@ -8,7 +8,7 @@ import pytest
 
 from amp_studio.files import new_file
 from amp_studio.guide import find_step, progress, steps_of, tick
-from amp_studio.report.check_list import (
+from amp_studio.report.papers.check_list import (
     WIDTH,
     CheckList,
     build_check_list,

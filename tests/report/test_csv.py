@@ -14,7 +14,7 @@ from amp_studio.files import ParameterFile, new_file
 from amp_studio.report import SORTS, Contents, print_report
 from amp_studio.report.build import build_report
 from amp_studio.report.contents import Sort
-from amp_studio.report.table_csv import HEADS
+from amp_studio.report.output.table_csv import HEADS
 from amp_studio.schema import Value, family_ids, read_value
 
 

@@ -7,8 +7,8 @@ import pytest
 from amp_studio.files import ParameterFile, new_file
 from amp_studio.report import Contents, help_parts, page_of
 from amp_studio.report.build import build_report
-from amp_studio.report.page import render_html
-from amp_studio.report.text import render_text
+from amp_studio.report.output.page import render_html
+from amp_studio.report.output.text import render_text
 from amp_studio.schema import Value, family_ids, load_schema
 
 

@@ -17,13 +17,13 @@ from amp_studio.guide import steps_of
 from amp_studio.report import SORTS, UNIT_CHOICES, Contents, print_report
 from amp_studio.report.build import build_report
 from amp_studio.report.contents import Sort
-from amp_studio.report.differences import differences_paper, machines_paper
 from amp_studio.report.drawings import drawings
-from amp_studio.report.form import form_paper
 from amp_studio.report.language import language_codes, language_of
 from amp_studio.report.model import MARKS
-from amp_studio.report.paper import write_paper
-from amp_studio.report.templating import TEMPLATES
+from amp_studio.report.papers.differences import differences_paper, machines_paper
+from amp_studio.report.papers.form import form_paper
+from amp_studio.report.papers.paper import write_paper
+from amp_studio.report.templating.templates import TEMPLATES
 from amp_studio.schema import Value, family_ids, load_schema
 
 EXAMPLES = {

@@ -10,7 +10,7 @@ from amp_studio.files import ParameterFile
 from amp_studio.report import SORTS, Contents
 from amp_studio.report.build import build_report
 from amp_studio.report.contents import Sort
-from amp_studio.report.page import render_html
+from amp_studio.report.output.page import render_html
 
 VOID = {"meta", "link", "br", "input", "col", "img", "hr"}
 

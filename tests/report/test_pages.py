@@ -15,7 +15,7 @@ from amp_studio.files.storage import save_file
 from amp_studio.report import Chapter, Contents, PrintedFigure, print_report
 from amp_studio.report.build import build_report
 from amp_studio.report.model import Listing, Report
-from amp_studio.report.pdf import render_pdf
+from amp_studio.report.output.pdf import render_pdf
 from amp_studio.report.rows import rows_of
 from amp_studio.report.sections import numbers_of
 

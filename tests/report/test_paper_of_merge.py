@@ -7,8 +7,8 @@ from pathlib import Path
 import pytest
 
 from amp_studio.files import Merge, ParameterFile, Typed, new_file
-from amp_studio.report.paper import PAPER_FORMATS, Paper, write_paper
-from amp_studio.report.paper_of_merge import merge_paper
+from amp_studio.report.papers.merge import merge_paper
+from amp_studio.report.papers.paper import PAPER_FORMATS, Paper, write_paper
 from amp_studio.schema import MASKED, Value
 
 CALIBRATION, PASSWORD = ("home.calibration", "1"), ("password.character", "1")

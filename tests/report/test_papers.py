@@ -18,10 +18,10 @@ import pytest
 from amp_studio.files import ParameterFile, compare, new_file
 from amp_studio.files.notes import set_group_note, set_machine_note
 from amp_studio.report import Contents, print_report
-from amp_studio.report.differences import differences_paper, machine_rows, machines_paper
-from amp_studio.report.form import form_paper
-from amp_studio.report.paper import PAPER_FORMATS, Paper, PaperTable, check_paper_ending, write_paper
-from amp_studio.report.workbook import WorkbookSheet, workbook
+from amp_studio.report.output.workbook import WorkbookSheet, workbook
+from amp_studio.report.papers.differences import differences_paper, machine_rows, machines_paper
+from amp_studio.report.papers.form import form_paper
+from amp_studio.report.papers.paper import PAPER_FORMATS, Paper, PaperTable, check_paper_ending, write_paper
 from amp_studio.schema import MASKED, Value
 
 DATE = datetime(2026, 7, 1, 14, 5, tzinfo=UTC)

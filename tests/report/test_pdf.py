@@ -14,7 +14,7 @@ from amp_studio.files import ParameterFile
 from amp_studio.report import SORTS, Contents, print_report
 from amp_studio.report.build import build_report
 from amp_studio.report.contents import Sort
-from amp_studio.report.pdf import typeset
+from amp_studio.report.output.pdf import typeset
 
 poppler = pytest.mark.skipif(shutil.which("pdfinfo") is None, reason="needs poppler's tools")
 
@@ -120,7 +120,7 @@ def test_typst_forgets_a_pdf_before_it_sets_the_next(monkeypatch: pytest.MonkeyP
         def compile(self, source: bytes, **_: object) -> None:
             compiled.append(source)
 
-    monkeypatch.setattr("amp_studio.report.pdf._has_compiled", False)
+    monkeypatch.setattr("amp_studio.report.output.pdf._has_compiled", False)
     monkeypatch.setattr(typst, "Compiler", Compiler)
     typeset("one")
     assert compiled == []

@@ -10,7 +10,7 @@ from amp_studio.files import ParameterFile
 from amp_studio.files.storage import save_file
 from amp_studio.report import Contents, set_report
 from amp_studio.report.build import build_report
-from amp_studio.report.starting_template import write_starting_template
+from amp_studio.report.templating.starting import write_starting_template
 
 SHORT = Contents(changed_only=True, without=frozenset({"pictures", "motion", "exchanges"}))
 

@@ -15,9 +15,9 @@ from amp_studio.report import SORTS, Contents
 from amp_studio.report.build import build_report
 from amp_studio.report.contents import Sort
 from amp_studio.report.model import Grid, Listing, ReportRow
-from amp_studio.report.page import render_html
+from amp_studio.report.output.page import render_html
+from amp_studio.report.output.text import render_text
 from amp_studio.report.sections import number_key
-from amp_studio.report.text import render_text
 from amp_studio.schema import Value
 
 

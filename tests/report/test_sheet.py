@@ -10,7 +10,7 @@ from pathlib import Path
 import pytest
 from rule_machines import sound
 
-from amp_studio.report.sheet import (
+from amp_studio.report.papers.sheet import (
     SHEET_FORMATS,
     PrintedSheet,
     render_sheet_csv,

@@ -14,10 +14,10 @@ from amp_studio.files import ParameterFile
 from amp_studio.report import SORTS, Contents, print_report
 from amp_studio.report.build import build_report
 from amp_studio.report.contents import Sort
+from amp_studio.report.findings.note import Note
 from amp_studio.report.model import Listing, Report, ReportRow, Section
-from amp_studio.report.note import Note
-from amp_studio.report.pdf import typst_literal, typst_source
-from amp_studio.report.text import render_text
+from amp_studio.report.output.pdf import typst_literal, typst_source
+from amp_studio.report.output.text import render_text
 
 
 def row(number: str, name: str, value: str, **more: object) -> ReportRow:

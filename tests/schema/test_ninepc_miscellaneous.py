@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from amp_studio.report.manual_page import facts
+from amp_studio.report.parameter.manual_page import facts
 from amp_studio.schema import UnknownParameterError
 
 NUMBERS = {

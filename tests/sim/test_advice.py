@@ -11,9 +11,9 @@ import pytest
 from amp_studio.files import open_file
 from amp_studio.schema import Value
 from amp_studio.sim import AxisLaw, Recommendation, Source, address_of, simulate
-from amp_studio.sim.advice import recommendations, stable_inertias
-from amp_studio.sim.linear import linear_model, velocity_model
-from amp_studio.sim.loops import Loops
+from amp_studio.sim.tuning.advice import recommendations, stable_inertias
+from amp_studio.sim.tuning.linear import linear_model, velocity_model
+from amp_studio.sim.tuning.loops import Loops
 from tests.sim.tiny import changed, tiny
 
 EXAMPLES = Path(__file__).parents[2] / "examples"

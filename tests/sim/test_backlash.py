@@ -8,7 +8,7 @@ import numpy as np
 
 from amp_studio.files import ParameterFile, open_file
 from amp_studio.sim import Machine, Trace, simulate
-from amp_studio.sim.advice import CHATTER
+from amp_studio.sim.tuning.advice import CHATTER
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
 

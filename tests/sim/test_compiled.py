@@ -10,8 +10,8 @@ from types import FunctionType, SimpleNamespace
 import numpy as np
 import pytest
 
-from amp_studio.sim.arrays import Vector
-from amp_studio.sim.compiled import can_compile, compiled, kernel_name
+from amp_studio.sim.engine.arrays import Vector
+from amp_studio.sim.engine.compiled import can_compile, compiled, kernel_name
 from tests.sim import tiny as law
 
 LIMIT = 5.0
@@ -31,7 +31,7 @@ def with_globals(function: FunctionType, **names: object) -> FunctionType:
 
 def test_the_same_law_has_the_same_name_in_every_process() -> None:
     script = (
-        "from amp_studio.sim.compiled import kernel_name; from tests.sim import tiny;"
+        "from amp_studio.sim.engine.compiled import kernel_name; from tests.sim import tiny;"
         "print(kernel_name(tiny.position_sample, tiny.velocity_sample))"
     )
     told = subprocess.run(

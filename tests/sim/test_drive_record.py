@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 
 from amp_studio.sim import SimulationError
-from amp_studio.sim.drive_record import (
+from amp_studio.sim.identification.drive_record import (
     DriveRecord,
     drive_record_of,
     read_drive_record,

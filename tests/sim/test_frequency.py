@@ -8,10 +8,10 @@ import numpy as np
 import pytest
 
 from amp_studio.sim import SimulationError, Trace
-from amp_studio.sim.linear import linear_model
-from amp_studio.sim.loops import Loops
 from amp_studio.sim.scenarios import SCENARIOS
 from amp_studio.sim.scenarios.sweep import Tone, sweep
+from amp_studio.sim.tuning.linear import linear_model
+from amp_studio.sim.tuning.loops import Loops
 from tests.sim.tiny import tiny
 
 

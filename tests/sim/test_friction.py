@@ -7,7 +7,7 @@ import pytest
 from scipy.integrate import solve_ivp
 
 from amp_studio.sim import SimulationError
-from amp_studio.sim.friction import FrictionFit, fit_friction
+from amp_studio.sim.identification.friction import FrictionFit, fit_friction
 from amp_studio.sim.series import Series
 
 INERTIA, VISCOUS, DRY, WEIGHT = 0.02, 0.03, 2.0, 1.5

@@ -7,9 +7,9 @@ import math
 
 import pytest
 
-from amp_studio.sim.events import Around, CodedScale, Failure, Homing, Ramp
-from amp_studio.sim.homing import Homed, home_axis, markers_ahead
-from amp_studio.sim.moving_axis import MovingAxis
+from amp_studio.sim.axis.homing import Homed, home_axis, markers_ahead
+from amp_studio.sim.axis.moving_axis import MovingAxis
+from amp_studio.sim.command.events import Around, CodedScale, Failure, Homing, Ramp
 from tests.sim.tiny import tiny
 
 RAMP = Ramp("linear", 200.0)

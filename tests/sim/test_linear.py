@@ -9,9 +9,9 @@ import scipy.linalg
 import scipy.signal
 
 from amp_studio.sim import SimulationError
-from amp_studio.sim import sampled as matrices
-from amp_studio.sim.linear import LinearModel
-from amp_studio.sim.sampled import Places, Plant, exponential, held, jacobian
+from amp_studio.sim.tuning import sampled as matrices
+from amp_studio.sim.tuning.linear import LinearModel
+from amp_studio.sim.tuning.sampled import Places, Plant, exponential, held, jacobian
 
 COMMAND, COMMAND_VELOCITY, COMMAND_ACCELERATION, POSITION, MOTOR, OUTPUT = range(6)
 PLACES = Places(

@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 from amp_studio.sim import SimulationError
-from amp_studio.sim.machine import Machine
+from amp_studio.sim.engine.machine import Machine
 
 
 @pytest.mark.parametrize(

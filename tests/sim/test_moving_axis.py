@@ -5,10 +5,10 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
+from amp_studio.sim.axis.motion import Engine, Until, run_axis
+from amp_studio.sim.axis.moving_axis import MovingAxis, Watch, way
+from amp_studio.sim.command.ramps import move
 from amp_studio.sim.law import Ramp
-from amp_studio.sim.motion import Engine, Until, run_axis
-from amp_studio.sim.moving_axis import MovingAxis, Watch, way
-from amp_studio.sim.ramps import move
 from tests.sim.tiny import tiny
 
 

@@ -9,11 +9,11 @@ import numpy as np
 import pytest
 
 from amp_studio.sim import Trace
-from amp_studio.sim.picture import Ring, banded, picture_of, settling_span, thinned, unheld
+from amp_studio.sim.plot.picture import Ring, banded, picture_of, settling_span, thinned, unheld
+from amp_studio.sim.plot.svg import plot_svg
+from amp_studio.sim.plot.svg_parts import COLOURS
+from amp_studio.sim.plot.ticks import ring_levels
 from amp_studio.sim.scenarios import SCENARIOS
-from amp_studio.sim.svg import plot_svg
-from amp_studio.sim.svg_parts import COLOURS
-from amp_studio.sim.ticks import ring_levels
 from tests.sim.tiny import tiny
 
 

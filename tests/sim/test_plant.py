@@ -12,13 +12,13 @@ from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
 from amp_studio.sim import Machine, Ramp, SimulationError
-from amp_studio.sim.arrays import Vector
+from amp_studio.sim.axis.motion import Until, run_axis
+from amp_studio.sim.command.ramps import blocks, end_of, move
+from amp_studio.sim.engine.arrays import Vector
+from amp_studio.sim.engine.machine import COULOMB, KEEP, KICK, SIZE, STATIC, machine_array
+from amp_studio.sim.engine.plant import PlantState, advance, speed_after
+from amp_studio.sim.engine.signals import OUTPUT_TEST
 from amp_studio.sim.law import AxisLaw
-from amp_studio.sim.machine import COULOMB, KEEP, KICK, SIZE, STATIC, machine_array
-from amp_studio.sim.motion import Until, run_axis
-from amp_studio.sim.plant import PlantState, advance, speed_after
-from amp_studio.sim.ramps import blocks, end_of, move
-from amp_studio.sim.signals import OUTPUT_TEST
 from tests.campaigns import examples
 from tests.sim.tiny import tiny
 

@@ -11,9 +11,9 @@ from hypothesis import strategies as st
 from ruckig import InputParameter, Result, Ruckig, Trajectory
 
 from amp_studio.sim import Ramp, SimulationError
-from amp_studio.sim.profiles import DURATION, START, WIDTH, command, piece_at
-from amp_studio.sim.ramps import Override, blocks, end_of, move, overridden
-from amp_studio.sim.signals import COMMAND, COMMAND_ACCELERATION, COMMAND_VELOCITY, MONITOR
+from amp_studio.sim.command.ramps import Override, blocks, end_of, move, overridden
+from amp_studio.sim.engine.profiles import DURATION, START, WIDTH, command, piece_at
+from amp_studio.sim.engine.signals import COMMAND, COMMAND_ACCELERATION, COMMAND_VELOCITY, MONITOR
 from tests.campaigns import examples
 
 LINEAR = Ramp("linear", 500.0, 250.0)

@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from amp_studio.sim.motion import Until, run_axis
-from amp_studio.sim.ramps import move
+from amp_studio.sim.axis.motion import Until, run_axis
+from amp_studio.sim.command.ramps import move
 from amp_studio.sim.scenarios import SCENARIOS
 from tests.sim.tiny import tiny
 

@@ -20,10 +20,10 @@ from amp_studio.sim import (
     trace_text,
     write_trace,
 )
-from amp_studio.sim.picture import thinned
+from amp_studio.sim.plot.picture import thinned
+from amp_studio.sim.plot.ticks import ticks
 from amp_studio.sim.rounding import rounded_down, rounded_up, shown
 from amp_studio.sim.scenarios.step import run_step
-from amp_studio.sim.ticks import ticks
 from amp_studio.sim.write import trace_csv
 
 from .tiny import tiny

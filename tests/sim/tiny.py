@@ -6,8 +6,8 @@ from dataclasses import replace
 from typing import Any
 
 from amp_studio.sim import AlarmText, AxisLaw, Machine, Prediction, Ramp
-from amp_studio.sim.arrays import Vector
-from amp_studio.sim.signals import (
+from amp_studio.sim.engine.arrays import Vector
+from amp_studio.sim.engine.signals import (
     COMMAND,
     COMMAND_VELOCITY,
     MODE,

@@ -13,7 +13,7 @@ from pytestqt.qtbot import QtBot
 from amp_studio.files import ParameterFile
 from amp_studio.schema import Value
 from amp_studio.sim import Recommendation, Trace, simulate
-from amp_studio.sim.picture import picture_of
+from amp_studio.sim.plot.picture import picture_of
 from amp_studio.sim.scenarios import SCENARIOS
 from amp_studio.ui.base.task import Task
 from amp_studio.ui.main_window import MainWindow

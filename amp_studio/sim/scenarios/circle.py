@@ -10,16 +10,16 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from amp_studio.sim.axis.motion import Motion, Until, run_axis
+from amp_studio.sim.engine.profiles import SINE
 from amp_studio.sim.errors import SimulationError
 from amp_studio.sim.law import AxisLaw
-from amp_studio.sim.linear import LinearModel, linear_model
 from amp_studio.sim.model import assumptions
-from amp_studio.sim.motion import Motion, Until, run_axis
-from amp_studio.sim.profiles import SINE
 from amp_studio.sim.rounding import shown
 from amp_studio.sim.scenario import Scenario, Settings, above_zero, refuse_unknown
 from amp_studio.sim.series import Series
 from amp_studio.sim.trace import Alarm, Figure, Trace
+from amp_studio.sim.tuning.linear import LinearModel, linear_model
 
 from .columns import alarms_of
 from .sweep import DIES

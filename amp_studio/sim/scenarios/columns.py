@@ -7,12 +7,12 @@ from collections.abc import Iterator
 import numpy as np
 import numpy.typing as npt
 
+from amp_studio.sim.axis.motion import Motion
+from amp_studio.sim.engine.signals import DIVERGED, EMERGENCY_STOP
 from amp_studio.sim.law import AxisLaw
-from amp_studio.sim.linear import Margins
-from amp_studio.sim.motion import Motion
 from amp_studio.sim.rounding import shown
-from amp_studio.sim.signals import DIVERGED, EMERGENCY_STOP
 from amp_studio.sim.trace import Alarm
+from amp_studio.sim.tuning.linear import Margins
 
 
 def per_minute(columns: dict[str, npt.NDArray[np.float64]]) -> dict[str, npt.NDArray[np.float64]]:

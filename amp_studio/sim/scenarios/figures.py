@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import numpy as np
 
+from amp_studio.sim.axis.motion import Motion
 from amp_studio.sim.law import AxisLaw
-from amp_studio.sim.linear import Margins, axis_model
-from amp_studio.sim.motion import Motion
 from amp_studio.sim.series import Series
+from amp_studio.sim.tuning.linear import Margins, axis_model
 
 STEADY_SPEED = 1e-3
 """Largest relative difference from the feedrate of a constant command speed."""

@@ -12,15 +12,15 @@ from dataclasses import dataclass
 import numpy as np
 import numpy.typing as npt
 
-from amp_studio.sim.advice import stable_inertias
 from amp_studio.sim.errors import SimulationError
 from amp_studio.sim.law import AxisLaw
-from amp_studio.sim.linear import LinearModel, Margins, axis_model
 from amp_studio.sim.model import assumptions
 from amp_studio.sim.rounding import shown
 from amp_studio.sim.scenario import Scenario, Settings, above_zero, refuse_unknown
 from amp_studio.sim.series import Response, Series
 from amp_studio.sim.trace import Alarm, Figure, Trace
+from amp_studio.sim.tuning.advice import stable_inertias
+from amp_studio.sim.tuning.linear import LinearModel, Margins, axis_model
 
 from .columns import alarms_of
 from .sweep import sweep, tones_of

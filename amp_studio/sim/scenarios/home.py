@@ -8,16 +8,16 @@ from dataclasses import replace
 
 import numpy as np
 
+from amp_studio.sim.axis.homing import Homed, home_axis
+from amp_studio.sim.axis.motion import Motion
+from amp_studio.sim.axis.moving_axis import MovingAxis
+from amp_studio.sim.axis.simulated_machine import reach
+from amp_studio.sim.command.events import Around, Homing
 from amp_studio.sim.errors import SimulationError
-from amp_studio.sim.events import Around, Homing
-from amp_studio.sim.homing import Homed, home_axis
 from amp_studio.sim.law import AxisLaw, Ramp
 from amp_studio.sim.model import assumptions
-from amp_studio.sim.motion import Motion
-from amp_studio.sim.moving_axis import MovingAxis
 from amp_studio.sim.rounding import shown
 from amp_studio.sim.scenario import Scenario, Settings, above_zero, number, refuse_unknown
-from amp_studio.sim.simulated_machine import reach
 from amp_studio.sim.trace import Alarm, Figure, Trace
 
 from .columns import alarms_of, column_units, per_minute

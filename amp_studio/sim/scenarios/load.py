@@ -11,14 +11,14 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from amp_studio.sim.axis.motion import Motion, Until, run_axis
+from amp_studio.sim.engine.profiles import POLYNOMIAL
 from amp_studio.sim.law import AxisLaw
-from amp_studio.sim.loops import Loops
 from amp_studio.sim.model import assumptions, torque_unit
-from amp_studio.sim.motion import Motion, Until, run_axis
-from amp_studio.sim.profiles import POLYNOMIAL
 from amp_studio.sim.scenario import Scenario, Settings, above_zero, refuse_unknown
 from amp_studio.sim.series import Series
 from amp_studio.sim.trace import Figure, Trace
+from amp_studio.sim.tuning.loops import Loops
 
 from .columns import alarms_of, column_units, per_minute
 from .figures import stability

@@ -8,12 +8,12 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from amp_studio.sim.axis.motion import Motion, Until, run_axis
+from amp_studio.sim.command.ramps import Override, blocks, end_of, move, overridden
+from amp_studio.sim.engine.kernel import STANDSTILL
 from amp_studio.sim.errors import SimulationError
-from amp_studio.sim.kernel import STANDSTILL
 from amp_studio.sim.law import RAMPS, AxisLaw, Ramp
 from amp_studio.sim.model import assumptions
-from amp_studio.sim.motion import Motion, Until, run_axis
-from amp_studio.sim.ramps import Override, blocks, end_of, move, overridden
 from amp_studio.sim.rounding import rounded_up
 from amp_studio.sim.scenario import Scenario, Settings, above_zero, number, refuse_unknown
 from amp_studio.sim.series import Series

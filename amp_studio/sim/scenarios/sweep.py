@@ -12,12 +12,12 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from amp_studio.sim.axis.motion import Motion, Until, run_axis
+from amp_studio.sim.engine.profiles import SINE
 from amp_studio.sim.errors import SimulationError
 from amp_studio.sim.law import AxisLaw
-from amp_studio.sim.linear import LinearModel
-from amp_studio.sim.motion import Motion, Until, run_axis
-from amp_studio.sim.profiles import SINE
 from amp_studio.sim.series import Response, Series
+from amp_studio.sim.tuning.linear import LinearModel
 
 CYCLES = 3
 """Whole cycles that a frequency is measured over, at least."""

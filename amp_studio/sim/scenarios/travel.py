@@ -7,12 +7,12 @@ from dataclasses import replace
 
 import numpy as np
 
+from amp_studio.sim.axis.moving_axis import MovingAxis, Watch
+from amp_studio.sim.command.events import Travel
+from amp_studio.sim.engine.kernel import STANDSTILL
 from amp_studio.sim.errors import SimulationError
-from amp_studio.sim.events import Travel
-from amp_studio.sim.kernel import STANDSTILL
 from amp_studio.sim.law import AxisLaw, Ramp
 from amp_studio.sim.model import assumptions
-from amp_studio.sim.moving_axis import MovingAxis, Watch
 from amp_studio.sim.rounding import shown
 from amp_studio.sim.scenario import Scenario, Settings, number, refuse_unknown
 from amp_studio.sim.trace import Alarm, Figure, Trace

@@ -11,17 +11,17 @@ from collections.abc import Sequence
 import numpy as np
 
 from amp_studio.schema import unknown_name
-from amp_studio.sim.advice import NONE_SOUND, gain_recommendations, why_not_sound
-from amp_studio.sim.aims import AIMS, Aim
 from amp_studio.sim.errors import SimulationError
-from amp_studio.sim.linear import LinearModel
-from amp_studio.sim.loops import Loops
 from amp_studio.sim.model import assumptions, torque_unit
 from amp_studio.sim.scenario import Scenario, Settings, refuse_unknown
 from amp_studio.sim.series import Series
-from amp_studio.sim.solver import Solved, levels_of, solve
 from amp_studio.sim.trace import Figure, Recommendation, Trace
-from amp_studio.sim.trial import Trial
+from amp_studio.sim.tuning.advice import NONE_SOUND, gain_recommendations, why_not_sound
+from amp_studio.sim.tuning.aims import AIMS, Aim
+from amp_studio.sim.tuning.linear import LinearModel
+from amp_studio.sim.tuning.loops import Loops
+from amp_studio.sim.tuning.solver import Solved, levels_of, solve
+from amp_studio.sim.tuning.trial import Trial
 
 FOR = "tune.for"
 SETTINGS = {FOR: f"what the axis is tuned for: {', '.join(AIMS)}; default: normal"}

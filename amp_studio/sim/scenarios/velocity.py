@@ -9,15 +9,15 @@ import math
 
 import numpy as np
 
+from amp_studio.sim.axis.motion import Motion, Until, run_axis
+from amp_studio.sim.command.ramps import move
+from amp_studio.sim.engine.signals import VELOCITY_LOOP
 from amp_studio.sim.law import AxisLaw, Ramp
-from amp_studio.sim.linear import LinearModel, axis_model
 from amp_studio.sim.model import assumptions
-from amp_studio.sim.motion import Motion, Until, run_axis
-from amp_studio.sim.ramps import move
 from amp_studio.sim.scenario import Scenario, Settings, above_zero, refuse_unknown
 from amp_studio.sim.series import Series
-from amp_studio.sim.signals import VELOCITY_LOOP
 from amp_studio.sim.trace import Figure, Trace
+from amp_studio.sim.tuning.linear import LinearModel, axis_model
 
 from .columns import alarms_of, column_units, per_minute
 from .figures import steady

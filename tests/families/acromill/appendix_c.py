@@ -12,9 +12,9 @@ from amp_studio.families.acromill import law_plant as plant
 from amp_studio.families.acromill.law import LAW
 from amp_studio.schema import load_schema
 from amp_studio.sim import AxisLaw, AxisParameters, ParameterValue, Ramp
+from amp_studio.sim.axis.motion import Until, run_axis
+from amp_studio.sim.command.ramps import end_of, move
 from amp_studio.sim.model import with_model
-from amp_studio.sim.motion import Until, run_axis
-from amp_studio.sim.ramps import end_of, move
 
 TURN = plant.PULSES_PER_TURN
 """Pulses of a turn; a turn is 1 mm of these axes."""

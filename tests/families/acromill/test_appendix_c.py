@@ -15,7 +15,7 @@ from scipy.optimize import brentq
 
 from amp_studio.families.acromill import formulas as acromill
 from amp_studio.families.acromill import law_plant as plant
-from amp_studio.sim.linear import linear_model
+from amp_studio.sim.tuning.linear import linear_model
 from tests.families.acromill.appendix_c import PRINTED, TURN, VERIFIED, Scope, axis_of, index, trace
 
 BOTH_RAMPS = pytest.mark.parametrize("ramp", [PRINTED, VERIFIED], ids=["ACC 500", "100 ms"])

@@ -10,7 +10,7 @@ from amp_studio.families.acromill import formulas as acromill
 from amp_studio.families.acromill import law_sample as loop
 from amp_studio.families.acromill.law_filters import PASS, lopass, notch
 from amp_studio.sim import SimulationError
-from amp_studio.sim.signals import COMMAND, OUTPUT
+from amp_studio.sim.engine.signals import COMMAND, OUTPUT
 
 
 def gain(section: tuple[float, ...], frequency: float, servo_hz: float = 5000.0) -> float:

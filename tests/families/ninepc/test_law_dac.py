@@ -7,8 +7,8 @@ import pytest
 
 from amp_studio.families.ninepc import law_samples as samples
 from amp_studio.sim import SimulationError
+from amp_studio.sim.engine.signals import MONITOR
 from amp_studio.sim.scenarios.step import run_step
-from amp_studio.sim.signals import MONITOR
 
 from .conftest import Axis, Values
 

@@ -18,10 +18,10 @@ from amp_studio.families.ninepc.law_figures import (
     sentence_excess_error,
 )
 from amp_studio.sim import SimulationError
+from amp_studio.sim.axis.motion import Engine, Motion, Until, run_axis
+from amp_studio.sim.command.ramps import move
+from amp_studio.sim.engine.profiles import POLYNOMIAL
 from amp_studio.sim.law import AxisLaw
-from amp_studio.sim.motion import Engine, Motion, Until, run_axis
-from amp_studio.sim.profiles import POLYNOMIAL
-from amp_studio.sim.ramps import move
 from amp_studio.sim.scenarios.frequency import run_frequency
 from amp_studio.sim.scenarios.step import run_step
 from amp_studio.sim.trace import Trace

@@ -8,8 +8,8 @@ import pytest
 
 from amp_studio.families.ninepc.law_ramps import jerk_bounds
 from amp_studio.sim import SimulationError
+from amp_studio.sim.command.pieces import Piece, change
 from amp_studio.sim.law import Ramp
-from amp_studio.sim.pieces import Piece, change
 
 from .conftest import Axis, Values
 

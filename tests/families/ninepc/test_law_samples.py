@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 from amp_studio.families.ninepc import law_samples as law
-from amp_studio.sim.signals import (
+from amp_studio.sim.engine.signals import (
     COMMAND,
     COMMAND_VELOCITY,
     FEED_SHARE,

@@ -19,9 +19,9 @@ from amp_studio.families.ninepc.law_tune import (
     procedure_run,
 )
 from amp_studio.sim import SimulationError
+from amp_studio.sim.axis.motion import Until, run_axis
+from amp_studio.sim.command.ramps import move
 from amp_studio.sim.law import AxisLaw, Ramp
-from amp_studio.sim.motion import Until, run_axis
-from amp_studio.sim.ramps import move
 
 from .conftest import Axis, Values
 

@@ -10,9 +10,9 @@ import pytest
 from amp_studio.families.ninepc import law_samples as samples
 from amp_studio.families.ninepc import law_units as units
 from amp_studio.schema import load_schema
+from amp_studio.sim.axis.motion import Until, run_axis
+from amp_studio.sim.engine.profiles import POLYNOMIAL
 from amp_studio.sim.errors import SimulationError
-from amp_studio.sim.motion import Until, run_axis
-from amp_studio.sim.profiles import POLYNOMIAL
 
 from .conftest import Axis, Values
 

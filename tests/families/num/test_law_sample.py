@@ -7,7 +7,7 @@ from collections.abc import Callable
 import pytest
 
 from amp_studio.families.num import law_sample as law
-from amp_studio.sim import signals
+from amp_studio.sim.engine import signals
 
 PERIOD = 0.005  # s, P50 of a 1060
 

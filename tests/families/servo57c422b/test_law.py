@@ -10,10 +10,9 @@ from amp_studio.families.servo57c422b.law_plant import VISCOUS
 from amp_studio.files import ParameterFile
 from amp_studio.schema import Value, load_schema
 from amp_studio.sim import AxisLaw, SimulationError, simulate, simulated_axes
-from amp_studio.sim.motion import Until, run_axis
-from amp_studio.sim.ramps import end_of, move
-from amp_studio.sim.run import bind_axis
-from amp_studio.sim.signals import (
+from amp_studio.sim.axis.motion import Until, run_axis
+from amp_studio.sim.command.ramps import end_of, move
+from amp_studio.sim.engine.signals import (
     COMMAND,
     COMMAND_VELOCITY,
     MODE,
@@ -23,6 +22,7 @@ from amp_studio.sim.signals import (
     STOP,
     VELOCITY_LOOP,
 )
+from amp_studio.sim.run import bind_axis
 
 PAGE_5_5 = {
     "gain.proportional": Value(18700, ""),

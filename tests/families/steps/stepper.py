@@ -11,8 +11,8 @@ from amp_studio.formats.text_format import FormatError, ReadOptions, TextFormat,
 from amp_studio.schema import InvalidValueError, Schema, load_schema, read_value, write_value
 from amp_studio.schema.registration import Registration
 from amp_studio.sim import AxisLaw, AxisParameters, Law, Machine, Ramp
-from amp_studio.sim.arrays import Vector
-from amp_studio.sim.signals import COMMAND, OUTPUT, POSITION
+from amp_studio.sim.engine.arrays import Vector
+from amp_studio.sim.engine.signals import COMMAND, OUTPUT, POSITION
 from amp_studio.transfer.content import HouseContent
 from amp_studio.transfer.driver import Abilities, ControlIdentity, Receipt
 from amp_studio.transfer.errors import NoConnectionError, WrongFamilyError

@@ -8,10 +8,10 @@ import pytest
 
 from amp_studio.families.syntec.law import LAW
 from amp_studio.sim import AxisLaw, SimulationError
+from amp_studio.sim.axis.motion import Motion, Until, run_axis
 from amp_studio.sim.axis_parameters import AxisParameters
+from amp_studio.sim.command.ramps import move
 from amp_studio.sim.model import with_model
-from amp_studio.sim.motion import Motion, Until, run_axis
-from amp_studio.sim.ramps import move
 
 Value = float | str | bool | None
 

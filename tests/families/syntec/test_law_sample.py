@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 from amp_studio.families.syntec import law_sample as law
-from amp_studio.sim import signals
+from amp_studio.sim.engine import signals
 
 TIME = 1966e-6  # s: Pr3203 = 2000 on a Super series
 

@@ -27,7 +27,7 @@ VERB = Verb(
 
 def run(options: Options) -> int:
     """Print or write what differs between machines; 1 where anything does."""
-    from amp_studio.cli.comparing import matched_by_letter_noted
+    from amp_studio.cli.checks.comparing import matched_by_letter_noted
     from amp_studio.report import (
         SIDE_BY_SIDE,
         alike_of,

@@ -51,7 +51,7 @@ VERB = Verb(
 
 def run(options: Options) -> int:
     """Compare two files, or a file and a control, or a file with another version of itself; 1 where they differ."""
-    from amp_studio.cli.comparing import difference_json, matched_by_letter_noted, print_comparison
+    from amp_studio.cli.checks.comparing import difference_json, matched_by_letter_noted, print_comparison
     from amp_studio.files import Merge, by_schema, compare
 
     _check_sides(options)
@@ -152,7 +152,7 @@ def _other_axis(file: ParameterFile, target: str, source: str) -> ParameterFile:
 
 def _print_three(options: Options, merge: Merge) -> int:
     """Print what two sides changed of their base; 1 where anything differs."""
-    from amp_studio.cli.comparing import named, row_json, shown
+    from amp_studio.cli.checks.comparing import named, row_json, shown
 
     rows = [row for row in merge.differing if row.id.part == "value"]
     same = sum(row.id.part == "value" for row in merge.rows) - len(rows)

@@ -168,7 +168,7 @@ def _write(result: ParameterFile, options: Options) -> None:
 
 def _print(merge: Merge, options: Options) -> None:
     """Print each conflict and what the result has, and how many are open."""
-    from amp_studio.cli.comparing import named, shown
+    from amp_studio.cli.checks.comparing import named, shown
     from amp_studio.report import counted
 
     for row in merge.conflicts:
@@ -209,7 +209,7 @@ def _document(merge: Merge, result: ParameterFile, new: list[Finding], options: 
 
 def _row(merge: Merge, row: Row, result: ParameterFile, secrets: bool) -> dict[str, Any]:
     """Return a row with the names of the sides; what an entry that the schema does not know contains is not shown."""
-    from amp_studio.cli.comparing import difference_json, row_json
+    from amp_studio.cli.checks.comparing import difference_json, row_json
     from amp_studio.files import Difference
 
     settled = {"taken": _taken(merge.choice(row)) if merge.choice(row) else None}

@@ -20,7 +20,7 @@ from amp_studio.cli.trouble import keep_details
 from amp_studio.cli.verb import Options, Verb, VerbArgument
 
 if TYPE_CHECKING:
-    from amp_studio.cli.check_formats import CheckFormat, CheckResult, FileFindings
+    from amp_studio.cli.checks.formats import CheckFormat, CheckResult, FileFindings
     from amp_studio.files import ParameterFile
     from amp_studio.validate import BuilderRules, Validator
 
@@ -73,7 +73,7 @@ WITH_REASONS = ("text", "json")
 
 def run(options: Options) -> int:
     """Check files, and those in folders: 1 where there are errors, 2 where a file cannot be read, after the others."""
-    from amp_studio.cli.check_formats import CHECK_FORMATS
+    from amp_studio.cli.checks.formats import CHECK_FORMATS
     from amp_studio.schema import read_file
 
     form = CHECK_FORMATS[options.format]
@@ -114,7 +114,7 @@ def _results(
     if len(paths) < 2 or options.no_cache or options.motion:
         yield from _each(check, paths, options.jobs)
         return
-    from amp_studio.cli.check_cache import CheckCache  # a file alone is checked before its database is open
+    from amp_studio.cli.checks.cache import CheckCache  # a file alone is checked before its database is open
 
     cache = CheckCache(options)
     keys = cache.keys(paths)
@@ -150,7 +150,7 @@ def _print(form: CheckFormat, one: CheckResult) -> None:
 
 def _files(paths: Sequence[Path]) -> tuple[list[Path], list[CheckResult]]:
     """Return files as they are named, those in folders in the order of their names, and which folders cannot be read."""
-    from amp_studio.cli.check_formats import CheckResult
+    from amp_studio.cli.checks.formats import CheckResult
     from amp_studio.files import ENDING
 
     found: list[Path] = []
@@ -185,7 +185,7 @@ def _each(
     check: Callable[[Path], CheckResult], paths: Sequence[Path], jobs: int | None
 ) -> Iterator[CheckResult]:
     """Yield the results of files, in their order, whichever process is ready first."""
-    from amp_studio.cli.check_formats import CheckResult
+    from amp_studio.cli.checks.formats import CheckResult
 
     wanted = min(MOST, jobs or (os.cpu_count() or 1 if len(paths) >= MANY else 1))
     if wanted == 1:
@@ -222,7 +222,7 @@ def _start() -> None:
 
 def _check(options: Options, path: Path) -> CheckResult:
     """Check one file; whatever is wrong with it ends no other's check."""
-    from amp_studio.cli.check_formats import CHECK_FORMATS, CheckResult
+    from amp_studio.cli.checks.formats import CHECK_FORMATS, CheckResult
     from amp_studio.files import ParameterFileError
     from amp_studio.validate import Validator, earlier_beside
 
@@ -249,7 +249,7 @@ def _check(options: Options, path: Path) -> CheckResult:
 
 def _in_motion(file: ParameterFile, *, as_document: bool) -> tuple[object, int]:
     """Return what the check of the motion found, as text or for a JSON document, and how much of it is bad."""
-    from amp_studio.cli.motion_text import as_json, text
+    from amp_studio.cli.motion.text import as_json, text
     from amp_studio.sim import SimulationError, check_motion
 
     try:
@@ -264,7 +264,7 @@ def _in_motion(file: ParameterFile, *, as_document: bool) -> tuple[object, int]:
 
 def _checked(path: Path, validator: Validator, why: bool) -> FileFindings:
     """Return the findings of a file, apart from those about values as delivered, of steps that are not reached."""
-    from amp_studio.cli.check_formats import FileFindings
+    from amp_studio.cli.checks.formats import FileFindings
     from amp_studio.validate import NOT_SET
 
     findings = validator.run()

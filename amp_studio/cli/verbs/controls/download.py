@@ -30,9 +30,9 @@ VERB = Verb(
 
 def run(options: Options) -> int:
     """Send a file to a control; 3 if that is not proved afterwards, 4 where it is not known what it contains."""
-    from amp_studio.cli.by_hand import note_by_hand, ways_offered
-    from amp_studio.cli.exchange_endings import exchange_of, note_errors, print_outcome
-    from amp_studio.cli.fleet import check_fleet, download_to_several, is_fleet
+    from amp_studio.cli.controls.by_hand import note_by_hand, ways_offered
+    from amp_studio.cli.controls.endings import exchange_of, note_errors, print_outcome
+    from amp_studio.cli.controls.fleet import check_fleet, download_to_several, is_fleet
     from amp_studio.transfer.client import download_file
 
     file, path = opened(options.path, options), options.path

@@ -23,7 +23,7 @@ VERB = Verb(
 
 def run(options: Options) -> int:
     """Print who answers at an address, and what it contains."""
-    from amp_studio.cli.by_hand import note_by_hand, ways_offered
+    from amp_studio.cli.controls.by_hand import note_by_hand, ways_offered
     from amp_studio.files import fitted_axes
     from amp_studio.report import counted
     from amp_studio.transfer import Exchange, ImageError, decode_content

@@ -44,7 +44,7 @@ VERB = Verb(
 
 def run(options: Options) -> int:
     """Receive files and write them once all are there; 2 where that fails, with nothing written."""
-    from amp_studio.cli.tape import tape
+    from amp_studio.cli.controls.tape import tape
     from amp_studio.files import write_atomic
     from amp_studio.report import counted
     from amp_studio.transfer.plain import Patience, protocol_of, receive_files

@@ -27,7 +27,7 @@ VERB = Verb(
 
 def run(options: Options) -> int:
     """Put back what a control has contained; codes as of a download."""
-    from amp_studio.cli.exchange_endings import exchange_of, note_errors, print_outcome
+    from amp_studio.cli.controls.endings import exchange_of, note_errors, print_outcome
     from amp_studio.transfer.client import digest_path, open_copy, restore_copy
 
     path = options.copy

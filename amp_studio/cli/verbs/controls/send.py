@@ -30,7 +30,7 @@ VERB = Verb(
 
 def run(options: Options) -> int:
     """Send files; 2 if nothing has arrived, 4 if it is not known how much."""
-    from amp_studio.cli.tape import tape
+    from amp_studio.cli.controls.tape import tape
     from amp_studio.report import counted
     from amp_studio.transfer.plain import Patience, protocol_of, send_files
 

@@ -35,8 +35,8 @@ VERB = Verb(
 
 def run(options: Options) -> int:
     """Fetch what a control contains under a new name: its file, or byte for byte as an image."""
-    from amp_studio.cli.by_hand import note_by_hand
-    from amp_studio.cli.fleet import check_fleet, is_fleet, record_upload, upload_several
+    from amp_studio.cli.controls.by_hand import note_by_hand
+    from amp_studio.cli.controls.fleet import check_fleet, is_fleet, record_upload, upload_several
     from amp_studio.cli.out_of_range import settle_values
     from amp_studio.files import erased_question
     from amp_studio.report import counted

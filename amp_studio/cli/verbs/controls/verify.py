@@ -31,14 +31,14 @@ VERB = Verb(
 
 def run(options: Options) -> int:
     """Compare a file with what a control contains, its values and every byte; 1 where they differ."""
-    from amp_studio.cli.by_hand import ways_offered
-    from amp_studio.cli.comparing import difference_json, print_comparison, print_difference
-    from amp_studio.cli.fleet import check_fleet, is_fleet, verify_several
+    from amp_studio.cli.checks.comparing import difference_json, print_comparison, print_difference
+    from amp_studio.cli.controls.by_hand import ways_offered
+    from amp_studio.cli.controls.fleet import check_fleet, is_fleet, verify_several
     from amp_studio.transfer import Exchange
     from amp_studio.transfer.client import fetch_image, record_look, sha256, verify_content
 
     if options.all:
-        from amp_studio.cli.drift import verify_all_verb  # compares many, and prints papers
+        from amp_studio.cli.controls.drift import verify_all_verb  # compares many, and prints papers
 
         return verify_all_verb(options)
     if options.path is None or not options.control:

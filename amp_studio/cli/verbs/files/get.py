@@ -81,7 +81,7 @@ def _print_not_set(options: Options, file: ParameterFile, only: set[Address] | N
 
 def run(options: Options) -> int:
     """Print values."""
-    from amp_studio.cli.marked import marks_asked, with_marks
+    from amp_studio.cli.files.marked import marks_asked, with_marks
     from amp_studio.machine import bit_row, value_row
     from amp_studio.report import state_name
     from amp_studio.schema import Meant, all_meant, real_value, show_value

@@ -33,7 +33,7 @@ VERB = Verb(
 
 def run(options: Options) -> int:
     """Make a parameter file with the family's defaults."""
-    from amp_studio.cli.like import file_like
+    from amp_studio.cli.files.like import file_like
     from amp_studio.files import new_file
     from amp_studio.report import counted
 

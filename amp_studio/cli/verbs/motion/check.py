@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 from amp_studio.cli.arguments import AXIS, JSON, OUTPUT, PATH
 from amp_studio.cli.console import print_json
 from amp_studio.cli.errors import UsageError
-from amp_studio.cli.motion_text import as_json, counts, figure_text, text
+from amp_studio.cli.motion.text import as_json, counts, figure_text, text
 from amp_studio.cli.opened import opened
 from amp_studio.cli.output import check_replaced
 from amp_studio.cli.verb import Options, Verb

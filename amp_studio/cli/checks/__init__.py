@@ -1,0 +1,1 @@
+"""What the verbs about findings and differences share: formats, results that are kept, differences in words."""

@@ -1,0 +1,122 @@
+"""``verify --all``: the known controls of a folder against their files, on one page and with one exit code for a job."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from datetime import datetime
+from pathlib import Path
+from typing import Any
+
+from amp_studio.cli.checks.comparing import difference_json
+from amp_studio.cli.console import note, print_json, progress
+from amp_studio.cli.errors import UsageError
+from amp_studio.cli.exit_codes import FAULT
+from amp_studio.cli.output import check_new
+from amp_studio.cli.stopping import asked_politely
+from amp_studio.cli.verb import Options
+from amp_studio.files import Difference, ParameterFile
+from amp_studio.report import Paper, PaperTable, check_paper_ending, counted, write_paper
+from amp_studio.schema import show_value
+from amp_studio.transfer import Exchange
+from amp_studio.transfer.client import Drift, drift_of_all, known_controls
+
+_FIRST = 12
+"""Values of a control that are printed; --json and --report have all."""
+_CODES = {"same": 0, "differs": 1, "not reached": FAULT, "no file": FAULT}
+
+
+def verify_all_verb(options: Options) -> int:
+    """Compare every known control with its file; 1 where one differs, 2 where one could not be compared."""
+    folder = options.path or Path()
+    if options.control:
+        raise UsageError("--all compares the known controls: it takes no --with")
+    if not folder.is_dir():
+        raise UsageError(f"{folder} is no folder: --all compares the known controls of one")
+    if options.report is not None:
+        check_paper_ending(options.report)
+        check_new(options.report, "a table of results")
+    known = known_controls(folder)
+    if not known:
+        raise UsageError(
+            f"{folder} knows no control: no download is recorded there, and no project.yaml names one"
+        )
+    with asked_politely() as stop:
+        found = drift_of_all(known, lambda address: Exchange(progress(address), stop, notify=note))
+    counts = {word: sum(each.result == word for each in found) for word in _CODES}
+    if options.json:
+        controls = [_entry(each, options.secrets) for each in found]
+        print_json(
+            {
+                "controls": controls,
+                "same": counts["same"],
+                "differs": counts["differs"],
+                "not_reached": counts["not reached"],
+                "no_file": counts["no file"],
+            }
+        )
+    else:
+        _print(found, counts, options.secrets)
+    if options.report is not None:
+        write_paper(_paper(found, options.secrets), options.report, notify=note)
+    return max(_CODES[each.result] for each in found)
+
+
+def _entry(drift: Drift, secrets: bool) -> dict[str, Any]:
+    listed = [difference_json(file, each, secrets) for file, each in _differences(drift)]
+    return {
+        "address": drift.known.address,
+        "file": str(drift.known.path),
+        "result": drift.result,
+        "since": drift.since or None,
+        "text": drift.text,
+        "sha256": drift.sha256 or None,
+        "differences": listed,
+    }
+
+
+def _differences(drift: Drift) -> list[tuple[ParameterFile, Difference]]:
+    if drift.file is None or drift.compared is None:
+        return []
+    return [(drift.file, each) for each in (*drift.compared.values.differences, *drift.compared.other_units)]
+
+
+def _print(found: Sequence[Drift], counts: dict[str, int], secrets: bool) -> None:
+    wide = max(len(each.known.address) for each in found)
+    for each in found:
+        text = "" if each.result == "same" else f"  {each.since or each.text}"
+        print(f"{each.known.address:{wide}}  {each.result:11}  {each.known.path}{text}")
+        listed = _differences(each)
+        for row in _rows(listed[:_FIRST], secrets):
+            print(f"{'':{wide}}  {row[0]:48} {row[1]}  |  {row[2]}")
+        if len(listed) > _FIRST:
+            print(f"{'':{wide}}  and {len(listed) - _FIRST} more")
+        if each.result == "differs" and not listed:
+            print(f"{'':{wide}}  {each.text}")
+    words = ", ".join(f"{count} {word}" for word, count in counts.items() if count)
+    print(f"{counted(len(found), 'control')}: {words}")
+
+
+def _rows(listed: Sequence[tuple[ParameterFile, Difference]], secrets: bool) -> list[tuple[str, str, str]]:
+    """Return name, value in the file and value in the control of each."""
+    rows = []
+    for file, each in listed:
+        parameter = file.schema.parameters[each.address[0]]
+        in_file, in_control = (show_value(parameter, value, secrets=secrets) for value in each.in_one_unit())
+        rows.append((file.machine_schema.named(each.address), in_file, in_control))
+    return rows
+
+
+def _paper(found: Sequence[Drift], secrets: bool) -> Paper:
+    rows = [
+        (each.known.address, str(each.known.path), each.result, each.since or each.text) for each in found
+    ]
+    tables = [
+        PaperTable(
+            "Controls", ("Address", "File", "Result", "How it ended"), tuple(rows), (3.0, 3.0, 1.5, 5.0)
+        )
+    ]
+    for each in found:
+        if values := _rows(_differences(each), secrets):
+            heads = ("Parameter", "In the file", "In the control")
+            tables.append(PaperTable(each.known.address, heads, tuple(values), (5.0, 3.4, 3.4)))
+    return Paper("Results", "Controls and their files", (), tuple(tables), datetime.now().astimezone())

@@ -1,0 +1,52 @@
+"""Values of a file by their marks, for ``get``: changed, with findings, unlike on the axes, newer than the last download."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from amp_studio.cli.verb import Options
+from amp_studio.files import ParameterFile
+from amp_studio.schema import Meant
+
+if TYPE_CHECKING:  # most verbs about files ask for no mark, and start without what finds them
+    from amp_studio.find import Mark
+
+_OPTIONS: dict[str, Mark] = {
+    "changed": "changed",
+    "axes_differ": "axes-differ",
+    "with_findings": "findings",
+    "since_download": "since-download",
+    "restart": "restart",
+    "with_notes": "noted",
+}
+
+
+def marks_asked(options: Options) -> list[Mark]:
+    """Return the marks that the options name."""
+    return [mark for option, mark in _OPTIONS.items() if getattr(options, option)]
+
+
+def with_marks(file: ParameterFile, path: Path, found: Sequence[Meant], wanted: list[Mark]) -> list[Meant]:
+    """Return those of the values that have every mark; raises NoDownloadError where no download is known."""
+    from amp_studio.find import ValueMarks, noted, rows_of_file
+
+    marks = ValueMarks(file)
+    if "findings" in wanted:
+        from amp_studio.validate import Validator, rules_beside
+
+        marks.take_findings(Validator(file, rules_beside(path, file)).run())
+    if "since-download" in wanted:
+        from amp_studio.transfer.client import last_download
+
+        marks.downloaded = last_download(file, path).file.values
+    marks.noted = noted(file)
+    row_of = {address: row for row in rows_of_file(file) for address in row}
+    alone = [mark for mark in wanted if mark != "axes-differ"]
+    return [
+        meant
+        for meant in found
+        if all(marks.has(mark, meant.address) for mark in alone)
+        and ("axes-differ" not in wanted or marks.differs(row_of.get(meant.address, ())))
+    ]

@@ -1,0 +1,1 @@
+"""What the verbs about a machine in motion share: its check and its errors in words and drawn."""

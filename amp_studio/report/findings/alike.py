@@ -1,0 +1,123 @@
+"""Findings of a report: equal messages about several axes become one note."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from dataclasses import replace
+from itertools import groupby
+
+from amp_studio.files import ParameterFile, axis_letter
+from amp_studio.report.axes import axis_label, scope_of
+from amp_studio.report.wording import joined_places, severity_name
+from amp_studio.schema import Address, show_value
+from amp_studio.validate import Finding, Setting, Suppressed
+
+from .lines import finding_text
+from .note import Note
+
+_NAMED = 6
+"""Number of values that a note lists; a finding about more names only the first ones in its message."""
+
+
+def notes_of(file: ParameterFile, findings: Iterable[Finding], printed: set[str]) -> tuple[Note, ...]:
+    """Return the findings as notes in their order; ``printed`` contains the anchors of the values in the report."""
+    return tuple(_note(file, same, printed) for same in alike(findings))
+
+
+def alike(findings: Iterable[Finding]) -> list[list[Finding]]:
+    """Return findings in their order, those together that report the same of several axes."""
+    found: dict[tuple[str, str, str], list[Finding]] = {}
+    for finding in findings:
+        found.setdefault((finding.severity, finding.rule, finding.message), []).append(finding)
+    return list(found.values())
+
+
+def same_finding_text(file: ParameterFile, same: Sequence[Finding]) -> str:
+    """Return what several findings have in common, in a line or more for the terminal: ``axes X, Y: …``."""
+    if len(same) == 1:
+        return finding_text(file, same[0])
+    note = _note(file, same, set())
+    axes = [axis_letter(file, axis) or axis for axis in _axes(file, same)]
+    place = f"{'axes' if len(axes) > 1 else 'axis'} {', '.join(axes)}: " if axes else ""
+    every = (a for f in same for a in (f.addresses if len(f.addresses) <= _NAMED else f.causes[:_NAMED]))
+    names = ", ".join(label for _, label in _links(file, list(dict.fromkeys(every)), set()))
+    first = f"{place}{names}{': ' if names else ''}{note.message}"
+    cited = f" ({same[0].cited})" if same[0].cited else ""
+    lines = [f"{severity_name(note.severity):8} {first}{cited}"]
+    if note.fix:
+        lines.append(f"         suggested fix: {note.fix}")
+    return "\n".join(lines)
+
+
+def _axes(file: ParameterFile, findings: Iterable[Finding]) -> list[str]:
+    """Return the axes that findings are about, in their order."""
+    axes = {a[1] for finding in findings for a in finding.addresses if scope_of(file, a) == "axis"}
+    return sorted(axes, key=lambda axis: (len(axis), axis))
+
+
+def suppressed_notes(file: ParameterFile, left: Iterable[Suppressed], printed: set[str]) -> tuple[Note, ...]:
+    """Return the suppressed findings as notes, with name and reason."""
+    alike: dict[tuple[str, str], list[Finding]] = {}
+    for suppressed in left:
+        finding, why = suppressed.finding, suppressed.suppression
+        message = f"{finding.message} Suppressed by {why.by}: {why.reason}"
+        alike.setdefault((finding.rule, message), []).append(
+            replace(finding, message=message, fix=(), effective=())
+        )
+    return tuple(replace(_note(file, same, printed), severity="suppressed") for same in alike.values())
+
+
+def _note(file: ParameterFile, same: Sequence[Finding], printed: set[str]) -> Note:
+    addresses = list(dict.fromkeys(a for f in same if len(f.addresses) <= _NAMED for a in f.addresses))
+    fix = list(dict.fromkeys(r for f in same for r in f.fix))
+    brings = next((f.brings for f in same if f.brings), "")
+    used = "; ".join(_settings(file, list(dict.fromkeys(s for f in same for s in f.effective))))
+    return Note(
+        severity=same[0].severity,
+        count=len(same),
+        place=_places(file, addresses),
+        about=tuple(_links(file, addresses, printed)),
+        message=same[0].message + (f" Effective value in the control: {used}." if used else ""),
+        fix="; ".join(_settings(file, fix)) + (f" (it brings a warning: {brings})" if brings else ""),
+        page=same[0].page or same[0].reason,
+        is_own=same[0].is_own or bool(same[0].reason),
+    )
+
+
+def _places(file: ParameterFile, addresses: Sequence[Address]) -> str:
+    axes = sorted({a[1] for a in addresses if scope_of(file, a) == "axis"}, key=lambda i: (len(i), i))
+    if not axes:
+        return "Control" if addresses else ""
+    return joined_places([axis_label(file, axis) for axis in axes])
+
+
+def _links(file: ParameterFile, addresses: Sequence[Address], printed: set[str]) -> Iterable[tuple[str, str]]:
+    """Yield anchor and label of each value, for example ``1300``, ``2300`` and ``3300 Home Calibration``."""
+    order = [a[0] for a in addresses]
+    for _, members in groupby(sorted(addresses, key=lambda a: order.index(a[0])), key=lambda a: a[0]):
+        same = list(members)
+        for n, address in enumerate(same):
+            anchor = f"{address[0]}@{address[1]}"
+            yield (anchor if anchor in printed else "", _label(file, address, n == 0, n == len(same) - 1))
+
+
+def _label(file: ParameterFile, address: Address, is_first: bool, is_last: bool) -> str:
+    """Return number and name for the last value of a parameter, the number alone for the others.
+
+    Without a number: name and axis for the first value, the axis alone for the others.
+    """
+    here = file.machine_schema
+    number = here.number(address)
+    if number and not here.is_disputed(address[0]):
+        return here.label(address) if is_last else number
+    return here.label(address) if is_first else here.instance_label(address)
+
+
+def _settings(file: ParameterFile, settings: Sequence[Setting]) -> Iterable[str]:
+    """Yield ``1300, 2300 Home Calibration = 0 mm`` for each parameter and new value."""
+    wanted: dict[tuple[str, str], list[Address]] = {}
+    for setting in settings:
+        text = show_value(file.schema.parameters[setting.address[0]], setting.value)
+        wanted.setdefault((setting.address[0], text), []).append(setting.address)
+    for (_, text), addresses in wanted.items():
+        yield ", ".join(label for _, label in _links(file, addresses, set())) + f" = {text}"

@@ -1,0 +1,1 @@
+"""The formats of a report: PDF, web page, text, table, workbook, JSON."""

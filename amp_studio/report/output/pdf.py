@@ -1,0 +1,217 @@
+"""The report as PDF: a template writes Typst source, and Typst sets the pages.
+
+Typst's built-in fonts are used, so that a report looks the same on every machine
+(fonts of the system only for scripts that Typst has no font for), and nothing
+but the report's date depends on the time of printing.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import json
+import os
+import re
+import tempfile
+from collections.abc import Iterator
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from amp_studio.report.language import ENGLISH, Language, language_of
+from amp_studio.report.model import MARKS, Report, printable
+from amp_studio.report.templating.templates import (
+    TEMPLATES,
+    TemplateMistakeError,
+    filled,
+    line_of_source,
+)
+from amp_studio.schema import Address
+
+_BREAK = "\u200b"
+"""Zero-width space: a possible line break."""
+_LONG_RUN = re.compile(r"[^\s\u200b]{17,}")
+_JOINT = re.compile(r"\\.|[^\w-]|_|[^\W_]{8}")
+_FOREIGN = r"[\u0700-\u1cff\u2e80-\ua63f\ua960-\ud7ff\uf900-\ufaff\uff00-\uffef\U00010000-\U0010ffff]"
+"""Scripts missing in Typst's fonts (Chinese, Japanese, Korean, Thai, …); they contain Latin, Greek and Cyrillic."""
+FONT = "Libertinus Serif"
+"""The font of a PDF, also in its drawings."""
+_PACKAGE = re.compile(r'(?:import|include)\s*"@')
+_FAMILY = re.compile(r'font-family="[^"]*"')
+_KEPT = 11
+"""Compilations after which Typst has forgotten one."""
+_has_compiled = False
+_BRIEF = 40
+"""Most characters of a text in the page header."""
+
+
+class Exact(str):
+    """A text without added line-break places."""
+
+    __slots__ = ()
+
+
+class _Source(str):
+    """Typst source that a macro of a template has written."""
+
+    __slots__ = ()
+
+
+def typst_literal(value: object) -> str:
+    """Return a value of the template as a Typst literal, so that no text can become markup."""
+    if isinstance(value, _Source):
+        return value
+    if isinstance(value, bool):
+        return "true" if value else "false"
+    if isinstance(value, (int, float)):
+        return repr(value)
+    text = printable(str(value)).replace("\\", "\\\\").replace('"', '\\"')
+    return f'"{text if isinstance(value, Exact) else _breakable(text)}"'
+
+
+def _breakable(text: str) -> str:
+    """Return a text with break places in long words, so that it stays in its column."""
+    return _LONG_RUN.sub(lambda run: _JOINT.sub(rf"\g<0>{_BREAK}", run.group()), text)
+
+
+@dataclass(frozen=True, slots=True)
+class Place:
+    """Where a value is in a report: the page, counted from 1, and points from its left and its upper edge."""
+
+    page: int
+    x: float
+    y: float
+
+
+@dataclass(frozen=True)
+class SetReport:
+    """A report as pictures of its pages, which knows where each value is on them."""
+
+    pages: tuple[bytes, ...]
+    """Each as PNG."""
+    source: str
+    marks: str
+    """What Typst knows of the marks at the values, as JSON."""
+
+    def places(self) -> dict[Address, Place]:
+        """Return where each value is; a project's template can leave them out."""
+        found = json.loads(self.marks)
+        return {
+            (anchor.rpartition("@")[0], anchor.rpartition("@")[2]): Place(page, x, y)
+            for anchor, page, x, y in (found[0] if found else ())
+        }
+
+
+def typst_source(report: Report, own: Path | None = None, *, places: bool = False) -> str:
+    """Return the report as Typst; ``own`` is a template of the project. Raises TemplateMistakeError.
+
+    With ``places`` it has marks at each value.
+    """
+    source = filled_template(
+        "report.typ.j2",
+        own,
+        language_of(report.contents.language),
+        report=report,
+        marks=MARKS,
+        places=places,
+    )
+    if own is not None and _PACKAGE.search(source):
+        raise TemplateMistakeError(own, "imports a package of Typst, which would be loaded from the network")
+    return source
+
+
+def filled_template(
+    name: str, own: Path | None = None, language: Language = ENGLISH, **values: object
+) -> str:
+    """Return a template of Typst source with its values, each as a literal. Raises TemplateMistakeError."""
+    settings = {"finalize": typst_literal, "autoescape": False}  # every expression becomes a Typst literal
+    filters = {"exact": Exact, "source": _Source, "drawing": _drawing, "brief": _brief, "tied": _tied}
+    return filled(name, values, settings, filters, own, language)
+
+
+def _brief(text: str) -> str:
+    return text if len(text) <= _BRIEF else text[: _BRIEF - 1] + "…"
+
+
+def _tied(text: str) -> str:
+    return text.replace(" ", "\u00a0").replace(",\u00a0", ", ")
+
+
+def _drawing(svg: str) -> Exact:
+    """Return a drawing in the font of the page, with spaces that stay."""
+    return Exact(
+        _FAMILY.sub(f'font-family="{FONT}"', svg).translate({0x2002: "\u00a0", 0x2003: "\u00a0\u00a0"})
+    )
+
+
+def render_pdf(report: Report, own: Path | None = None) -> bytes:
+    """Return the PDF; equal reports have equal bytes. ``own`` is a template of the project. Raises TemplateMistakeError."""
+    source = typst_source(report, own)
+    with _mistakes(source, own):
+        return _as_pdf(source, own.parent if own else TEMPLATES)
+
+
+def set_pages(report: Report, ppi: int, own: Path | None = None) -> SetReport:
+    """Return each page as PNG, ``ppi`` pixels to the inch; ``own`` is a template of the project. Raises TemplateMistakeError."""
+    import typst
+
+    source = typst_source(report, own, places=True)
+    with contextlib.ExitStack() as stack, _mistakes(source, own):
+        root = (
+            own.parent
+            if own
+            else Path(stack.enter_context(tempfile.TemporaryDirectory(prefix="amp-studio-")))
+        )
+        # Typst sets a file once for both questions, and a text once for each: nearly half of the time.
+        handle, name = tempfile.mkstemp(dir=root, suffix=".typ")
+        stack.callback(os.unlink, name)
+        with os.fdopen(handle, "wb") as file:
+            file.write(source.encode("utf-8"))
+        compiler = typst.Compiler(name, **_options(source, root))
+        pages = compiler.compile(format="png", ppi=ppi)
+        marks = compiler.query("<amp-places>", field="value")
+    return SetReport(tuple([pages] if isinstance(pages, bytes) else pages or ()), source, marks)
+
+
+@contextlib.contextmanager
+def _mistakes(source: str, own: Path | None) -> Iterator[None]:
+    """Turn what Typst refuses of a project's template into a TemplateMistakeError with its line."""
+    from typst import TypstError
+
+    try:
+        yield
+    except TypstError as error:
+        if own is None:
+            raise
+        line = line_of_source(own, source, error.diagnostic)
+        raise TemplateMistakeError(own, f"{line}Typst: {error}") from None
+
+
+def typeset(source: str) -> bytes:
+    """Return the PDF of Typst source."""
+    return _as_pdf(source, TEMPLATES)
+
+
+def _as_pdf(source: str, root: Path) -> bytes:
+    """Return the PDF of Typst source that may read the files under ``root``."""
+    import typst
+
+    _forget_earlier()
+    pdf: bytes = typst.compile(source.encode("utf-8"), format="pdf", **_options(source, root))
+    return pdf
+
+
+def _forget_earlier() -> None:
+    """Let Typst drop what it keeps of earlier documents: about 100 MB each, for ten compilations more."""
+    global _has_compiled  # noqa: PLW0603  # Typst keeps its documents for the whole process too
+    if _has_compiled:
+        from typst import Compiler, Fonts
+
+        bare = Compiler(font_paths=Fonts(include_system_fonts=False, include_embedded_fonts=False))
+        for _ in range(_KEPT):
+            bare.compile(b" ", format="pdf")
+    _has_compiled = True
+
+
+def _options(source: str, root: Path) -> dict[str, Any]:
+    """Return how Typst reads a source; the root is given because Typst takes the working folder otherwise, which may be gone."""
+    return {"root": root, "ignore_system_fonts": re.search(_FOREIGN, source) is None}

@@ -1,0 +1,181 @@
+"""The report as plain text of 100 columns, for line printers and terminals."""
+
+from __future__ import annotations
+
+import textwrap
+from collections.abc import Iterable, Iterator, Sequence
+
+from amp_studio.report.findings.note import Note
+from amp_studio.report.language import Language, language_of
+from amp_studio.report.model import MARKS, Listing, Report, ReportRow, printable
+
+WIDTH = 100
+
+_ROW = (8, 34, 10, 25, 13, 5)
+"""Columns of number, name, place, value, default and marks, one space apart."""
+_HEAD = ("Number", "Parameter", "", "Value", "Default", "")
+
+
+def render_text(report: Report) -> bytes:
+    """Return the text in UTF-8; no line is longer than ``WIDTH``."""
+    words = language_of(report.contents.language)
+    return ("\n".join(line.rstrip() for line in _lines(report, words)) + "\n").encode("utf-8")
+
+
+def _lines(report: Report, words: Language) -> Iterator[str]:
+    yield from _title(report, words)
+    yield from _findings(report, words)
+    yield from _values(report.forced, words)
+    yield from _not_set(report, words)
+    yield from _dangers(report, words)
+    for section in report.sections:
+        title = words.title if report.contents.sort == "steps" else words.text
+        yield from _heading(title(section.title).upper())
+        for part in section.parts:
+            if part.title:
+                yield from _wrapped(part.title, "")
+                yield "-" * min(len(part.title), WIDTH)
+            yield from _table(part.rows, not isinstance(part, Listing) or part.by_place, words)
+            for mark, why in part.reasons:
+                yield from _wrapped(why, f"  {mark} ")
+            yield ""
+    if report.exchanges:
+        yield from _heading(words.text("Exchanges with controls").upper())
+        for each in report.exchanges:
+            yield from _wrapped(f"{each.when}  {each.who}  {each.verb}  {each.control}", "")
+            yield from _wrapped(f"{each.before or '?'} → {each.after or '?'}  {each.text}", "    ")
+        yield ""
+    if "signatures" not in report.contents.without:
+        yield from _heading(words.text("Signatures").upper())
+        for label in ("Set up by", "Checked by", "Released by", "Taken over by"):
+            yield ""
+            yield f"{words.text(label) + ' ':_<60}  {words.text('Date') + ' ':_<38}"
+
+
+# -- before the values ---------------------------------------------
+
+
+def _title(report: Report, words: Language) -> Iterator[str]:
+    yield "=" * WIDTH
+    head = f"{words.text('Machine parameters')} {words.text(report.order)}".upper()
+    yield f"{report.program}   {head}".ljust(WIDTH - len(report.when)) + report.when
+    yield "=" * WIDTH
+    for title, text in (*report.machine, *report.facts, *report.counts):
+        yield from _wrapped(report.fact(title, text, words.text), f"{words.text(title) + ' ':.<30} ")
+    yield ""
+    if report.remarks:
+        for paragraph in report.remarks.splitlines():
+            yield from _wrapped(paragraph, "")
+        yield ""
+    for about, noted in report.remarked:
+        yield from _wrapped(noted, f"{about}: ")
+    if report.remarked:
+        yield ""
+    if report.axes:
+        lines = [tuple(map(words.text, line)) for line in report.axes]
+        yield from _columns(tuple(map(words.text, report.axis_heads)), lines)
+        yield ""
+    for mark, what in MARKS.items():
+        yield from _wrapped(words.text(what), f"  {mark} ")
+    yield ""
+
+
+def _findings(report: Report, words: Language) -> Iterator[str]:
+    yield from _heading(words.text("Findings").upper())
+    if not report.notes:
+        yield words.text("No errors, no warnings, no recommendations.")
+    for severity, notes in report.severities().items():
+        yield words.counted(sum(n.count for n in notes), severity)
+        for note in notes:
+            yield from _finding(note, words)
+    yield ""
+
+
+def _finding(note: Note, words: Language) -> Iterator[str]:
+    cited = note.page if note.is_own else f"{words.text('page')} {note.page}"
+    page = f" ({cited})" if note.page else ""
+    place = f"{words.text(note.place)}: " if note.place else ""
+    yield from _wrapped(place + note.message + page, "  - ")
+    if note.about:
+        about = words.text("About").lower()
+        yield from _wrapped(", ".join(label for _, label in note.about), f"    {about:<6} ")
+    if note.fix:
+        yield from _wrapped(note.fix, f"    {words.text('fix'):<6} ")
+
+
+def _dangers(report: Report, words: Language) -> Iterator[str]:
+    if report.dangers:
+        yield from _heading(words.text("Dangers").upper())
+        for danger in report.dangers:
+            yield from _wrapped(
+                f"{danger.says} ({words.text('page')} {danger.page})", f"  {words.title('Danger').upper()}  "
+            )
+            yield from _wrapped("; ".join(label for _, label in danger.about), "          ")
+        yield ""
+
+
+def _values(rows: Sequence[ReportRow], words: Language) -> Iterator[str]:
+    if rows:
+        yield from _heading(words.text("Forced out of range").upper())
+        yield from _table(rows, True, words)
+        yield ""
+
+
+def _not_set(report: Report, words: Language) -> Iterator[str]:
+    if report.not_set:
+        yield from _heading(words.text("Not set").upper())
+        said = "These parameters are active but have no value in the file: the control keeps its own value."
+        yield from _wrapped(words.text(said), "")
+        for number, name, places in report.not_set:
+            yield from _beside((number or "–", name, words.text(places)), (13, 36, WIDTH - 13 - 36 - 2))
+        yield ""
+
+
+# -- lines of a given width ----------------------------------------------------
+
+
+def _heading(title: str) -> Iterator[str]:
+    yield "=" * WIDTH
+    yield from _wrapped(title, "")
+    yield "=" * WIDTH
+
+
+def _table(rows: Iterable[ReportRow], by_place: bool, words: Language) -> Iterator[str]:
+    place = _ROW[2] if by_place else 0
+    widths = (_ROW[0], _ROW[1] + (0 if by_place else _ROW[2] + 1), place, *_ROW[3:])
+    yield from _beside(tuple(map(words.text, _HEAD)), widths)
+    before = ""
+    for row in rows:
+        name = row.name if row.id != before else ""
+        value = words.text(row.bare_text) if row.is_own_word else row.text
+        if small_print := row.small_print_in(words.text):
+            value += f" ({small_print})"
+        if row.forced:
+            value += f" [{row.forced}]"
+        place_text = words.text(row.place)
+        yield from _beside((row.number or "–", name, place_text, value, row.default, row.marks), widths)
+        before = row.id
+
+
+def _columns(heads: Sequence[str], lines: Sequence[Sequence[str]]) -> Iterator[str]:
+    """Yield a small table; the width of a column depends on its content."""
+    wanted = [max(len(text) for text in column) for column in zip(heads, *lines, strict=True)]
+    while sum(wanted) + len(wanted) - 1 > WIDTH:
+        wanted[wanted.index(max(wanted))] -= 1
+    for line in (heads, *lines):
+        yield from _beside(line, wanted)
+
+
+def _beside(texts: Sequence[str], widths: Sequence[int]) -> Iterator[str]:
+    """Yield texts side by side, each wrapped to its width; a width of 0 leaves a column out."""
+    pairs = [(text, width) for text, width in zip(texts, widths, strict=True) if width]
+    wrapped = [textwrap.wrap(printable(text), width) or [""] for text, width in pairs]
+    for n in range(max(len(lines) for lines in wrapped)):
+        cells = (lines[n] if n < len(lines) else "" for lines in wrapped)
+        yield " ".join(cell.ljust(width) for cell, (_, width) in zip(cells, pairs, strict=True))
+
+
+def _wrapped(text: str, start: str) -> list[str]:
+    return textwrap.wrap(
+        printable(text), WIDTH, initial_indent=start, subsequent_indent=" " * len(start)
+    ) or [start]

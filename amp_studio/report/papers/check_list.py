@@ -1,0 +1,194 @@
+"""The printed check list of commissioning: every step with a box to tick, every value that is not set with a blank."""
+
+from __future__ import annotations
+
+import textwrap
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+from datetime import datetime
+from pathlib import Path
+
+from amp_studio.files import Notify, ParameterFile, axis_letter, with_local_times
+from amp_studio.guide import GuideProgress, StepProgress
+from amp_studio.report.language import language_of
+from amp_studio.report.model import printable
+from amp_studio.report.output.page import filled_page
+from amp_studio.report.output.pdf import filled_template, typeset
+from amp_studio.report.wording import counted
+from amp_studio.schema import Address, limits
+from amp_studio.validate import SEVERITIES
+from amp_studio.version import __version__
+
+from .endings import write_by_ending
+
+WIDTH = 100
+_MOST_CHOICES = 6
+"""Choices that a line of the list still has room for."""
+
+
+@dataclass(frozen=True)
+class OpenValue:
+    """One value to give."""
+
+    number: str
+    name: str
+    place: str
+    """Which axis or instance; empty for the only one."""
+    unit: str
+    allowed: str
+    """Its range, or its choices where they are few."""
+    page: str
+
+
+@dataclass(frozen=True)
+class ListedStep:
+    """One step of the list."""
+
+    progress: StepProgress
+    values: tuple[OpenValue, ...]
+    summary: str
+    findings: tuple[str, ...]
+
+    def summary_in(self, text: Callable[[str], str]) -> str:
+        """Return the summary in the language of ``text``, which returns a phrase in it."""
+        return ", ".join(map(text, self.summary.split(", ")))
+
+    @property
+    def is_done(self) -> bool:
+        """Whether its box is ticked already."""
+        return self.progress.state == "done"
+
+
+@dataclass(frozen=True)
+class CheckList:
+    """The list of one file at one moment."""
+
+    title: str
+    family: str
+    file_name: str
+    order: str
+    """Whose order the steps have."""
+    summary: str
+    steps: tuple[ListedStep, ...]
+    when: str
+    program: str = f"AMP Studio {__version__}"
+    language: str = "en"
+    """Code of the language of the list's own words."""
+
+
+def build_check_list(
+    file: ParameterFile,
+    now: GuideProgress,
+    path: Path | None = None,
+    date: datetime | None = None,
+    language: str = "en",
+) -> CheckList:
+    """Return the check list of a file: the steps that its machine needs; ``language`` is a code of ``language_codes``."""
+    order = file.schema.commissioning
+    source = (
+        "" if order is None else f"{order.why} (page {order.page})" if order.order == "manual" else order.why
+    )
+    done = f"{now.done} of {len(now.needed)} steps done, {now.set} of {now.total} values set."
+    return CheckList(
+        title=file.header.name or (path.name if path else file.schema.family.name),
+        family=file.schema.family.name,
+        file_name=path.name if path else "",
+        order=source,
+        summary=done,
+        steps=tuple(_listed(file, each) for each in now.needed),
+        when=(date or datetime.now().astimezone()).strftime("%Y-%m-%d %H:%M"),
+        language=language,
+    )
+
+
+def _listed(file: ParameterFile, each: StepProgress) -> ListedStep:
+    defaults = each.active - each.own - len(each.open)
+    parts = [
+        *([f"{len(each.open)} not set"] if each.open else []),
+        *([f"{each.own} set"] if each.own else []),
+        *([f"{defaults} at {'its' if defaults == 1 else 'their'} default: check"] if defaults else []),
+        *(counted(n, severity) for severity in SEVERITIES if (n := each.count(severity))),
+        *([f"ticked {with_local_times(each.ticked)}"] if each.ticked else []),
+    ]
+    errors = tuple(dict.fromkeys(f.message for f in each.findings if f.severity == "error"))
+    values = tuple(open_value(file, address) for address in each.open)
+    return ListedStep(each, values, ", ".join(parts), errors)
+
+
+def open_value(file: ParameterFile, address: Address) -> OpenValue:
+    """Return what is printed about a value that is not set."""
+    here, parameter = file.machine_schema, file.schema.parameters[address[0]]
+    number = here.number(address) if not here.is_disputed(address[0]) else None
+    unit = file.evaluation.unit(address, file.header.units)
+    allowed = ""
+    if parameter.choices:
+        labels = [choice.label for choice in parameter.choices]
+        allowed = " / ".join(labels) if len(labels) <= _MOST_CHOICES else f"one of {len(labels)} choices"
+    elif parameter.type in ("integer", "real"):
+        found = limits(file.evaluation, address, unit)
+        allowed = found.text() if found else ""
+    place = here.instance_label(address)
+    if here.scopes[address[0]] == "axis" and (letter := axis_letter(file, address[1])):
+        place = letter
+    page = file.schema.page(address)
+    return OpenValue(number or "", parameter.name, place, unit, allowed, page)
+
+
+def render_check_list_text(checks: CheckList) -> bytes:
+    """Return plain text in UTF-8, of 100 columns."""
+    return ("\n".join(line.rstrip() for line in check_list_lines(checks)) + "\n").encode("utf-8")
+
+
+def check_list_lines(checks: CheckList) -> Iterator[str]:
+    """Yield the lines of the list as text."""
+    yield "=" * WIDTH
+    yield f"CHECK LIST  {printable(checks.title)}".ljust(WIDTH - len(checks.when)) + checks.when
+    yield "=" * WIDTH
+    for name, text in (("Control", checks.family), ("File", checks.file_name), ("Order", checks.order)):
+        if text:
+            yield from _wrapped(text, f"{name + ' ':.<12} ")
+    yield checks.summary
+    for each in checks.steps:
+        step = each.progress.step
+        page = f" (page {step.page})" if step.page else ""
+        yield ""
+        yield from _wrapped(f"{step.title}{page}", f"[{'x' if each.is_done else ' '}] {step.number:>2}  ")
+        for text in filter(None, (step.what, each.summary, *each.findings)):
+            yield from _wrapped(text, " " * 8)
+        for value in each.values:
+            yield from _value_lines(value)
+
+
+def _value_lines(value: OpenValue) -> Iterator[str]:
+    what = " ".join(filter(None, (value.number, value.name, value.place)))
+    about = "; ".join(filter(None, (value.allowed, f"page {value.page}")))
+    yield from _wrapped(f"{what} ({about})", f"        [ ] {'_' * 14} {value.unit:<7} ")
+
+
+def _wrapped(text: str, head: str) -> list[str]:
+    head = printable(head)
+    return textwrap.wrap(printable(text), WIDTH, initial_indent=head, subsequent_indent=" " * len(head)) or [
+        head
+    ]
+
+
+def render_check_list_html(checks: CheckList) -> bytes:
+    """Return one web page that can be printed."""
+    return filled_page("check_list.html.j2", language=language_of(checks.language), checks=checks)
+
+
+def render_check_list_pdf(checks: CheckList) -> bytes:
+    """Return the PDF."""
+    return typeset(filled_template("check_list.typ.j2", language=language_of(checks.language), checks=checks))
+
+
+CHECK_LIST_FORMATS: dict[str, Callable[[CheckList], bytes]] = {
+    ".pdf": render_check_list_pdf,
+    ".html": render_check_list_html,
+    ".txt": render_check_list_text,
+}
+
+
+def write_check_list(checks: CheckList, path: Path, notify: Notify = lambda _note: None) -> None:
+    """Write a check list, whole or not at all, in the format of the path's ending; raises ValueError, SaveError."""
+    write_by_ending(path, CHECK_LIST_FORMATS, checks, "a check list", notify)

@@ -1,0 +1,243 @@
+"""Papers of what differs: two files, a file and a control, several machines."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from datetime import datetime
+from itertools import groupby
+
+from amp_studio.files import Comparison, Difference, ParameterFile, by_schema, in_order
+from amp_studio.report.axes import place_of
+from amp_studio.report.language import language_of
+from amp_studio.report.wording import counted
+from amp_studio.schema import Address, Value, same_value, show_value
+
+from .paper import Paper, PaperTable
+
+_SHARES = (2.2, 5.0, 2.0, 3.4, 3.4)
+SIDE_BY_SIDE = 6
+"""Machines that have a column each; more of them are grouped."""
+
+
+def differences_paper(
+    file: ParameterFile, found: Comparison, names: tuple[str, str], facts: Sequence[tuple[str, str]] = (), date: datetime | None = None,
+    *, more: tuple[ParameterFile, Sequence[Difference]] | None = None, language: str = "en",
+) -> Paper:  # fmt: skip
+    """Return what differs between a file and another side, group by group; secrets are masked.
+
+    ``more`` are the other side and what only its schema has; ``language`` is a code of ``language_codes``.
+    """
+    tables = list(_by_group(file, found.differences, language))
+    if more:
+        tables += _by_group(*more, language)
+    count = len(found.differences) + (len(more[1]) if more else 0)
+    counts = [
+        ("A", names[0]), ("B", names[1]), *facts,
+        ("Differ", str(count)), ("The same", str(found.same)),
+        ("Not set in A", str(found.not_set_in_a)), ("Not set in B", str(found.not_set_in_b)),
+    ]  # fmt: skip
+    title = file.header.name or names[0]
+    return Paper("Differences", title, tuple(counts), tuple(tables),
+                 date or datetime.now().astimezone(), "Nothing differs.", language=language)  # fmt: skip
+
+
+def _by_group(file: ParameterFile, differences: Sequence[Difference], language: str) -> Iterator[PaperTable]:
+    def group_name(difference: Difference) -> str:
+        return file.schema.group_of[difference.address[0]].name
+
+    for title, members in groupby(differences, key=group_name):
+        rows = []
+        for each in members:
+            sides = (_shown(file, each.address, value) for value in each.in_one_unit())
+            rows.append((*_named(file, each.address, language), *sides))
+        yield PaperTable(title, ("Number", "Parameter", "Belongs to", "A", "B"), tuple(rows), _SHARES)
+
+
+def machines_paper(
+    files: Sequence[ParameterFile],
+    names: Sequence[str],
+    *,
+    everything: bool = False,
+    date: datetime | None = None,
+    language: str = "en",
+) -> Paper:
+    """Return a table with a line for each value and a column for each machine; only what differs unless ``everything``.
+
+    What most machines have is plain, what departs from it is strong. Of many machines those that agree in every value are a group,
+    and each figure has a line with its groups. Raises ValueError for files of different families, or fewer than two.
+    """
+    lines, same = machine_lines(files, everything=everything, language=language)
+    differing = sum(line.differs for line in lines)
+    facts = (
+        ("Control family", files[0].schema.family.name), ("Machines", str(len(files))),
+        ("Differ", counted(differing, "value")), ("The same", counted(same, "value")),
+    )  # fmt: skip
+    if len(files) > SIDE_BY_SIDE:
+        tables, title = tuple(_grouped(lines, names, language)), counted(len(files), "machine")
+    else:
+        tables, title = _side_by_side(lines, names), ", ".join(names)
+    return Paper("Machines compared", title, facts, tables if lines else (),
+                 date or datetime.now().astimezone(), "Nothing differs.", language=language)  # fmt: skip
+
+
+def _side_by_side(lines: Sequence[MachineLine], names: Sequence[str]) -> tuple[PaperTable, ...]:
+    heads = ("Number", "Parameter", "Belongs to", *names)
+    cells = [(*line.named, *line.shown) for line in lines]
+    strong = {(at, 3 + n) for at, line in enumerate(lines) for n in line.departing}
+    shares = (2.0, 4.0, 1.6, *(2.4 for _ in names))
+    return (PaperTable("", heads, tuple(cells), shares, frozenset(strong)),)
+
+
+def _grouped(lines: Sequence[MachineLine], names: Sequence[str], language: str) -> Iterator[PaperTable]:
+    """Yield the groups, and a line for each figure that a value has on some of them; all but the first are strong."""
+    groups = machine_groups([line.alike for line in lines])
+    listed = [
+        (str(n), str(len(group)), ", ".join(names[each] for each in group))
+        for n, group in enumerate(groups, 1)
+    ]
+    text = language_of(language).text
+    yield PaperTable(
+        text("Machines that agree in every value"),
+        ("Group", "Machines", "Names"),
+        tuple(listed),
+        (1.0, 1.2, 11.0),
+    )
+    rows: list[tuple[str, ...]] = []
+    strong: set[tuple[int, int]] = set()
+    for line in lines:
+        for n, (machine, numbers) in enumerate(groups_by_value(line.alike, groups)):
+            if n:
+                strong.add((len(rows), 3))
+            rows.append((*line.named, line.shown[machine], ", ".join(map(str, numbers))))
+    yield PaperTable(
+        text("Values"),
+        ("Number", "Parameter", "Belongs to", "Value", "Groups"),
+        tuple(rows),
+        _SHARES,
+        frozenset(strong),
+    )
+
+
+@dataclass(frozen=True, slots=True)
+class MachineLine:
+    """One value of several machines, in words."""
+
+    address: Address
+    named: tuple[str, str, str]
+    """Its number, its name and where it belongs to."""
+    shown: tuple[str, ...]
+    """Its value on each machine; secrets are masked."""
+    departing: frozenset[int]
+    """The machines that do not have what most have."""
+    alike: tuple[int, ...]
+    """For each machine the first one that has the same."""
+
+    @property
+    def differs(self) -> bool:
+        """Whether any machine has another value than the first."""
+        return any(self.alike)
+
+
+def machine_lines(
+    files: Sequence[ParameterFile], *, everything: bool = False, language: str = "en"
+) -> tuple[list[MachineLine], int]:
+    """Return the rows of ``machine_rows`` in words, and how many values are the same in all; raises ValueError."""
+    rows, same = machine_rows(files, everything=everything)
+    first = files[0]
+    return [
+        MachineLine(
+            address,
+            _named(first, address, language),
+            tuple(_shown(first, address, value) for value in values),
+            frozenset(_departing(values)),
+            alike_of(values),
+        )
+        for address, values in rows
+    ], same
+
+
+def alike_of(values: Sequence[Value | None]) -> tuple[int, ...]:
+    """Return for each value the place of the first that is the same."""
+    firsts: list[int] = []
+    found: list[int] = []
+    for place, value in enumerate(values):
+        first = next((n for n in firsts if same_value(values[n], value)), place)
+        if first == place:
+            firsts.append(place)
+        found.append(first)
+    return tuple(found)
+
+
+def machine_groups(rows: Sequence[tuple[int, ...]]) -> list[tuple[int, ...]]:
+    """Return the places of the machines that have the same in every row (``alike_of``), the largest group first."""
+    found: dict[tuple[int, ...], list[int]] = {}
+    for place, values in enumerate(zip(*rows, strict=True)):
+        found.setdefault(values, []).append(place)
+    return sorted(map(tuple, found.values()), key=lambda group: (-len(group), group))
+
+
+def groups_by_value(
+    alike: tuple[int, ...], groups: Sequence[tuple[int, ...]]
+) -> list[tuple[int, tuple[int, ...]]]:
+    """Return a machine that has each value of a row, and the numbers of its groups from 1; the most frequent value first."""
+    found: dict[int, list[int]] = {}
+    for number, group in enumerate(groups, 1):
+        found.setdefault(alike[group[0]], []).append(number)
+
+    def machines(entry: tuple[int, list[int]]) -> int:
+        return -sum(len(groups[number - 1]) for number in entry[1])
+
+    return [(machine, tuple(numbers)) for machine, numbers in sorted(found.items(), key=machines)]
+
+
+def machine_names(stems: Sequence[str]) -> list[str]:
+    """Return a name for each machine; machines of one name are numbered."""
+    return [stem if stems.count(stem) == 1 else f"{stem} ({n})" for n, stem in enumerate(stems, 1)]
+
+
+def machine_rows(
+    files: Sequence[ParameterFile], *, everything: bool = False
+) -> tuple[list[tuple[Address, tuple[Value | None, ...]]], int]:
+    """Return each address with its value in each file, and how many are the same in all; only what differs unless ``everything``."""
+    if len(files) < 2:
+        raise ValueError("give two files or more")
+    families = dict.fromkeys(file.schema.family.name for file in files)
+    if len(families) > 1:
+        raise ValueError(f"files of different control families cannot be compared: {', '.join(families)}")
+    same_schema = [files[0], *(by_schema(file, files[0].schema) for file in files[1:])]
+    rows, same = [], 0
+    for address in in_order(files[0].schema, {a for file in same_schema for a in file.values}):
+        values = tuple(file.get(address) for file in same_schema)
+        differs = any(not same_value(values[0], value) for value in values[1:])
+        same += not differs
+        if differs or everything:
+            rows.append((address, _in_one_unit(address, values)))
+    return rows, same
+
+
+def _in_one_unit(address: Address, values: tuple[Value | None, ...]) -> tuple[Value | None, ...]:
+    """Return values in the unit of the first that is set."""
+    first = next((value for value in values if value is not None), None)
+    return tuple(
+        value if value is None else Difference(address, first, value).in_one_unit()[1] for value in values
+    )
+
+
+def _departing(values: Sequence[Value | None]) -> Iterator[int]:
+    """Yield the places of the values that are not what most have; none where no value is more frequent than another."""
+    counts = [sum(same_value(value, other) for other in values) for value in values]
+    most = max(counts)
+    if most * 2 > len(values):
+        yield from (n for n, count in enumerate(counts) if count < most)
+
+
+def _named(file: ParameterFile, address: Address, language: str) -> tuple[str, str, str]:
+    here = file.machine_schema
+    number = "" if here.is_disputed(address[0]) else here.number(address) or ""
+    place = language_of(language).text(place_of(file, address))
+    return number, file.schema.parameters[address[0]].name, place
+
+
+def _shown(file: ParameterFile, address: Address, value: Value | None) -> str:
+    return show_value(file.schema.parameters[address[0]], value)

@@ -1,0 +1,86 @@
+"""Tables to fill in by hand: each parameter with its numbers, its range and room for a value."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from datetime import datetime
+
+from amp_studio.files import ParameterFile
+from amp_studio.report.axes import place_of, printed_axes, scope_of
+from amp_studio.report.language import Language, language_of
+from amp_studio.report.parameter.manual_page import range_text
+from amp_studio.schema import Bit, Parameter, shown
+
+from .paper import Paper, PaperTable
+
+_SHARES = (1.6, 4.0, 1.6, 6.0, 3.0)
+_HEADS = ("Number", "Parameter", "Belongs to", "Allowed", "Value")
+_MOST_CHOICES = 6
+_SHORT = 24
+
+
+def form_paper(
+    file: ParameterFile, *, everything: bool = False, date: datetime | None = None, language: str = "en"
+) -> Paper:
+    """Return the form of a file's machine; what is hidden on it and unfitted axes are left out, unless ``everything``. Values stay blank.
+
+    ``language`` is a code of ``language_codes``.
+    """
+    family = file.schema.family
+    machine = next((m.name for m in family.machines if m.key == file.machine), file.machine)
+    facts = [
+        ("Control family", family.name),
+        ("Machine type", machine),
+        ("Machine", ""),
+        ("Serial number", ""),
+    ]
+    return Paper("Form", file.header.name or family.name, tuple((k, v or "_" * 40) for k, v in facts),
+                 tuple(_tables(file, everything, language_of(language))), date or datetime.now().astimezone(),
+                 signed=True, language=language)  # fmt: skip
+
+
+def _tables(file: ParameterFile, everything: bool, language: Language) -> Iterator[PaperTable]:
+    axes = printed_axes(file)
+    for group in file.schema.groups:
+        rows = []
+        for parameter in group.parameters:
+            for instance in file.machine_schema.instances(parameter):
+                address = (parameter.id, instance)
+                is_axis = scope_of(file, address) == "axis"
+                is_there = not is_axis or instance in axes
+                if not everything and (not is_there or file.evaluation.state(address).state == "hidden"):
+                    continue
+                here = file.machine_schema
+                number = "" if here.is_disputed(parameter.id) else here.number(address) or ""
+                blank = f"____________ {shown(file.evaluation.unit(address, file.header.units))}".rstrip()
+                rows.append(
+                    (
+                        number,
+                        parameter.name,
+                        language.text(place_of(file, address)),
+                        _allowed(file, parameter),
+                        blank,
+                    )
+                )
+        if rows:
+            title = f"{group.name}: {group.section}" if group.section else group.name
+            yield PaperTable(title, _HEADS, tuple(rows), _SHARES)
+
+
+def _bit(bit: Bit) -> str:
+    """Return a box for a bit, a blank for a field of several; a line does not end within a short one."""
+    last = bit.bit + bit.width - 1
+    if last > bit.bit:
+        return f"bits {bit.bit} to {last}: {bit.label} ____"
+    text = f"[ ] {bit.bit} {bit.label}"
+    return text.replace(" ", "\u00a0", -1 if len(text) < _SHORT else 3)
+
+
+def _allowed(file: ParameterFile, parameter: Parameter) -> str:
+    if parameter.choices:
+        labels = [choice.label for choice in parameter.choices]
+        more = f" … ({len(labels)})" if len(labels) > _MOST_CHOICES else ""
+        return " / ".join(labels[:_MOST_CHOICES]) + more
+    if parameter.bits:
+        return "   ".join(map(_bit, parameter.bits))
+    return "; ".join(range_text(parameter.ranges, file.schema))

@@ -1,0 +1,141 @@
+"""Papers that are tables: differences, machines side by side, results, forms; as PDF, web page, workbook, CSV or text."""
+
+from __future__ import annotations
+
+import csv
+import io
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from datetime import datetime
+from pathlib import Path
+
+from amp_studio.files import Notify, text_cell, write_atomic
+from amp_studio.report.language import Language, language_of
+from amp_studio.report.output.page import filled_page
+from amp_studio.report.output.pdf import filled_template, typeset
+from amp_studio.version import __version__
+
+_OWN_FACTS = frozenset({"Differ", "The same"})
+"""Facts in words of the paper."""
+_MANY_COLUMNS = 6
+_MOST_COLUMNS = 14
+"""Columns that a page takes; a wider table is for a screen or a spreadsheet."""
+
+
+@dataclass(frozen=True, slots=True)
+class PaperTable:
+    """One table; every row has as many cells as there are heads."""
+
+    title: str
+    heads: tuple[str, ...]
+    rows: tuple[tuple[str, ...], ...]
+    shares: tuple[float, ...] = ()
+    """Widths of the columns on paper, in relation to each other; equal where there are none."""
+    strong: frozenset[tuple[int, int]] = frozenset()
+    """Cells (row, column) in bold."""
+
+
+@dataclass(frozen=True, slots=True)
+class Paper:
+    """A paper."""
+
+    kind: str
+    """``Differences``."""
+    title: str
+    facts: tuple[tuple[str, str], ...]
+    tables: tuple[PaperTable, ...]
+    date: datetime
+    empty: str = ""
+    """What is printed where there is no table."""
+    signed: bool = False
+    """Whether there are lines for signatures."""
+    language: str = "en"
+    """Code of the language of the paper's own words."""
+
+    @property
+    def when(self) -> str:
+        """Date and time in printed form."""
+        return self.date.strftime("%Y-%m-%d %H:%M")
+
+    @property
+    def words(self) -> Language:
+        """Its language."""
+        return language_of(self.language)
+
+    def fact(self, name: str, body: str) -> str:
+        """Return a fact in its language; what a person wrote stays as it is."""
+        return self.words.text(body) if name in _OWN_FACTS else body
+
+    @property
+    def program(self) -> str:
+        """The program that has made it."""
+        return f"AMP Studio {__version__}"
+
+    @property
+    def lies_across(self) -> bool:
+        """Whether its widest table needs landscape paper."""
+        return max((len(table.heads) for table in self.tables), default=0) > _MANY_COLUMNS
+
+
+def _pdf(paper: Paper) -> bytes:
+    if any(len(table.heads) > _MOST_COLUMNS for table in paper.tables):
+        raise ValueError(
+            f"more than {_MOST_COLUMNS} columns are too many for paper: write it as .html, .xlsx or .csv"
+        )
+    return typeset(filled_template("paper.typ.j2", language=paper.words, paper=paper))
+
+
+def _page(paper: Paper) -> bytes:
+    return filled_page("paper.html.j2", language=paper.words, paper=paper)
+
+
+def _workbook(paper: Paper) -> bytes:
+    from amp_studio.report.output.workbook import WorkbookSheet, workbook
+
+    text = paper.words.text
+    facts = [(text(name), paper.fact(name, body)) for name, body in paper.facts]
+    sheets = [
+        WorkbookSheet(table.title or text(paper.kind), tuple(map(text, table.heads)), table.rows)
+        for table in paper.tables
+    ]
+    about = (("", paper.title), *facts, (text("Printed"), paper.when))
+    # The tables come first: what takes one sheet alone, as a spreadsheet without a window does, takes them.
+    return workbook([*sheets, WorkbookSheet(text("This document"), ("", ""), about)])
+
+
+def _csv(paper: Paper) -> bytes:
+    text = io.StringIO(newline="")
+    lines = csv.writer(text)
+    several = len(paper.tables) > 1
+    for n, table in enumerate(paper.tables):
+        heads = tuple(map(paper.words.text, table.heads))
+        if not n or table.heads != paper.tables[n - 1].heads:
+            lines.writerow(map(text_cell, (paper.words.text("table"), *heads) if several else heads))
+        lines.writerows(map(text_cell, (table.title, *row) if several else row) for row in table.rows)
+    return text.getvalue().encode("utf-8-sig")
+
+
+PAPER_FORMATS: dict[str, Callable[[Paper], bytes]] = {
+    ".pdf": _pdf,
+    ".html": _page,
+    ".xlsx": _workbook,
+    ".csv": _csv,
+}
+
+
+def results_paper(title: str, heads: Sequence[str], rows: Sequence[Sequence[str]]) -> Paper:
+    """Return a table of results of this moment."""
+    table = PaperTable("", tuple(heads), tuple(map(tuple, rows)))
+    return Paper("Results", title, (), (table,), datetime.now().astimezone())
+
+
+def check_paper_ending(path: Path, endings: Sequence[str] = tuple(PAPER_FORMATS)) -> None:
+    """Refuse a name whose ending is that of no such paper; raises ValueError."""
+    if path.suffix.lower() not in endings:
+        raise ValueError(f"{path}: the table is written as {', '.join(endings[:-1])} or {endings[-1]}")
+
+
+def write_paper(paper: Paper, path: Path, notify: Notify = lambda _note: None) -> None:
+    """Write a paper in the format of its file extension, whole or not at all; raises ValueError, SaveError."""
+    check_paper_ending(path)
+    write_atomic(path, PAPER_FORMATS[path.suffix.lower()](paper), keep_backup=False, notify=notify)

@@ -1,0 +1,208 @@
+"""The printed sheet for keying values in at a control: PDF, web page, plain text, table."""
+
+from __future__ import annotations
+
+import csv
+import io
+import textwrap
+from collections.abc import Callable, Collection, Iterator
+from dataclasses import dataclass
+from datetime import datetime
+from pathlib import Path
+
+from amp_studio.files import Notify, text_cell
+from amp_studio.report.language import language_of
+from amp_studio.report.model import printable
+from amp_studio.report.output.page import filled_page
+from amp_studio.report.output.pdf import filled_template, typeset
+from amp_studio.report.wording import counted
+from amp_studio.sheet import Instruction, Sheet, SheetEntry, Stage
+from amp_studio.version import __version__
+
+from .endings import write_by_ending
+
+WIDTH = 100
+HEADS = ("step", "number", "name", "now", "key in", "unit", "value in the file", "page", "read back", "notes")
+
+
+@dataclass(frozen=True)
+class Step:
+    """One entry with its number in the order, whether it is ticked, and what was read back."""
+
+    at: int
+    entry: SheetEntry
+    is_ticked: bool
+    shown: str
+
+    @property
+    def notes(self) -> tuple[str, ...]:
+        """Why it comes here, and what is broken meanwhile."""
+        return ((self.entry.order,) if self.entry.order else ()) + self.entry.until
+
+
+@dataclass(frozen=True)
+class PrintedSheet:
+    """A sheet with the ticks that it has and the moment of printing."""
+
+    sheet: Sheet
+    ticked: Collection[str] = ()
+    """The numbers of the entries that are keyed in already."""
+    shown: tuple[tuple[str, str], ...] = ()
+    date: datetime | None = None
+    language: str = "en"
+    """Code of the language of the page's own words."""
+
+    @property
+    def when(self) -> str:
+        """Date and time in printed form."""
+        return (self.date or datetime.now().astimezone()).strftime("%Y-%m-%d %H:%M")
+
+    @property
+    def program(self) -> str:
+        """Who printed it."""
+        return f"AMP Studio {__version__}"
+
+    @property
+    def title(self) -> str:
+        """The machine's name, or what the sheet is."""
+        return self.sheet.machine or self.sheet.title
+
+    @property
+    def summary(self) -> str:
+        """How much there is to do, in a sentence."""
+        left = len(self.sheet.left_out)
+        done = sum(entry.number in self.ticked for entry in self.sheet.entries)
+        parts = [
+            f"{counted(len(self.sheet.entries), 'value')} to key in" + (f", {done} done" if done else ""),
+            f"{self.sheet.same} are the same already",
+            *([f"{left} {'differs' if left == 1 else 'differ'} and cannot be keyed in here"] if left else []),
+        ]
+        return "; ".join(parts) + "."
+
+    def parts(self) -> Iterator[tuple[Stage, tuple[Step, ...]]]:
+        """Yield the steps in order, in runs of one stage."""
+        shown = dict(self.shown)
+        run: list[Step] = []
+        for at, entry in enumerate(self.sheet.entries, 1):
+            if run and run[-1].entry.stage != entry.stage:
+                yield self.sheet.stages[run[-1].entry.stage], tuple(run)
+                run = []
+            run.append(Step(at, entry, entry.number in self.ticked, shown.get(entry.number, "")))
+        if run:
+            yield self.sheet.stages[run[-1].entry.stage], tuple(run)
+
+
+def render_sheet_text(printed: PrintedSheet) -> bytes:
+    """Return plain text in UTF-8, of 100 columns."""
+    return ("\n".join(line.rstrip() for line in text_lines(printed)) + "\n").encode("utf-8")
+
+
+def text_lines(printed: PrintedSheet) -> Iterator[str]:
+    """Yield the lines of the sheet as text."""
+    sheet = printed.sheet
+    yield "=" * WIDTH
+    yield sheet.title.upper().ljust(WIDTH - len(printed.when)) + printed.when
+    yield "=" * WIDTH
+    facts = (("Machine", sheet.machine), ("Control", sheet.family), ("Values of", sheet.wanted),
+             ("Compared with", sheet.present))  # fmt: skip
+    for name, text in facts:
+        if text:
+            yield from _wrapped(text, f"{name + ' ':.<16} ")
+    yield from _wrapped(printed.summary, "")
+    for warning in sheet.warnings:
+        yield from _wrapped(warning, "! ")
+    yield from _instructions("BEFORE", sheet.before)
+    for stage, steps in printed.parts():
+        yield ""
+        if stage.title:
+            yield from _wrapped(stage.title.upper() + (f" (page {stage.page})" if stage.page else ""), "")
+            if stage.why:
+                yield from _wrapped(stage.why, "")
+        yield f"{'':4}{'Step':>4}  {'Number':<12}{'Key in':>16} {'Unit':<8}{'Now':>14}  Parameter"
+        for step in steps:
+            yield from _step_lines(step)
+    yield from _instructions("AFTER", sheet.after)
+    if sheet.left_out:
+        yield ""
+        yield "NOT ON THIS SHEET"
+        for left in sheet.left_out:
+            yield from _wrapped(f"{left.name}: {left.why}", f"  {left.number:<12} ")
+
+
+def _step_lines(step: Step) -> Iterator[str]:
+    entry = step.entry
+    head = f"[{'x' if step.is_ticked else ' '}] {step.at:>4}  {entry.number:<12}{entry.new:>16} {entry.unit:<8}{entry.old or '?':>14}  "
+    about = f"{entry.name}" + (f" = {entry.meaning}" if entry.meaning else "") + f" (page {entry.page})"
+    if step.shown:
+        about += f"; read back {step.shown}"
+    yield from _wrapped(about, head)
+    for note in step.notes:
+        yield from _wrapped(note, " " * 12 + "- ")
+
+
+def _instructions(title: str, steps: tuple[Instruction, ...]) -> Iterator[str]:
+    if steps:
+        yield ""
+        yield title
+        for n, each in enumerate(steps, 1):
+            yield from _wrapped(each.text + (f" (page {each.page})" if each.page else ""), f"{n:>3}. ")
+
+
+def _wrapped(text: str, head: str) -> list[str]:
+    indent = " " * len(head)
+    head = printable(head)
+    room = max(WIDTH, len(head) + 30)
+    return textwrap.wrap(printable(text), room, initial_indent=head, subsequent_indent=indent) or [head]
+
+
+def render_sheet_csv(printed: PrintedSheet) -> bytes:
+    """Return a table, one line an entry in the order of the steps; the column ``read back`` is to be filled in."""
+    stream = io.StringIO(newline="")
+    table = csv.writer(stream, lineterminator="\r\n")
+    table.writerow(HEADS)
+    for _, steps in printed.parts():
+        for step in steps:
+            e = step.entry
+            row = (
+                str(step.at),
+                e.number,
+                e.name,
+                e.old,
+                e.new,
+                e.unit,
+                e.meaning,
+                e.page,
+                step.shown,
+                " ".join(step.notes),
+            )
+            table.writerow(map(text_cell, row))
+    return stream.getvalue().encode("utf-8-sig")
+
+
+def render_sheet_html(printed: PrintedSheet) -> bytes:
+    """Return one web page that can be printed."""
+    return filled_page(
+        "sheet.html.j2", language=language_of(printed.language), printed=printed, sheet=printed.sheet
+    )
+
+
+def render_sheet_pdf(printed: PrintedSheet) -> bytes:
+    """Return the PDF."""
+    return typeset(
+        filled_template(
+            "sheet.typ.j2", language=language_of(printed.language), printed=printed, sheet=printed.sheet
+        )
+    )
+
+
+SHEET_FORMATS: dict[str, Callable[[PrintedSheet], bytes]] = {
+    ".pdf": render_sheet_pdf,
+    ".html": render_sheet_html,
+    ".csv": render_sheet_csv,
+    ".txt": render_sheet_text,
+}
+
+
+def write_sheet(printed: PrintedSheet, path: Path, notify: Notify = lambda _note: None) -> None:
+    """Write a sheet, whole or not at all, in the format of the path's ending; raises ValueError, SaveError."""
+    write_by_ending(path, SHEET_FORMATS, printed, "a sheet", notify)

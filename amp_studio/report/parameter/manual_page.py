@@ -1,0 +1,370 @@
+"""The description of one parameter as text: short facts and help."""
+
+from __future__ import annotations
+
+import inspect
+import re
+import textwrap
+from collections.abc import Iterable, Iterator, Sequence
+from typing import Literal
+
+from amp_studio.guide import step_of, steps_of
+from amp_studio.report.wording import severity_name, state_name
+from amp_studio.schema import (
+    Address,
+    Bit,
+    BoundRef,
+    Choice,
+    Erratum,
+    Evaluation,
+    HelpNote,
+    Parameter,
+    Range,
+    Schema,
+    UnknownParameterError,
+    label_of,
+    labelled,
+    read_address,
+    shown,
+    unknown,
+    write_number,
+)
+from amp_studio.validate import formulas
+
+from .number_text import instances_without_number, number_lines, short_span, split_count
+from .printed_table import table_lines, tables_of
+
+_WIDTH = 100
+_INDENT = "  "
+
+
+def page_of(schema: Schema, param: str, machine: str | None = None) -> str:
+    """Return what is known of a parameter, by number or id; raises UnknownParameterError.
+
+    A number that belongs to several parameters, or to another one on another machine type, gives one page for each.
+    """
+    machines = [machine] if machine else [m.key for m in schema.family.machines]
+    found = schema.parameters.get(read_address(param.strip().casefold())[0])
+    if found is not None:
+        _check_instance(schema, found, param, machines)
+        wanted = [found.id]
+    else:
+        wanted = [
+            a[0]
+            for m in machines
+            for a in schema.on(m).addressed_by(param)
+            or schema.on(m).words(param)
+            or _word_of_bit(schema, param, m)
+        ]
+        if not wanted:
+            raise UnknownParameterError(*unknown(schema, param.strip()))
+    pages = [_page(schema, schema.parameters[p], machine) for p in dict.fromkeys(wanted)]
+    return ("\n" + "=" * _WIDTH + "\n").join(pages)
+
+
+def _word_of_bit(schema: Schema, param: str, machine: str) -> list[Address]:
+    """Return the packed words that a bit of a number (P3N0.5) is of."""
+    word, _, bit = param.strip().rpartition(".")
+    found = schema.on(machine).addressed_by(word) if bit.isdecimal() else []
+    return [a for a in found if schema.parameters[a[0]].type == "bits"]
+
+
+def _check_instance(schema: Schema, parameter: Parameter, param: str, machines: Sequence[str]) -> None:
+    """Raise UnknownParameterError for an instance that the parameter has nowhere; a letter may be that of an axis."""
+    instance = read_address(param.strip())[1]
+    offered = {i.casefold() for m in machines for i in schema.on(m).instances(parameter)}
+    on_an_axis = any(schema.on(m).kin(schema.on(m).scopes[parameter.id], "axis") for m in machines)
+    if instance and instance.casefold() not in offered and not (on_an_axis and instance.isalpha()):
+        evaluation = Evaluation(schema, lambda _: None, lambda: machines[0])
+        evaluation.find(param)  # lists its instances
+
+
+def _page(schema: Schema, parameter: Parameter, machine: str | None) -> str:
+    lines = [parameter.name, "-" * len(parameter.name)]
+    before = ""
+    for title, text in facts(schema, parameter, machine):
+        lines += _fact("" if title == before else title, text)
+        before = title
+    lines.append("")
+    for title, text in help_parts(schema, parameter):
+        lines += [title, *_wrapped(text), ""]
+    lines += _section("Formulas", formula_lines(schema, parameter))
+    lines += _section("Commissioning", _commissioning(schema, parameter))
+    lines += _section("Guides", _steps(schema, parameter))
+    messages = schema.messages_of(parameter.id)
+    lines += _section(
+        "Messages of the control", (f"{m.name} (page {', '.join(m.every_page)})" for m in messages)
+    )
+    for table in tables_of(schema, parameter):
+        lines += [
+            f"{table.title} (page {table.page})",
+            *(f"{_INDENT}{line}" for line in table_lines(table)),
+            "",
+        ]
+    rules = [r for r in schema.rules if any(read_address(t)[0] == parameter.id for t in r.reads.values())]
+    lines += _section(
+        "Rules that use it",
+        (f"{severity_name(r.severity):14} {r.title} ({r.cited}; {r.id})" for r in rules),
+    )
+    return "\n".join(lines).rstrip()
+
+
+def _commissioning(schema: Schema, parameter: Parameter) -> Iterator[str]:
+    """Yield the steps of commissioning at which a parameter is set, or checked again."""
+    own, steps = step_of(schema)[parameter.id], steps_of(schema)
+    for step in steps if schema.commissioning is not None else ():
+        if step is own or parameter in step.again:
+            yield f"Step {step.number} of {len(steps)}: {step.title} (page {step.page})"
+
+
+def _steps(schema: Schema, parameter: Parameter) -> Iterator[str]:
+    """Yield the steps of the family's guides that set a parameter."""
+    for guide in schema.guides:
+        for n, step in enumerate(guide.steps, 1):
+            if parameter.id in step.params:
+                yield f"{guide.title}, step {n} of {len(guide.steps)}: {step.title} (page {step.page})"
+
+
+def _fact(title: str, text: str) -> list[str]:
+    return textwrap.wrap(text, _WIDTH, initial_indent=f"{title:<14} ", subsequent_indent=" " * 15) or [title]
+
+
+def _wrapped(text: str) -> list[str]:
+    return textwrap.wrap(text, _WIDTH, initial_indent=_INDENT, subsequent_indent=_INDENT)
+
+
+def _section(title: str, entries: Iterable[str]) -> list[str]:
+    lines = [
+        line
+        for entry in entries
+        for line in textwrap.wrap(entry, _WIDTH, initial_indent=_INDENT, subsequent_indent=_INDENT * 3)
+    ]
+    return [title, *lines, ""] if lines else []
+
+
+def formula_lines(schema: Schema, parameter: Parameter) -> list[str]:
+    """Return the published formulas of a parameter, each with its arguments and description."""
+    lines = []
+    for name in parameter.formulas:
+        function = formulas(schema.family.family)[name]
+        description = (inspect.getdoc(function) or "").partition("\n")[0].replace("``", "")
+        lines.append(f"{name}({', '.join(inspect.signature(function).parameters)}): {description}")
+    return lines
+
+
+# -- facts ---------------------------------------------------------------------
+
+
+def facts(schema: Schema, parameter: Parameter, machine: str | None = None) -> list[tuple[str, str]]:
+    """Return the short facts of a parameter as (title, text), for one machine type or for all of them."""
+    group = schema.group_of[parameter.id]
+    found = [("Number", text) for text in number_lines(schema, parameter, machine)]
+    found += [
+        ("Id", parameter.id),
+        ("Group", f"{group.name}: {group.section}" if group.section else group.name),
+    ]
+    found += [("Instances", text) for text in instances_without_number(schema, parameter, machine)]
+    found += [("Range", text) for text in _ranges(schema, parameter)]
+    found += [("Unit", parameter.bare)] if parameter.bare else []
+    found += [("Choice", _choice(choice, parameter.patchable)) for choice in parameter.choices or ()]
+    found += [("Bits", text) for text in _bits(parameter)]
+    found.append(("Default", _default(parameter)))
+    found += [("At the control", text) for text in _at_the_control(parameter)]
+    found += [("Command", text) for text in _command(schema, parameter)]
+    effect = parameter.effect or schema.family.effect
+    levels = {
+        "at-once": "at once",
+        "reset": "on reset",
+        "restart": "on restart of the control",
+        "online": f"at once with {effect.command} at the control, else on restart of the control",
+        "command": f"when {effect.command} reads it",
+        "unknown": "not given in the manual",
+    }
+    read_only = "read-only"
+    found.append(
+        ("Access", read_only) if parameter.access == "read" else ("Takes effect", levels[effect.level])
+    )
+    for state in parameter.states:
+        condition = schema.family.conditions[state.when or state.unless or ""]
+        page = state.page or condition.page
+        found.append(
+            (state_name(state.state).capitalize(), condition.why + (f" (page {page})" if page else ""))
+        )
+    found += [("Needs", f"{need.what} (page {need.page})") for need in parameter.needs]
+    pages = " and ".join(dict.fromkeys((parameter.page, *parameter.pages.values())))
+    found.append(("Source", f"{schema.family.title}, page {pages}"))
+    return found
+
+
+def entry_units(schema: Schema, parameter: Parameter) -> tuple[str, ...]:
+    """Return the units in which a parameter is entered, in degrees too where it belongs to an axis that may turn."""
+    if parameter.choices or parameter.type in ("text", "format", "bits"):
+        return ()
+    turns = schema.angular_when(parameter) is not None and any(
+        schema.on(m.key).scopes[parameter.id] == "axis" for m in schema.family.machines
+    )
+    systems = tuple(schema.family.units) or ("",)
+    units = (schema.unit(parameter, s, t) for t in (False, True)[: 1 + turns] for s in systems)
+    return tuple(dict.fromkeys(u for u in units if u))
+
+
+def _ranges(schema: Schema, parameter: Parameter) -> Iterator[str]:
+    yield from _printed_ranges(schema, parameter)
+    for variant in parameter.range_variants:
+        why = schema.family.conditions[variant.when].why
+        yield from (f"{line}, {why}" for line in range_text(variant.ranges, schema))
+
+
+def _printed_ranges(schema: Schema, parameter: Parameter) -> list[str]:
+    """Return the printed ranges, or the unit alone where there is none."""
+    units = " or ".join(map(shown, entry_units(schema, parameter)))
+    if parameter.ranges or not units:
+        return range_text(parameter.ranges, schema)
+    return [f"no bounds printed, in {units}"]
+
+
+def range_text(ranges: dict[str, Range] | None, schema: Schema) -> list[str]:
+    """Return one line for each printed unit: ``0 to 214.1 mm``."""
+    lines = []
+    for unit, (low, high) in (ranges or {}).items():
+        if low is None and high is None:
+            lines.append(f"no bounds printed{f', in {shown(unit)}' if unit else ''}")
+            continue
+        ends = [_end(schema, bound) for bound in (low, high)]
+        lines.append(f"{ends[0]} to {ends[1]} {shown(unit)}".rstrip())
+    return lines
+
+
+def _end(schema: Schema, bound: object) -> str:
+    if bound is None:
+        return "…"
+    if isinstance(bound, BoundRef):
+        return schema.parameters[bound.param].name
+    return write_number(float(bound))  # type: ignore[arg-type]  # a bound is a float, a reference or None
+
+
+def _choice(choice: Choice, patchable: bool) -> str:
+    code = f"({choice.code}) " if choice.code else ""
+    raw = "" if choice.raw is None else f", stored as {choice.raw}"
+    unprinted = ", no stored code printed" if patchable and choice.raw is None else ""
+    return f"{code}{choice.label}{raw}{unprinted}{f'; {choice.note}' if choice.note else ''}"
+
+
+def _bits(parameter: Parameter) -> Iterator[str]:
+    """Yield one line for each field of a word; bits with counted names (Axis 2, Axis 3), or none legible, share one."""
+    fields = list(parameter.bits or ())
+    while fields:
+        run = [fields.pop(0)]
+        while fields and _goes_on(run[-1], fields[0]):
+            run.append(fields.pop(0))
+        first, last = run[0], run[-1]
+        end = last.bit + last.width - 1
+        where = f"{first.bit}" if end == first.bit else f"{first.bit} to {end}"
+        what = first.label if first.label == last.label else f"{first.label} to {last.label}"
+        unknown = " (not legible in the manual: keep the present value)" if first.unknown else ""
+        yield f"{where}: {what}{unknown}"
+        yield from (f"    {_choice(choice, patchable=False)}" for choice in first.choices or ())
+
+
+def _goes_on(a: Bit, b: Bit) -> bool:
+    """Return whether a bit continues a series: Axis 3 after Axis 2, or one more without a legible name."""
+    (head, number), (other, following) = split_count(a.label), split_count(b.label)
+    plain = a.width == b.width == 1 and not a.choices and not b.choices and a.unknown == b.unknown
+    same_lost = a.unknown and a.label == b.label
+    return plain and b.bit == a.bit + 1 and (same_lost or (head == other and following == number + 1))
+
+
+def _default(parameter: Parameter) -> str:
+    default = parameter.default
+    if default is None:
+        return "none printed"
+    if parameter.choices:
+        value = label_of(parameter, str(default.value))
+    else:
+        number = write_number(default.value) if isinstance(default.value, (int, float)) else default.value
+        value = f"{number} {shown(default.unit)}".rstrip()
+    others = "".join(
+        f", {_plain(parameter, v)} for {labelled(parameter.each or '{i}', i)}"
+        for i, v in (default.instances or {}).items()
+    )
+    return f"{value}{others} (page {default.page})"
+
+
+def _plain(parameter: Parameter, value: float | bool | str) -> str:
+    if parameter.choices or isinstance(value, (str, bool)):
+        return label_of(parameter, str(value))
+    return write_number(value)
+
+
+def _command(schema: Schema, parameter: Parameter) -> Iterator[str]:
+    """Yield the command that sets the first instance, with a placeholder for each value: ``NOTCH X(…, …)``."""
+    if parameter.storage and parameter.storage.command:
+        machines = [schema.family.default_machine, *(m.key for m in schema.family.machines)]
+        here = next((schema.on(m) for m in machines if schema.on(m).instances(parameter)), None)
+        if here is None:  # it exists on no machine type
+            return
+        first = here.instances(parameter)[0]
+        known = {"{i}": first, "{k}": "0", "{n}": here.plain_number((parameter.id, first))}
+        yield re.sub("{.*?}", lambda gap: known.get(gap[0], "…"), parameter.storage.command)
+
+
+def _at_the_control(parameter: Parameter) -> Iterator[str]:
+    if parameter.tunable:
+        yield "can be changed while the machine runs"
+    if parameter.patchable:
+        storage = parameter.storage
+        unit = f", in {shown(storage.unit)}" if storage and storage.unit else ""
+        places = f" with {storage.decimals} decimals" if storage and storage.decimals else ""
+        yield f"can be entered by its number{unit}{places}"
+
+
+# -- help ----------------------------------------------------------------------
+
+
+GRADES: dict[str, Literal["danger", "warning", "note"]] = {
+    "Danger": "danger",
+    "Warning": "warning",
+    "Note": "note",
+}
+"""Title of a graded part of the help -> its grade."""
+
+
+def help_parts(schema: Schema, parameter: Parameter) -> list[tuple[str, str]]:
+    """Return the help as (title, text), what is dangerous first."""
+    texts = parameter.help
+    parts = [
+        *_statements("Danger", texts.danger),
+        *_statements("Warning", texts.warning),
+        ("What it does", texts.what),
+        ("How to find its value", texts.find),
+        ("When it is wrong", texts.wrong),
+        *_statements("Note", texts.note),
+    ]
+    related = ", ".join(schema.parameters[r].name for r in texts.related if r in schema.parameters)
+    parts.append(("Related", related))
+    errata = [schema.errata[e] for e in parameter.errata if e in schema.errata]
+    for n, erratum in enumerate(errata, 1):
+        count = f" ({n} of {len(errata)})" if len(errata) > 1 else ""
+        parts.append((f"Contradiction in the manual{count}", erratum_text(erratum)))
+    return [(title, " ".join(text.split())) for title, text in parts if text]
+
+
+def _statements(grade: str, statements: Iterable[HelpNote]) -> list[tuple[str, str]]:
+    return [(grade, f"{s.says} (page {s.page})") for s in statements]
+
+
+def erratum_text(erratum: Erratum) -> str:
+    """Return a contradiction of the manual in one paragraph."""
+    readings = "; ".join(f"page {r.page}: {r.says}" for r in erratum.readings)
+    why = erratum.why.strip()
+    return f"{readings}. Used here: {erratum.taken.strip().rstrip('.')}. {why}"
+
+
+def one_line(schema: Schema, parameter: Parameter) -> str:
+    """Return a parameter in one line: number, id, name, range."""
+    spans = (short_span(schema, parameter, m.key) for m in schema.family.machines)
+    span = next((s for s in spans if s), "–")
+    allowed = " / ".join(_printed_ranges(schema, parameter)) or ", ".join(
+        c.label for c in parameter.choices or ()
+    )
+    return f"{span:12} {parameter.id:32} {parameter.name}: {allowed}"

@@ -1,0 +1,214 @@
+"""How an axis is homed: the one sequence of orders for the scenario `home` and for the machine behind an emulated control."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Generator
+from dataclasses import dataclass
+
+from amp_studio.sim.command.events import Around, CodedScale, Failure, Homing, Ramp
+from amp_studio.sim.rounding import shown
+
+from .moving_axis import GoOrder, MoveOrder, MovingAxis, Order, Orders, PauseOrder, Seen, StopOrder, Watch
+
+MARKERS = 5.0
+"""Turns after which a marker that does not come is none, where no alarm gives the number."""
+REST_AFTER = 0.1
+"""s after the stop on the switch at which the following error is compared with the window of zero speed (MOT-030)."""
+LOCATE = 5.0
+"""Pull-offs in which a second approach searches the switch (grblHAL config.h, HOMING_AXIS_LOCATE_SCALAR)."""
+FAR = 1e5
+"""Turns in which a coded scale is searched for its next markers."""
+
+
+@dataclass
+class Homed:
+    """What a homing has met so far, in u of the machine."""
+
+    left: Seen | None = None
+    """Where the switch went off, or came on where the axis goes on over it."""
+    overrun: float | None = None
+    """How far beyond the edge of the switch the axis stops."""
+    marker: float | None = None
+    home: float | None = None
+    coordinate: float | None = None
+    """What the axis is called at ``home``; None where the homing failed."""
+    alarm: str = ""
+    why: str = ""
+
+    def fail(self, failure: Failure) -> None:
+        """Note why it failed."""
+        self.alarm, self.why, self.home, self.coordinate = failure.code, failure.message, None, None
+
+
+def home_axis(axis: MovingAxis, homing: Homing, ramp: Ramp, around: Around, found: Homed) -> Orders:
+    """Yield the orders of a homing from where the axis is at rest; ``found`` is filled on the way."""
+    if homing.scale is not None:
+        yield from _coded(axis, homing, homing.scale, ramp, around, found)
+        return
+    edge = 0.0
+    if homing.approach:
+        edge = yield from _onto(axis, homing, ramp, around, found)
+        if found.alarm or axis.is_over:
+            return
+    if homing.leave == 0.0:
+        found.marker = found.home = axis.measured
+        found.coordinate = homing.coordinate
+        return
+    yield from _off(axis, homing, ramp, around, found, edge)
+
+
+EdgeFound = Generator[Order, Seen | None, float]
+
+
+def _onto(axis: MovingAxis, homing: Homing, ramp: Ramp, around: Around, found: Homed) -> EdgeFound:
+    """Go onto the switch; returns the edge over which it is left."""
+    sign, edge = math.copysign(1.0, homing.approach), around.switch
+    end = edge + sign * around.length
+    if not sign * (axis.load - edge) >= 0.0 or homing.through:
+        none = homing.failures.get("switch")
+        way = min(_way(axis, around, sign, homing.turn), none.reach if none else math.inf)
+        place = edge
+        if (
+            sign * (edge - axis.position) > way
+        ):  # the axis is at the end of its way when the command has ended
+            place, way = sign * math.inf, max(way - axis.behind(homing.approach), 0.0)
+        seen = yield GoOrder(homing.approach, ramp, Watch(place, sign), way)
+        if seen is None:
+            if not axis.is_over:
+                yield from _failed(
+                    homing, "switch", ramp, found, "No switch comes before the axis is at the end of its way"
+                )
+            return edge
+        if homing.through:
+            found.left = seen
+            return edge
+    yield StopOrder(Ramp() if homing.stops_by_switch else ramp, waits=not math.isfinite(homing.rest_window))
+    if math.isfinite(homing.rest_window):
+        yield PauseOrder(REST_AFTER)
+        if not axis.is_over and abs(axis.position - axis.measured) > homing.rest_window:
+            yield from _failed(homing, "moving", ramp, found, "The axis does not come to rest on the switch")
+            return edge
+    if axis.is_over:
+        return edge
+    found.overrun = axis.passed(edge, sign)
+    if homing.again:
+        yield from _again(axis, homing, ramp, around, found, edge)
+        return edge
+    if math.copysign(1.0, homing.leave) != sign:
+        return edge
+    if found.overrun > around.length:
+        text = f"The axis passed the whole switch of {shown(around.length, axis.axis.unit)} before it stopped: it is too fast for it (page {homing.page})"
+        yield from _failed(homing, "fast", ramp, found, text)
+    return end
+
+
+def _again(axis: MovingAxis, homing: Homing, ramp: Ramp, around: Around, found: Homed, edge: float) -> Orders:
+    """Back off, come onto the switch slowly and stop there at once, as often as asked."""
+    sign, back = math.copysign(1.0, homing.approach), homing.pull_off
+    for _ in range(homing.passes):
+        yield MoveOrder(axis.position - sign * back, abs(homing.approach), ramp)
+        if around.is_stuck or sign * (axis.load - edge) >= 0.0:
+            off = f"The switch does not go off within {shown(back, axis.axis.unit)}"
+            yield from _failed(homing, "stuck", ramp, found, off)
+            return
+        found.left = yield GoOrder(sign * abs(homing.again), ramp, Watch(edge, sign), LOCATE * back)
+        if found.left is None:
+            yield from _failed(homing, "switch", ramp, found, "The switch does not come on again")
+            return
+        yield StopOrder(Ramp())
+
+
+def _off(axis: MovingAxis, homing: Homing, ramp: Ramp, around: Around, found: Homed, edge: float) -> Orders:
+    """Leave the switch over ``edge``, go to the marker and to the home position."""
+    sign, turn = math.copysign(1.0, homing.leave), homing.turn
+    stuck, missing = homing.failures.get("stuck"), homing.failures.get("marker")
+    if homing.approach and found.left is None:
+        reach = min(_way(axis, around, sign, turn), stuck.reach if stuck else math.inf)
+        way = reach if around.is_stuck else abs(axis.position - edge) + MARKERS * turn
+        if not around.is_stuck and stuck and abs(axis.position - edge) > stuck.reach:
+            way = stuck.reach
+        place = sign * math.inf if around.is_stuck else edge
+        found.left = yield GoOrder(homing.leave, ramp, Watch(place, sign), way)
+        if found.left is None:
+            if not axis.is_over:
+                yield from _failed(homing, "stuck", ramp, found, "The axis does not leave the switch")
+            return
+    start = found.left.measured if found.left else axis.measured
+    first = around.marker
+    if homing.marker == "nearest":
+        yield StopOrder(ramp)
+        found.marker = first + turn * round((start - first) / turn)
+    elif homing.marker == "next":
+        least = start + sign * homing.skipped * turn
+        turns = math.floor(sign * (least - first) / turn) + 1
+        marker = first + sign * turns * turn
+        far = min(missing.reach if missing else MARKERS * turn, _way(axis, around, sign, turn))
+        place = marker if around.has_markers and sign * (marker - start) <= far else sign * math.inf
+        speed = math.copysign(homing.search or abs(homing.leave), homing.leave)
+        if (yield GoOrder(speed, ramp, Watch(place, sign, device=True), far)) is None:
+            if not axis.is_over:
+                yield from _failed(homing, "marker", ramp, found, "No marker comes")
+            return
+        found.marker = marker
+        yield StopOrder(ramp)
+    else:
+        found.marker = axis.position if homing.again else start
+        if not homing.again:
+            yield StopOrder(ramp)
+    found.home = found.marker + homing.offset
+    if homing.final:
+        yield MoveOrder(found.home, homing.final, ramp)
+    found.coordinate = homing.coordinate
+
+
+def _coded(
+    axis: MovingAxis, homing: Homing, scale: CodedScale, ramp: Ramp, around: Around, found: Homed
+) -> Orders:
+    """Pass three markers of a coded scale, stop, take its position, and go to the home position (5-5, 5-14)."""
+    sign = math.copysign(1.0, homing.leave)
+    here = around.scale + axis.measured
+    passed = markers_ahead(scale, here, sign)[scale.markers - 1]
+    place = passed - around.scale
+    if sign * (place - (around.high if sign > 0.0 else around.low)) > 0.0 or not around.has_markers:
+        place = sign * math.inf
+    way = min(_way(axis, around, sign, scale.large), (scale.markers + 1) * scale.large)
+    seen = yield GoOrder(homing.leave, ramp, Watch(place, sign, device=True), way)
+    if seen is None:
+        if not axis.is_over:
+            yield from _failed(
+                homing, "marker", ramp, found, f"The axis does not pass {scale.markers} markers in a row"
+            )
+        return
+    found.marker = place
+    yield StopOrder(ramp)
+    found.home = homing.coordinate - scale.zero - around.scale
+    if homing.final:
+        yield MoveOrder(found.home, homing.final, ramp)
+    found.coordinate = homing.coordinate
+
+
+def markers_ahead(scale: CodedScale, here: float, sign: float) -> list[float]:
+    """Return the next markers of a coded scale beyond a place, in u of the scale: odd and even ones in turn."""
+    around = math.floor(here / scale.large)
+    places = [
+        place
+        for i in range(around - 4, around + 6)
+        for place in (i * scale.small, scale.first + i * scale.large)
+        if sign * (place - here) > 0.0
+    ]
+    return sorted(places, key=lambda place: sign * place)
+
+
+def _way(axis: MovingAxis, around: Around, sign: float, turn: float) -> float:
+    """Return how far the axis can go in a direction, u."""
+    end = around.high if sign > 0.0 else around.low
+    if math.isfinite(end):
+        return max(sign * (end - axis.position), 0.0)
+    return abs(around.switch - axis.position) + 2.0 * turn if math.isfinite(around.switch) else FAR * turn
+
+
+def _failed(homing: Homing, which: str, ramp: Ramp, found: Homed, text: str) -> Orders:
+    """StopOrder, and note the alarm of the control for it."""
+    yield StopOrder(ramp)
+    found.fail(homing.failures.get(which, Failure("HOME", f"{text}: no alarm is printed for it")))

@@ -1,0 +1,256 @@
+"""A machine that lives: its axes are stepped in their own time, get orders, and can fault.
+
+It is what an emulated control moves (DESIGN: one machine): the same axes, homing and limits as in the scenarios, made from
+the parameters that the control contains. Positions are in the coordinates of the control.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import replace
+
+from amp_studio.sim.command.events import Around, Homing, Ramp, Travel
+from amp_studio.sim.errors import SimulationError
+from amp_studio.sim.law import AlarmText, AxisLaw
+from amp_studio.sim.rounding import rounded_up
+
+from .homing import Homed, home_axis
+from .moving_axis import GoOrder, MoveOrder, MovingAxis, Orders, StopOrder, Watch
+
+COAST = 10.0
+"""s in which an axis that has lost its drive may run out."""
+AWAKE = 0.5
+"""s after the last order in which an axis is still stepped; then it is at rest and costs nothing."""
+SLICE = 0.02
+"""s of the machine's time between two looks at its limits."""
+RUNAWAY = "RUNAWAY"
+"""Code of an axis whose loop is not stable, where the control itself stops it with none."""
+LONGEST_ADVANCE = 1.0
+"""s of the machine's time that are made up at most, after its process had no processor."""
+
+
+class SimulatedAxis:
+    """One axis of a machine; ``around`` None puts its switch as far off as it needs to reach the homing speed."""
+
+    def __init__(self, law: AxisLaw, around: Around | None = None, position: float = 0.0) -> None:
+        self.law, self._around = law, around
+        self._moving = MovingAxis(law, engine="plain", keep=False, coast=COAST)
+        self._offset = position  # of the control's coordinates
+        self._left = 0.0  # s that it is still stepped
+        self._homed: Homed | None = None
+        self.is_homed = False
+        self.is_enabled = True
+        self.alarm: AlarmText | None = None
+        """What stopped it, until `reset`."""
+        self.travel: Travel | None = None
+        """Limits that stop it."""
+
+    # -- what it is doing -----------------------------------------------------------------
+
+    @property
+    def position(self) -> float:
+        """Measured position, u."""
+        return self._moving.measured + self._offset
+
+    @property
+    def command(self) -> float:
+        """Commanded position, u."""
+        return self._moving.position + self._offset
+
+    @property
+    def following_error(self) -> float:
+        """Commanded less measured position, u."""
+        return self._moving.position - self._moving.measured
+
+    @property
+    def velocity(self) -> float:
+        """Of the load, u/s."""
+        return self._moving.speed if self._left > 0.0 else 0.0
+
+    @property
+    def is_busy(self) -> bool:
+        """Whether an order is under way."""
+        return self._moving.is_busy
+
+    # -- orders ----------------------------------------------------------------------------
+
+    def define(self, position: float) -> None:
+        """Call the place where the command is by another position; the axis does not move."""
+        self._offset = position - self._moving.position
+
+    def bind(self, law: AxisLaw) -> None:
+        """Take other parameters over, at rest."""
+        at, moving = self.command, MovingAxis(law, engine="plain", keep=False, coast=COAST)
+        if self._around is not None:  # the switches stay where they are in the machine
+            self._around = moved(self._around, -self._moving.position)
+        self.law, self._moving, self._offset = law, moving, at
+
+    def move(self, to: float, feedrate: float, ramp: Ramp) -> None:
+        """Move to a position; an axis that moves stops first."""
+        self._begin(self._moved(to - self._offset, feedrate, ramp))
+
+    def go(self, velocity: float, ramp: Ramp, farthest: float = math.inf) -> None:
+        """Move at a velocity until `stop`, or for ``farthest`` u."""
+        if velocity == 0.0:
+            self.stop(ramp)
+            return
+        far = min(farthest, abs(velocity) * 600.0)
+        self._begin(self._gone(velocity, ramp, far))
+
+    def stop(self, ramp: Ramp) -> None:
+        """Stop along a ramp."""
+        self._begin(self._stopped(ramp))
+
+    def home(self, homing: Homing, ramp: Ramp) -> None:
+        """Home the axis; `is_homed`, or `alarm`, is set at its end."""
+        self.is_homed, self._homed = False, Homed()
+        if self._around is None:
+            self._around = moved(usual_around(self.law, homing, ramp), self._moving.position)
+        self._begin(home_axis(self._moving, homing, ramp, self._around, self._homed))
+
+    def switch_off(self) -> None:
+        """Take the drive away: an emergency stop, or a fault of the drive."""
+        self.is_enabled, self._homed = False, None
+        if self._moving.is_busy or abs(self._moving.velocity) > 0.0 or self._left > 0.0:
+            self._moving.emergency()
+            self._left = COAST
+
+    def reset(self) -> None:
+        """Give the drive back; the command is where the axis is."""
+        self.alarm, self.is_enabled = None, True
+        if self._moving.stop_number or self._moving.is_over:
+            self._moving.restart()
+
+    def _moved(self, to: float, feedrate: float, ramp: Ramp) -> Orders:
+        if self._moving.velocity != 0.0:
+            yield StopOrder(ramp)
+        yield MoveOrder(to, feedrate, ramp)
+
+    def _gone(self, velocity: float, ramp: Ramp, farthest: float) -> Orders:
+        if self._moving.velocity * velocity < 0.0:
+            yield StopOrder(ramp)
+        sign = math.copysign(1.0, velocity)
+        yield GoOrder(velocity, ramp, Watch(sign * math.inf, sign), farthest)
+        yield StopOrder(ramp)
+
+    @staticmethod
+    def _stopped(ramp: Ramp) -> Orders:
+        yield StopOrder(ramp)
+
+    def _begin(self, orders: Orders) -> None:
+        if self.is_enabled and not self._moving.is_over:
+            self._moving.begin(orders)
+            self._left = AWAKE
+
+    # -- time ------------------------------------------------------------------------------
+
+    def advance(self, duration: float) -> None:
+        """Step the axis for a time, s."""
+        left = min(duration, LONGEST_ADVANCE)
+        while left > 0.0 and self._left > 0.0:
+            step = min(left, SLICE)
+            try:
+                self._moving.advance(step)
+            except (
+                SimulationError
+            ) as error:  # a loop that is not stable: the control goes on without this axis
+                self._run_away(error.what)
+                return
+            left -= step
+            self._left = AWAKE if self._moving.is_busy else self._left - step
+            self._look()
+        self._settle()
+
+    def _run_away(self, text: str) -> None:
+        """Take the drive away from an axis whose motion has no bounds; it is where its command was."""
+        at = self.command
+        self._moving = MovingAxis(self.law, engine="plain", keep=False, coast=COAST)
+        self._offset, self._left, self._homed = at, 0.0, None
+        self.alarm, self.is_enabled = AlarmText(RUNAWAY, text), False
+
+    def _look(self) -> None:
+        """Stop at a limit, and note what the law stopped for."""
+        if self._moving.stop_number > 0 and self.alarm is None:
+            self.alarm, self.is_enabled = self.law.alarms.get(self._moving.stop_number), False
+        travel = self.travel
+        if travel is None or not self.is_enabled or self.alarm is not None or not self.is_busy:
+            return
+        for name, (low, high) in travel.limits.items():
+            forward = self._moving.velocity
+            if (self.position > high and forward > 0.0) or (self.position < low and forward < 0.0):
+                code = travel.alarm_negative or travel.alarm if forward < 0.0 else travel.alarm
+                self.alarm = AlarmText(code, f"The axis has passed {name} (page {travel.page})")
+                self.switch_off() if travel.coasts else self.stop(travel.stop or Ramp())
+
+    def _settle(self) -> None:
+        homed = self._homed
+        if homed is None or self._moving.is_busy:
+            return
+        self._homed = None
+        if homed.alarm:
+            self.alarm = AlarmText(homed.alarm, homed.why)
+        elif homed.coordinate is not None and homed.home is not None:
+            self._offset = homed.coordinate - homed.home
+            self.is_homed = True
+
+
+def usual_around(law: AxisLaw, homing: Homing, ramp: Ramp) -> Around:
+    """Return switch and marker of a machine of which nothing is known: from the start at 0, far enough to reach the homing speed."""
+    sign = math.copysign(1.0, homing.approach or homing.leave or 1.0)
+    edge = sign * reach(law, homing.approach, ramp) if homing.approach else 0.0
+    marker = edge + math.copysign(0.25 * homing.turn, homing.leave or 1.0)
+    return Around(switch=edge if homing.approach else math.inf, marker=marker, scale=5.3 * homing.turn)
+
+
+def moved(around: Around, way: float) -> Around:
+    """Return the same surroundings, seen from another zero."""
+    return replace(
+        around,
+        switch=around.switch + way,
+        marker=around.marker + way,
+        low=around.low + way,
+        high=around.high + way,
+        scale=around.scale - way,
+    )
+
+
+def reach(axis: AxisLaw, velocity: float, ramp: Ramp) -> float:
+    """Return a distance in u over which the axis reaches a velocity and follows it."""
+    speed = abs(velocity)
+    time = 5.0 * ramp.time + (speed / ramp.acceleration if ramp.acceleration else 0.0)
+    return rounded_up(speed * (time + 3.0 / axis.position_rate + 0.2), 2)
+
+
+class SimulatedMachine:
+    """Axes by name that live together."""
+
+    def __init__(self) -> None:
+        self.axes: dict[str, SimulatedAxis] = {}
+
+    def advance(self, duration: float) -> None:
+        """Step every axis for a time, s."""
+        for axis in self.axes.values():
+            axis.advance(duration)
+
+    @property
+    def is_busy(self) -> bool:
+        """Whether any axis has an order under way."""
+        return any(axis.is_busy for axis in self.axes.values())
+
+    def line(self, targets: Mapping[str, float], feedrate: float | None) -> None:
+        """Move axes in a straight line at a feedrate in u/s, or as fast as all of them can; each has its share of speed and ramp."""
+        ways = {name: to - self.axes[name].command for name, to in targets.items()}
+        length = math.sqrt(sum(way * way for way in ways.values()))
+        ways = {name: way for name, way in ways.items() if way != 0.0}
+        if not ways:
+            return
+        laws = {name: self.axes[name].law for name in ways}
+        fastest = min((laws[name].feedrate or math.inf) * length / abs(way) for name, way in ways.items())
+        speed = fastest if feedrate is None else min(feedrate, fastest)
+        ramps = {name: next(iter(law.ramps.values())) for name, law in laws.items()}
+        rise = min(ramps[name].acceleration * length / abs(way) for name, way in ways.items())
+        for name, way in ways.items():
+            share = abs(way) / length
+            ramp = replace(ramps[name], acceleration=rise * share, deceleration=rise * share)
+            self.axes[name].move(targets[name], speed * share, ramp)

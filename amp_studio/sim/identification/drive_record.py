@@ -1,0 +1,282 @@
+"""Reads the record of a drive: time, velocity or position, and torque, as columns with their units in the heads.
+
+Nothing is guessed that could scale a figure: a column without a unit and a number that can be read in two ways are refused.
+"""
+
+from __future__ import annotations
+
+import csv
+import re
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+
+from amp_studio.files import text_of_name
+from amp_studio.schema import UnitError, canonical, dimension, read_table_text, unit_named
+from amp_studio.sim.errors import SimulationError
+from amp_studio.sim.series import Series
+
+MOST_ROWS = 500_000
+LARGEST = 1e12
+_LONGEST_LINE = 10_000
+_HEAD_WITHIN = 60
+"""Lines from the top in which the heads are looked for; oscilloscopes and drives write their settings above."""
+_NUMBER = re.compile(r"[+-]?(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][+-]?[0-9]{1,3})?")
+_BRACKETED = re.compile(r"(.*?)\s*[\[(]\s*([^\])(]*?)\s*[\])]\s*")
+_TRAILING = re.compile(r"(.*?)(?:_|\s*,\s*|\s+in\s+|\s+)(\S+)")
+_TIMES = {"s": 1.0, "ms": 1e-3, "us": 1e-6}
+_ALSO = {
+    "m": ("mm", 1e3), "m/s": ("mm/s", 1e3), "m/min": ("mm/min", 1e3), "rad": ("deg", 180.0 / np.pi),
+    "rad/s": ("deg/s", 180.0 / np.pi), "°/s": ("deg/s", 1.0), "counts/min": ("counts/s", 1.0 / 60.0),
+}  # fmt: skip
+"""Units of records that no parameter has -> one that has a size, and how much of it."""
+TORQUE_UNITS = {
+    "%": ("%", 1.0), "percent": ("%", 1.0), "pct": ("%", 1.0), "arms": ("A", 1.0), "v": ("V", 1.0), "mv": ("V", 1e-3), "a": ("A", 1.0), "ma": ("A", 1e-3), "nm": ("Nm", 1.0),
+    "mnm": ("Nm", 1e-3), "ncm": ("Nm", 1e-2), "n": ("N", 1.0), "kn": ("N", 1e3),
+}  # fmt: skip
+"""Unit of a torque, a force or a current without blanks and dots -> its own unit, and how much of that it is."""
+
+_KINDS: dict[str, tuple[str, ...]] = {
+    "time": ("time|t|zeit",),
+    "velocity": (
+        "velocity|speed|vel|v|geschwindigkeit",
+        "((actual|measured|feedback|axis|load) (velocity|speed)|velocity (actual|feedback)|istgeschwindigkeit|v ?ist)",
+    ),
+    "position": (
+        "position|pos|lage|weg",
+        "((actual|measured|feedback|axis|load) (position|pos)|position (actual|feedback)|istposition|x ?ist)",
+    ),
+    "torque": (
+        "torque|force|current|drehmoment|moment|kraft|strom",
+        "((actual|measured|motor|axis) (torque|force|current)|torque (actual|feedback)|iq|i q|istmoment|iststrom)",
+        "((torque|force|current) (command|demand|reference|setpoint)|commanded (torque|current)|sollmoment|sollstrom)",
+        "output",
+    ),
+}
+"""What a column is -> its names, the ones that are taken first before the others."""
+_EXAMPLE = "time (s), velocity (mm/min), torque (%)"
+
+
+@dataclass(frozen=True, eq=False)
+class DriveRecord:
+    """Time in s and, in the units of the columns, velocity or position (the other one is None) and torque."""
+
+    time: Series
+    velocity: Series | None
+    position: Series | None
+    torque: Series
+    motion_unit: str
+    """Of velocity or position: a unit of the program."""
+    torque_unit: str
+    columns: tuple[str, ...]
+    """The heads of the columns that were used."""
+
+
+def read_drive_record(path: Path) -> DriveRecord:
+    """Read a record from a file; raises SimulationError with its name, and OSError where it cannot be read."""
+    text = read_table_text(path)
+    try:
+        return drive_record_of(text)
+    except SimulationError as error:
+        raise SimulationError(f"{text_of_name(path.name)}: {error}") from None
+
+
+def drive_record_of(text: str) -> DriveRecord:
+    """Read a record from a text of comma, semicolon or tab separated columns; raises SimulationError naming the line."""
+    lines = [
+        (n, line) for n, line in enumerate(text.splitlines(), 1) if line.strip() and line.lstrip()[0] != "#"
+    ]
+    if len(lines) > MOST_ROWS + _HEAD_WITHIN:
+        raise SimulationError(f"{len(lines)} lines are too many: {MOST_ROWS} at most")
+    heads, names, separator, rest = _heads(lines)
+    motion = "velocity" if "velocity" in heads else "position"
+    used = [heads[kind] for kind in ("time", motion, "torque")]
+    units = [_unit(names[n], kind) for n, kind in zip(used, ("time", motion, "torque"), strict=True)]
+    time, moved, torque = _columns(rest, used, len(names), separator)
+    (time_unit, time_size), (motion_unit, motion_size), (torque_unit, torque_size) = units
+    moved *= motion_size
+    return DriveRecord(
+        time * time_size * _TIMES[time_unit],
+        moved if motion == "velocity" else None,
+        moved if motion == "position" else None,
+        torque * torque_size,
+        motion_unit,
+        torque_unit,
+        tuple(" ".join(part for part in names[n] if part) for n in used),
+    )
+
+
+# -- heads -------------------------------------------------------------------------------------------
+
+_Lines = Sequence[tuple[int, str]]
+
+
+def _heads(lines: _Lines) -> tuple[dict[str, int], list[tuple[str, str]], str, _Lines]:
+    """Return what each used column is, name and unit of all columns, the separator, and the lines of numbers."""
+    for place, (n, line) in enumerate(lines[:_HEAD_WITHIN]):
+        separator = next((sign for sign in ";\t," if sign in line), ",")
+        cells = _cells(line, separator, n)
+        names = [_name_and_unit(cell) for cell in cells]
+        found = _kinds([name for name, _ in names])
+        if not {"time", "torque"} <= found.keys() or not {"velocity", "position"} & found.keys():
+            continue
+        rest = lines[place + 1 :]
+        if rest and (units := _line_of_units(_cells(rest[0][1], separator, rest[0][0]), len(names))):
+            names = [(name, unit or below) for (name, unit), below in zip(names, units, strict=True)]
+            rest = rest[1:]
+        return found, names, separator, rest
+    raise SimulationError(f"No line names the columns. Write it above the numbers, with units: {_EXAMPLE}")
+
+
+def _kinds(names: Sequence[str]) -> dict[str, int]:
+    """Return kind -> its column; raises SimulationError where two columns have the same right to be it."""
+    found = {}
+    for kind, ranks in _KINDS.items():
+        for pattern in ranks:
+            fitting = [n for n, name in enumerate(names) if re.fullmatch(pattern, name)]
+            if len(fitting) > 1:
+                raise SimulationError(f"{len(fitting)} columns are a {kind}: leave one of them")
+            if fitting:
+                found[kind] = fitting[0]
+                break
+    return found
+
+
+def _name_and_unit(cell: str) -> tuple[str, str]:
+    """Return the name in plain small letters, and the unit as it is written; "" where there is none."""
+    text = cell.strip().strip("\"'")
+    bracketed = _BRACKETED.fullmatch(text)
+    name, unit = bracketed.groups() if bracketed else (text, "")
+    trailing = None if bracketed else _TRAILING.fullmatch(text)
+    if trailing and (_is_unit(trailing[2])):
+        name, unit = trailing.groups()
+    return " ".join(name.casefold().replace("_", " ").replace("-", " ").split()), unit
+
+
+def _is_unit(text: str) -> bool:
+    word = text.strip("[]() ")
+    try:
+        return bool(word) and (_torque_unit(word) is not None or word in _ALSO or bool(unit_named(word)))
+    except UnitError:
+        return False
+
+
+def _line_of_units(cells: Sequence[str], width: int) -> list[str]:
+    """Return the units of a line that contains nothing else, none for another line."""
+    words = [cell.strip().strip("[]()") for cell in cells]
+    fits = len(words) == width and any(words) and all(not word or _is_unit(word) for word in words)
+    return words if fits else []
+
+
+def _unit(head: tuple[str, str], kind: str) -> tuple[str, float]:
+    """Return the unit of a column and how much of it one is; raises SimulationError for one that does not fit."""
+    name, text = head
+    if not text:
+        raise SimulationError(f"The column {name} has no unit. Write it in its head: {_EXAMPLE}")
+    if kind == "torque":
+        unit = _torque_unit(text)
+        if unit is None:
+            raise SimulationError(f"The column {name} is in {text[:20]}; known are %, V, A, Nm and N")
+        return unit
+    if text in _ALSO and kind != "time":
+        return _ALSO[text]
+    try:
+        unit_name = unit_named(text)
+    except UnitError as error:
+        raise SimulationError(f"The column {name}: {error}") from None
+    wanted = {
+        "time": ("time",),
+        "velocity": ("velocity", "angular velocity", "count rate"),
+        "position": ("length", "angle", "counts"),
+    }[kind]
+    if dimension(unit_name) not in wanted or (kind == "time" and unit_name not in _TIMES):
+        hint = ": multiply it by the travel for a turn" if unit_name == "rpm" else ""
+        raise SimulationError(
+            f"The column {name} is in {text[:20]}, which is no unit of a {kind} of the axis{hint}"
+        )
+    return unit_name, 1.0
+
+
+def _torque_unit(text: str) -> tuple[str, float] | None:
+    word = re.sub(r"[\s·.*]", "", text).casefold()
+    return TORQUE_UNITS.get("%" if word.startswith("%") else word)  # % of rated torque, % Mn
+
+
+def torque_figure(text: str) -> tuple[float, str]:
+    """Read a torque with its unit, ``0.056 A``; raises SimulationError."""
+    found = re.fullmatch(rf"({_NUMBER.pattern})\s*(\D+)", text.strip().replace(",", "."))
+    unit = _torque_unit(found[2]) if found else None
+    if found is None or unit is None or not 0.0 < float(found[1]) * unit[1] < np.inf:
+        raise SimulationError(f"'{text[:40]}' is no torque above 0 with its unit: 0.056 A, 0.02 Nm")
+    return float(found[1]) * unit[1], unit[0]
+
+
+# -- numbers -----------------------------------------------------------------------------------------
+
+
+def _cells(line: str, separator: str, number: int) -> list[str]:
+    if len(line) > _LONGEST_LINE:
+        raise SimulationError(f"line {number}: it has more than {_LONGEST_LINE} signs")
+    try:
+        (cells,) = csv.reader([line], delimiter=separator, strict=True)
+    except (csv.Error, ValueError) as error:
+        raise SimulationError(f"line {number}: this is no line of a table ({error})") from None
+    if len(cells) > 1 and not cells[-1].strip():
+        cells.pop()
+    return [cell.strip() for cell in cells]
+
+
+def _columns(lines: _Lines, used: Sequence[int], width: int, separator: str) -> list[Series]:
+    """Return the used columns as numbers; raises SimulationError for a cell that is none, or may be two."""
+    signs: dict[str, int] = {}
+    columns: list[list[float]] = [[] for _ in used]
+    for n, line in lines:
+        cells = _cells(line, separator, n)
+        if len(cells) != width:
+            hint = (
+                "; if its numbers have decimal commas, separate the columns by semicolons"
+                if separator == ","
+                else ""
+            )
+            raise SimulationError(f"line {n}: {len(cells)} cells, and {width} heads{hint}")
+        for column, place in zip(columns, used, strict=True):
+            cell = cells[place].replace("\u2212", "-")
+            for sign in ".,":
+                if sign in cell:
+                    signs.setdefault(sign, n)
+            text = cell.replace(",", ".")
+            if len(text) > 40 or not _NUMBER.fullmatch(text):
+                raise SimulationError(
+                    f"line {n}: '{cell[:40]}' is no number" if cell else f"line {n}: a cell is empty"
+                )
+            number = float(text)
+            if not abs(number) < LARGEST:
+                raise SimulationError(f"line {n}: {cell[:40]} is too large: below 10^12 are read")
+            column.append(number)
+    if len(signs) > 1:
+        raise SimulationError(
+            f"line {signs[',']} has a decimal comma and line {signs['.']} a decimal point: write all numbers in one way"
+        )
+    return [np.array(column) for column in columns]
+
+
+def speed_factor(record: DriveRecord, unit: str) -> float:
+    """Return how many u/s (or u of a position) of an axis in ``unit`` one of the record's motion is.
+
+    Raises SimulationError where an axis in that unit does not move so.
+    """
+    own = record.motion_unit
+    wanted = {
+        "mm": ("length", "velocity"),
+        "deg": ("angle", "angular velocity"),
+        "counts": ("counts", "count rate"),
+    }[unit]
+    if dimension(own) not in wanted:
+        raise SimulationError(
+            f"The record is in {own}, and the axis moves in {unit}: give {unit} or {unit}/s"
+        )
+    if own == "counts/s" or record.velocity is None:
+        return canonical(1.0, own)
+    return canonical(1.0, own) / 60.0

@@ -1,0 +1,301 @@
+"""Inertia, friction and weight of an axis out of a record of its motion, by least squares.
+
+The torque of a rigid axis is J·a + b·v + c+ while it moves in the positive direction, and J·a + b·v + c- in the negative
+one. The equation is linear in J, b, c+ and c-, so it stays true when torque, velocity and acceleration pass the same filter,
+which takes out noise and the steps of counts without a bias (the filter of an inverse dynamic identification:
+M. Gautier, *Dynamic identification of robots with power model*, IEEE ICRA 1997). What is left of the noise in the acceleration
+would make J too small; the filter is the shortest one with which that is below ``WANTED_NOISE``.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+import numpy.typing as npt
+
+from amp_studio.sim.errors import SimulationError
+from amp_studio.sim.series import Series
+from amp_studio.sim.tuning.sampled import Matrix
+
+LEAST_ROWS = 100
+WANTED_NOISE, MOST_NOISE = 1e-3, 2e-2
+"""Share of noise in the variance of the filtered acceleration: J is too small by it."""
+STANDSTILL = 0.02
+"""Share of the top speed below which the axis counts as standing: there the friction has any value up to the static one."""
+LEAST_SPREAD, LEAST_CRUISE_SPREAD = 0.15, 0.05
+"""Standard deviation of the speed over the top speed, of all rows and of those without acceleration, where there are many."""
+CRUISING, MANY = 0.1, 0.3
+"""Share of the largest acceleration below which a row has none; share of rows that are many."""
+MOST_CONDITION = 200.0
+"""Of the normalised columns of the equation."""
+FLAT_RUN, FLAT_SHARE = 10, 0.02
+"""Rows of exactly the largest (or smallest) torque one after the other, and their share of the record: a limit."""
+LEAST_FIT = 0.5
+"""r² below which the record does not show this axis."""
+MOST_ERROR = 0.2
+"""Standard error of J over J."""
+
+
+@dataclass(frozen=True, eq=False)
+class FrictionFit:
+    """J, b, c+ and c- in the units of the record, their covariance, and what they were found in."""
+
+    coefficients: Series
+    covariance: Matrix
+    r_squared: float
+    period: float
+    """s between two rows."""
+    window: float
+    """s: length of the filter."""
+    rows: int
+    used: int
+    """Rows in the middle of a filter within which the axis kept its direction."""
+    time: Series
+    velocity: Series
+    torque: Series
+    predicted: Series
+    """Of each row that has a filter around it, filtered."""
+    is_used: npt.NDArray[np.bool_]
+    """Of these rows; at a standstill the prediction is the weight alone."""
+
+
+def fit_friction(
+    time: Series, torque: Series, *, velocity: Series | None = None, position: Series | None = None
+) -> FrictionFit:
+    """Return the fit of a record, by its velocity or its position; raises SimulationError for what it cannot show."""
+    moved = velocity if velocity is not None else position
+    assert moved is not None
+    if len(time) < LEAST_ROWS:
+        raise SimulationError(f"The record has {len(time)} rows; at least {LEAST_ROWS} are needed")
+    time, (moved, torque) = _even(time, moved, torque)
+    _refuse_limit(torque, moved if velocity is not None else np.gradient(moved))
+    period = float(time[1] - time[0])
+    inner, slope, bend = time[1:-1], (moved[2:] - moved[:-2]) / (2.0 * period), np.diff(moved, 2) / period**2
+    # A difference is a mean over two periods; what it is compared with has the same mean.
+    if velocity is not None:
+        speed, acceleration, torque = _mean(moved, 0.25), slope, _mean(torque, 0.25)
+        taps = np.array([-0.5, 0.0, 0.5]) / period
+    else:
+        speed, acceleration, torque = slope, bend, _mean(torque, 1.0 / 6.0)
+        taps = np.array([1.0, -2.0, 1.0]) / period**2
+    noise = _noise(moved)
+    best = None
+    for width in _widths(len(inner)):
+        found = _filtered(width, inner, speed, acceleration, torque)
+        used = _one_direction(speed, width)
+        if used.sum() < LEAST_ROWS // 2:
+            break
+        left = noise * _gain(taps, width)
+        share = left / (float(np.var(found[2][used])) or 1.0)
+        if best is None or share < best[0]:
+            best = share, left, width, found, used
+        if share < WANTED_NOISE:
+            break
+    if best is None:
+        raise SimulationError(
+            "The record has too few rows in which the axis moves in one direction for a while"
+        )
+    share, left, width, found, used = best
+    _refuse_motion(found[1][used], found[2][used])
+    if share > MOST_NOISE:
+        raise SimulationError(
+            "The record shows no acceleration above its noise: record moves with longer or steeper ramps, "
+            "or more samples a second"
+        )
+    return _solved(period, width, found, used, left, rows=len(time))
+
+
+# -- what is refused ---------------------------------------------------------------------------------
+
+
+def _refuse_limit(torque: Series, speed: Series) -> None:
+    """Raise SimulationError for a torque that stays at its largest or smallest value in motion: what was missing is not in the record.
+
+    A drive that is off, with the brake closed, has its smallest torque too, at rest.
+    """
+    if float(np.ptp(torque)) == 0.0:
+        raise SimulationError("The torque is the same in every row")
+    moves = np.abs(speed) > STANDSTILL * float(np.abs(speed).max())
+    flat = 0
+    for limit in (torque.max(), torque.min()):
+        at_limit = np.concatenate([[0], ((torque == limit) & moves).astype(np.int8), [0]])
+        edges = np.flatnonzero(np.diff(at_limit))
+        lengths = edges[1::2] - edges[::2]
+        flat += int(lengths[lengths >= FLAT_RUN].sum())
+    if flat > FLAT_SHARE * len(torque):
+        raise SimulationError(
+            f"The torque stays at its largest value in {flat} of {len(torque)} rows: it is at a limit. "
+            "Record moves with a lower acceleration"
+        )
+
+
+def _refuse_motion(velocity: Series, acceleration: Series) -> None:
+    """Raise SimulationError for a motion in which two of the figures look the same."""
+    top = float(np.abs(velocity).max(initial=0.0))
+    if not (velocity > 0.0).any() or not (velocity < 0.0).any():
+        raise SimulationError(
+            "The axis moves in one direction only: dry friction and weight look the same. Record moves in both directions"
+        )
+    if min((velocity > 0.0).sum(), (velocity < 0.0).sum()) < LEAST_ROWS // 5:
+        raise SimulationError(
+            "The axis moves too little in one of both directions: record longer moves in both"
+        )
+    speed = np.abs(velocity)
+    cruise = speed[np.abs(acceleration) < CRUISING * float(np.abs(acceleration).max())]
+    is_one = len(cruise) > MANY * len(speed) and float(cruise.std()) < LEAST_CRUISE_SPREAD * top
+    if is_one or float(speed.std()) < LEAST_SPREAD * top:
+        raise SimulationError(
+            "The axis moves at one speed only: friction that rises with the speed looks like dry friction. "
+            "Record moves at several speeds"
+        )
+
+
+# -- filters -----------------------------------------------------------------------------------------
+
+
+def _even(time: Series, moved: Series, torque: Series) -> tuple[Series, tuple[Series, Series]]:
+    """Return the record at even times; raises SimulationError for times that do not rise or leave a gap."""
+    steps = np.diff(time)
+    back = np.flatnonzero(steps < 0.0)
+    if back.size:
+        raise SimulationError(f"The time goes back after {time[back[0]]:g} s")
+    period = float(time[-1] - time[0]) / (len(time) - 1)
+    if period <= 0.0:
+        raise SimulationError("The time is the same in every row")
+    even = time[0] + period * np.arange(len(time))
+    if float(np.abs(time - even).max()) < 0.75 * period:  # times that were rounded when they were written
+        return even, (moved, torque)
+    gap = int(np.argmax(steps))
+    if steps[gap] > 5.0 * float(np.median(steps)) or not (steps > 0.0).all():
+        raise SimulationError(f"The record has a gap after {time[gap]:g} s, or two rows of the same time")
+    return even, (np.interp(even, time, moved), np.interp(even, time, torque))
+
+
+def _noise(moved: Series) -> float:
+    """Return the variance of the noise of a signal, counts included: of its third differences, which motion hardly has."""
+    return float(np.mean(np.diff(moved, 3) ** 2)) / 20.0
+
+
+def _mean(values: Series, side: float) -> Series:
+    """Return the means of a row and its two neighbours, each of which has the weight ``side``."""
+    return np.asarray(side * (values[:-2] + values[2:]) + (1.0 - 2.0 * side) * values[1:-1])
+
+
+def _widths(rows: int) -> list[int]:
+    found = [1]
+    while 3 * found[-1] < rows // 10:
+        found.append(max(found[-1] + 1, round(1.5 * found[-1])))
+    return found
+
+
+def _box(values: Series, width: int) -> Series:
+    """Return the means of ``width`` values one after the other."""
+    sums = np.cumsum(np.concatenate([[0.0], values]))
+    return np.asarray((sums[width:] - sums[:-width]) / width)
+
+
+def _smooth(values: Series, width: int) -> Series:
+    """Return what a filter of three boxes leaves: 3 width - 2 rows long, without a delay, shorter by them at both ends."""
+    middle = float(values.mean())  # so that sums of a distant position lose no digits
+    return middle + _box(_box(_box(values - middle, width), width), width)
+
+
+def _filtered(width: int, *signals: Series) -> tuple[Series, ...]:
+    return tuple(_smooth(signal, width) for signal in signals)
+
+
+def _gain(taps: Series, width: int) -> float:
+    """Return the variance that a variance of 1 at each row leaves in the filtered acceleration."""
+    impulse = np.zeros(6 * width - 5)
+    impulse[3 * width - 3] = 1.0
+    response = _box(_box(_box(impulse, width), width), width)
+    return float(np.sum(np.convolve(response, taps) ** 2))
+
+
+def _one_direction(speed: Series, width: int) -> npt.NDArray[np.bool_]:
+    """Return for each filter whether the axis moves in one direction all the time within it."""
+    ends = (width - 1) // 2, width // 2
+    smooth = _box(np.pad(speed, ends, mode="edge"), width)
+    top = float(np.quantile(np.abs(smooth), 0.99))
+    length = 3 * width  # and a row at each end, which is in the means of three rows
+    sides = (np.pad(side * smooth > STANDSTILL * top, 1).astype(np.float64) for side in (1.0, -1.0))
+    return np.asarray(sum(_box(side, length) > 1.0 - 0.5 / length for side in sides), dtype=bool)
+
+
+# -- the equation ------------------------------------------------------------------------------------
+
+
+def _solved(
+    period: float, width: int, found: tuple[Series, ...], used: npt.NDArray[np.bool_], noise: float, rows: int
+) -> FrictionFit:
+    time, speed, acceleration, torque = found
+    forward = speed > 0.0
+    table = np.column_stack([acceleration, speed, forward, ~forward]).astype(np.float64)
+    known, given = table[used], torque[used]
+    sizes = np.sqrt((known**2).sum(axis=0))
+    if (sizes == 0.0).any() or np.linalg.cond(known / sizes) > MOST_CONDITION:
+        raise SimulationError(
+            "Acceleration, speed and direction change together in this record: record moves at several speeds and accelerations"
+        )
+    coefficients = _least_squares(known / sizes, given, noise / sizes[0] ** 2) / sizes
+    if coefficients[1] < 0.0:  # no friction falls with the speed in the simulator: the best one that does not
+        table[:, 1], known[:, 1] = 0.0, 0.0
+        coefficients = (
+            np.insert(
+                _least_squares(known[:, [0, 2, 3]] / sizes[[0, 2, 3]], given, noise / sizes[0] ** 2), 1, 0.0
+            )
+            / sizes
+        )
+    rest = given - known @ coefficients
+    spread = float(((given - given.mean()) ** 2).sum())
+    r_squared = 1.0 - float((rest**2).sum()) / spread if spread else 0.0
+    if coefficients[0] <= 0.0:
+        raise SimulationError(
+            "Torque and acceleration have opposite signs: turn the sign of one column, or take the torque of this axis"
+        )
+    covariance = _covariance(table, torque - table @ coefficients, used, width, sizes)
+    if r_squared < LEAST_FIT:
+        raise SimulationError(
+            f"Inertia and friction explain only {max(0.0, 100.0 * r_squared):.0f} % of the torque: "
+            "the columns do not belong together, or something else loads the axis"
+        )
+    if np.sqrt(covariance[0, 0]) > MOST_ERROR * coefficients[0]:
+        raise SimulationError(
+            "The record shows too little acceleration for the inertia: record moves with steeper ramps"
+        )
+    standing = np.abs(speed) < STANDSTILL * float(np.abs(speed).max())
+    predicted = table @ coefficients
+    predicted[standing] = table[standing, :2] @ coefficients[:2] + 0.5 * (coefficients[2] + coefficients[3])
+    return FrictionFit(
+        coefficients, covariance, r_squared, period, (3 * width - 2) * period, rows, int(used.sum()),
+        time, speed, torque, predicted, used,
+    )  # fmt: skip
+
+
+def _least_squares(known: Matrix, given: Series, noise: float) -> Series:
+    """Return the coefficients; ``noise`` is the variance of the noise in the first column."""
+    squares = known.T @ known
+    squares[0, 0] -= noise * len(known)
+    return np.asarray(np.linalg.solve(squares, known.T @ given))
+
+
+def _covariance(
+    table: Matrix, rest: Series, used: npt.NDArray[np.bool_], width: int, sizes: Series
+) -> Matrix:
+    """Return the covariance of the coefficients after W. Newey and K. West (Econometrica 55, 1987).
+
+    Neighbouring filters share rows, and what the model leaves out lasts for a while: the errors are not independent.
+    """
+    step = max(1, width // 2)
+    scaled = (table / sizes)[::step]
+    pushes = np.where(used[::step, None], scaled * rest[::step, None], 0.0)
+    count = int(used[::step].sum())
+    lags = max(12, round(4.0 * (count / 100.0) ** (2.0 / 9.0)))
+    middle = pushes.T @ pushes
+    for lag in range(1, min(lags, len(pushes) - 1) + 1):
+        product = pushes[lag:].T @ pushes[:-lag]
+        middle += (1.0 - lag / (lags + 1.0)) * (product + product.T)
+    inverse = np.linalg.pinv(scaled[used[::step]].T @ scaled[used[::step]])  # a column that is left out is 0
+    found = inverse @ middle @ inverse * (count / max(1, count - 4))
+    return np.asarray(found / np.outer(sizes, sizes))

@@ -1,0 +1,223 @@
+"""Inertia and friction of an axis out of the record of its drive, as settings of the simulator's machine."""
+
+from __future__ import annotations
+
+import math
+from pathlib import Path
+
+import numpy as np
+
+from amp_studio.files import ParameterFile
+from amp_studio.scenarios import IDENTIFY
+from amp_studio.schema import axis_name
+from amp_studio.sim.errors import SimulationError
+from amp_studio.sim.law import AxisLaw, law_of
+from amp_studio.sim.model import AT_SPEED, torque_unit
+from amp_studio.sim.rounding import rounded, shown
+from amp_studio.sim.run import bind_axis
+from amp_studio.sim.trace import Figure, Trace
+from amp_studio.sim.unit_system import in_unit, length_unit
+
+from .drive_record import DriveRecord, read_drive_record, speed_factor, torque_figure
+from .friction import FrictionFit, fit_friction
+
+DIGITS = 6
+DOUBTFUL_FIT, DOUBTFUL_ERROR = 0.9, 0.5
+"""r² below which, and share of a figure above which its standard error is a doubt."""
+FIGURES = ("acceleration_per_output", "viscous_friction", "coulomb_friction", "gravity")
+"""What the machine gets; each has a standard error beside it."""
+_EQUAL = (
+    "The dry friction is taken as equal in both directions; half of what they differ by is gravity. "
+    "In the record of an axis a weight and a friction that is larger in one direction look the same."
+)
+
+
+def identify(
+    file: ParameterFile,
+    path: Path,
+    axis: str | None = None,
+    scale: str | None = None,
+    system: str | None = None,
+) -> Trace:
+    """Return the figures of an axis' machine, measured and predicted torque over the time.
+
+    ``scale`` is the torque of the record for 1 of the simulator's unit (``0.056 A``), needed where they have other units;
+    ``system`` as in `simulate`. Raises SimulationError for what the record cannot show, OSError where it cannot be read.
+    """
+    law = law_of(file.schema.family.family)
+    if "velocity" not in law.scenarios:
+        name = file.schema.family.name
+        raise SimulationError(f"{name} has stepper motors without a servo loop: it has no torque to identify")
+    bound = bind_axis(file, law, axis)
+    record = read_drive_record(path)
+    torque = record.torque / _scale(record, bound, scale)
+    factor = speed_factor(record, bound.unit)
+    if record.velocity is not None:
+        fit = fit_friction(record.time, torque, velocity=record.velocity * factor)
+    else:
+        assert record.position is not None
+        moved = record.position * factor
+        if bound.unit == "deg":  # a rotary axis may begin again after a turn
+            moved = np.unwrap(moved, period=360.0)
+        fit = fit_friction(record.time, torque, position=moved)
+    result = _figures(fit, bound)
+    return in_unit(
+        Trace(
+            scenario=IDENTIFY, axis=bound.axis, letter=axis_name(file.evaluation, bound.axis),
+            model=f"{path.name}: {fit.used} of {fit.rows} rows, by {', '.join(record.columns)}; "
+            f"a filter of {shown(1e3 * fit.window, 'ms', 3)}",
+            columns=_columns(fit), units=_units(bound), result=result, alarms=(), recommendations=(),
+            assumptions=(_EQUAL,), limits={}, doubts=tuple(_doubts(result)),
+        ),
+        length_unit(file, system),
+    )  # fmt: skip
+
+
+def _scale(record: DriveRecord, bound: AxisLaw, scale: str | None) -> float:
+    """Return the record's torque for 1 of the simulator's; raises SimulationError where the units do not fit."""
+    own, wanted = record.torque_unit, torque_unit(bound)
+    if scale is None:
+        if own == wanted:
+            return 1.0
+        raise SimulationError(
+            f"The torque of the record is in {own}, that of axis {bound.axis} in {wanted}: "
+            f"give how much is 1 {wanted}, as --scale '0.056 {own}'"
+        )
+    figure, unit = torque_figure(scale)
+    if unit != own:
+        raise SimulationError(f"The scale is in {unit}, and the torque of the record in {own}")
+    return figure
+
+
+def _figures(fit: FrictionFit, bound: AxisLaw) -> dict[str, Figure]:
+    """Return the figures of the machine in the units of its settings, each with its standard error."""
+    inertia, viscous, forward, backward = fit.coefficients.tolist()
+    torque = torque_unit(bound)
+    half = np.array([0.0, 0.0, 0.5, 0.5])
+    dry, weight = np.array([0.0, 0.0, 0.5, -0.5]), half
+    coulomb, coulomb_error = float(dry @ fit.coefficients), _error(fit, dry)
+    if coulomb < -3.0 * coulomb_error:
+        raise SimulationError(
+            "The torque is smaller while the axis moves than physics allows: the friction came out below 0. "
+            "Look at the signs and units of the columns"
+        )
+    found = {
+        "acceleration_per_output": (
+            1.0 / inertia,
+            _error(fit, np.eye(4)[0]) / inertia**2,
+            f"{bound.unit}/s2",
+        ),
+        "viscous_friction": (viscous / AT_SPEED, _error(fit, np.eye(4)[1]) / AT_SPEED, torque),
+        "coulomb_friction": (max(0.0, coulomb), coulomb_error, torque),
+        "gravity": (float(weight @ fit.coefficients), _error(fit, weight), torque),
+        "torque_forward": (forward, _error(fit, np.eye(4)[2]), torque),
+        "torque_backward": (backward, _error(fit, np.eye(4)[3]), torque),
+    }
+    figures: dict[str, Figure] = {}
+    for name, (value, error, unit) in found.items():
+        figures[name] = value, unit
+        figures[f"{name}_standard_error"] = error, unit
+    return {
+        **figures,
+        "r_squared": (fit.r_squared, ""),
+        "rows": (float(fit.rows), ""),
+        "rows_used": (float(fit.used), ""),
+        "top_speed": (60.0 * float(np.abs(fit.velocity[fit.is_used]).max()), f"{bound.unit}/min"),
+        "record_time": (fit.period * fit.rows, "s"),
+    }
+
+
+def _error(fit: FrictionFit, weights: np.ndarray) -> float:
+    return math.sqrt(max(0.0, float(weights @ fit.covariance @ weights)))
+
+
+def _doubts(result: dict[str, Figure]) -> list[str]:
+    doubts = []
+    fit = result["r_squared"][0] or 0.0
+    if fit < DOUBTFUL_FIT:
+        doubts.append(
+            f"Inertia and friction explain {shown(100.0 * fit, '%', 3)} of the torque; look at the picture of the fit"
+        )
+    for name in FIGURES[:3]:
+        value, error = result[name][0] or 0.0, result[f"{name}_standard_error"][0] or 0.0
+        if error > DOUBTFUL_ERROR * value:
+            doubts.append(
+                f"{name.replace('_', ' ').capitalize()} may as well be 0: {figure_text(result, name)}"
+            )
+    return doubts
+
+
+def _columns(fit: FrictionFit) -> dict[str, np.ndarray]:
+    rest = np.where(fit.is_used, fit.torque - fit.predicted, math.nan)
+    return {
+        "time_s": fit.time, "velocity": 60.0 * fit.velocity, "torque": fit.torque, "predicted_torque": fit.predicted,
+        "residual": rest,
+    }  # fmt: skip
+
+
+def _units(bound: AxisLaw) -> dict[str, str]:
+    torque = torque_unit(bound)
+    return {
+        "time_s": "s", "velocity": f"{bound.unit}/min", "torque": torque, "predicted_torque": torque, "residual": torque,
+    }  # fmt: skip
+
+
+# -- what is shown -----------------------------------------------------------------------------------
+
+
+def figure_text(result: dict[str, Figure], name: str) -> str:
+    """Return a figure with its standard error, both to the same decimal: ``41.52 ± 0.21 mm/s2``."""
+    value, unit = result[name]
+    error = result[f"{name}_standard_error"][0] or 0.0
+    assert value is not None
+    largest = max(abs(value), error)
+    if largest == 0.0:
+        return f"0 ± 0 {unit}".rstrip()
+    digits = (
+        DIGITS
+        if error == 0.0
+        else min(DIGITS, max(2, 2 + math.floor(math.log10(largest)) - math.floor(math.log10(error))))
+    )
+    return f"{shown(value, '', digits)} ± {shown(error, '', 2)} {unit}".rstrip()
+
+
+def identified_text(trace: Trace) -> str:
+    """Return the result for the terminal."""
+    result, torque = dict(trace.result), trace.units["torque"]
+    rows = (
+        ("acceleration per output", f"{figure_text(result, 'acceleration_per_output')} for 1 {torque}"),
+        (
+            "viscous friction",
+            f"{figure_text(result, 'viscous_friction')} at 1000 {trace.units['velocity'].replace('in/', 'mm/')}",
+        ),
+        ("Coulomb friction", figure_text(result, "coulomb_friction")),
+        ("gravity", f"{figure_text(result, 'gravity')}, above 0 the axis falls to -"),
+        ("dry friction and gravity, +", figure_text(result, "torque_forward")),
+        ("dry friction and gravity, -", figure_text(result, "torque_backward")),
+        ("r²", shown(trace.result["r_squared"][0] or 0.0, digits=5)),
+        ("top speed", shown(*_known(trace.result["top_speed"]))),
+    )
+    width = max(len(name) for name, _ in rows)
+    return "\n".join([
+        f"identify, axis {trace.axis_title}: {trace.model}",
+        *(f"DOUBTFUL: {doubt}" for doubt in trace.doubts),
+        *(f"  {name.ljust(width)}  {text}" for name, text in rows),
+        "Assumptions", *(f"  {text}" for text in trace.assumptions),
+    ])  # fmt: skip
+
+
+def _known(figure: Figure) -> tuple[float, str]:
+    value, unit = figure
+    assert value is not None
+    return value, unit
+
+
+def machine_settings(trace: Trace) -> dict[str, str]:
+    """Return the machine in a trace of `identify`, as ``--set`` takes it: ``model.*`` -> value."""
+    found = {}
+    for name in FIGURES:
+        value, unit = _known(trace.result[name])
+        found[f"model.{name}"] = shown(
+            rounded(value, DIGITS), unit if name == FIGURES[0] and unit != "counts/s2" else "", DIGITS
+        )
+    return found

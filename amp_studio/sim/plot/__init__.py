@@ -1,0 +1,1 @@
+"""Pictures of a trace: panels, curves and marks, and their SVG."""

@@ -1,0 +1,1 @@
+"""Loops: the linear model, what makes one sound, and the one solver that every recommended gain comes from."""

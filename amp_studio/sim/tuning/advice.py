@@ -1,0 +1,203 @@
+"""Recommendations: one parameter, its value, the reason and the price, from the one solver (`solver.py`).
+
+A scenario that shows how an axis is damped recommends gains where it is not sound, and raises none while figures of the machine are
+assumed, unless nothing else makes it sound: that is a person's choice, and the recommendation names it as one. `tune` is asked by a
+person and recommends whatever its aim asks for.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+
+from amp_studio.sim.law import AxisLaw
+from amp_studio.sim.rounding import shown
+from amp_studio.sim.trace import Recommendation
+
+from .aims import NORMAL
+from .linear import LinearModel, Margins, linear_model
+from .loops import Loops
+from .solver import Gain, Solved, Tried, solve
+
+INERTIAS = (1.0 / 16.0, 16.0)
+"""Shares of the total inertia within which an axis is tried."""
+STEPS = 8
+"""Steps to each of them."""
+HALVINGS = 5
+"""Of the last of them."""
+
+SHOWN_BY = ("frequency", "velocity")
+"""Scenarios that are about the loops: their results have the gains of the solver."""
+CHATTER = (
+    "Inside of its backlash the motor moves without its load, and this loop is too fast for the motor alone: it is not stable there,"
+    " and chatters to and fro in the gap."
+)
+NONE_SOUND = "No gains within their bounds make it sound on this machine."
+ASK_TUNE = "The scenario tune finds gains."
+RAISED = "It raises a gain on a machine that is partly assumed: your choice."
+
+
+def recommendations(
+    trial: Tried, scenario: str, own: Sequence[Recommendation] = ()
+) -> tuple[tuple[Recommendation, ...], tuple[str, ...]]:
+    """Return the recommendations of the family and those of the solver, and notes about the loops."""
+    chatter = (CHATTER,) if chatters_in_gap(trial.axis) else ()
+    loops = Loops(trial.axis)
+    if not loops.closed or loops.sound():
+        return tuple(own), chatter
+    if loops.stable and loops.inner_stable and scenario not in SHOWN_BY:
+        return tuple(own), (f"{why_not_sound(loops)}. {ASK_TUNE}", *chatter)
+    solved = sounder(trial)
+    found = gain_recommendations(trial, solved, f"{why_not_sound(loops)}; ")
+    named = {each.parameter for each in found}
+    notes = () if solved.sound else (f"{why_not_sound(loops)}. {NONE_SOUND}",)
+    return (*found, *(each for each in own if each.parameter not in named)), (*notes, *chatter)
+
+
+def sounder(trial: Tried) -> Solved:
+    """Return gains for an axis that is not sound; on an assumed machine without raising one, where raising them keeps no more of the aim."""
+    if not trial.axis.assumed:
+        return solve(trial, NORMAL)
+    kept = solve(trial, NORMAL, raising=False)
+    if kept.level == 0:
+        return kept
+    raised = solve(trial, NORMAL)
+    return raised if raised.level < kept.level or not kept.sound else kept
+
+
+def gain_recommendations(trial: Tried, solved: Solved, why: str = "") -> tuple[Recommendation, ...]:
+    """Return the gains that change, each with what all of them together give."""
+    if not solved.changed:
+        return ()
+    loops = solved.after.loops
+    assumed = " on the assumed machine" if trial.axis.assumed else ""
+    gives = f"{'all gains together' if len(solved.changed) > 1 else 'with it'} {figures_text(loops)}{assumed}"
+    found: list[Recommendation] = []
+    for gain in solved.gains:
+        number = solved.changed.get(gain.parameter)
+        old = trial.value(gain.parameter)
+        if number is None or old is None:
+            continue
+        page = trial.axis.sources[gain.name].page
+        said = f"{why}{gives}" if not found else f"together with {found[0].parameter}"
+        said = f"{said} ({f'page {page}, ' if page else ''}aim {solved.aim.name})."
+        found.append(Recommendation(gain.parameter, number, old.unit, said, _price(trial, solved, gain)))
+    return tuple(found)
+
+
+def _price(trial: Tried, solved: Solved, gain: Gain) -> str:
+    """Return what a change of one gain costs, in a sentence."""
+    number = abs(solved.numbers[gain.parameter])
+    share = number / abs(gain.present) if gain.present else 0.0
+    choice = f" {RAISED}" if trial.axis.assumed else ""
+    if share > 1.0 or not gain.present:
+        if gain.name == "position_gain":
+            return f"Less margin for a heavier load, friction and wear.{choice}"
+        if "integral" in gain.name:
+            return f"What the load leaves is taken up sooner, with less margin.{choice}"
+        return f"Every count of the feedback moves the output {_times(share)} as much.{choice}"
+    if gain.name == "position_gain":
+        error = _following_errors(solved)
+        return error or f"The axis answers {_times(1.0 / share)} more slowly."
+    if "integral" in gain.name:
+        slower = f"{_times(1.0 / share)} more slowly" if share else "no more"
+        return f"A lasting load is corrected {slower}."
+    return f"The axis resists a load {_times(1.0 / share)} less by this gain."
+
+
+def _times(share: float) -> str:
+    return f"{shown(share, digits=2)} times"
+
+
+def _following_errors(solved: Solved) -> str:
+    axes = solved.before.axis, solved.after.axis
+    feedrate = axes[0].feedrate
+    if not feedrate:
+        return ""
+    errors = [axis.predict(feedrate).get("steady_following_error") for axis in axes]
+    values = [
+        feedrate / axis.position_rate if e is None else e.value for axis, e in zip(axes, errors, strict=True)
+    ]
+    if values[0] is None or values[1] is None or values[1] <= 1.01 * values[0]:
+        return ""
+    worse = " to ".join(shown(each, axes[0].unit, 3) for each in values if each is not None)
+    return f"The following error at the rapid feedrate grows from {worse}."
+
+
+def why_not_sound(loops: Loops) -> str:
+    """Return in a sentence, without its end, what a loop lacks."""
+    if not loops.inner_sound() and loops.inner is not None:
+        if not loops.inner_stable:
+            return f"The velocity loop is not stable: {margins_text(loops.inner.margins)}"
+        ratio = loops.axis.machine.inertia_ratio
+        load = f" with a load of {shown(ratio, digits=3)} times the inertia of the motor" if ratio else ""
+        return f"The velocity loop has too little margin{load}: {_with_ms(loops.inner.margins, loops.inner.sensitivity)}"
+    if not loops.stable:
+        return f"The position loop is not stable: {margins_text(loops.outer.margins)}"
+    return (
+        f"The position loop has too little margin: {_with_ms(loops.outer.margins, loops.outer.sensitivity)}"
+    )
+
+
+def figures_text(loops: Loops) -> str:
+    """Return Ms and margins of both loops in words."""
+    if loops.inner is None:
+        return _with_ms(loops.outer.margins, loops.outer.sensitivity)
+    inner, outer = loops.inner, loops.outer
+    return (
+        f"the velocity loop has {_with_ms(inner.margins, inner.sensitivity)}, the position loop"
+        f" {_with_ms(outer.margins, outer.sensitivity)}"
+    )
+
+
+def _with_ms(margins: Margins, sensitivity: float) -> str:
+    return f"Ms {shown(sensitivity, digits=3)}, {margins_text(margins)}"
+
+
+def margins_text(margins: Margins) -> str:
+    """Return margins in words."""
+    parts = [
+        f"{shown(value, unit, 3)} {name} margin"
+        for value, unit, name in ((margins.phase, "deg", "phase"), (margins.gain, "dB", "gain"))
+        if value is not None
+    ]
+    return " and ".join(parts) or "no limit"
+
+
+def stable_inertias(axis: AxisLaw) -> tuple[float, float] | None:
+    """Return between which shares of its total inertia a stable axis stays stable, within INERTIAS; None where it does not
+    matter: a drive with a velocity loop is taken to fit its load.
+    """
+    if axis.machine.velocity_per_output > 0.0:
+        return None
+    return _stable_to(axis, INERTIAS[0]), _stable_to(axis, INERTIAS[1])
+
+
+def _stable_to(axis: AxisLaw, furthest: float) -> float:
+    """Return the last share of the inertia on the way to ``furthest`` with which an axis is stable."""
+    good, bad = 0.0, 0.0
+    for n in range(1, STEPS + 1):
+        if not _with_inertia(axis, furthest ** (n / STEPS)).is_stable():
+            bad = n / STEPS
+            break
+        good = n / STEPS
+    for _ in range(HALVINGS if bad else 0):
+        middle = 0.5 * (good + bad)
+        good, bad = (middle, bad) if _with_inertia(axis, furthest**middle).is_stable() else (good, middle)
+    return float(furthest**good)
+
+
+def _with_inertia(axis: AxisLaw, inertia: float) -> LinearModel:
+    machine = replace(axis.machine, acceleration_per_output=axis.machine.acceleration_per_output / inertia)
+    return linear_model(replace(axis, machine=machine))
+
+
+def chatters_in_gap(axis: AxisLaw) -> bool:
+    """Return whether a motor without its load, as it is inside of the backlash, is in a loop that is not stable."""
+    machine = axis.machine
+    if machine.backlash == 0.0 or machine.velocity_per_output > 0.0:
+        return False
+    light = machine.acceleration_per_output * (1.0 + machine.coupling[2])
+    alone = replace(machine, acceleration_per_output=light, backlash=0.0, resonance=0.0, load_sensor=False)
+    loops = Loops(replace(axis, machine=alone))
+    return not (loops.inner_stable and loops.stable)
