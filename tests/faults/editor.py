@@ -22,8 +22,8 @@ from amp_studio.report.build import build_report
 from amp_studio.report.model import Report
 from amp_studio.report.output.page import render_html
 from amp_studio.report.output.pdf import render_pdf
+from amp_studio.report.templating import templates as templating
 from amp_studio.report.templating.templates import TemplateMistakeError
-from amp_studio.report.templating.templates import templates as templating
 from amp_studio.schema import InvalidValueError
 from amp_studio.validate.cell_expression import enter, is_expression
 

@@ -17,8 +17,8 @@ from amp_studio.report import Contents, print_report
 from amp_studio.report.apart import made
 from amp_studio.report.build import build_report
 from amp_studio.report.output.page import render_html
+from amp_studio.report.templating import templates as templating
 from amp_studio.report.templating.templates import TEMPLATES
-from amp_studio.report.templating.templates import templates as templating
 
 SHORT = Contents(changed_only=True, without=frozenset({"pictures", "signatures"}))
 EXTENDS_PAGE = '{% extends "standard/report.html.j2" %}\n'
