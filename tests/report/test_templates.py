@@ -201,7 +201,7 @@ def test_a_text_of_the_file_stays_a_text_in_a_template_too(machine: Path, mill: 
 def test_a_template_that_works_without_end_and_writes_nothing_is_ended(
     machine: Path, mill: ParameterFile, template: str, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr("amp_studio.report.templating._PATIENCE_S", 0.05)
+    monkeypatch.setattr("amp_studio.report.templating.templates._PATIENCE_S", 0.05)
     _, (note,) = printed(machine, mill, "html", template)
     assert "works without end" in note
 
