@@ -43,7 +43,7 @@ if TYPE_CHECKING:
     from .errors import SimulationError
     from .identification.identify import figure_text, identified_text, identify, machine_settings
     from .identification.machine_file import machine_for, read_machine, write_machine
-    from .law import USUAL_SCENARIOS, AlarmText, AxisLaw, Law, Leader, Prediction, Ramp, Source, law_of
+    from .law import USUAL_SCENARIOS, AlarmText, AxisLaw, Law, Leader, Prediction, Source, law_of
     from .listings import SimulationListing, listing
     from .model import assumptions, with_model
     from .motion_check import MotionCheck, check_motion
