@@ -245,9 +245,14 @@ class Stage:
             add_exchange(workspace.path, RecordedExchange(when, "operator", verb, workspace.path.name, "9pc", "tcp://192.168.0.20:4001",
                 "3f6c1a90be52", "a14be0097d21", "new" if verb == "download" else "", "", text,
                 (("1400 Home Calibration, X", "0.5 mm", "1 mm"),) if verb == "download" else ()))  # fmt: skip
-        self.window.control.recorded()
-        with self.beside("ExchangesDialog") as dialog:
-            self.take("15-history", dialog)
+        page = self.window.control
+        page.recorded()
+        self.take("15-history", self.window, LARGE)
+        page.several()
+        self.take("15-several", self.window, LARGE)
+        page.show("hand")
+        self.take("15-by-hand", self.window, LARGE)
+        self.take("15-by-hand", self.window, SMALL)
 
     def control_page(self) -> None:
         """The page at the control: without E-stop, with differences, sent, not reached."""

@@ -12,6 +12,7 @@ from amp_studio.front_pages import front_page
 
 if TYPE_CHECKING:
     from .apart import run_apart
+    from .axes import place_of
     from .contents import CHAPTERS, PAPER_SIZES, SORTS, UNIT_CHOICES, Chapter, Contents
     from .dangers import dangers_of_change
     from .findings.alike import alike, same_finding_text

@@ -7,6 +7,7 @@ from collections.abc import Iterable
 from amp_studio.files import Difference, ParameterFile
 from amp_studio.schema import Schema
 
+from .axes import place_of
 from .model import Danger, ReportRow
 from .wording import joined_places
 
@@ -19,12 +20,12 @@ def dangers_of(schema: Schema, rows: Iterable[ReportRow]) -> tuple[Danger, ...]:
 
 def dangers_of_change(file: ParameterFile, differences: Iterable[Difference]) -> tuple[Danger, ...]:
     """Return the dangers of values that differ; ``file`` is one of the two sides."""
-    machine, parameters = file.machine_schema, file.schema.parameters
+    parameters = file.schema.parameters
     addresses = (difference.address for difference in differences)
     return _grouped(
         file.schema,
         (
-            (i, f"{i}@{instance}", parameters[i].name, machine.instance_label((i, instance)))
+            (i, f"{i}@{instance}", parameters[i].name, place_of(file, (i, instance)))
             for i, instance in addresses
         ),
     )

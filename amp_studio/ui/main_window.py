@@ -75,6 +75,7 @@ class MainWindow(StudioWindow):
         self.languages = LanguageActions(self, self.view.menu)
         self.centre = QStackedWidget()
         self.control = ControlActions(self, self.files, self.centre, self.show_values)
+        self.control.state_shown = self._show_control
         self.projects = ProjectActions(self, self.files.open_path)
         self.project_files = ProjectFiles(
             self, self.files.open_path, self.files.comparing, self.projects.show_at, self.projects.change
@@ -222,7 +223,8 @@ class MainWindow(StudioWindow):
         self.pictures.check(self.page)
         self.preview.check()
         self.tools.show_units()
-        self.status.show_file(workspace, " ".join(self.control.state_of(workspace)[:2]))
+        self.status.show_file(workspace)
+        self._show_control()
         if workspace is None:
             self.setWindowTitle("AMP Studio")
             self.setWindowModified(False)
@@ -233,6 +235,11 @@ class MainWindow(StudioWindow):
             f"{workspace.path.name}[*]{'' if may_edit else ' [read-only]'} — {place}AMP Studio"
         )
         self.setWindowModified(workspace.is_dirty)
+
+    def _show_control(self) -> None:
+        """Show the state of the control of the file in front in the status line."""
+        workspace = self.workspace
+        self.status.show_control(" ".join(self.control.state_of(workspace)[:2]) if workspace else "")
 
     def resizeEvent(self, event: QResizeEvent) -> None:
         super().resizeEvent(event)

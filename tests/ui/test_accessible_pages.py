@@ -11,7 +11,6 @@ from PySide6.QtGui import QAccessible
 from PySide6.QtWidgets import QApplication, QHeaderView, QWidget
 
 from amp_studio.schema import Value
-from amp_studio.ui.control.exchanges_dialog import ExchangesDialog
 from amp_studio.ui.dialogs.calculator_dialog import CalculatorDialog
 from amp_studio.ui.dialogs.file_dialogs import ReportDialog
 from amp_studio.ui.dialogs.new_file_dialog import NewFileDialog
@@ -146,7 +145,9 @@ PAGES: dict[str, Callable[[MainWindow], QWidget]] = {
     "calculator": by("Calculator", CalculatorDialog), "tables": by("Tables of the Manual", TablesDialog),
     "quick edit": lambda window: (window.edits.quick_edit(), opened(window, QuickEdit))[1],
     "steps of undo": lambda window: (window.edits.steps(), opened(window, StepList))[1],
-    "exchanges": lambda window: (window.control.recorded(), opened(window, ExchangesDialog))[1],
+    "exchanges": shown(lambda window: (window.control.recorded(), window)[1]),
+    "several controls": shown(lambda window: (window.control.several(), window)[1]),
+    "sheet": shown(lambda window: (window.control.show("hand"), window)[1]),
     "new": shown(lambda window: NewFileDialog(window, "9pc")),
     "report": shown(lambda window: ReportDialog(window.workspace.path, window)),
     "note": shown(lambda window: NoteDialog(window.workspace, EXCESS, window)),

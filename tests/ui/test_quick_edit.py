@@ -40,7 +40,7 @@ def test_number_value_number_value_without_the_mouse(
 ) -> None:
     enter(quick, "1750")
     assert quick.editor.text() == "11 mm"
-    assert "1750 Excess Error, Axis 1\nAllowed here: 0 to" in quick.name.text()
+    assert "1750 Excess Error, X axis\nAllowed here: 0 to" in quick.name.text()
     assert window.selected() == ("servo.excess_error", "1")
     enter(quick, "3,5")
 
@@ -74,7 +74,7 @@ def test_a_shared_number_means_what_exists_for_this_axis(quick: QuickEdit) -> No
     assert "Velocity Feedback" in quick.name.text()
     enter(quick)
     enter(quick, "5013")
-    assert "Axis 5" in quick.name.text()
+    assert "S axis" in quick.name.text()
     assert "Spindle" in quick.name.text() or "Motor" in quick.name.text()
 
 

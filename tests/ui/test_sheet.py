@@ -7,12 +7,14 @@ from pathlib import Path
 
 import pytest
 from PySide6.QtCore import Qt
+from pytestqt.qtbot import QtBot
 
 from amp_studio.files import content_of, open_file
-from amp_studio.ui.control.sheet_dialog import SheetDialog
+from amp_studio.ui.control.hand_sheet import HandSheet
 from amp_studio.ui.main_window import MainWindow
 
-from .conftest import WAIT_MS, Person, action
+from .at_control import sent, settled
+from .conftest import Person, action
 
 
 @pytest.fixture
@@ -27,42 +29,45 @@ def other(path: Path) -> Path:
     return other
 
 
-def opened(window: MainWindow, other: Path, person: Person) -> SheetDialog:
-    person.answers("A File")
+def opened(window: MainWindow, other: Path, person: Person) -> HandSheet:
     person.chooses(other)
     action(window, "Enter Values by Hand").trigger()
-    return window.findChild(SheetDialog)
+    sheet = window.control.page.hand
+    assert "Where is that known from?" in sheet.text.text()
+    assert not sheet.save_button.isEnabled()
+    sheet.file_button.click()
+    return sheet
 
 
 @pytest.fixture
-def dialog(window: MainWindow, other: Path, person: Person) -> SheetDialog:
+def sheet(window: MainWindow, other: Path, person: Person) -> HandSheet:
     """Return the open sheet."""
     return opened(window, other, person)
 
 
-def cells(dialog: SheetDialog) -> list[list[str]]:
-    return [[item.text(n) for n in range(5)] for item in dialog.items()]
+def cells(sheet: HandSheet) -> list[list[str]]:
+    return [[item.text(n) for n in range(5)] for item in sheet.items()]
 
 
-def test_the_entries_are_in_a_safe_order_and_what_is_not_on_it_has_a_page(dialog: SheetDialog) -> None:
-    assert cells(dialog) == [["1", "1750", "11", "mm", "8"], ["2", "1740", "11", "mm", "7"]]
-    assert dialog.left_out.toPlainText().startswith(
+def test_the_entries_are_in_a_safe_order_and_what_is_not_on_it_has_a_page(sheet: HandSheet) -> None:
+    assert cells(sheet) == [["1", "1750", "11", "mm", "8"], ["2", "1740", "11", "mm", "7"]]
+    assert sheet.left_out.toPlainText().startswith(
         "2030  Servo Hardware Type Axis 2: Patch AMP does not offer it"
     )
-    assert "E-Stop" in dialog.around.toPlainText()
-    dialog.list.setCurrentItem(dialog.items()[0])
-    assert "page 7-20" in dialog.details.text()
+    assert "E-Stop" in sheet.around.toPlainText()
+    sheet.list.setCurrentItem(sheet.items()[0])
+    assert "page 7-20" in sheet.details.text()
 
 
 def test_a_tick_is_beside_the_file_at_once_and_there_when_the_sheet_is_opened_again(
-    dialog: SheetDialog, window: MainWindow, other: Path, person: Person, path: Path
+    sheet: HandSheet, window: MainWindow, other: Path, person: Person, path: Path
 ) -> None:
-    dialog.items()[0].setCheckState(0, Qt.CheckState.Checked)
+    sheet.items()[0].setCheckState(0, Qt.CheckState.Checked)
     kept = json.loads(path.with_name(path.name + ".ticks.json").read_bytes())["ticks"]
     assert [(tick["number"], tick["ticked"]) for tick in kept] == [("1750", True)]
-    dialog.deleteLater()
-    dialog.setParent(None)
-    again = opened(window, other, person)
+    person.chooses(other)
+    sheet.file_button.click()
+    again = window.control.page.hand
     assert [item.checkState(0) for item in again.items()] == [Qt.CheckState.Checked, Qt.CheckState.Unchecked]
     assert again.text.text().startswith("1 of 2 keyed in")
 
@@ -71,49 +76,67 @@ def test_a_tick_is_beside_the_file_at_once_and_there_when_the_sheet_is_opened_ag
     ("shown", "result"),
     [("11.00000", "as keyed in"), ("8", "still the old value"), ("11.1", "another value"), ("", "")],
 )
-def test_what_the_screen_shows_is_typed_in_and_compared(dialog: SheetDialog, shown: str, result: str) -> None:
-    item = dialog.items()[0]
+def test_what_the_screen_shows_is_typed_in_and_compared(sheet: HandSheet, shown: str, result: str) -> None:
+    item = sheet.items()[0]
     item.setText(6, "1")
     item.setText(6, shown)
     assert item.text(7) == result
 
 
 def test_the_sheet_says_that_the_file_has_changed_and_is_made_again(
-    dialog: SheetDialog, window: MainWindow
+    sheet: HandSheet, window: MainWindow
 ) -> None:
-    assert not dialog.update_button.isEnabled()
+    assert not sheet.update_button.isEnabled()
     window.edits.commit(("servo.excess_error", "1"), "8 mm")
-    assert dialog.text.text().startswith("The file has changed")
-    dialog.update_button.click()
-    assert [row[1] for row in cells(dialog)] == ["1740"]
+    assert sheet.bar.text.text().startswith("The file has changed")
+    sheet.update_button.click()
+    assert [row[1] for row in cells(sheet)] == ["1740"]
 
 
 def test_a_file_that_has_become_one_of_another_machine_type_gets_no_sheet(
-    dialog: SheetDialog, window: MainWindow
+    sheet: HandSheet, window: MainWindow
 ) -> None:
-    before = cells(dialog)
+    before = cells(sheet)
     window.edits.commit(("control.type", ""), "lathe")
-    dialog.update_button.click()
-    assert dialog.text.text().startswith(
+    sheet.update_button.click()
+    assert sheet.bar.text.text().startswith(
         "The file is for the machine type lathe, and the control contains one for mill"
     )
-    assert cells(dialog) == before
+    assert cells(sheet) == before
 
 
-def test_ticks_that_cannot_be_kept_are_not_silent(dialog: SheetDialog, person: Person, path: Path) -> None:
+def test_ticks_that_cannot_be_kept_are_not_silent(sheet: HandSheet, path: Path) -> None:
     path.with_name(path.name + ".ticks.json").mkdir()
-    dialog.items()[0].setCheckState(0, Qt.CheckState.Checked)
-    assert person.reads().startswith("The tick is not kept")
+    sheet.items()[0].setCheckState(0, Qt.CheckState.Checked)
+    assert sheet.bar.text.text().startswith("The tick is not kept")
 
 
 def test_the_sheet_is_saved_in_the_format_of_its_name(
-    dialog: SheetDialog, person: Person, tmp_path: Path
+    sheet: HandSheet, person: Person, tmp_path: Path
 ) -> None:
     person.chooses(tmp_path / "sheet.txt")
-    dialog.save_button.click()
+    sheet.save_button.click()
     assert "1750" in (tmp_path / "sheet.txt").read_text("utf-8")
 
 
-def test_it_closes_with_its_file(dialog: SheetDialog, window: MainWindow, qtbot) -> None:
-    with qtbot.waitSignal(dialog.destroyed, timeout=WAIT_MS):
-        window.files.close()
+def test_it_goes_with_its_file(sheet: HandSheet, window: MainWindow) -> None:
+    window.files.close()
+    assert sheet.sheet is None
+    assert sheet.items() == []
+
+
+def test_it_is_made_against_the_control_that_is_chosen_and_read_for_it(
+    window: MainWindow, start_control, qtbot: QtBot
+) -> None:
+    page = sent(window, start_control().address, qtbot)
+    window.edits.commit(("servo.excess_error", "1"), "8 mm")
+    page.directions.buttons["hand"].click()
+    assert page.hand.sheet is None, "what the control contains is not read since it was sent to"
+    page.hand.control_button.click()
+    settled(window, qtbot)
+    assert [row[1] for row in cells(page.hand)] == ["1750"]
+    window.edits.commit(("servo.excess_error", "1"), "7 mm")
+    page.connect_again()
+    settled(window, qtbot)
+    page.directions.buttons["hand"].click()
+    assert cells(page.hand) == [["1", "1750", "7", "mm", "11"]]

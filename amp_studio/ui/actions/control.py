@@ -27,7 +27,7 @@ from amp_studio.ui.window.studio_window import StudioWindow
 from amp_studio.validate import Validator, rules_beside
 
 from .file import FileActions
-from .sheet import enter_by_hand
+from .sheet import sheet_of_control, sheet_of_file
 from .tuning import tune
 
 if TYPE_CHECKING:
@@ -52,6 +52,8 @@ class ControlActions(Translated):
         self._page: ControlPage | None = None
         self._sessions: dict[tuple[str, str, str], ControlSession] = {}
         """Address, family and file -> its exchanges."""
+        self.state_shown: Callable[[], None] = lambda: None
+        """Called after the state of the control has changed: the status line shows it too."""
         self.exchanges.show_page = lambda: self.show("compare")
         files.comparing.address_of = self.exchanges.chosen_address
         self.emulated.ready.connect(self._ready)
@@ -70,7 +72,7 @@ class ControlActions(Translated):
         )
         upload = act(self.tr("Read &From the Control…"), lambda: self.show("read"), "F7", "", "arrow-line-up")
         put_back = act(self.tr("&Restore Control From Backup…"), self.restore, None, "")
-        by_hand = act(self.tr("Enter Values by &Hand…"), partial(enter_by_hand, self.exchanges), None, "file")
+        by_hand = act(self.tr("Enter Values by &Hand…"), lambda: self.show("hand"), None, "file")
         several = act(self.tr("Se&veral Controls…"), self.several, None, "file")
         exchanges = act(self.tr("E&xchanges of This File…"), self.recorded, None, "file")
         menu.addActions([self.at_control, download, verify, upload, put_back, by_hand])
@@ -140,6 +142,8 @@ class ControlActions(Translated):
         """Stop the emulated control."""
         for session in self._sessions.values():
             session.cancel()
+        if self._page is not None:
+            self._page.several.stop_all()
         self.emulated.ended.disconnect(self._ended)
         self.emulated.stop(wait=True)
 
@@ -156,7 +160,13 @@ class ControlActions(Translated):
             page.read_wanted.connect(
                 lambda file: self.window.guarded(partial(self._save_upload, file), self.tr("Read"))
             )
-            page.report_wanted.connect(lambda: self.window.guarded(self.recorded, self.tr("Save Proof")))
+            page.restore_wanted.connect(
+                lambda path: self.window.guarded(partial(self._offer_backup, path), self.tr("Restore"))
+            )
+            page.hand.control_wanted.connect(partial(sheet_of_control, page))
+            page.hand.file_wanted.connect(
+                lambda: self.window.guarded(partial(sheet_of_file, page), self.tr("Enter Values by Hand"))
+            )
             self._centre.addWidget(page)
         return self._page
 
@@ -169,19 +179,17 @@ class ControlActions(Translated):
         """Show the page in a direction; the key that opened it is its primary button the second time."""
         workspace = self.window.workspace
         if direction == "send" and workspace is not None and not self._has_a_way(workspace):
-            enter_by_hand(self.exchanges)  # nothing can be sent: keyed in by hand
-            return
+            direction = "hand"  # nothing can be sent: keyed in by hand
         page = self.page
         if self.is_shown and page.direction == direction and page.workspace is workspace and not address:
             page.press()
             return
         if self.window.table_view is not None and not self.window.table_view.finish():
             return
+        page.known.several.setChecked(False)
         page.show_file(workspace, direction)
         self._centre.setCurrentWidget(page)
         self.window.docks.show_page(None)
-        if workspace is not None:
-            self._name_the_only_way(workspace)
         if place := address or self.exchanges.address_of(workspace):
             self.use(place)
         else:
@@ -200,13 +208,16 @@ class ControlActions(Translated):
             self._show_values()
 
     def use(self, address: str) -> None:
-        """Choose a control for the file in front, and read it; an address that is none is refused in the page."""
+        """Choose a control for the file in front, and read it; one more among several gets its tick."""
         self.window.guarded(partial(self._use, address), self.tr("Connect"))
 
     def _use(self, address: str) -> None:
         from amp_studio.transfer.links import parse_endpoint
 
         parse_endpoint(address)
+        if self.page.known.several.isChecked():
+            self.page.several.tick(address)
+            return
         workspace = self.window.workspace
         family = workspace.file.schema.family.family if workspace is not None else ""
         self.exchanges.choose(workspace, address)
@@ -267,7 +278,9 @@ class ControlActions(Translated):
         )
         known = self.exchanges.known_addresses()
         addresses = known if not chosen or chosen in known else [*known, chosen]
-        self.page.known.show_controls([self._listed(a) for a in addresses], chosen)
+        listed = [self._listed(a) for a in addresses]
+        self.page.known.show_controls(listed, chosen)
+        self.page.several.show_controls(listed)
 
     def _follow(self) -> None:
         """Show the state of the control where it is chosen, in the tool bar and in the status line."""
@@ -275,6 +288,7 @@ class ControlActions(Translated):
             self._page.rename(self._name_of(self._page.session.address))
         self._list()
         self.enable()
+        self.state_shown()
 
     def state_of(self, workspace: Workspace | None) -> tuple[str, str, bool]:
         """Return the name of the control of a file, its state in words, and whether it needs something."""
@@ -288,24 +302,22 @@ class ControlActions(Translated):
     @property
     def is_sending(self) -> bool:
         """Whether something is being written to a control."""
-        return any(session.phase == "running" for session in self._sessions.values())
-
-    def _name_the_only_way(self, workspace: Workspace) -> None:
-        """Show in the status bar that real controls of this family cannot be spoken to, if so."""
-        if only := workspace.file.schema.family.by_hand:
-            self.window.show_status(self.tr("{only}: use Control > Enter Values by Hand").format(only=only))
+        several = self._page is not None and self._page.several.is_sending
+        return several or any(session.phase == "running" for session in self._sessions.values())
 
     def restore(self) -> None:
         """Ask for a backup and offer to put it back; raises ValueError for a file with errors that is no proven backup."""
-        from amp_studio.transfer.client import open_copy
-        from amp_studio.ui.control.page import ControlBackup
-
         workspace = self.window.workspace
         folder = workspace.path.parent if workspace is not None else Path()
         text, _ = QFileDialog.getOpenFileName(self.window, self.tr("Restore"), str(folder), COPIES)
-        if not text:
-            return
-        path = Path(text)
+        if text:
+            self._offer_backup(Path(text))
+
+    def _offer_backup(self, path: Path) -> None:
+        """Show on the page what putting back a backup changes; raises as ``restore``."""
+        from amp_studio.transfer.client import open_copy
+        from amp_studio.ui.control.page import ControlBackup
+
         copy = in_background(self.window, self.tr("Opening"), partial(open_copy, path))
         check_copy(copy, path)
         if not self.is_shown:
@@ -313,33 +325,16 @@ class ControlActions(Translated):
         self.page.show_backup(ControlBackup(copy, path))
 
     def several(self) -> None:
-        """Open the dialog that exchanges the file with several controls."""
-        from amp_studio.ui.control.fleet_dialog import FleetDialog
-
-        workspace = self.window.workspace
-        assert workspace is not None
-        known = self.exchanges.known_addresses()
-        FleetDialog(workspace, known, self.window.guarded, self._is_ready, self.window).show()
-
-    def _is_ready(self, workspace: Workspace) -> bool:
-        """Return whether a file may be sent to several controls; what is missing is an error."""
-        if workspace.is_dirty and workspace.may_edit:
-            raise ValueError(
-                self.tr("{name} has unsaved changes: save it first.").format(name=workspace.path.name)
-            )
-        if errors := [f for f in workspace.findings if f.severity == "error"]:
-            raise ValueError(
-                self.tr("The file has errors, the first: {message}").format(message=errors[0].message)
-            )
-        return True
+        """Show the state of the page that exchanges the file with several controls."""
+        if not self.is_shown:
+            self.show("compare")
+        self.page.show_several(True)
 
     def recorded(self) -> None:
-        """Open the list of the exchanges of the file."""
-        from amp_studio.ui.control.exchanges_dialog import ExchangesDialog
-
-        workspace = self.window.workspace
-        assert workspace is not None
-        ExchangesDialog(workspace, self.window).show()
+        """Show the exchanges of the file."""
+        if not self.is_shown:
+            self.show("compare")
+        self.page.show_history(True)
 
     def upload(self, address: str | None = None) -> None:
         """Show the page that reads a control into a new file."""

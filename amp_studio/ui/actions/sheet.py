@@ -1,4 +1,4 @@
-"""Makes the sheet of values to key in by hand, against a file, a kept copy, or the control."""
+"""Makes the sheet of values to key in by hand, against the chosen control or against a file or kept copy."""
 
 from __future__ import annotations
 
@@ -8,39 +8,49 @@ from pathlib import Path
 from PySide6.QtWidgets import QFileDialog
 
 from amp_studio.files import ParameterFile, open_file
-from amp_studio.ui.base.questions import ask
 from amp_studio.ui.base.task import in_background
 from amp_studio.ui.base.translated import tr
-from amp_studio.ui.control.exchange import ControlExchange
+from amp_studio.ui.control.page import ControlPage
 from amp_studio.validate import rules_beside
 
 _FILES = "Parameter files and backups of a control (*.amp *.img);;All files (*)"
 
 
-def enter_by_hand(control: ControlExchange) -> None:
-    """Ask what the control contains and show what has to be keyed in; raises the errors of both sides."""
-    from amp_studio.sheet import Sheet, Ticks, make_sheet, ticks_path
-    from amp_studio.ui.control.sheet_dialog import SheetDialog
+def sheet_of_control(page: ControlPage) -> None:
+    """Make the sheet against what the chosen control contains, which is read first if that is not known."""
+    from amp_studio.sheet import SheetError
+    from amp_studio.transfer.client import sha256
 
-    window = control.window
-    workspace = window.workspace
+    session = page.session
+    if session is None:
+        page.hand.bar.say(tr("Choose a control at the left, or take a file."), "warning")
+    elif session.seen is None or session.phase != "ready":
+        page.read_for_sheet()
+    elif session.seen.file is None:
+        page.hand.bar.say(session.seen.why_unreadable or tr("The control contains no parameters."), "warning")
+    else:
+        against = f"{session.address}, sha256 {sha256(session.seen.content)[:12]}…"
+        try:
+            _make(page, session.seen.file, against, session.seen)
+        except SheetError as error:
+            page.hand.bar.say(str(error), "warning")
+
+
+def sheet_of_file(page: ControlPage) -> None:
+    """Ask for a file or backup with what the control contains; raises the errors of reading it, and SheetError."""
+    assert page.workspace is not None
+    folder = str(page.workspace.path.parent)
+    text, _ = QFileDialog.getOpenFileName(page, tr("What the control contains"), folder, _FILES)
+    if text:
+        path = Path(text)
+        _make(page, in_background(page, tr("Opening"), partial(_read, path)), path.name)
+
+
+def _make(page: ControlPage, present: ParameterFile, against: str, seen: object = None) -> None:
+    from amp_studio.sheet import Sheet, Ticks, make_sheet, ticks_path
+
+    workspace = page.workspace
     assert workspace is not None
-    question = tr(
-        "The sheet lists the values that differ from what the control contains.\n\nWhere is that known from?"
-    )
-    answer = ask(
-        window, tr("Enter Values by Hand"), question, tr("The &Control"), tr("A &File"), tr("Cancel")
-    )
-    found = (
-        _of_control(control)
-        if answer == tr("The &Control")
-        else _of_file(control)
-        if answer == tr("A &File")
-        else None
-    )
-    if found is None:
-        return
-    present, against = found
 
     def make() -> tuple[Sheet, Ticks]:
         own = rules_beside(workspace.path, workspace.file)
@@ -48,33 +58,7 @@ def enter_by_hand(control: ControlExchange) -> None:
                            secrets=workspace.secrets)  # fmt: skip
         return sheet, Ticks(ticks_path(workspace.path), sheet)
 
-    SheetDialog(workspace, make, window).show()
-
-
-def _of_control(control: ControlExchange) -> tuple[ParameterFile, str] | None:
-    address = control.chosen_address()
-    if address is None:
-        return None
-    from amp_studio.transfer import decode_content
-    from amp_studio.transfer.client import sha256
-
-    workspace = control.window.workspace
-    assert workspace is not None
-    content = control.fetch(address, tr("Enter Values by Hand"), workspace.file.schema.family.family)
-    present = decode_content(content)
-    control.remember(workspace, present)
-    return present, f"{address}, sha256 {sha256(content)[:12]}…"
-
-
-def _of_file(control: ControlExchange) -> tuple[ParameterFile, str] | None:
-    window = control.window
-    assert window.workspace is not None
-    folder = str(window.workspace.path.parent)
-    text, _ = QFileDialog.getOpenFileName(window, tr("What the control contains"), folder, _FILES)
-    if not text:
-        return None
-    path = Path(text)
-    return in_background(window, tr("Opening"), partial(_read, path)), path.name
+    page.hand.make(make, seen)
 
 
 def _read(path: Path) -> ParameterFile:

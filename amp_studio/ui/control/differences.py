@@ -9,12 +9,12 @@ from PySide6.QtCore import QSize, Qt, Signal
 from PySide6.QtGui import QKeyEvent
 from PySide6.QtWidgets import QHeaderView, QTreeWidget, QTreeWidgetItem
 
-from amp_studio.files import Difference, ParameterFile, axis_letter, shown_axes
+from amp_studio.files import Difference, ParameterFile, shown_axes
 from amp_studio.report import Danger, dangers_of_change
 from amp_studio.schema import Address
 from amp_studio.ui.base.figures import show_value
+from amp_studio.ui.base.places import short_place
 from amp_studio.ui.base.theme import ROW, SMALL_ICON, colour, font, icon, severity_icon
-from amp_studio.ui.base.translated import worded
 
 NUMBER, NAME, AXIS, CONTROL, FILE, MIND = range(6)
 _ADDRESS = Qt.ItemDataRole.UserRole + 1
@@ -116,7 +116,7 @@ class DifferenceTable(QTreeWidget):
         machine = self._file.machine_schema
         for address in addresses:
             row = self.rows[address]
-            place = axis_letter(self._file, address[1]) or worded(machine.instance_label(address))
+            place = short_place(self._file, address)
             item = QTreeWidgetItem([
                 machine.number(address) or "", self._file.schema.parameters[address[0]].name, place,
                 *reversed([self._text(address, value) for value in row.difference.in_one_unit()]), "",

@@ -122,19 +122,6 @@ class ControlExchange(Translated):
             self.note(address, verb, reached=False, family=family)
             raise
 
-    def fetch(self, address: str, title: str, family: str = "", verb: ControlVerb = "connect") -> bytes:
-        """Return the image of the control, byte for byte; raises an error for a control of another family."""
-
-        def work(exchange: Exchange) -> bytes:
-            from amp_studio.transfer.client import fetch_image
-
-            return fetch_image(address, exchange, family=family)
-
-        dialog = exchange_dialog(title, work, self.window)
-        image: bytes = self._noted(address, verb, dialog.run, family)
-        self.note(address, verb, reached=True, family=family)
-        return image
-
     def remember(self, workspace: Workspace, present: ParameterFile) -> None:
         """Show the values of the control beside those of a file of the same family."""
         if present.schema.family.family == workspace.file.schema.family.family:

@@ -13,6 +13,7 @@ from PySide6.QtWidgets import (
     QLineEdit,
     QListWidget,
     QListWidgetItem,
+    QSizePolicy,
     QStyle,
     QStyledItemDelegate,
     QStyleOptionViewItem,
@@ -22,6 +23,8 @@ from PySide6.QtWidgets import (
 )
 
 from amp_studio.ui.base.theme import GAP2, GAP3, HEAD, ICON, TWO_LINE_ROW, colour, font, icon, paint_icon
+
+from .rows import side_by_side
 
 _KEY, _LINES = Qt.ItemDataRole.UserRole + 1, Qt.ItemDataRole.UserRole + 2
 
@@ -86,6 +89,8 @@ class KnownList(QWidget):
     """A click chooses; "+" has a field for an address, so that nothing is asked in a box."""
 
     chosen = Signal(str)
+    several_chosen = Signal(bool)
+    """Several controls at once are wanted, or one again."""
 
     def __init__(self) -> None:
         super().__init__()
@@ -121,6 +126,15 @@ class KnownList(QWidget):
         column.addWidget(top)
         column.addWidget(self.field)
         column.addWidget(self.list, 1)
+        self.several = QToolButton()
+        self.several.setText(self.tr("Several Controls"))
+        self.several.setIcon(icon("list-numbers"))
+        self.several.setToolButtonStyle(Qt.ToolButtonStyle.ToolButtonTextBesideIcon)
+        self.several.setCheckable(True)
+        self.several.setAutoRaise(True)
+        self.several.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Fixed)
+        self.several.clicked.connect(self.several_chosen)
+        column.addWidget(side_by_side(HEAD, self.several))
         self.setFixedWidth(236)
 
     def ask(self) -> None:

@@ -35,8 +35,12 @@ from amp_studio.ui.forms.segment import Segment
 
 from .conditions import ConditionLine, conditions_of
 from .differences import DifferenceTable
+from .hand_sheet import HandSheet
+from .history import ExchangeHistory
 from .known_list import KnownList
+from .rows import FOOT, side_by_side
 from .session import ControlSession
+from .several import SeveralControls
 from .steps import ExchangeSteps
 
 if TYPE_CHECKING:
@@ -51,7 +55,8 @@ class ControlBackup:
     path: Path
 
 
-ExchangeDirection = Literal["compare", "send", "read"]
+ExchangeDirection = Literal["compare", "send", "read", "hand"]
+"""What is done with the control; "hand" is the sheet of values that a person keys in at it."""
 BarAnswer = tuple[str, Callable[[], object]]
 BarMessage = tuple[str, MessageKind, tuple[BarAnswer, ...]]
 """What is missing or how it ended, how severe it is, and what can be done about it."""
@@ -69,7 +74,8 @@ class ControlPage(QWidget):
     state_changed = Signal()
     read_wanted = Signal(object)
     """The content of the control is to become a new file."""
-    report_wanted = Signal()
+    restore_wanted = Signal(Path)
+    """A backup is to be put back."""
 
     def __init__(self, save: Callable[[], bool]) -> None:
         super().__init__()
@@ -81,6 +87,8 @@ class ControlPage(QWidget):
         self.direction: ExchangeDirection = "compare"
         self.name = ""
         self._accepted_errors = False
+        self._wants_sheet = False
+        """Whether the control is being read to make the sheet of values against it."""
         self._build()
         self._asking = QTimer(self)
         self._asking.setInterval(ASK_MS)
@@ -92,12 +100,19 @@ class ControlPage(QWidget):
     def _build(self) -> None:
         self.known = KnownList()
         self.known.chosen.connect(self.chosen)
+        self.known.several_chosen.connect(self.show_several)
+        self.several = SeveralControls(self._save)
+        self.several.changed.connect(self.state_changed)
+        self.hand = HandSheet()
+        self.history = ExchangeHistory()
+        self.history.restore_wanted.connect(self.restore_wanted)
         self.heading = QLabel()
         self.heading.setFont(font("text", own=True))
         self.directions = Segment(self.tr("Direction"), [
             ("compare", self.tr("Compare"), ""),
             ("send", self.tr("Send to the Control"), "arrow-line-down"),
             ("read", self.tr("Read From It"), "arrow-line-up"),
+            ("hand", self.tr("By Hand"), "note-pencil"),
         ])  # fmt: skip
         self.directions.chosen.connect(self.turn)
         self.conditions = ConditionLine()
@@ -142,7 +157,7 @@ class ControlPage(QWidget):
         self.cancel = QPushButton()
         self.cancel.clicked.connect(self._cancel)
         self.proof = QPushButton(self.tr("Save Proof…"))
-        self.proof.clicked.connect(self.report_wanted)
+        self.proof.clicked.connect(lambda: self.show_history(True))
         self.again = QPushButton(self.tr("Read Again"))
         self.again.clicked.connect(self.connect_again)
         self.primary = QPushButton()
@@ -161,36 +176,38 @@ class ControlPage(QWidget):
         self._lay_out()
 
     def _lay_out(self) -> None:
-        back = QToolButton()
-        back.setIcon(icon("x"))
-        back.setAutoRaise(True)
-        back.setToolTip(self.tr("Back to the values (Escape)"))
-        back.setAccessibleName(back.toolTip())
+        back = _tool("x", self.tr("Back to the values (Escape)"))
         back.clicked.connect(self.left)
+        self.past = _tool("clock-counter-clockwise", self.tr("Exchanges of This File"))
+        self.past.setCheckable(True)
+        self.past.clicked.connect(self.show_history)
         parts = QSplitter(Qt.Orientation.Horizontal)
         parts.addWidget(self.middle)
         parts.addWidget(self.steps)
         parts.setStretchFactor(0, 1)
         parts.setChildrenCollapsible(False)
-        right = QVBoxLayout()
-        right.setSpacing(0)
-        right.addWidget(_row(HEAD, self.heading, None, self.directions, back))
-        right.addWidget(self.conditions)
-        right.addWidget(self.bar)
-        right.addWidget(self.password)
-        right.addWidget(_row(HEAD, self.counts, None, self.filter))
-        right.addWidget(parts, 1)
-        right.addWidget(self.detail)
-        right.addWidget(_row(0, self.keep, self.one, None, self.checked))
-        right.addWidget(
-            _row(44, self.note, None, self.progress, self.cancel, self.proof, self.again, self.primary)
+        self.one_control = _column(
+            self.conditions,
+            self.bar,
+            self.password,
+            side_by_side(HEAD, self.counts, None, self.filter),
+            parts,
+            self.detail,
+            side_by_side(0, self.keep, self.one, None, self.checked),
+            side_by_side(
+                FOOT, self.note, None, self.progress, self.cancel, self.proof, self.again, self.primary
+            ),
         )
+        self.states = QStackedWidget()
+        for state in (self.one_control, self.several, self.hand, self.history):
+            self.states.addWidget(state)
+        right = _column(side_by_side(HEAD, self.heading, None, self.directions, self.past, back), self.states)
         whole = QHBoxLayout(self)
         whole.setContentsMargins(0, 0, 0, 0)
         whole.setSpacing(0)
         whole.addWidget(self.known)
-        whole.addLayout(right, 1)
-        self.setFocusProxy(self.table)
+        whole.addWidget(right, 1)
+        self.setFocusProxy(self.states)
 
     # -- what is shown -------------------------------------------------------------
 
@@ -206,15 +223,51 @@ class ControlPage(QWidget):
     def turn(self, direction: str) -> None:
         """Change the direction; what was read stays."""
         wanted: ExchangeDirection = (
-            "send" if direction == "send" else "read" if direction == "read" else "compare"
-        )
+            "send" if direction == "send" else "read" if direction == "read"
+            else "hand" if direction == "hand" else "compare"
+        )  # fmt: skip
         self.direction = wanted if self.workspace is not None or self.backup is not None else "read"
         self.backup = self.backup if self.direction == "send" else None
+        if self.direction in ("read", "hand") or self.workspace is None:
+            self.known.several.setChecked(False)
+        self.past.setChecked(False)
         self.directions.show_choice(self.direction)
+        self._show_state()
         self._fill()
+
+    def _show_state(self) -> None:
+        """Bring to the front what fits the direction: one control, several, the sheet or what was recorded."""
+        workspace = self.workspace
+        if self.past.isChecked() and workspace is not None:
+            self.history.show_file(workspace)
+            self.states.setCurrentWidget(self.history)
+        elif self.known.several.isChecked():
+            self.several.show_file(workspace, sends=self.direction == "send")
+            self.states.setCurrentWidget(self.several)
+        elif self.direction == "hand" and workspace is not None:
+            self.hand.show_file(workspace)
+            self.states.setCurrentWidget(self.hand)
+            seen = self.session.seen if self.session is not None and self.session.phase == "ready" else None
+            is_of_control = self.hand.sheet is None or self.hand.seen is not None
+            if seen is not None and is_of_control and self.hand.seen is not seen:
+                self.hand.control_wanted.emit()
+        else:
+            self.states.setCurrentWidget(self.one_control)
+
+    def show_several(self, wanted: bool) -> None:
+        """Show several controls at once, or the chosen one again."""
+        self.known.several.setChecked(wanted and self.workspace is not None)
+        self.turn(self.direction if self.direction in ("send", "compare") else "compare")
+
+    def show_history(self, wanted: bool) -> None:
+        """Show what was exchanged before, or the control again."""
+        self.past.setChecked(wanted)
+        self._show_state()
 
     def use(self, session: ControlSession, name: str) -> None:
         """Take another control, which is read at once."""
+        self.known.several.setChecked(False)
+        self._show_state()
         if self.session is not None:
             self.session.changed.disconnect(self._follow)
             self.session.progressed.disconnect(self._show_progress)
@@ -229,7 +282,12 @@ class ControlPage(QWidget):
         """Offer to put back a backup, in the place of the file."""
         self.backup = backup
         self.direction = "send"
+        self.known.several.setChecked(False)
+        self.past.setChecked(False)
         self.directions.show_choice("send")
+        self._show_state()
+        if self.session is not None and self.session.phase in ("done", "failed"):
+            self.connect_again()  # what it contains now is what would be replaced
         self._fill()
 
     def rename(self, name: str) -> None:
@@ -253,9 +311,27 @@ class ControlPage(QWidget):
             return self.backup.path.name
         return self.workspace.path.name if self.workspace is not None else self.tr("a new file")
 
+    def read_for_sheet(self) -> None:
+        """Read the control, and make the sheet of values against it."""
+        self._wants_sheet = True
+        self.hand.bar.say(self.tr("Reading what {name} contains …").format(name=self.name))
+        self.connect_again()
+
+    def _sheet_after_reading(self, session: ControlSession) -> None:
+        self._wants_sheet = False
+        if session.phase == "ready":
+            self.hand.control_wanted.emit()
+        elif session.wants_password:
+            self.turn("compare")  # which has the field for it
+        else:
+            again = (self.tr("Try Again"), self.read_for_sheet)
+            self.hand.bar.say(session.error, "warning", again)
+
     def _follow(self) -> None:
         session = self.session
         assert session is not None
+        if self._wants_sheet and not session.is_busy:
+            self._sheet_after_reading(session)
         if session.phase in ("ready", "done") and not session.is_busy:
             self._fill()
         else:
@@ -290,9 +366,15 @@ class ControlPage(QWidget):
         """Show the state in every part of the page."""
         session, file = self.session, self.file
         arrow = "←" if self.direction == "read" else "→"
-        self.heading.setText(f"{self.title}  {arrow}  {self.name or self.tr('no control chosen')}")
+        control = self.tr("several controls") if self.known.several.isChecked() else self.name
+        self.heading.setText(f"{self.title}  {arrow}  {control or self.tr('no control chosen')}")
+        several, workspace = self.known.several.isChecked(), self.workspace
         for direction, button in self.directions.buttons.items():
-            button.setEnabled(self.workspace is not None or direction == "read")
+            button.setEnabled(
+                (workspace is not None or direction == "read") and not (several and direction == "read")
+            )
+        self.past.setEnabled(workspace is not None)
+        self.known.several.setEnabled(workspace is not None)
         own = file or (self.workspace.file if self.workspace is not None else None)
         self.conditions.setVisible(own is not None)
         if own is not None:
@@ -343,6 +425,9 @@ class ControlPage(QWidget):
             text = summary or self.tr("Read at {time}").format(
                 time=in_words(session.seen.when, datetime.now(UTC).astimezone())
             )
+        only = self.workspace.file.schema.family.by_hand if self.workspace is not None else ""
+        if only and (session is None or session.seen is None):
+            text += "\n\n" + self.tr("{only}: “By Hand” makes the sheet for that.").format(only=only)
         self.empty.setText(text)
 
     def _proof(self) -> str:
@@ -585,7 +670,9 @@ class ControlPage(QWidget):
 
     def press(self) -> None:
         """Do what the primary button does, if it is on: the key that opened the page, again."""
-        if self.primary.isVisible() and self.primary.isEnabled():
+        if self.states.currentWidget() is self.several:
+            self.several.press()
+        elif self.primary.isVisible() and self.primary.isEnabled():
             self.primary.click()
 
     def _send(self) -> None:
@@ -645,7 +732,9 @@ class ControlPage(QWidget):
             self.note.setText(self.tr("Stopping at the next safe point …"))
 
     def _escape(self) -> None:
-        if self.session is not None and self.session.phase == "running":
+        if self.several.is_busy:
+            self.several.stop_all()
+        elif self.session is not None and self.session.phase == "running":
             self._cancel()
         else:
             self.left.emit()
@@ -674,17 +763,21 @@ class ControlPage(QWidget):
         self.state_changed.emit()
 
 
-def _row(height: int, *parts: QWidget | None) -> QWidget:
-    """Return widgets side by side; None is a stretch."""
+def _tool(icon_name: str, text: str) -> QToolButton:
+    made = QToolButton()
+    made.setIcon(icon(icon_name))
+    made.setAutoRaise(True)
+    made.setToolTip(text)
+    made.setAccessibleName(text)
+    return made
+
+
+def _column(*parts: QWidget) -> QWidget:
+    """Return parts below one another; what can use room gets it."""
     whole = QWidget()
-    row = QHBoxLayout(whole)
-    row.setContentsMargins(GAP3, 0, GAP3, 0)
-    row.setSpacing(GAP2)
+    column = QVBoxLayout(whole)
+    column.setContentsMargins(0, 0, 0, 0)
+    column.setSpacing(0)
     for part in parts:
-        if part is None:
-            row.addStretch(1)
-        else:
-            row.addWidget(part)
-    if height:
-        whole.setFixedHeight(height)
+        column.addWidget(part, 1 if isinstance(part, (QSplitter, QStackedWidget)) else 0)
     return whole

@@ -23,8 +23,9 @@ from PySide6.QtWidgets import (
 
 from amp_studio.calibration import CalibrationError, TuningPage, stepped, steps_of
 from amp_studio.files import ParameterFile
-from amp_studio.schema import Address, Value, axis_name, limits, read_exact, shown, write_number
+from amp_studio.schema import Address, Value, limits, read_exact, shown, write_number
 from amp_studio.ui.base.figures import show_value
+from amp_studio.ui.base.places import place_in_words
 from amp_studio.ui.base.theme import GAP2, ROW, colour
 from amp_studio.ui.base.translated import worded
 
@@ -203,12 +204,7 @@ class ValuesPage(QWidget):
     def _instance(self, address: Address) -> str:
         """Return which axis, spindle or gear it is, an axis with its letter."""
         assert self.target is not None
-        file = self.target.file
-        label = worded(file.machine_schema.instance_label(address)) or self.tr("Control")
-        letter = (
-            axis_name(file.evaluation, address[1]) if file.machine_schema.scopes[address[0]] == "axis" else ""
-        )
-        return f"{label} {letter}" if letter and letter not in label.split() else label
+        return place_in_words(self.target.file, address) or self.tr("Control")
 
     def _moved(self) -> None:
         self._offer_steps()

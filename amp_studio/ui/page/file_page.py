@@ -13,7 +13,8 @@ from amp_studio.files import axis_letter, describe
 from amp_studio.schema import Address, Parameter, shown
 from amp_studio.ui.base.figures import write_figure
 from amp_studio.ui.base.modal import is_alive
-from amp_studio.ui.base.translated import counted, worded
+from amp_studio.ui.base.places import place_in_words
+from amp_studio.ui.base.translated import counted
 from amp_studio.ui.base.workspace import Workspace
 from amp_studio.ui.findings.panel import FindingsPanel
 from amp_studio.ui.forms.list_title import ListTitle
@@ -211,7 +212,7 @@ class FilePage(QWidget):
             return ""
         if len(chosen := self.table_view.cells.addresses()) > 1:
             return self._range_text(chosen)
-        place = worded(file.machine_schema.instance_label(address))
+        place = place_in_words(file, address)
         return "   ".join(text for text in (describe(file, address), place) if text)
 
     def _range_text(self, chosen: list[Address]) -> str:

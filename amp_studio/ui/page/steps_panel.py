@@ -21,6 +21,7 @@ from PySide6.QtWidgets import (
 from amp_studio.files import axis_letter, with_local_times
 from amp_studio.guide import GuideProgress, SetupStep, StepProgress, StepState
 from amp_studio.schema import Address, Guide, Parameter
+from amp_studio.ui.base.places import short_place
 from amp_studio.ui.base.theme import FIGURE_SPACE, GAP, GAP2, GAP3, SMALL_CONTROL, Token, colour, font, icon
 from amp_studio.ui.base.translated import counted, worded
 from amp_studio.ui.base.workspace import Workspace
@@ -260,7 +261,7 @@ class StepsPanel(QWidget):
             below.setData(0, KEY, places[0])
             below.setData(0, PICTURE, ("circle-dashed", "dim"))
             below.setData(0, RIGHT, self._instances(places))
-            labels = ", ".join(filter(None, (worded(here.instance_label(a)) for a in places)))
+            labels = ", ".join(filter(None, (short_place(self._workspace.file, a) for a in places)))
             below.setToolTip(0, " – ".join(filter(None, (here.label(places[0]), labels))))
             below.setData(
                 0,

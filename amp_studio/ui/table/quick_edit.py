@@ -10,6 +10,7 @@ from PySide6.QtWidgets import QDialog, QFormLayout, QLabel, QLineEdit, QWidget
 
 from amp_studio.report import state_name
 from amp_studio.schema import Address, UnknownParameterError, meant
+from amp_studio.ui.base.places import place_in_words
 from amp_studio.ui.base.translated import worded
 from amp_studio.ui.forms.choice_box import ChoiceBox
 
@@ -67,7 +68,7 @@ class QuickEdit(QDialog):
             return
         self._show(address)
         file = self._workspace.file
-        place = worded(file.machine_schema.instance_label(address)) or self.tr("Control")
+        place = place_in_words(file, address) or self.tr("Control")
         state = file.evaluation.state(address)
         inactive = "" if state.is_active else f"\n{worded(state_name(state.state)).capitalize()}: {state.why}"
         allowed = allowed_text(self._workspace, address)

@@ -509,28 +509,12 @@
             <translation>{name} hat Fehler, und daneben liegt kein Abbild einer Steuerung. Erster Fehler: {message}</translation>
         </message>
         <message>
-            <source>Cancel</source>
-            <translation>Abbrechen</translation>
+            <source>Choose a control at the left, or take a file.</source>
+            <translation>Links eine Steuerung wählen, oder eine Datei nehmen.</translation>
         </message>
         <message>
-            <source>The sheet lists the values that differ from what the control contains.
-
-Where is that known from?</source>
-            <translation>Das Blatt zeigt die Werte, die anders sind als in der Steuerung.
-
-Woher ist bekannt, was sie enthält?</translation>
-        </message>
-        <message>
-            <source>Enter Values by Hand</source>
-            <translation>Werte von Hand eingeben</translation>
-        </message>
-        <message>
-            <source>The &amp;Control</source>
-            <translation>Die &amp;Steuerung</translation>
-        </message>
-        <message>
-            <source>A &amp;File</source>
-            <translation>Eine &amp;Datei</translation>
+            <source>The control contains no parameters.</source>
+            <translation>Die Steuerung enthält keine Parameter.</translation>
         </message>
         <message>
             <source>What the control contains</source>
@@ -839,6 +823,10 @@ Woher ist bekannt, was sie enthält?</translation>
         <message>
             <source>every value, exactly</source>
             <translation>jeden Wert, genau</translation>
+        </message>
+        <message>
+            <source>{letter} axis</source>
+            <translation>{letter}-Achse</translation>
         </message>
     </context>
     <context>
@@ -1342,6 +1330,10 @@ Woher ist bekannt, was sie enthält?</translation>
             <translation>&amp;Steuerung</translation>
         </message>
         <message>
+            <source>Enter Values by Hand</source>
+            <translation>Werte von Hand eingeben</translation>
+        </message>
+        <message>
             <source>Upload</source>
             <translation>Auslesen</translation>
         </message>
@@ -1426,10 +1418,6 @@ Woher ist bekannt, was sie enthält?</translation>
             <translation>Auslesen</translation>
         </message>
         <message>
-            <source>Save Proof</source>
-            <translation>Nachweis sichern</translation>
-        </message>
-        <message>
             <source>Connect</source>
             <translation>Verbinden</translation>
         </message>
@@ -1446,24 +1434,12 @@ Woher ist bekannt, was sie enthält?</translation>
             <translation>keine gewählt</translation>
         </message>
         <message>
-            <source>{only}: use Control &gt; Enter Values by Hand</source>
-            <translation>{only}: Steuerung &gt; Werte von Hand eingeben nehmen</translation>
-        </message>
-        <message>
             <source>Restore</source>
             <translation>Wiederherstellen</translation>
         </message>
         <message>
             <source>Opening</source>
             <translation>Öffnen</translation>
-        </message>
-        <message>
-            <source>{name} has unsaved changes: save it first.</source>
-            <translation>{name} hat ungespeicherte Änderungen: erst sichern.</translation>
-        </message>
-        <message>
-            <source>The file has errors, the first: {message}</source>
-            <translation>Die Datei hat Fehler, der erste: {message}</translation>
         </message>
         <message>
             <source>Upload cancelled. No file was written.</source>
@@ -1584,6 +1560,22 @@ Eine nachgebildete Steuerung ist im Menü Steuerung.</translation>
         <message>
             <source>Try Again</source>
             <translation>Noch einmal</translation>
+        </message>
+        <message>
+            <source>By Hand</source>
+            <translation>Von Hand</translation>
+        </message>
+        <message>
+            <source>Exchanges of This File</source>
+            <translation>Austausch dieser Datei</translation>
+        </message>
+        <message>
+            <source>several controls</source>
+            <translation>mehrere Steuerungen</translation>
+        </message>
+        <message>
+            <source>{only}: “By Hand” makes the sheet for that.</source>
+            <translation>{only}: „Von Hand“ macht das Blatt dafür.</translation>
         </message>
         <message>
             <source>Press E-stop at the machine. While an axis can move, the control takes no parameters.</source>
@@ -2159,34 +2151,7 @@ Nichts wurde geändert. Ein erzwungener Wert ist in der Datei, den Befunden und 
         </message>
     </context>
     <context>
-        <name>ExchangeSteps</name>
-        <message>
-            <source>What will happen</source>
-            <translation>Was geschehen wird</translation>
-        </message>
-        <message>
-            <source>Mind</source>
-            <translation>Zu beachten</translation>
-        </message>
-        <message>
-            <source>Dangers of the values that change</source>
-            <translation>Gefahren der Werte, die sich ändern</translation>
-        </message>
-        <message>
-            <source>Under way</source>
-            <translation>Unterwegs</translation>
-        </message>
-        <message>
-            <source>What happened</source>
-            <translation>Was geschah</translation>
-        </message>
-    </context>
-    <context>
-        <name>ExchangesDialog</name>
-        <message>
-            <source>Exchanges — {name}</source>
-            <translation>Austausch — {name}</translation>
-        </message>
+        <name>ExchangeHistory</name>
         <message>
             <source>When</source>
             <translation>Wann</translation>
@@ -2220,6 +2185,10 @@ Nichts wurde geändert. Ein erzwungener Wert ist in der Datei, den Befunden und 
             <translation>Aufgezeichneter Austausch</translation>
         </message>
         <message>
+            <source>Restore What It Replaced…</source>
+            <translation>Ersetztes wiederherstellen…</translation>
+        </message>
+        <message>
             <source>
 Kept copy: {kept}</source>
             <translation>
@@ -2230,8 +2199,31 @@ Behaltene Kopie: {kept}</translation>
             <translation>nicht gesetzt</translation>
         </message>
         <message>
-            <source>{upper}{what} recorded in {parent}. Control &gt; Restore Control From Backup puts a kept copy back.</source>
-            <translation>{upper}{what} in {parent} aufgezeichnet. Steuerung &gt; Steuerung aus Sicherung wiederherstellen legt eine Kopie zurück.</translation>
+            <source>{upper}{what} recorded in {parent}.</source>
+            <translation>{upper}{what} aufgezeichnet in {parent}.</translation>
+        </message>
+    </context>
+    <context>
+        <name>ExchangeSteps</name>
+        <message>
+            <source>What will happen</source>
+            <translation>Was geschehen wird</translation>
+        </message>
+        <message>
+            <source>Mind</source>
+            <translation>Zu beachten</translation>
+        </message>
+        <message>
+            <source>Dangers of the values that change</source>
+            <translation>Gefahren der Werte, die sich ändern</translation>
+        </message>
+        <message>
+            <source>Under way</source>
+            <translation>Unterwegs</translation>
+        </message>
+        <message>
+            <source>What happened</source>
+            <translation>Was geschah</translation>
         </message>
     </context>
     <context>
@@ -2736,109 +2728,6 @@ Die ungespeicherte Arbeit wiederherstellen? Das lässt sich zurücknehmen.</tran
         </message>
     </context>
     <context>
-        <name>FleetDialog</name>
-        <message>
-            <source>Several Controls — {name}</source>
-            <translation>Mehrere Steuerungen — {name}</translation>
-        </message>
-        <message>
-            <source>One address a line: tcp://192.168.0.11:9600</source>
-            <translation>Eine Adresse je Zeile: tcp://192.168.0.11:9600</translation>
-        </message>
-        <message>
-            <source>Addresses of the controls</source>
-            <translation>Adressen der Steuerungen</translation>
-        </message>
-        <message>
-            <source>One after the other, and &amp;stop at the first failure</source>
-            <translation>Nacheinander, beim ersten Fehlschlag &amp;anhalten</translation>
-        </message>
-        <message>
-            <source>Control</source>
-            <translation>Steuerung</translation>
-        </message>
-        <message>
-            <source>Result</source>
-            <translation>Ergebnis</translation>
-        </message>
-        <message>
-            <source>How it ended</source>
-            <translation>Wie es endete</translation>
-        </message>
-        <message>
-            <source>Results</source>
-            <translation>Ergebnisse</translation>
-        </message>
-        <message>
-            <source>&amp;Verify</source>
-            <translation>&amp;Vergleichen</translation>
-        </message>
-        <message>
-            <source>&amp;Download…</source>
-            <translation>An Steuerung &amp;senden…</translation>
-        </message>
-        <message>
-            <source>Save &amp;Table…</source>
-            <translation>&amp;Tabelle speichern…</translation>
-        </message>
-        <message>
-            <source>&amp;Close</source>
-            <translation>Sch&amp;ließen</translation>
-        </message>
-        <message>
-            <source>Verify</source>
-            <translation>Vergleichen</translation>
-        </message>
-        <message>
-            <source>Download</source>
-            <translation>An Steuerung senden</translation>
-        </message>
-        <message>
-            <source>Save Table</source>
-            <translation>Tabelle speichern</translation>
-        </message>
-        <message>
-            <source>Controls, one address a line:</source>
-            <translation>Steuerungen, eine Adresse je Zeile:</translation>
-        </message>
-        <message>
-            <source>Name at least one control: its address, one a line.</source>
-            <translation>Mindestens eine Steuerung nennen: ihre Adresse, eine je Zeile.</translation>
-        </message>
-        <message>
-            <source>Download {name} to {count}?</source>
-            <translation>{name} an {count} senden?</translation>
-        </message>
-        <message>
-            <source>{what} All parameters of each are replaced; what it contains now is kept beside the file first.</source>
-            <translation>{what} Alle Parameter einer jeden werden ersetzt; was sie jetzt enthält, wird erst neben der Datei gesichert.</translation>
-        </message>
-        <message>
-            <source>&amp;Download</source>
-            <translation>&amp;Senden</translation>
-        </message>
-        <message>
-            <source>Cancel</source>
-            <translation>Abbrechen</translation>
-        </message>
-        <message>
-            <source>Waiting for the controls …</source>
-            <translation>Wartet auf die Steuerungen …</translation>
-        </message>
-        <message>
-            <source>{well} of {count} without a failure</source>
-            <translation>{well} von {count} ohne Fehlschlag</translation>
-        </message>
-        <message>
-            <source>Save table</source>
-            <translation>Tabelle speichern</translation>
-        </message>
-        <message>
-            <source>Controls</source>
-            <translation>Steuerungen</translation>
-        </message>
-    </context>
-    <context>
         <name>FormatActions</name>
         <message>
             <source>&amp;Import…</source>
@@ -2973,6 +2862,93 @@ Importieren und als erzwungen kennzeichnen?</translation>
         </message>
     </context>
     <context>
+        <name>HandSheet</name>
+        <message>
+            <source>&amp;Values</source>
+            <translation>&amp;Werte</translation>
+        </message>
+        <message>
+            <source>&amp;Before and After</source>
+            <translation>&amp;Vorher und nachher</translation>
+        </message>
+        <message>
+            <source>&amp;Not on This Sheet</source>
+            <translation>&amp;Nicht auf diesem Blatt</translation>
+        </message>
+        <message>
+            <source>Against the &amp;Control</source>
+            <translation>Gegen die &amp;Steuerung</translation>
+        </message>
+        <message>
+            <source>Against a &amp;File…</source>
+            <translation>Gegen eine &amp;Datei…</translation>
+        </message>
+        <message>
+            <source>&amp;Update</source>
+            <translation>&amp;Auffrischen</translation>
+        </message>
+        <message>
+            <source>&amp;Save or Print…</source>
+            <translation>&amp;Speichern oder drucken…</translation>
+        </message>
+        <message>
+            <source>The sheet lists the values that differ from what the control contains. Where is that known from?</source>
+            <translation>Das Blatt nennt die Werte, die anders sind als in der Steuerung. Woher ist bekannt, was sie enthält?</translation>
+        </message>
+        <message>
+            <source>Values</source>
+            <translation>Werte</translation>
+        </message>
+        <message>
+            <source>Before</source>
+            <translation>Vorher</translation>
+        </message>
+        <message>
+            <source>After</source>
+            <translation>Nachher</translation>
+        </message>
+        <message>
+            <source>{done} of {total} keyed in</source>
+            <translation>{done} von {total} eingegeben</translation>
+        </message>
+        <message>
+            <source>{count} read back as they should be</source>
+            <translation>{count} richtig zurückgelesen</translation>
+        </message>
+        <message>
+            <source>{wrong} not as keyed in</source>
+            <translation>{wrong} nicht wie eingegeben</translation>
+        </message>
+        <message>
+            <source>{forgotten} ticks left out, whose values have changed since</source>
+            <translation>{forgotten} Haken ausgelassen, deren Werte sich seitdem geändert haben</translation>
+        </message>
+        <message>
+            <source>. Compared with {present}.</source>
+            <translation>. Verglichen mit {present}.</translation>
+        </message>
+        <message>
+            <source>{why} (page {page})</source>
+            <translation>{why} (Seite {page})</translation>
+        </message>
+        <message>
+            <source>The tick is not kept: {error}.</source>
+            <translation>Der Haken wird nicht behalten: {error}.</translation>
+        </message>
+        <message>
+            <source>The file has changed: update the sheet before you go on.</source>
+            <translation>Die Datei hat sich geändert: das Blatt erst auffrischen.</translation>
+        </message>
+        <message>
+            <source>Update</source>
+            <translation>Aktualisieren</translation>
+        </message>
+        <message>
+            <source>Printing</source>
+            <translation>Wird gedruckt</translation>
+        </message>
+    </context>
+    <context>
         <name>HandleFooter</name>
         <message>
             <source>Drag a handle, or go to it with Tab and use the arrow keys</source>
@@ -3079,6 +3055,10 @@ Importieren und als erzwungen kennzeichnen?</translation>
         <message>
             <source>Address of a control</source>
             <translation>Adresse einer Steuerung</translation>
+        </message>
+        <message>
+            <source>Several Controls</source>
+            <translation>Mehrere Steuerungen</translation>
         </message>
     </context>
     <context>
@@ -5243,78 +5223,92 @@ Hier erlaubt: {allowed}</translation>
         </message>
     </context>
     <context>
-        <name>SheetDialog</name>
+        <name>SeveralControls</name>
         <message>
-            <source>&amp;Values</source>
-            <translation>&amp;Werte</translation>
+            <source>Control</source>
+            <translation>Steuerung</translation>
         </message>
         <message>
-            <source>&amp;Before and After</source>
-            <translation>&amp;Vorher und nachher</translation>
+            <source>Address</source>
+            <translation>Adresse</translation>
         </message>
         <message>
-            <source>&amp;Not on This Sheet</source>
-            <translation>&amp;Nicht auf diesem Blatt</translation>
+            <source>Result</source>
+            <translation>Ergebnis</translation>
         </message>
         <message>
-            <source>&amp;Update</source>
-            <translation>&amp;Auffrischen</translation>
+            <source>How it ended</source>
+            <translation>Wie es endete</translation>
         </message>
         <message>
-            <source>&amp;Save or Print…</source>
-            <translation>&amp;Speichern oder drucken…</translation>
+            <source>Several controls</source>
+            <translation>Mehrere Steuerungen</translation>
         </message>
         <message>
-            <source>&amp;Close</source>
-            <translation>Sch&amp;ließen</translation>
+            <source>One after the other, and &amp;stop at the first failure</source>
+            <translation>Nacheinander, beim ersten Fehlschlag &amp;anhalten</translation>
         </message>
         <message>
-            <source>Values</source>
-            <translation>Werte</translation>
+            <source>All parameters of each are replaced; what it contains is kept beside the file first</source>
+            <translation>In jeder werden alle Parameter ersetzt; was sie enthält, wird vorher neben der Datei aufbewahrt</translation>
         </message>
         <message>
-            <source>Before</source>
-            <translation>Vorher</translation>
+            <source>Save &amp;Table…</source>
+            <translation>&amp;Tabelle speichern…</translation>
         </message>
         <message>
-            <source>After</source>
-            <translation>Nachher</translation>
+            <source>Cancel</source>
+            <translation>Abbrechen</translation>
         </message>
         <message>
-            <source>{done} of {total} keyed in</source>
-            <translation>{done} von {total} eingegeben</translation>
+            <source>{name} has unsaved changes. A download sends the saved file.</source>
+            <translation>{name} hat ungespeicherte Änderungen. Gesendet wird die gespeicherte Datei.</translation>
         </message>
         <message>
-            <source>{count} read back as they should be</source>
-            <translation>{count} richtig zurückgelesen</translation>
+            <source>Save</source>
+            <translation>Speichern</translation>
+        </message>
+        <message numerus="yes">
+            <source>Send to %n Controls</source>
+            <translation>
+                <numerusform>An %n Steuerung senden</numerusform>
+                <numerusform>An %n Steuerungen senden</numerusform>
+            </translation>
+        </message>
+        <message numerus="yes">
+            <source>Compare With %n Controls</source>
+            <translation>
+                <numerusform>Mit %n Steuerung vergleichen</numerusform>
+                <numerusform>Mit %n Steuerungen vergleichen</numerusform>
+            </translation>
         </message>
         <message>
-            <source>{wrong} not as keyed in</source>
-            <translation>{wrong} nicht wie eingegeben</translation>
+            <source>Tick the controls; “+” at the left adds one by its address.</source>
+            <translation>Steuerungen anhaken; „+“ links fügt eine mit ihrer Adresse hinzu.</translation>
         </message>
         <message>
-            <source>{forgotten} ticks left out, whose values have changed since</source>
-            <translation>{forgotten} Haken ausgelassen, deren Werte sich seitdem geändert haben</translation>
+            <source>Waiting: the file is not saved</source>
+            <translation>Wartet: die Datei ist nicht gesichert</translation>
         </message>
         <message>
-            <source>. Compared with {present}.</source>
-            <translation>. Verglichen mit {present}.</translation>
+            <source>Waiting: the file has errors</source>
+            <translation>Wartet: die Datei hat Fehler</translation>
         </message>
         <message>
-            <source>{why} (page {page})</source>
-            <translation>{why} (Seite {page})</translation>
+            <source>Waiting: what is replaced is not checked</source>
+            <translation>Wartet: nicht bestätigt, dass ersetzt wird</translation>
         </message>
         <message>
-            <source>The tick is not kept: {error}.</source>
-            <translation>Der Haken wird nicht behalten: {error}.</translation>
+            <source>{well} of {count} without a failure</source>
+            <translation>{well} von {count} ohne Fehlschlag</translation>
         </message>
         <message>
-            <source>The file has changed: update the sheet before you go on.</source>
-            <translation>Die Datei hat sich geändert: das Blatt erst auffrischen.</translation>
+            <source>Save table</source>
+            <translation>Tabelle speichern</translation>
         </message>
         <message>
-            <source>Printing</source>
-            <translation>Wird gedruckt</translation>
+            <source>Controls</source>
+            <translation>Steuerungen</translation>
         </message>
     </context>
     <context>

@@ -254,6 +254,23 @@
         </message>
     </context>
     <context>
+        <name>SeveralControls</name>
+        <message numerus="yes">
+            <source>Send to %n Controls</source>
+            <translation>
+                <numerusform>Send to %n Control</numerusform>
+                <numerusform>Send to %n Controls</numerusform>
+            </translation>
+        </message>
+        <message numerus="yes">
+            <source>Compare With %n Controls</source>
+            <translation>
+                <numerusform>Compare With %n Control</numerusform>
+                <numerusform>Compare With %n Controls</numerusform>
+            </translation>
+        </message>
+    </context>
+    <context>
         <name>StatusLine</name>
         <message numerus="yes">
             <source>%n unsaved changes</source>

@@ -53,9 +53,14 @@ class StatusLine(QObject):
         button.clicked.connect(self.findings_wanted)
         return button
 
-    def show_file(self, workspace: Workspace | None, control: str) -> None:
-        """Show the state of a file, or nothing; ``control`` is the address of the control it goes to, if any."""
-        every = (*self.counts.values(), self.not_set, self.changes, self.file, self.control)
+    def show_control(self, control: str) -> None:
+        """Show the control of the file and its state in words; nothing for none."""
+        self.control.setText(control)
+        self.control.setVisible(bool(control))
+
+    def show_file(self, workspace: Workspace | None) -> None:
+        """Show the state of a file, or nothing."""
+        every = (*self.counts.values(), self.not_set, self.changes, self.file)
         for widget in every:
             widget.setVisible(workspace is not None)
         if workspace is None:
@@ -80,8 +85,6 @@ class StatusLine(QObject):
         state = self.tr("not saved") if workspace.is_dirty else self.tr("saved")
         parts += [units, state if workspace.may_edit else self.tr("read-only")]
         self.file.setText(", ".join(parts))
-        self.control.setText(control)
-        self.control.setVisible(bool(control))
 
     def _show(self, button: QToolButton, number: int, noun: str) -> None:
         text = self.tr("{number} {noun}").format(number=number, noun=noun)

@@ -5,12 +5,10 @@ from __future__ import annotations
 from collections.abc import Callable
 from pathlib import Path
 
-from PySide6.QtCore import QModelIndex, QPersistentModelIndex, Qt
+from PySide6.QtCore import QModelIndex, QPersistentModelIndex, Qt, Signal
 from PySide6.QtGui import QBrush, QFont
 from PySide6.QtWidgets import (
-    QDialog,
     QFileDialog,
-    QHBoxLayout,
     QLabel,
     QPushButton,
     QStyledItemDelegate,
@@ -24,11 +22,13 @@ from PySide6.QtWidgets import (
 )
 
 from amp_studio.sheet import STATES, Instruction, Sheet, SheetEntry, SheetError, Ticks, judged
-from amp_studio.ui.base.questions import show_message
 from amp_studio.ui.base.task import in_background
-from amp_studio.ui.base.theme import Token, colour, severity_icon
+from amp_studio.ui.base.theme import GAP2, GAP3, Token, colour, severity_icon
 from amp_studio.ui.base.translated import tr
 from amp_studio.ui.base.workspace import Workspace
+from amp_studio.ui.forms.message_bar import MessageBar
+
+from .rows import FOOT, side_by_side
 
 _STEP, _NUMBER, _KEY_IN, _UNIT, _NOW, _NAME, _READ, _RESULT = range(8)
 _WIDTHS = (120, 90, 110, 60, 100, 270, 110, 130)
@@ -47,23 +47,31 @@ class _ReadBackOnly(QStyledItemDelegate):
         return super().createEditor(parent, option, index) if index.column() == _READ else None
 
 
-class SheetDialog(QDialog):
-    """One sheet with its ticks, which are on the disk as soon as they are made. Stays open beside the table."""
+SheetSource = Callable[[], tuple[Sheet, Ticks]]
+"""Makes the sheet of the file as it is now, with its ticks; raises SheetError."""
 
-    def __init__(
-        self, workspace: Workspace, make: Callable[[], tuple[Sheet, Ticks]], parent: QWidget | None = None
-    ) -> None:
-        """Show the sheet that ``make`` returns; it is made again on request. Raises what ``make`` raises."""
-        super().__init__(parent)
-        self.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
-        self.resize(1050, 640)
-        self._workspace, self._make = workspace, make
-        self.sheet, self.ticks = make()
-        self.setWindowTitle(self.sheet.title)
+
+class HandSheet(QWidget):
+    """One sheet with its ticks, which are on the disk as soon as they are made."""
+
+    control_wanted = Signal()
+    """The sheet is to be made against what the chosen control contains."""
+    file_wanted = Signal()
+    """The sheet is to be made against a file or a backup."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        self._workspace: Workspace | None = None
+        self._make: SheetSource | None = None
+        self.sheet: Sheet | None = None
+        self.ticks: Ticks | None = None
+        self.seen: object = None
+        self.bar = MessageBar()
         self.text, self.details = QLabel(), QLabel()
         for label in (self.text, self.details):
             label.setWordWrap(True)
             label.setTextFormat(Qt.TextFormat.PlainText)
+            label.setContentsMargins(GAP3, GAP2, GAP3, GAP2)
         self.details.setMinimumHeight(54)
         self.details.setAlignment(Qt.AlignmentFlag.AlignTop)
         self.list = _list()
@@ -75,34 +83,56 @@ class SheetDialog(QDialog):
             (self.tr("&Not on This Sheet"), self.left_out),
         ):
             self.tabs.addTab(page, title)
-        self.update_button, self.save_button = (
-            QPushButton(self.tr("&Update")),
-            QPushButton(self.tr("&Save or Print…")),
-        )
+        self.control_button = QPushButton(self.tr("Against the &Control"))
+        self.file_button = QPushButton(self.tr("Against a &File…"))
+        self.update_button = QPushButton(self.tr("&Update"))
+        self.save_button = QPushButton(self.tr("&Save or Print…"))
+        for button, act in (
+            (self.control_button, self.control_wanted.emit), (self.file_button, self.file_wanted.emit),
+            (self.update_button, self.refresh), (self.save_button, self.save),
+        ):  # fmt: skip
+            button.setAutoDefault(False)
+            button.clicked.connect(act)
         layout = QVBoxLayout(self)
-        for widget in (self.text, self.tabs, self.details):
+        layout.setContentsMargins(0, 0, 0, 0)
+        layout.setSpacing(0)
+        for widget in (self.bar, self.text):
             layout.addWidget(widget)
-        layout.addLayout(self._buttons())
+        layout.addWidget(self.tabs, 1)
+        layout.addWidget(self.details)
+        buttons = (self.control_button, self.file_button, None, self.update_button, self.save_button)
+        layout.addWidget(side_by_side(FOOT, *buttons))
         self.list.itemChanged.connect(self._edited)
         self.list.currentItemChanged.connect(self._explain)
         self.list.itemActivated.connect(self._type)
+        self.setFocusProxy(self.list)
+
+    def show_file(self, workspace: Workspace) -> None:
+        """Show the sheet of a file; what its control contains is asked for if that is not known."""
+        if workspace is self._workspace:
+            return
+        if self._workspace is not None:
+            self._workspace.changed.disconnect(self._stale)
+            self._workspace.closed.disconnect(self._forget)
         workspace.changed.connect(self._stale)
-        workspace.closed.connect(self.close)
+        workspace.closed.connect(self._forget)
+        self._forget()
+        self._workspace = workspace
+
+    def _forget(self) -> None:
+        self._workspace, self._make, self.sheet, self.ticks, self.seen = None, None, None, None, None
+        self.bar.hide()
         self._fill()
 
-    def _buttons(self) -> QHBoxLayout:
-        close = QPushButton(self.tr("&Close"))
-        buttons = QHBoxLayout()
-        for button, act in (
-            (self.update_button, self.refresh),
-            (self.save_button, self.save),
-            (close, self.close),
-        ):
-            button.setAutoDefault(False)
-            button.clicked.connect(act)
-            buttons.addWidget(button)
-        buttons.insertStretch(2)
-        return buttons
+    def make(self, source: SheetSource, seen: object = None) -> None:
+        """Show another sheet; raises what ``source`` raises, and then the one before stays.
+
+        ``seen`` is the reading of the control that it is made against; None for a file.
+        """
+        self.sheet, self.ticks = source()
+        self._make, self.seen = source, seen
+        self.bar.hide()
+        self._fill()
 
     # -- what is shown -----------------------------------------------------------
 
@@ -114,19 +144,33 @@ class SheetDialog(QDialog):
 
     def refresh(self) -> None:
         """Make the sheet again: the file has changed."""
+        assert self._make is not None
         try:
-            self.sheet, self.ticks = self._make()
+            self.make(self._make, self.seen)
         except SheetError as error:  # the file has become one of another machine type
-            self.text.setText(f"{str(error)[:1].upper()}{str(error)[1:]}.")
-            return
-        self._fill()
+            self.bar.say(f"{str(error)[:1].upper()}{str(error)[1:]}.", "warning")
 
     def _fill(self) -> None:
         from amp_studio.report import PrintedSheet
 
         self.update_button.setEnabled(False)
+        self.save_button.setEnabled(self.sheet is not None)
+        self.tabs.setVisible(self.sheet is not None)
+        align = Qt.AlignmentFlag
+        self.text.setAlignment(
+            align.AlignCenter if self.sheet is None else align.AlignLeft | align.AlignVCenter
+        )
+        self.details.setVisible(self.sheet is not None)
         self.list.blockSignals(True)
         self.list.clear()
+        if self.sheet is None:
+            self.list.blockSignals(False)
+            self.text.setText(
+                self.tr(
+                    "The sheet lists the values that differ from what the control contains. Where is that known from?"
+                )
+            )
+            return
         for stage, steps in PrintedSheet(self.sheet).parts():
             head = QTreeWidgetItem([stage.title or self.tr("Values")])
             head.setToolTip(0, stage.why)
@@ -152,6 +196,7 @@ class SheetDialog(QDialog):
         self._count()
 
     def _row(self, at: int, entry: SheetEntry, bold: QFont) -> QTreeWidgetItem:
+        assert self.ticks is not None
         item = QTreeWidgetItem([
             str(at), entry.number, entry.new, entry.unit, entry.old or "?",
             entry.name + (f" = {entry.meaning}" if entry.meaning else ""), self.ticks.shown.get(entry.number, ""), "",
@@ -174,6 +219,8 @@ class SheetDialog(QDialog):
             item.setForeground(_RESULT, QBrush(colour(_INKS[found.state])))
 
     def _count(self) -> None:
+        assert self.sheet is not None
+        assert self.ticks is not None
         total, items = len(self.sheet.entries), self.items()
         states = [judged(item.data(_STEP, _ENTRY), item.text(_READ)).state for item in items]
         parts = [
@@ -196,7 +243,7 @@ class SheetDialog(QDialog):
 
     def _explain(self, item: QTreeWidgetItem | None, *_: object) -> None:
         entry = item.data(_STEP, _ENTRY) if item is not None else None
-        if isinstance(entry, SheetEntry):
+        if isinstance(entry, SheetEntry) and self.sheet is not None:
             stage = self.sheet.stages[entry.stage]
             why = (
                 self.tr("{why} (page {page})").format(why=stage.why, page=stage.page)
@@ -222,28 +269,32 @@ class SheetDialog(QDialog):
         entry = item.data(_STEP, _ENTRY)
         if not isinstance(entry, SheetEntry) or column not in (_STEP, _READ):
             return
+        assert self.ticks is not None
         try:
             if column == _STEP:
                 self.ticks.tick([entry], item.checkState(_STEP) == Qt.CheckState.Checked)
             else:
                 self.ticks.read_back(entry, item.text(_READ))
         except OSError as error:
-            show_message(
-                self, self.sheet.title, self.tr("The tick is not kept: {error}.").format(error=error)
-            )
+            self.bar.say(self.tr("The tick is not kept: {error}.").format(error=error), "error")
         self.list.blockSignals(True)
         self._judge(item)
         self.list.blockSignals(False)
         self._count()
 
     def _stale(self, *_: object) -> None:
-        self.update_button.setEnabled(True)
-        self.text.setText(self.tr("The file has changed: update the sheet before you go on."))
+        if self.sheet is not None:
+            self.update_button.setEnabled(True)
+            text = self.tr("The file has changed: update the sheet before you go on.")
+            self.bar.say(text, "warning", (self.tr("Update"), self.refresh))
 
     def save(self) -> None:
         """Ask for a name and write the sheet; the ending sets the format."""
         from amp_studio.report import PrintedSheet, write_sheet
 
+        assert self._workspace is not None
+        assert self.sheet is not None
+        assert self.ticks is not None
         near = self._workspace.path.with_name(f"{self._workspace.path.stem}-sheet.pdf")
         text, _ = QFileDialog.getSaveFileName(self, self.sheet.title, str(near), _FILTERS)
         if not text:
@@ -256,7 +307,7 @@ class SheetDialog(QDialog):
         try:
             in_background(self, self.tr("Printing"), lambda: write_sheet(printed, Path(text)))
         except (OSError, ValueError) as error:
-            show_message(self, self.sheet.title, str(error))
+            self.bar.say(str(error), "error")
 
 
 def _list() -> QTreeWidget:

@@ -1,0 +1,98 @@
+"""The recorded exchanges of a file: who put what into which control, what that changed, and the backup to go back to."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from PySide6.QtCore import Qt, Signal
+from PySide6.QtWidgets import (
+    QHeaderView,
+    QLabel,
+    QPushButton,
+    QTreeWidget,
+    QTreeWidgetItem,
+    QVBoxLayout,
+    QWidget,
+)
+
+from amp_studio.files import day_and_time, real_path, text_of_name
+from amp_studio.ui.base.translated import counted, worded
+from amp_studio.ui.base.workspace import Workspace
+
+from .rows import FOOT, side_by_side
+
+_KEPT = Qt.ItemDataRole.UserRole
+
+
+class ExchangeHistory(QWidget):
+    """Lists the exchanges, the newest first; under each the parameters that it changed."""
+
+    restore_wanted = Signal(Path)
+    """The backup that an exchange made is to be put back."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        self.tree = QTreeWidget()
+        self.tree.setHeaderLabels([
+            self.tr("When"), self.tr("Who"), self.tr("Exchange"), self.tr("Control"),
+            self.tr("Before"), self.tr("After"), self.tr("How it ended"),
+        ])  # fmt: skip
+        self.tree.setUniformRowHeights(True)
+        self.tree.setAccessibleName(self.tr("Recorded exchanges"))
+        for column in range(6):
+            self.tree.header().setSectionResizeMode(column, QHeaderView.ResizeMode.ResizeToContents)
+        self.tree.currentItemChanged.connect(self._follow)
+        self.text = QLabel()
+        self.text.setWordWrap(True)
+        self.restore = QPushButton(self.tr("Restore What It Replaced…"))
+        self.restore.setAutoDefault(False)
+        self.restore.clicked.connect(self._restore)
+        column_of_parts = QVBoxLayout(self)
+        column_of_parts.setContentsMargins(0, 0, 0, 0)
+        column_of_parts.setSpacing(0)
+        column_of_parts.addWidget(self.tree, 1)
+        column_of_parts.addWidget(side_by_side(FOOT, self.text, None, self.restore))
+        self.setFocusProxy(self.tree)
+
+    def show_file(self, workspace: Workspace) -> None:
+        """List what is recorded beside a file."""
+        from amp_studio.transfer.client import read_exchanges
+
+        path = real_path(workspace.path)
+        found = read_exchanges(path.parent, text_of_name(path.name))
+        self.tree.clear()
+        for each in reversed(found):
+            item = QTreeWidgetItem([
+                day_and_time(each.when), each.who, worded(each.verb), each.control,
+                each.before[:12], each.after[:12], worded(each.text),
+            ])  # fmt: skip
+            kept = self.tr("\nKept copy: {kept}").format(kept=each.kept) if each.kept else ""
+            item.setToolTip(6, each.text + kept)
+            item.setData(0, _KEPT, str(path.parent / each.kept) if each.kept else "")
+            for param, old, new in each.changes:
+                sides = [old or self.tr("not set"), new or self.tr("not set")]
+                item.addChild(QTreeWidgetItem(["", "", "", param, *sides]))
+            self.tree.addTopLevelItem(item)
+        count = counted(len(found), "exchange", none="no")
+        self.text.setText(
+            self.tr("{upper}{what} recorded in {parent}.").format(
+                upper=count[:1].upper(), what=count[1:], parent=path.parent
+            )
+        )
+        if (first := self.tree.topLevelItem(0)) is not None:
+            self.tree.setCurrentItem(first)
+        self._follow()
+
+    def _backup(self) -> str:
+        """Return the path of the backup of the selected exchange; empty for none that is still there."""
+        item = self.tree.currentItem()
+        item = item.parent() or item if item is not None else None
+        kept: str = item.data(0, _KEPT) or "" if item is not None else ""
+        return kept if kept and Path(kept).is_file() else ""
+
+    def _follow(self, *_: object) -> None:
+        self.restore.setEnabled(bool(self._backup()))
+
+    def _restore(self) -> None:
+        if kept := self._backup():
+            self.restore_wanted.emit(Path(kept))

@@ -1,0 +1,26 @@
+"""Rows of the page at the control: parts side by side, of one height."""
+
+from __future__ import annotations
+
+from PySide6.QtWidgets import QHBoxLayout, QWidget
+
+from amp_studio.ui.base.theme import GAP2, GAP3
+
+FOOT = 44
+"""Height of the row with the primary button, in logical pixels."""
+
+
+def side_by_side(height: int, *parts: QWidget | None) -> QWidget:
+    """Return widgets side by side; None is a stretch, and a height of 0 that of the parts."""
+    whole = QWidget()
+    row = QHBoxLayout(whole)
+    row.setContentsMargins(GAP3, 0, GAP3, 0)
+    row.setSpacing(GAP2)
+    for part in parts:
+        if part is None:
+            row.addStretch(1)
+        else:
+            row.addWidget(part)
+    if height:
+        whole.setFixedHeight(height)
+    return whole
