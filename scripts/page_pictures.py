@@ -191,7 +191,7 @@ def motion(stage: Stage, path: Path) -> QPixmap:
 
     window = _shown(stage, path)
     window.go_to(("feedrate.rapid", "1"))
-    window.view.motion_action.trigger()
+    window.menus["view.motion"].trigger()
     with stage.beside("MotionView") as view:
         settle(lambda: getattr(view, "trace", None) is not None and not Task.running and view.plot.is_drawn)
         view.resize(*SIZE)

@@ -41,6 +41,7 @@ from PySide6.QtWidgets import QApplication, QWidget  # noqa: E402  # Qt reads th
 from amp_studio.files import Document, ParameterFile, Project, ProjectInfo, new_file  # noqa: E402  # Qt reads the environment that is set above
 from amp_studio.files.storage import save_file  # noqa: E402  # Qt reads the environment that is set above
 from amp_studio.schema import Value  # noqa: E402  # Qt reads the environment that is set above
+from amp_studio.ui.actions import project  # noqa: E402  # Qt reads the environment that is set above
 from amp_studio.ui.base.task import Task  # noqa: E402  # Qt reads the environment that is set above
 from amp_studio.ui.base.theme import scheme  # noqa: E402  # Qt reads the environment that is set above
 from amp_studio.ui.base.translated import speak  # noqa: E402  # Qt reads the environment that is set above
@@ -205,14 +206,14 @@ class Stage:
     def pictures(self) -> None:
         """Every picture of the mill, all at once and one by one."""
         page = self.window.page
-        self.window.pictures.action.trigger()
+        self.window.menus["view.pictures"].trigger()
         page.pictures.show_picture("all")
         self.take("10-pictures", self.window, LARGE)
         self.take("10-pictures", self.window, SMALL)
         for name in page.pictures._pictures:
             page.pictures.show_picture(name)
             self.take(f"11-picture-{name}", self.window, LARGE)
-        self.window.pictures.action.trigger()
+        self.window.menus["view.pictures"].trigger()
 
     def compare(self) -> None:
         """Two sources, then three with a conflict."""
@@ -284,7 +285,7 @@ class Stage:
     def motion(self) -> None:
         """A simulated movement."""
         self.window.go_to(("feedrate.rapid", "1"))
-        self.window.view.motion_action.trigger()
+        self.window.menus["view.motion"].trigger()
         with self.beside("MotionView") as view:
             settle(lambda: view.trace is not None and view.plot.is_drawn and not Task.running)
             self.take("16-motion", view)
@@ -330,7 +331,7 @@ class Stage:
     def _preview(self) -> None:
         window = self.window
         window.go_to(EXCESS)
-        window.preview.action.trigger()
+        window.menus["view.preview"].trigger()
         settle(lambda: window.preview.panel is not None and window.preview.panel.view.places)
         settle(lambda: window.preview.panel.is_settled)
         self.take("24-preview", window, LARGE)
@@ -341,7 +342,7 @@ class Stage:
         head.menu.close()
         self.template()
         window.resize(*LARGE)
-        window.preview.action.trigger()
+        window.menus["view.preview"].trigger()
 
     def template(self) -> None:
         """The cover by the template to begin with, and a mistake in it."""
@@ -369,7 +370,7 @@ class Stage:
             save_file(file, folder / f"MILL_{n}.amp")
         if self.window.project is None:
             self.window.project = Project.create(folder, ProjectInfo("HALL_2", "9pc"))
-        self.window.projects.compare()
+        project.compare(self.window)
         with self.beside("MachinesDialog") as dialog:
             self.take("26-machines", dialog)
 
@@ -392,9 +393,9 @@ class Stage:
             self.window.open_first(self.path(folder))
             settle()
             self.take(f"{n}-{folder}", self.window, LARGE)
-            self.window.pictures.action.trigger()
+            self.window.menus["view.pictures"].trigger()
             self.take(f"{n}-{folder}-pictures", self.window, LARGE)
-            self.window.pictures.action.trigger()
+            self.window.menus["view.pictures"].trigger()
 
     def close(self) -> None:
         """End without a question."""

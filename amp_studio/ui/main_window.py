@@ -6,28 +6,24 @@ from functools import partial
 from pathlib import Path
 
 from PySide6.QtGui import QCloseEvent, QDragEnterEvent, QDropEvent, QResizeEvent
-from PySide6.QtWidgets import QMainWindow, QMessageBox, QStackedWidget
+from PySide6.QtWidgets import QMainWindow, QStackedWidget
 
 from amp_studio.files import ENDING, axis_instances
 from amp_studio.schema import Address
 from amp_studio.validate import Finding
 
-from .actions.axis import AxisActions
-from .actions.control import ControlActions
-from .actions.edit import EditActions
-from .actions.file import FileActions
-from .actions.filter import FilterActions
-from .actions.find import FindActions
-from .actions.guide import GuideActions
-from .actions.language import LanguageActions
-from .actions.picture import PictureActions
-from .actions.preview import PreviewActions
-from .actions.project import ProjectActions
-from .actions.theme import ThemeActions
-from .actions.view import ViewActions
+from .actions import filters, guide, project, view
+from .actions.control import AtControl
+from .actions.edit import Edits
+from .actions.file import Files
+from .actions.find import Search
+from .actions.parts import PartsWindow
+from .actions.picture import Pictures
+from .actions.preview import Preview
+from .actions.table import TOOL_BAR, menus
 from .base.garbage import collect_by_timer, set_apart
 from .base.program_icon import program_icon
-from .base.questions import ask, show_message
+from .base.questions import ask
 from .base.task import Task
 from .base.theme import wear
 from .base.workspace import Workspace
@@ -37,14 +33,16 @@ from .project.files import ProjectFiles
 from .project.tree import ProjectTree
 from .welcome.page import WelcomePage
 from .window.disk_watch import DiskWatch
+from .window.menus import Menus
 from .window.status_line import StatusLine
-from .window.studio_window import StudioWindow
 from .window.tab_corner import TabCorner
 from .window.tool_bar import MainToolBar
 
 
-class MainWindow(StudioWindow):
-    """The open files in tabs. Menus are filled by the action groups in the modules beside this one."""
+class MainWindow(PartsWindow):
+    """The open files in tabs. The table of actions fills the menus."""
+
+    menus: Menus[PartsWindow]
 
     def __init__(self) -> None:
         collect_by_timer()
@@ -58,37 +56,29 @@ class MainWindow(StudioWindow):
         self.status.findings_wanted.connect(lambda: self.show_panel("Findings"))
         self.status.not_set_wanted.connect(lambda: self.page.show_not_set() if self.page else None)
         self.setDockOptions(QMainWindow.DockOption.AnimatedDocks | QMainWindow.DockOption.AllowNestedDocks)
-        self.files = FileActions(self, self.show_workspace)
-        self.edits = EditActions(self)
-        self.finder = FindActions(self)
-        self.edits.menu.addActions(self.finder.actions)
-        self.axes = AxisActions(self)
-        self.guide = GuideActions(self)
-        self.view = ViewActions(self)
-        self.pictures = PictureActions(self)
-        self.view.menu.addActions([self.pictures.action, self.pictures.save])
-        self.preview = PreviewActions(self)
-        self.view.menu.addAction(self.preview.action)
-        self.filters = FilterActions(self, self.view.menu)
-        self.edits.menu.addAction(self.filters.bookmark)
-        self.themes = ThemeActions(self, self.view.menu)
-        self.languages = LanguageActions(self, self.view.menu)
+        self.files = Files(self, self.show_workspace)
+        self.open_path = self.files.open_path
+        self.edits = Edits(self)
+        self.finder = Search(self)
+        self.pictures = Pictures(self)
+        self.preview = Preview(self)
         self.centre = QStackedWidget()
-        self.control = ControlActions(self, self.files, self.centre, self.show_values)
-        self.control.state_shown = self._show_control
-        self.projects = ProjectActions(self, self.files.open_path)
+        self.control = AtControl(self, self.files, self.centre, self.show_values)
+        self.menus = Menus[PartsWindow](self, menus())
         self.project_files = ProjectFiles(
-            self, self.files.open_path, self.files.comparing, self.projects.show_at, self.projects.change
+            self,
+            self.files.open_path,
+            self.files.comparing,
+            partial(project.show_at, self),
+            partial(project.change, self),
         )
-        self._help_menu()
-        self._toolbar()
-        self.tabs.take_corner(TabCorner(self.files.toolbar[0], self.view.beside, self.tabs.to_choose))
-        self.view.panels.addActions([
-            self.action(self.tr("&Next Finding"), partial(self._step_findings, 1), "Alt+Down"),
-            self.action(self.tr("Pre&vious Finding"), partial(self._step_findings, -1), "Alt+Up"),
-            self.action(self.tr("&Reset Layout"), self.docks.reset),
-        ])  # fmt: skip
-        self.welcome = WelcomePage(self, self.files, self.control, self.projects.open)
+        self.tools = MainToolBar(self, self.menus, TOOL_BAR)
+        self.tools.take_find_box(self.finder.box)
+        self.addToolBar(self.tools)
+        self.tabs.take_corner(
+            TabCorner(self.menus["file.new"], self.menus["view.beside"], self.tabs.to_choose)
+        )
+        self.welcome = WelcomePage(self, self.files, self.control, partial(project.open_project, self))
         self.centre.addWidget(self.welcome)
         self.centre.addWidget(self.tabs)
         self.setCentralWidget(self.centre)
@@ -98,32 +88,11 @@ class MainWindow(StudioWindow):
         self.settings.place(self)
         self._show_page(None)
 
-    # -- building --------------------------------------------------------------
-
-    def _help_menu(self) -> None:
-        menu = self.menuBar().addMenu(self.tr("&Help"))
-        menu.addAction(self.finder.commands_action)
-        menu.addAction(self.action(self.tr("&About AMP Studio"), self._about, None, ""))
-
-    def _toolbar(self) -> None:
-        undo = (self.edits.undo, self.edits.redo)
-        views = (self.pictures.action, *self.view.toolbar, self.files.comparing.action)
-        self.tools = MainToolBar(
-            self, self.files.toolbar, undo, self.view.switch, views, self.control.toolbar
-        )
-        self.tools.take_find_box(self.finder.box)
-        self.addToolBar(self.tools)
-
-    def _about(self) -> None:
-        from amp_studio.version import __version__
-
-        show_message(self, self.tr("About AMP Studio"), self.tr("AMP Studio {version}\n\nThe numbered parameters of machine controls: edit, check, print, exchange and simulate them.").format(version=__version__), QMessageBox.Icon.Information)  # fmt: skip
-
     # -- the open files ----------------------------------------------------------
 
     def show_workspace(self, workspace: Workspace, instead: FilePage | None = None) -> FilePage:
         """Show a file in a new tab, or in the place of another one, which is closed."""
-        page = FilePage(workspace, self.edits.commit_to, self.edits.of_a_cell)
+        page = FilePage(workspace, self.edits.commit_to, self.menus.of_a_cell())
         page.front_wanted.connect(self.tabs.bring)
         page.selected.connect(self._show_value)
         page.noted.connect(self.show_status)
@@ -137,7 +106,7 @@ class MainWindow(StudioWindow):
         )
         page.findings.explanation_requested.connect(self._why)
         page.findings.suppression_requested.connect(self._suppress)
-        self.guide.connect_page(page)
+        guide.connect_page(self, page)
         if side := as_side(self.settings.left_side()):
             page.left.show_side(side)
         page.left.turned.connect(self.settings.keep_left_side)
@@ -146,8 +115,8 @@ class MainWindow(StudioWindow):
         page.table_view.fill_wanted.connect(self._fill_cells)
         self.docks.add(page)
         self.finder.add(page)
-        self.filters.add(page)
-        self.view.apply_options(page)
+        filters.add(self, page)
+        view.apply_options(self, page)
         self.tabs.add(page, instead)
         page.changed.connect(self._update)
         if instead is not None:
@@ -164,8 +133,7 @@ class MainWindow(StudioWindow):
             self.status.value.clear()
         else:
             self.centre.setCurrentWidget(self.tabs)
-            self.view.follow(page.workspace)
-            self.projects.notice(page.workspace.path.parent)
+            project.notice(self, page.workspace.path.parent)
             self._show_value()
         self.docks.show_page(page)
         self.enable()
@@ -181,10 +149,6 @@ class MainWindow(StudioWindow):
 
     def _fill_cells(self, pairs: dict[Address, Address]) -> None:
         self.guarded(lambda: self.edits.range.fill_from(pairs), self.tr("Fill"))
-
-    def _step_findings(self, by: int) -> None:
-        if self.findings is not None:
-            self.findings.step(by)
 
     def _why(self, finding: Finding) -> None:
         self.guarded(lambda: self.edits.why(finding), self.tr("Explain"))
@@ -209,19 +173,22 @@ class MainWindow(StudioWindow):
         workspace = self.workspace
         may_edit = workspace is not None and workspace.may_edit
         has_axes = workspace is not None and bool(axis_instances(workspace.file))
-        can = {"": True, "file": workspace is not None, "edit": may_edit, "axes": may_edit and has_axes,
-               "units": workspace is not None and len(workspace.file.schema.family.units) > 1,
-               "project": self.project is not None}  # fmt: skip
-        for needs, actions in self.actions_needing.items():
-            for action in actions:
-                action.setEnabled(can[needs])
-        self.axes.enable(workspace)
-        self.edits.show_state(workspace)
-        self.control.enable()
-        self.guide.show_state()
-        self.view.check(workspace)
-        self.pictures.check(self.page)
-        self.preview.check()
+        stack = workspace.undo_stack if workspace is not None and may_edit else None
+        running = self.control.emulated.is_running
+        self.menus.enable(
+            {
+                "": True,
+                "file": workspace is not None,
+                "edit": may_edit,
+                "axes": may_edit and has_axes,
+                "units": workspace is not None and len(workspace.file.schema.family.units) > 1,
+                "project": self.project is not None,
+                "undo": stack is not None and stack.canUndo(),
+                "redo": stack is not None and stack.canRedo(),
+                "emulated": running,
+                "no emulated": workspace is not None and not running,
+            }
+        )
         self.tools.show_units()
         self.status.show_file(workspace)
         self._show_control()
@@ -229,8 +196,8 @@ class MainWindow(StudioWindow):
             self.setWindowTitle("AMP Studio")
             self.setWindowModified(False)
             return
-        project = self.projects.name_of(workspace.path)
-        place = f"{project} — " if project else ""
+        name = project.name_of(self, workspace.path)
+        place = f"{name} — " if name else ""
         self.setWindowTitle(
             f"{workspace.path.name}[*]{'' if may_edit else ' [read-only]'} — {place}AMP Studio"
         )
@@ -294,7 +261,7 @@ class MainWindow(StudioWindow):
     def _open_anything(self, path: Path) -> None:
         """Open a parameter file, or a project by its folder; import the text of a control. Raises ValueError, OSError."""
         if path.is_dir():
-            self.projects.open_folder(path)
+            project.open_folder(self, path)
         elif path.suffix.lower() == ENDING:
             self.files.open_path(path)
         else:

@@ -8,6 +8,7 @@ from PySide6.QtTest import QTest
 
 from amp_studio.files import ParameterFile, fitted_axes
 from amp_studio.schema import Value
+from amp_studio.ui.actions import axis
 from amp_studio.ui.dialogs.axis_dialogs import AxisDialog
 from amp_studio.ui.main_window import MainWindow
 
@@ -25,9 +26,9 @@ def choose(dialog: AxisDialog, axis: str, **labels: str) -> None:
 
 def test_a_dialog_begins_with_the_selected_axis(window: MainWindow) -> None:
     window.go_to(("home.calibration", "3"))
-    assert window.axes._dialog("Name axis").axis() == "3"
+    assert axis._dialog(window, "Name axis").axis() == "3"
     window.go_to(("zone.group_count", "2"))
-    assert window.axes._dialog("Name axis").axis() == "1", "a process is no axis"
+    assert axis._dialog(window, "Name axis").axis() == "1", "a process is no axis"
 
 
 def test_name(window: MainWindow, file: ParameterFile, accept) -> None:
@@ -47,12 +48,12 @@ def test_configure_type_takes_the_units_along_as_one_step(
     assert file.get(("axis.type", "2")) == Value("rotary")
     assert file.get(("servo.excess_error", "2")).unit == "deg"
     assert window.workspace.undo_stack.count() == 1
-    window.edits.undo.trigger()
+    window.menus["edit.undo"].trigger()
     assert file.values == before
 
 
 def test_tab_goes_through_the_fields_before_the_buttons(window: MainWindow, qtbot) -> None:
-    dialog = window.axes._dialog("Configure servo")
+    dialog = axis._dialog(window, "Configure servo")
     dialog.ask_for(["servo.hardware_type", "servo.loop_type"])
     dialog.show()
     dialog.axis_box.setFocus()
@@ -81,7 +82,7 @@ def test_copy(window: MainWindow, file: ParameterFile, accept) -> None:
     action(window, "Copy Axis").trigger()
     assert file.get(("servo.excess_error", "2")) == Value(3.0, "mm")
     assert file.get(("axis.name", "2")) == Value("y")
-    assert "Copy axis 1 to 2" in window.edits.undo.text()
+    assert "Copy axis 1 to 2" in window.menus["edit.undo"].text()
 
 
 def test_axes_of_two_types_are_not_copied(
@@ -106,7 +107,7 @@ def test_delete(window: MainWindow, file: ParameterFile, accept) -> None:
     action(window, "Delete Axis").trigger()
     assert fitted_axes(file) == ("1", "2", "3", "4")
     assert "5" not in window.table.columns
-    window.edits.undo.trigger()
+    window.menus["edit.undo"].trigger()
     assert file.values == before
     assert "5" in window.table.columns
 

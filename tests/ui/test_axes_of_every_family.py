@@ -77,7 +77,7 @@ def test_the_values_of_a_num_axis_are_copied_and_two_change_places(opened, accep
     before = dict(file.values)
     action(window, "Swap Axes").trigger()
     assert file.get(("axes.assignment", "0")) == Value(1), "Y is the first axis now"
-    window.edits.undo.trigger()
+    window.menus["edit.undo"].trigger()
     assert file.values == before
 
 
@@ -100,7 +100,7 @@ def test_what_a_family_cannot_do_is_off_and_the_reason_is_there(opened) -> None:
     window = opened("57c422b", "X,Y")
     off = {
         a.text().replace("&", ""): a.toolTip()
-        for a in window.axes.menu.actions()
+        for a in window.menus.menu("axis").actions()
         if a.text() and not a.isEnabled()
     }
     assert off.keys() == {
@@ -118,8 +118,8 @@ def test_an_action_that_works_again_has_its_own_tooltip(opened, open_window, tmp
     window = opened("57c422b", "X,Y")
     file = new_file("num", None, ["X", "Y"])
     window.show_workspace(Workspace(Document.create(file, tmp_path / "second.amp")))
-    assert window.axes.add_action.isEnabled()
-    assert window.axes.add_action.toolTip() == "Add Axis"
+    assert window.menus["axis.add"].isEnabled()
+    assert window.menus["axis.add"].toolTip() == "Add Axis"
 
 
 def test_two_axes_are_compared_side_by_side_and_a_value_is_taken(opened) -> None:
@@ -162,7 +162,7 @@ def test_a_compared_parameter_is_shown_in_the_table(opened) -> None:
 
 def test_the_menu_offers_motion_again_for_a_family_that_has_it(opened) -> None:
     window = opened("syntec", "X")
-    assert (window.view.motion_action.text(), window.view.motion_action.toolTip()) == (
+    assert (window.menus["view.motion"].text(), window.menus["view.motion"].toolTip()) == (
         "&Motion…",
         "Motion (F9)",
     )

@@ -17,6 +17,7 @@ from amp_studio.files import ParameterFile, Project, ProjectInfo, content_of, ne
 from amp_studio.schema import Value
 from amp_studio.transfer.client import parameters
 from amp_studio.transfer.exchange import Exchange
+from amp_studio.ui.actions import project
 from amp_studio.ui.main_window import MainWindow
 
 from .at_control import at_control, sent, settled
@@ -175,7 +176,7 @@ def test_e_stop_is_asked_before_anything_is_sent_and_again_until_it_is_pressed(
     assert (page.primary.isEnabled(), page.note.text()) == (False, "Waiting: E-stop is not pressed")
     assert page.bar.text.text().startswith("Press E-stop at the machine.")
     assert page._asking.isActive(), "it is asked again every 2 s"
-    assert window.control.at_control.iconText().endswith("not in E-stop")
+    assert window.menus["control.page"].iconText().endswith("not in E-stop")
     control.says("estop on")
     qtbot.waitUntil(lambda: _flags(control.address), timeout=WAIT_MS)
     page.session.ask()
@@ -387,7 +388,7 @@ def test_the_project_names_its_control_and_each_file_remembers_its_own(
         name="Mill", family="9pc", machine="mill", control="tcp://10.1.2.3:9600", control_name="CNC_7"
     )
     Project.create(path.parent, info)
-    window.projects.notice(path.parent)
+    project.notice(window, path.parent)
     exchanges = window.control.exchanges
     assert exchanges.address_of(window.workspace) == "tcp://10.1.2.3:9600"
     assert window.control.state_of(window.workspace)[:2] == ("CNC_7", "not connected")
@@ -410,7 +411,7 @@ def test_the_upload_of_a_file_keeps_its_content(start_control: Start, path: Path
 def test_a_control_that_stays_in_estop_stays_so_in_the_menu_and_its_reason_is_shown(
     window: MainWindow,
 ) -> None:
-    estop = window.control.estop_action
+    estop = window.menus["control.estop"]
     estop.setChecked(False)
     reason = "the control stays in E-stop: 5 axes are configured and the control supports 3 (page 3-1)"
     window.control.emulated.shown.emit(f"refused: {reason}")

@@ -245,7 +245,7 @@ def test_one_key_fixes_the_selected_finding_and_undo_takes_it_back(
     window.findings.select(finding)
     before = dict(workspace.file.values)
 
-    window.edits._fix()
+    window.edits.fix_selected()
 
     assert all(workspace.file.get(r.address) == r.value for r in finding.fix)
     assert finding not in workspace.findings

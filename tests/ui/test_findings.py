@@ -113,7 +113,7 @@ def test_the_button_of_a_rule_fixes_it_on_every_axis_as_one_step(path, bare: byt
     types = [wrong.workspace.file.get(("servo.hardware_type", axis)).value for axis in "12345"]
     assert types == ["sercos"] * 5
     assert wrong.workspace.undo_stack.count() == steps + 1
-    wrong.edits.undo.trigger()
+    wrong.menus["edit.undo"].trigger()
     assert wrong.workspace.file.get(("servo.hardware_type", "5")).value == "none"
 
 
@@ -122,7 +122,7 @@ def test_a_finding_below_its_rule_is_fixed_alone(path, bare: bytes, open_window)
     panel = wrong.findings
     panel.view.setExpanded(panel.model.index(0, 0), True)
     panel.view.setCurrentIndex(panel.model.index(2, 0, panel.model.index(0, 0)))
-    wrong.edits._fix()
+    wrong.edits.fix_selected()
     types = [wrong.workspace.file.get(("servo.hardware_type", axis)).value for axis in "1234"]
     assert types == ["none", "none", "sercos", "none"]
     assert panel.view.isExpanded(panel.model.index(0, 0)), "the list keeps its place"
@@ -141,7 +141,7 @@ def test_a_finding_without_a_fix_says_so(path, bare: bytes, open_window, person)
     panel = wrong.findings
     unable = next(n for n, group in enumerate(panel.model.groups) if not group.fixable)
     panel.view.setCurrentIndex(panel.model.index(unable, 0))
-    wrong.guarded(wrong.edits._fix)
+    wrong.guarded(wrong.edits.fix_selected)
     assert "has no suggested fix" in person.reads()
 
 
@@ -211,7 +211,7 @@ def test_several_fixes_are_chosen_from_a_list_and_undone_at_once(
     changed = {a for a, value in wrong.workspace.file.values.items() if before.get(a) != value}
     assert changed == {("servo.hardware_type", "1"), ("servo.hardware_type", "2"), ("accdec.jerk", "3")}
     assert wrong.workspace.undo_stack.count() == steps + 1
-    wrong.edits.undo.trigger()
+    wrong.menus["edit.undo"].trigger()
     assert wrong.workspace.file.values == before
 
 
@@ -233,13 +233,13 @@ def test_a_hidden_parameter_of_a_finding_can_be_shown(window: MainWindow, worksp
     """Going to what does not exist for this configuration turns the option on."""
     hidden = ("control.lathe_type", "")  # page 3-9: on a lathe only
     window.go_to(hidden)
-    assert window.view.hidden_too.isChecked()
+    assert window.menus["view.hidden"].isChecked()
     assert window.selected() == hidden
 
 
 def test_an_unfitted_axis_can_be_shown(window: MainWindow) -> None:
     window.go_to(("axis.type", "7"))
-    assert window.view.all_axes.isChecked()
+    assert window.menus["view.unfitted_axes"].isChecked()
     assert window.selected() == ("axis.type", "7")
 
 
@@ -302,8 +302,8 @@ def test_safe_fixes_are_one_step_that_can_be_undone(window: MainWindow) -> None:
 
     assert window.workspace.undo_stack.count() == steps + 1
     assert not [f for f in window.workspace.findings if f.rule == rule.id]
-    window.edits.undo.trigger()
-    window.edits.undo.trigger()
+    window.menus["edit.undo"].trigger()
+    window.menus["edit.undo"].trigger()
     assert window.workspace.file.get(patched) == before
 
 

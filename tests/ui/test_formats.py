@@ -16,7 +16,7 @@ NINEPC = "Allen-Bradley 9/PC AMP"
 
 def test_what_is_exported_can_be_imported_again(window: MainWindow, person: Person, tmp_path: Path) -> None:
     before = dict(window.workspace.file.values)
-    window.view.secrets.trigger()
+    window.menus["view.secrets"].trigger()
     person.chooses(tmp_path / "mill.csv")
     action(window, "Export").trigger()
     assert (tmp_path / "mill.csv").is_file()

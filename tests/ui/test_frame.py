@@ -86,9 +86,9 @@ def test_the_segment_of_units_shows_and_switches_them(window: MainWindow) -> Non
     assert units.choice == "metric"
     units.buttons["inch"].click()
     assert window.workspace.file.header.units == "inch"
-    window.view.switch.trigger()
+    window.menus["view.switch_units"].trigger()
     assert units.choice == "metric"
-    window.view.as_entered.trigger()
+    window.menus["view.as_entered"].trigger()
     assert units.choice is None
 
 
@@ -100,7 +100,7 @@ def test_a_tab_has_the_family_and_a_dot_while_there_is_unsaved_work(window: Main
     window.edits.commit(EXCESS, "3 mm")
     assert end.dot.isVisible()
     assert bar.accessibleTabName(0) == "mill.amp, not saved"
-    window.edits.undo.trigger()
+    window.menus["edit.undo"].trigger()
     assert not end.dot.isVisible()
 
 
@@ -140,7 +140,7 @@ def test_a_segment_speaks_only_when_a_person_presses(qtbot: QtBot) -> None:
 
 def test_words_that_need_more_than_the_window_has_leave_the_tool_bar(window: MainWindow) -> None:
     """A longer language: no tool falls off the end."""
-    window.control.toolbar[0].setIconText("Übertragung zur Steuerung starten und prüfen")
+    window.menus["control.page"].setIconText("Übertragung zur Steuerung starten und prüfen")
     shown(window, 1210, 700)
     assert window.tools.toolButtonStyle() == Qt.ToolButtonStyle.ToolButtonIconOnly
     shown(window, 1900, 700)

@@ -102,7 +102,7 @@ def test_an_edit_is_followed_and_taken_back(fresh: MainWindow, qtbot: QtBot) -> 
     fresh.workspace.edit("names", wanted)
     qtbot.waitUntil(lambda: item(steps, "axis").data(0, PICTURE)[0] == "check-circle-fill", timeout=WAIT_MS)
     assert item(steps, "axis").data(0, RIGHT) == ""
-    fresh.edits.undo.trigger()
+    fresh.menus["edit.undo"].trigger()
     qtbot.waitUntil(lambda: item(steps, "axis").data(0, RIGHT) == "3", timeout=WAIT_MS)
 
 
@@ -147,9 +147,9 @@ def test_a_step_is_ticked_and_the_tick_is_undone_and_saved(fresh: MainWindow) ->
     fresh.go_to(("dual.group", "1"))
     action(fresh, "Mark Step as Done").trigger()
     assert fresh.workspace.progress.steps[18].state == "done"
-    fresh.edits.undo.trigger()
+    fresh.menus["edit.undo"].trigger()
     assert fresh.workspace.progress.steps[18].state == "not begun"
-    fresh.edits.redo.trigger()
+    fresh.menus["edit.redo"].trigger()
     assert fresh.workspace.is_dirty
     assert fresh.save()
     assert "done:\n  dual: " in fresh.workspace.path.read_text("utf-8")
@@ -196,7 +196,7 @@ def test_the_defaults_of_a_step_are_kept_in_one_step_of_undo(fresh: MainWindow) 
     fresh.go_to(gone[0])
     action(fresh, "Keep Defaults of This Step").trigger()
     assert [workspace.file.is_default(address) for address in gone] == [True, True]
-    fresh.edits.undo.trigger()
+    fresh.menus["edit.undo"].trigger()
     assert [workspace.file.get(address) for address in gone] == [None, None]
 
 

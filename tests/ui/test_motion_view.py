@@ -94,7 +94,7 @@ def test_it_draws_anew_after_an_edit_and_after_its_undo(
     settled(view, qtbot)
     assert view.trace.result["steady_following_error"][0] == pytest.approx(before / 0.95, rel=0.01)
 
-    window.edits.undo.trigger()
+    window.menus["edit.undo"].trigger()
     settled(view, qtbot)
     assert view.trace.result["steady_following_error"][0] == pytest.approx(before)
 
@@ -119,7 +119,7 @@ def test_distance_and_feedrate_take_units_and_a_decimal_comma(
     assert view.trace.result["distance"] == (50.8, "mm")
     assert view.trace.result["feedrate"][0] == 1500.5
 
-    window.view.switch.trigger()  # to inch: a bare number is an inch now
+    window.menus["view.switch_units"].trigger()  # to inch: a bare number is an inch now
     field(view, "distance").setText("2")
     field(view, "feedrate").clear()
     view.run()
@@ -237,7 +237,7 @@ def test_a_recommendation_is_applied_as_one_undoable_change_and_run_again(
     qtbot.waitUntil(lambda: view.trace is not old, timeout=WAIT_MS)
     settled(view, qtbot)
     assert window.workspace.file.get(address) == Value(0.05, "mm")
-    window.edits.undo.trigger()
+    window.menus["edit.undo"].trigger()
     settled(view, qtbot)
     assert window.workspace.file.get(address) == before
 

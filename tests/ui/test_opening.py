@@ -127,7 +127,7 @@ def test_the_work_of_a_killed_program_is_offered_and_can_be_undone(
     assert window.workspace.file.get(EXCESS) == EDITED
     assert window.workspace.file.get(("home.calibration", "2")) is None
     assert window.workspace.is_dirty
-    window.edits.undo.trigger()
+    window.menus["edit.undo"].trigger()
     assert window.workspace.file.values == on_disk(path).values
 
 

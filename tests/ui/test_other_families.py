@@ -67,9 +67,9 @@ def test_texts_and_words_of_bits_are_edited(wide: MainWindow) -> None:
 
 def test_what_it_does_not_have_is_off_or_told(wide: MainWindow) -> None:
     assert not action(wide, "Configure Axis Type").isEnabled()
-    wide.view.switch.trigger()
+    wide.menus["view.switch_units"].trigger()
     assert wide.workspace.file.header.units == "metric"
-    wide.view.motion_action.trigger()
+    wide.menus["view.motion"].trigger()
     assert wide.page.bar.text.text() == "Wide control has no simulation: no law of its servo axes is known."
     assert wide.findChild(MotionView) is None
 
@@ -78,7 +78,7 @@ def test_the_machine_type_of_the_header_is_a_step_too(wide: MainWindow) -> None:
     action(wide, "Large machine").trigger()
     assert wide.workspace.file.machine == "large"
     assert wide.workspace.is_dirty
-    wide.edits.undo.trigger()
+    wide.menus["edit.undo"].trigger()
     assert wide.workspace.file.machine == "small"
     assert not wide.workspace.is_dirty
 

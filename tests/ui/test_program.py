@@ -53,7 +53,7 @@ def test_a_start_loads_nothing_that_it_does_not_show(path: Path) -> None:
 
 def test_the_program_ends_without_a_word_of_complaint(path: Path) -> None:
     """No thread is destroyed while it runs, no timer is stopped from another thread, no exception is lost."""
-    code = STARTED.replace("window.close()", "window.view.motion_action.trigger()\nwindow.close()")
+    code = STARTED.replace("window.close()", "window.menus['view.motion'].trigger()\nwindow.close()")
     done = subprocess.run([sys.executable, "-X", "faulthandler", "-c", code, str(path)], capture_output=True, text=True,
                           timeout=60, check=False)  # fmt: skip
     assert done.returncode == 0, done.stderr
@@ -104,7 +104,7 @@ def test_discarded_work_is_not_offered_again(
 
 def test_closing_without_changes_asks_nothing(window: MainWindow, person: Person) -> None:
     window.edits.commit(EXCESS, "3 mm")
-    window.edits.undo.trigger()
+    window.menus["edit.undo"].trigger()
     assert window.close()
     assert person.asked == []
 

@@ -180,7 +180,7 @@ def test_findings_never_open_by_themselves_and_fold_with_the_next_group_once_the
     assert (window.findings.isVisible(), window.table_view.geometry()) == (False, table)
     window.findings.fold.click()
     assert window.findings.isVisible()
-    window.edits.undo.trigger()
+    window.menus["edit.undo"].trigger()
     QApplication.processEvents()
     assert window.findings.isVisible(), "not under the hand"
     window.go_to(SPEEDS)

@@ -50,7 +50,12 @@ def test_table_panel_findings_and_undo_mask_a_secret(window: MainWindow) -> None
     window.workspace.edit("Password", {PASSWORD: Value(int(SECRET) + 1)}, force="for a test")
     window.workspace.remember_control({PASSWORD: Value(int(SECRET))}, "12:00")
     findings = window.findings.view.model()
-    told = [texts_of_table(window), texts_of_detail(window), window.edits.undo.text(), window.windowTitle()]
+    told = [
+        texts_of_table(window),
+        texts_of_detail(window),
+        window.menus["edit.undo"].text(),
+        window.windowTitle(),
+    ]
     told += [str(findings.index(r, c).data(role)) for r in range(findings.rowCount()) for c in range(findings.columnCount())
              for role in (Qt.ItemDataRole.DisplayRole, Qt.ItemDataRole.ToolTipRole)]  # fmt: skip
     assert not any("765432" in text for text in told)
@@ -71,7 +76,7 @@ def test_a_secret_is_shown_while_that_is_wanted_and_masked_in_the_next_file(
     window.workspace.save()
     (tmp_path / "next.amp").write_bytes(bare)
     window.files.open_path(tmp_path / "next.amp")
-    assert not window.view.secrets.isChecked()
+    assert not window.menus["view.secrets"].isChecked()
     assert window.table.shown_value(PASSWORD) == MASKED
 
 
@@ -81,7 +86,7 @@ def test_a_file_without_secrets_offers_nothing_to_show(window: MainWindow, tmp_p
     window.workspace.save()
     (tmp_path / "num.amp").write_bytes(content_of(new_file("num")))
     window.files.open_path(tmp_path / "num.amp")
-    assert not window.view.secrets.isVisible()
+    assert not window.menus["view.secrets"].isVisible()
 
 
 def test_a_masked_secret_is_not_copied(window: MainWindow, person: Person) -> None:

@@ -48,7 +48,7 @@ def test_an_axis_is_named_by_a_text(mill: MainWindow, file: ParameterFile, accep
     action(mill, "Name Axis").trigger()
     assert file.get(("axis.name", "2")) == Value("X2")
     assert "X2 2 linear" in mill.table.titles
-    mill.edits.undo.trigger()
+    mill.menus["edit.undo"].trigger()
     assert file.get(("axis.name", "2")) == Value("Y")
 
 

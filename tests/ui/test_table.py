@@ -66,8 +66,8 @@ def test_unfitted_axes_and_hidden_parameters_are_options(window: MainWindow) -> 
     assert hidden > 0
     assert f"{hidden} hidden" in window.page.list_title.text()
 
-    window.view.all_axes.trigger()
-    window.view.hidden_too.trigger()
+    window.menus["view.unfitted_axes"].trigger()
+    window.menus["view.hidden"].trigger()
 
     assert "8" in table.columns
     assert table.count == rows + hidden

@@ -51,7 +51,7 @@ def test_a_second_file_opens_in_a_tab_and_the_first_keeps_its_work(window: MainW
     window.tabs.turn(1)
 
     assert window.workspace.file.get(EXCESS) == Value(3.0, "mm")
-    window.edits.undo.trigger()
+    window.menus["edit.undo"].trigger()
     assert names(window) == ["mill.amp", "lathe.amp"]
 
 

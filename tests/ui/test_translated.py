@@ -43,7 +43,7 @@ def test_panels_work_in_another_language(other_language: None, open_window, path
         dock.close()
         window.show_panel(name)
         assert getattr(window, panel).isVisible(), name
-    for action in window.view.panels.actions():
+    for action in window.menus.menu("places").actions():
         action.trigger()
     window.resize(820, 600)
     QApplication.processEvents()

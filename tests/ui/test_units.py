@@ -29,13 +29,13 @@ def test_the_switch_changes_the_display_and_no_value(window: MainWindow, workspa
     window.go_to(EXCESS)
     assert window.table.index_of(EXCESS).data() == "11 mm"
 
-    window.view.switch.trigger()
+    window.menus["view.switch_units"].trigger()
 
     assert window.table.index_of(EXCESS).data() == "0.433070866 in"
     assert workspace.file.values == before
     assert "inch" in window.status.file.text()
-    assert [a.isChecked() for a in window.view.units_menu.actions()] == [False, True]
-    window.view.switch.trigger()
+    assert [a.isChecked() for a in window.menus.menu("view.units").actions()] == [False, True]
+    window.menus["view.switch_units"].trigger()
     assert window.table.index_of(EXCESS).data() == "11 mm"
     assert not workspace.is_dirty
 
@@ -43,7 +43,7 @@ def test_the_switch_changes_the_display_and_no_value(window: MainWindow, workspa
 def test_the_unit_system_belongs_to_the_file_and_is_saved_with_it(
     window: MainWindow, workspace: Workspace, path
 ) -> None:
-    window.view.switch.trigger()
+    window.menus["view.switch_units"].trigger()
     assert workspace.is_dirty
     assert window.save()
     assert b"units: inch" in path.read_bytes()
@@ -51,11 +51,11 @@ def test_the_unit_system_belongs_to_the_file_and_is_saved_with_it(
 
 
 def test_a_bare_number_has_the_unit_that_is_shown(window: MainWindow, workspace: Workspace) -> None:
-    window.view.switch.trigger()
+    window.menus["view.switch_units"].trigger()
     assert window.edits.commit(EXCESS, "0.3")
     assert workspace.file.get(EXCESS) == Value(0.3, "in")
 
-    window.view.switch.trigger()
+    window.menus["view.switch_units"].trigger()
     assert window.table.shown_value(EXCESS) == "7.62 mm"
     assert window.edits.commit(EXCESS, "8")
     assert workspace.file.get(EXCESS) == Value(8.0, "mm")
@@ -67,7 +67,7 @@ def test_as_entered_a_bare_number_stays_in_the_unit_it_is_shown_in(
     """12 typed over 10 in/min means inches: it must not become 12 mm/min."""
     home_speed = ("home.speed_off_switch", "1")
     assert window.edits.commit(home_speed, "10 ipm")
-    window.view.as_entered.trigger()
+    window.menus["view.as_entered"].trigger()
     assert window.table.shown_value(home_speed) == "10 in/min"
 
     assert window.edits.commit(home_speed, "12")
@@ -89,7 +89,7 @@ def test_a_value_in_its_own_unit_loses_no_digit(table: ParameterTable, workspace
 
 def test_an_editor_that_is_left_as_it_was_changes_nothing(window: MainWindow, workspace: Workspace) -> None:
     """What is shown in inches is rounded; taking it over would change the value."""
-    window.view.switch.trigger()
+    window.menus["view.switch_units"].trigger()
     window.go_to(EXCESS)
     QTest.keyClick(window.table_view, Qt.Key.Key_F2)
     assert editor(window).text() == "0.433070866 in"
@@ -105,7 +105,7 @@ def test_a_converted_value_tells_what_was_entered(table: ParameterTable, workspa
 
 
 def test_the_menu_checks_what_holds_after_an_undo(window: MainWindow, workspace: Workspace) -> None:
-    lathe, mill = window.view.machine_menu.actions()
+    lathe, mill = window.menus.menu("view.machine").actions()
     lathe.trigger()
     assert workspace.file.machine == "lathe"
     assert lathe.isChecked()
@@ -119,11 +119,11 @@ def test_the_menu_checks_what_holds_after_an_undo(window: MainWindow, workspace:
 def test_options_stay_when_another_file_is_opened(window: MainWindow, path) -> None:
     other = path.with_name("other.amp")
     other.write_bytes(path.read_bytes())
-    window.view.all_axes.trigger()
-    window.view.as_entered.trigger()
+    window.menus["view.unfitted_axes"].trigger()
+    window.menus["view.as_entered"].trigger()
 
     window.files.open_path(other)
 
     assert window.table.all_axes
     assert window.workspace.as_entered
-    assert len(window.view.units_menu.actions()) == 2
+    assert len(window.menus.menu("view.units").actions()) == 2

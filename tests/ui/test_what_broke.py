@@ -18,6 +18,7 @@ from amp_studio.files.example_files import examples
 from amp_studio.pictures import pictures_of
 from amp_studio.schema import Value
 from amp_studio.ui import _hook
+from amp_studio.ui.actions import project, view
 from amp_studio.ui.base.modal import AskerGoneError, is_alive, run_dialog
 from amp_studio.ui.base.task import ProgressDialog, Task
 from amp_studio.ui.dialogs.axis_dialogs import AxisDialog
@@ -54,7 +55,7 @@ def test_escape_closes_every_side_window(
     window: MainWindow, path: Path, name: str, person: Person, monkeypatch: pytest.MonkeyPatch, qtbot: QtBot
 ) -> None:
     Project.create(path.parent, ProjectInfo("Workshop", "9pc"))
-    window.projects.notice(path.parent)
+    project.notice(window, path.parent)
     run = QDialog.exec  # progress is waited for: it takes a while on a slow machine
     monkeypatch.setattr(
         QDialog,
@@ -151,7 +152,7 @@ def test_an_edit_in_progress_survives_a_change_of_the_group(window: MainWindow, 
 
 
 def test_units_and_control_types_are_not_offered_without_a_file(window: MainWindow) -> None:
-    offered = [action for group in window.view._groups for action in group.actions()]
+    offered = [a for key in ("view.units", "view.machine") for a in window.menus.menu(key).actions()]
     assert all(each.isEnabled() for each in offered)
     window.close_page(window.page)
     assert not any(each.isEnabled() for each in offered)
@@ -186,11 +187,16 @@ def test_the_preview_outlives_the_page_that_it_shows(window: MainWindow, path: P
     assert panel._page is window.page
 
 
-def test_the_find_box_forgets_commands_of_a_menu_that_was_made_anew(window: MainWindow) -> None:
-    window.finder.rows("> inch")
-    window.view.follow(window.workspace)
+def test_the_find_box_forgets_commands_of_a_menu_that_was_made_anew(
+    window: MainWindow, tmp_path: Path
+) -> None:
+    window.finder.rows("> control type")
+    (example,) = [each.path for each in examples() if each.family == "grblhal"]
+    path = tmp_path / example.name
+    path.write_bytes(example.read_bytes())
+    window.files.open_path(path)
     QApplication.sendPostedEvents(None, QEvent.Type.DeferredDelete)
-    assert any("inch" in row.text.casefold() for row in window.finder.rows("> inch"))
+    assert any("grbl" in row.text.casefold() for row in window.finder.rows("> control type"))
 
 
 def test_pictures_that_another_control_type_does_not_have_leave_the_page(
@@ -204,10 +210,10 @@ def test_pictures_that_another_control_type_does_not_have_leave_the_page(
     page, machine = window.page.pictures, window.workspace.file.machine
     names = list(page._pictures)
     page._front = "gears"
-    window.view._set_machine("grbl-0.9")
+    view.set_machine(window, "grbl-0.9")
     assert "gears" not in page._pictures
     assert all(picture.parts for picture in pictures_of(window.workspace.file))
-    window.view._set_machine(machine)
+    view.set_machine(window, machine)
     assert list(page._pictures) == names
 
 

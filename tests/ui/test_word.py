@@ -50,7 +50,7 @@ def test_an_axis_is_ticked_instead_of_typing_the_word(num: MainWindow) -> None:
 
     assert num.workspace.file.get(DISPLAYED) == Value(0x2000F)
     assert num.table.cell_text(DISPLAYED) == "0x0002000F"
-    num.edits.undo.trigger()
+    num.menus["edit.undo"].trigger()
     assert ticked(num) == ["Axis 0", "Axis 1", "Axis 2", "Axis 3"]
 
 
@@ -134,4 +134,4 @@ def test_a_value_that_the_control_holds_as_it_is_shown_says_nothing_more(num: Ma
 
 
 def test_units_cannot_be_switched_where_there_is_one_system(module: MainWindow, num: MainWindow) -> None:
-    assert not module.view.switch.isEnabled()
+    assert not module.menus["view.switch_units"].isEnabled()

@@ -1,4 +1,4 @@
-"""The control menu: the page at the control, and an emulated control to practise on."""
+"""What the control menu does: the page at the control, and an emulated control to practise on."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ from amp_studio.ui.forms.out_of_range import AskInDialogs
 from amp_studio.ui.window.studio_window import StudioWindow
 from amp_studio.validate import Validator, rules_beside
 
-from .file import FileActions
+from .file import Files
 from .sheet import sheet_of_control, sheet_of_file
 from .tuning import tune
 
@@ -36,13 +36,13 @@ if TYPE_CHECKING:
 COPIES = "Backups of a control (*.img *.before-*.amp);;All files (*)"
 
 
-class ControlActions(Translated):
+class AtControl(Translated):
     """Exchange with the control of the project, or with the emulated one."""
 
     def __init__(
         self,
         window: StudioWindow,
-        files: FileActions,
+        files: Files,
         centre: QStackedWidget,
         show_values: Callable[[], None],
     ) -> None:
@@ -52,54 +52,18 @@ class ControlActions(Translated):
         self._page: ControlPage | None = None
         self._sessions: dict[tuple[str, str, str], ControlSession] = {}
         """Address, family and file -> its exchanges."""
-        self.state_shown: Callable[[], None] = lambda: None
-        """Called after the state of the control has changed: the status line shows it too."""
         self.exchanges.show_page = lambda: self.show("compare")
         files.comparing.address_of = self.exchanges.chosen_address
         self.emulated.ready.connect(self._ready)
         self.emulated.shown.connect(self._shown)
         self.emulated.ended.connect(self._ended)
-        act = window.action
-        menu = window.menuBar().addMenu(self.tr("&Control"))
-        self.at_control = act(
-            self.tr("&At the Control"), lambda: self.show("compare"), "Alt+0", "", "cpu", self.tr("Control")
-        )
-        download = act(
-            self.tr("Sen&d to the Control…"), lambda: self.show("send"), "F5", "file", "arrow-line-down"
-        )
-        verify = act(
-            self.tr("&Compare With the Control…"), lambda: self.show("compare"), "F6", "file", "git-diff"
-        )
-        upload = act(self.tr("Read &From the Control…"), lambda: self.show("read"), "F7", "", "arrow-line-up")
-        put_back = act(self.tr("&Restore Control From Backup…"), self.restore, None, "")
-        by_hand = act(self.tr("Enter Values by &Hand…"), lambda: self.show("hand"), None, "file")
-        several = act(self.tr("Se&veral Controls…"), self.several, None, "file")
-        exchanges = act(self.tr("E&xchanges of This File…"), self.recorded, None, "file")
-        menu.addActions([self.at_control, download, verify, upload, put_back, by_hand])
-        menu.addSeparator()
-        tuning = act(self.tr("&Tuning…"), lambda: tune(self.window, self.exchanges), "Shift+F9", "file")
-        menu.addActions([several, exchanges])
-        menu.addAction(tuning)
-        menu.addSeparator()
-        self.start_action = act(self.tr("&Start Emulated Control"), self.start_emulated, None, "file")
-        self.estop_action = act(self.tr("Emulated Control in &E-Stop"), self._estop, None, "")
-        self.estop_action.setCheckable(True)
-        self.stop_action = act(self.tr("Sto&p Emulated Control"), self.emulated.stop, None, "")
-        menu.addActions([self.start_action, self.estop_action, self.stop_action])
-        self.toolbar: list[QAction] = [self.at_control]
 
-    def enable(self) -> None:
-        """Enable the actions that fit the state of the emulated control."""
-        running = self.emulated.is_running
-        self.start_action.setEnabled(self.window.workspace is not None and not running)
-        self.estop_action.setEnabled(running)
-        self.stop_action.setEnabled(running)
+    def show_state(self, action: QAction) -> None:
+        """Show in the action of the page the control of the file in front and its state."""
         name, state, warns = self.state_of(self.window.workspace)
-        self.at_control.setIconText(
-            f"{name}  {state}" if self.exchanges.address_of(self.window.workspace) else name
-        )
-        self.at_control.setToolTip(self.tr("{name}: {state} (Alt+0)").format(name=name, state=state))
-        self.at_control.setIcon(icon("warning-fill", "warn") if warns else icon("cpu"))
+        action.setIconText(f"{name}  {state}" if self.exchanges.address_of(self.window.workspace) else name)
+        action.setToolTip(self.tr("{name}: {state} (Alt+0)").format(name=name, state=state))
+        action.setIcon(icon("warning-fill", "warn") if warns else icon("cpu"))
 
     # -- the emulated control --------------------------------------------------
 
@@ -108,9 +72,9 @@ class ControlActions(Translated):
         workspace = self.window.workspace
         if workspace is not None and not self.emulated.is_running:
             self.emulated.start(workspace.file.schema.family.family, workspace.file.machine)
-            self.estop_action.setChecked(True)
+            self.window.menus["control.estop"].setChecked(True)
             self.window.show_status(self.tr("Starting an emulated control …"))
-            self.enable()
+            self.window.enable()
 
     def _ready(self, address: str) -> None:
         self.window.show_status(self.tr("Emulated control at {address}, in E-stop").format(address=address))
@@ -118,7 +82,7 @@ class ControlActions(Translated):
             self.use(address)
         elif self.window.workspace is not None:
             self.exchanges.choose(self.window.workspace, address)
-        self.enable()
+        self.window.enable()
 
     def _ended(self, output: str) -> None:
         self.window.show_status(
@@ -126,17 +90,18 @@ class ControlActions(Translated):
             if output
             else self.tr("Emulated control stopped")
         )
-        self.enable()
+        self.window.enable()
 
     def _shown(self, line: str) -> None:
         """Show a line of the emulated control's screen; one that stays in E-stop stays so in the menu too."""
         if line.startswith(("kept in E-stop: ", "refused: the control stays in E-stop: ")):
-            self.estop_action.setChecked(True)
+            self.window.menus["control.estop"].setChecked(True)
         if not line.startswith("estop "):
             self.window.show_status(self.tr("Emulated control: {line}").format(line=line))
 
-    def _estop(self) -> None:
-        self.emulated.send("estop on" if self.estop_action.isChecked() else "estop off")
+    def switch_estop(self) -> None:
+        """Put the emulated control into E-stop or out of it, as its action is."""
+        self.emulated.send("estop on" if self.window.menus["control.estop"].isChecked() else "estop off")
 
     def close(self) -> None:
         """Stop the emulated control."""
@@ -287,8 +252,7 @@ class ControlActions(Translated):
         if self._page is not None and self._page.session is not None:
             self._page.rename(self._name_of(self._page.session.address))
         self._list()
-        self.enable()
-        self.state_shown()
+        self.window.enable()
 
     def state_of(self, workspace: Workspace | None) -> tuple[str, str, bool]:
         """Return the name of the control of a file, its state in words, and whether it needs something."""
@@ -304,6 +268,10 @@ class ControlActions(Translated):
         """Whether something is being written to a control."""
         several = self._page is not None and self._page.several.is_sending
         return several or any(session.phase == "running" for session in self._sessions.values())
+
+    def tune(self) -> None:
+        """Show the pages for tuning."""
+        tune(self.window, self.exchanges)
 
     def restore(self) -> None:
         """Ask for a backup and offer to put it back; raises ValueError for a file with errors that is no proven backup."""

@@ -1,87 +1,37 @@
-"""The edit menu: undo, values by keyboard and by number, suggested fixes."""
+"""What the edit menu does: undo, values by keyboard and by number, suggested fixes."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
 from functools import partial
 
-from PySide6.QtGui import QAction, QKeySequence
+from PySide6.QtGui import QAction, QUndoStack
 from PySide6.QtWidgets import QMessageBox
 
 from amp_studio.files import RangeError, describe, real_path, user
 from amp_studio.schema import Address, InvalidValueError
 from amp_studio.ui.base.modal import run_dialog
 from amp_studio.ui.base.questions import ask, show_message
-from amp_studio.ui.base.translated import Translated
+from amp_studio.ui.base.translated import Translated, tr
 from amp_studio.ui.base.workspace import Workspace
-from amp_studio.ui.page.file_page import FilePage
 from amp_studio.ui.window.studio_window import StudioWindow
 from amp_studio.validate import RULES_FILE, Finding, apply_all_safe, apply_fixes, calculators, suppress
 
-from .range import RangeActions
+from .range import RangeEdits
 
 
-class EditActions(Translated):
+class Edits(Translated):
     """Everything that changes a value."""
 
     def __init__(self, window: StudioWindow) -> None:
         self.window = window
-        act, keys = window.action, QKeySequence.StandardKey
-        self.undo = act(self.tr("&Undo"), self._undo, keys.Undo, "edit", "arrow-u-up-left", self.tr("Undo"))
-        self.redo = act(self.tr("&Redo"), self._redo, keys.Redo, "edit", "arrow-u-up-right", self.tr("Redo"))
-        edit = act(self.tr("&Edit Value"), self._edit, "F2", "edit")
-        steps = act(self.tr("Histor&y of Steps…"), self.steps, "Ctrl+Shift+H", "file")
-        quick = act(self.tr("&Quick Edit by Number…"), self.quick_edit, "F4", "edit")
-        calculator = act(self.tr("Ca&lculator…"), self.calculator, "F3", "file")
-        tables = act(self.tr("&Tables of the Manual…"), self.tables, "Shift+F3", "file")
-        fix = act(self.tr("F&ix Selected Finding"), self._fix, "F8", "edit")
-        why = act(self.tr("S&how Explanation of Finding"), self._why, "Shift+F1", "file")
-        several = act(self.tr("Fix Se&veral…"), self.fix_several, "Shift+F8", "edit", "magic-wand")
-        safe = act(self.tr("Apply All &Safe Fixes"), self.fix_safe, None, "edit")
-        note = act(self.tr("N&ote…"), self.note, "Alt+Return", "file", "note-pencil")
-        self.range = RangeActions(window)
-        self.of_a_cell: list[QAction] = [edit, *self.range.actions, note]
-        self.menu = menu = window.menuBar().addMenu(self.tr("&Edit"))
-        for actions in (
-            (self.undo, self.redo, steps),
-            self.of_a_cell,
-            (quick, calculator, tables),
-            (fix, several, safe, why),
-        ):
-            menu.addActions(list(actions))
-            menu.addSeparator()
-
-    def show_state(self, workspace: Workspace | None) -> None:
-        """Update text and state of Undo and Redo."""
-        for action, name in ((self.undo, self.tr("&Undo")), (self.redo, self.tr("&Redo"))):
-            stack = workspace.undo_stack if workspace and workspace.may_edit else None
-            is_undo = action is self.undo
-            can = stack is not None and (stack.canUndo() if is_undo else stack.canRedo())
-            what = (stack.undoText() if is_undo else stack.redoText()) if stack and can else ""
-            action.setEnabled(can)
-            action.setText(f"{name} {what.replace('&', '&&')}".rstrip())
-
-    def _workspace(self) -> Workspace:
-        workspace = self.window.workspace
-        assert workspace is not None
-        return workspace
-
-    def _page(self) -> FilePage:
-        page = self.window.page
-        assert page is not None
-        return page
-
-    def _here(self) -> Address:
-        address = self.window.selected()
-        if address is None:
-            raise ValueError(self.tr("Select a value in the table first."))
-        return address
+        self.range = RangeEdits(window)
 
     # -- one value -------------------------------------------------------------
 
     def commit(self, address: Address, text: str) -> bool:
         """Set a value of the file in front from typed text."""
-        return self.commit_to(self._workspace(), address, text)
+        return self.commit_to(self.window.workspace_in_front, address, text)
 
     def commit_to(self, workspace: Workspace, address: Address, text: str) -> bool:
         """Set a value from typed text; asks before a value out of range is forced. Returns whether it was set."""
@@ -114,13 +64,16 @@ class EditActions(Translated):
             return False
         return workspace.enter(address, text, force=True)
 
-    def _undo(self) -> None:
-        self._workspace().undo_stack.undo()
+    def undo(self) -> None:
+        """Take the last step back."""
+        self.window.workspace_in_front.undo_stack.undo()
 
-    def _redo(self) -> None:
-        self._workspace().undo_stack.redo()
+    def redo(self) -> None:
+        """Make the step again that was taken back."""
+        self.window.workspace_in_front.undo_stack.redo()
 
-    def _edit(self) -> None:
+    def edit(self) -> None:
+        """Edit the current cell."""
         view = self.window.table_view
         if view is not None:
             view.setFocus()
@@ -130,7 +83,7 @@ class EditActions(Translated):
         """Edit the notes about the selected value, its group and the machine."""
         from amp_studio.ui.dialogs.note_dialog import NoteDialog
 
-        dialog = NoteDialog(self._workspace(), self.window.selected(), self.window)
+        dialog = NoteDialog(self.window.workspace_in_front, self.window.selected(), self.window)
         if run_dialog(dialog):
             dialog.write()
 
@@ -138,7 +91,7 @@ class EditActions(Translated):
         """Show the steps that were made, to go back to one."""
         from amp_studio.ui.page.step_list import StepList
 
-        StepList(self._workspace(), self.window).show()
+        StepList(self.window.workspace_in_front, self.window).show()
 
     # -- by number, by name ----------------------------------------------------
 
@@ -146,7 +99,7 @@ class EditActions(Translated):
         """Open quick edit by number."""
         from amp_studio.ui.table.quick_edit import QuickEdit
 
-        page = self._page()
+        page = self.window.page_in_front
         commit = partial(self.commit_to, page.workspace)
         QuickEdit(page.table, commit, page.go_to, self.window).show()
 
@@ -154,7 +107,7 @@ class EditActions(Translated):
         """Open the calculators, with the formulas of the selected parameter first."""
         from amp_studio.ui.dialogs.calculator_dialog import CalculatorDialog
 
-        workspace = self._workspace()
+        workspace = self.window.workspace_in_front
         if not calculators(workspace.file.schema.family.family):
             raise ValueError(
                 self.tr("No formulas are published for {name}.").format(
@@ -168,13 +121,14 @@ class EditActions(Translated):
         """Open the manual's tables, with those of the selected parameter first."""
         from amp_studio.ui.dialogs.tables_dialog import TablesDialog
 
-        dialog = TablesDialog(self._workspace(), self.window.selected(), self.window)
-        dialog.linked.connect(self._page().follow)
+        dialog = TablesDialog(self.window.workspace_in_front, self.window.selected(), self.window)
+        dialog.linked.connect(self.window.page_in_front.follow)
         dialog.show()
 
     # -- findings ---------------------------------------------------------------
 
-    def _fix(self) -> None:
+    def fix_selected(self) -> None:
+        """Apply the suggested fixes of the selected findings."""
         findings = self.window.findings.current_findings() if self.window.findings else ()
         able = tuple(finding for finding in findings if finding.fix)
         if not able:
@@ -183,7 +137,8 @@ class EditActions(Translated):
             )
         self.fix_all(able)
 
-    def _why(self) -> None:
+    def explain_selected(self) -> None:
+        """Open the explanation of the selected finding."""
         finding = self.window.findings.current() if self.window.findings else None
         if finding is None:
             raise ValueError(self.tr("No finding is selected."))
@@ -193,13 +148,15 @@ class EditActions(Translated):
         """Open the explanation of a finding."""
         from amp_studio.ui.findings.dialogs import WhyDialog
 
-        WhyDialog(self._workspace(), finding, self._page().go_to, self.window).show()
+        WhyDialog(
+            self.window.workspace_in_front, finding, self.window.page_in_front.go_to, self.window
+        ).show()
 
     def suppress(self, finding: Finding) -> None:
         """Suppress a finding; asks for a reason and a name."""
         from amp_studio.ui.findings.dialogs import SuppressDialog
 
-        workspace = self._workspace()
+        workspace = self.window.workspace_in_front
         dialog = SuppressDialog(finding, user(), self.window)
         if run_dialog(dialog):
             path = real_path(workspace.path).with_name(RULES_FILE)  # where rules are looked for
@@ -217,13 +174,13 @@ class EditActions(Translated):
 
     def fix(self, finding: Finding) -> None:
         """Apply the suggested fix of a finding as one step, if the finding still exists and its fix was tried."""
-        if finding not in self._workspace().findings:
+        if finding not in self.window.workspace_in_front.findings:
             raise ValueError(
                 self.tr(
                     "This finding has changed or no longer exists. Select it again in the list of findings."
                 )
             )
-        workspace, wanted = self._workspace(), {r.address: r.value for r in finding.fix}
+        workspace, wanted = self.window.workspace_in_front, {r.address: r.value for r in finding.fix}
         workspace.edit(self.tr("Fix: {step_text}").format(step_text=workspace.step_text(wanted)), wanted)
 
     def fix_all(self, findings: Sequence[Finding]) -> None:
@@ -231,7 +188,7 @@ class EditActions(Translated):
         if len(findings) == 1:
             self.fix(findings[0])
             return
-        workspace, keys = self._workspace(), {finding.key for finding in findings}
+        workspace, keys = self.window.workspace_in_front, {finding.key for finding in findings}
         wanted = partial(apply_fixes, workspace.validator, lambda finding: finding.key in keys)
         if not workspace.do(self.tr("Fix several"), wanted):
             raise ValueError(
@@ -244,7 +201,7 @@ class EditActions(Translated):
         """List every suggested fix, and apply the checked ones as one step."""
         from amp_studio.ui.findings.dialogs import FixSeveralDialog
 
-        workspace = self._workspace()
+        workspace = self.window.workspace_in_front
         if not any(finding.fix for finding in workspace.listed):
             raise ValueError(self.tr("No finding has a suggested fix."))
         dialog = FixSeveralDialog(workspace, workspace.listed, self.window)
@@ -254,8 +211,29 @@ class EditActions(Translated):
 
     def fix_safe(self) -> None:
         """Apply every suggested fix that cannot change motion, as one step."""
-        workspace = self._workspace()
+        workspace = self.window.workspace_in_front
         if not workspace.do(self.tr("Apply all safe fixes"), lambda: apply_all_safe(workspace.validator)):
             self.window.show_status(
                 self.tr("There is no safe fix: no finding has a suggested fix that cannot change motion.")
             )
+
+
+def show_undo(window: StudioWindow, action: QAction) -> None:
+    """Name in the menu the step that would be taken back."""
+    stack = _stack(window)
+    _name_step(action, tr("&Undo"), stack.undoText() if stack is not None and stack.canUndo() else "")
+
+
+def show_redo(window: StudioWindow, action: QAction) -> None:
+    """Name in the menu the step that would be made again."""
+    stack = _stack(window)
+    _name_step(action, tr("&Redo"), stack.redoText() if stack is not None and stack.canRedo() else "")
+
+
+def _stack(window: StudioWindow) -> QUndoStack | None:
+    workspace = window.workspace
+    return workspace.undo_stack if workspace is not None and workspace.may_edit else None
+
+
+def _name_step(action: QAction, name: str, step: str) -> None:
+    action.setText(f"{name} {step.replace('&', '&&')}".rstrip())

@@ -1,4 +1,4 @@
-"""The file menu: new, open, save, save as, recover, facts."""
+"""What the file menu does: new, open, save as, recover, facts."""
 
 from __future__ import annotations
 
@@ -8,7 +8,6 @@ from functools import partial
 from pathlib import Path
 
 from PySide6.QtCore import QStandardPaths
-from PySide6.QtGui import QAction, QKeySequence
 from PySide6.QtWidgets import QFileDialog
 
 from amp_studio.files import (
@@ -31,14 +30,13 @@ from amp_studio.ui.base.questions import ask
 from amp_studio.ui.base.task import in_background
 from amp_studio.ui.base.translated import Translated, counted
 from amp_studio.ui.base.workspace import Workspace, earlier_of
-from amp_studio.ui.merge.compare_actions import FILTER, CompareActions
+from amp_studio.ui.merge.comparisons import FILTER, Comparisons
 from amp_studio.ui.page.file_page import FilePage
 from amp_studio.ui.window.recent_files import RecentFiles
 from amp_studio.ui.window.studio_window import StudioWindow
 from amp_studio.validate import Validator, rules_beside
 
-from .document import DocumentActions
-from .format import FormatActions
+from .format import TextFormats
 
 CheckedDocument = tuple[Document, Validator]
 """A document and its validator, already run."""
@@ -47,36 +45,16 @@ Show = Callable[[Workspace, FilePage | None], FilePage]
 """Shows a workspace in a new tab, or in the place of a page."""
 
 
-class FileActions(Translated):
+class Files(Translated):
     """Everything that opens, saves or prints the open file."""
 
     def __init__(self, window: StudioWindow, show: Show) -> None:
         self.window, self._show_in_tab = window, show
-        act, keys = window.action, QKeySequence.StandardKey
-        new = act(self.tr("&New…"), self.new, keys.New, "", "file-plus", self.tr("New"))
-        opened = act(self.tr("&Open…"), self.open, keys.Open, "", "folder-open", self.tr("Open"))
-        save = act(self.tr("&Save"), window.save, keys.Save, "edit", "floppy-disk")
-        save_as = act(self.tr("Save &As…"), self.save_as, "Ctrl+Shift+S")
-        close = act(self.tr("&Close"), self.close, keys.Close)
-        menu = window.menuBar().addMenu(self.tr("&File"))
-        menu.addActions([new, opened])
         self.recent = RecentFiles(window, self.open_path)
-        menu.addMenu(self.recent.menu)
-        menu.addActions([save, save_as, close])
-        menu.addSeparator()
-        self.comparing = CompareActions(window, self.ask_path, self.write_new)
-        menu.addActions([self.comparing.action, act(self.tr("Recover &Backup…"), self.recover, None, "edit")])
-        menu.addSeparator()
-        self.formats = FormatActions(window, self.ask_path, self.write_new)
-        menu.addActions(self.formats.actions)
-        menu.addSeparator()
-        self.documents = DocumentActions(window)
-        menu.addActions([*self.documents.actions, act(self.tr("&Machine Facts…"), self.facts, None, "edit")])
-        menu.addSeparator()
-        menu.addAction(act(self.tr("E&xit"), window.close, keys.Quit, ""))
+        self.comparing = Comparisons(window, self.ask_path, self.write_new)
+        self.formats = TextFormats(window, self.ask_path, self.write_new)
         self.last_session: list[Path] = window.settings.session()
         """The files that were open when the program was left; none once they have been opened again."""
-        self.toolbar: list[QAction] = [new, opened, save]
 
     # -- opening ---------------------------------------------------------------
 
@@ -302,11 +280,6 @@ class FileActions(Translated):
 
     # -- the open file ---------------------------------------------------------
 
-    def _workspace(self) -> Workspace:
-        workspace = self.window.workspace
-        assert workspace is not None
-        return workspace
-
     def close(self, page: FilePage | None = None) -> None:
         """Close a file, the one in front by default, after a question about unsaved work."""
         page = page or self.window.page
@@ -315,7 +288,7 @@ class FileActions(Translated):
 
     def save_as(self) -> None:
         """Save under a new name; the original file is not changed."""
-        page, workspace, here = self.window.page, self._workspace(), self.window.selected()
+        page, workspace, here = self.window.page, self.window.workspace_in_front, self.window.selected()
         path = self.ask_path(self.tr("Save as"), workspace.path)
         if path is None:
             return
@@ -328,7 +301,7 @@ class FileActions(Translated):
 
     def recover(self) -> None:
         """Replace the open file by its backup."""
-        workspace = self._workspace()
+        workspace = self.window.workspace_in_front
         path = workspace.path
         if not backup_path(path).is_file():
             raise FileNotFoundError(
@@ -349,15 +322,13 @@ class FileActions(Translated):
             in_background(
                 self.window, self.tr("Recovering"), lambda: recover_backup(path, workspace.document.digest)
             )
-            page = self.window.page
-            assert page is not None
-            self.reload(page)
+            self.reload(self.window.page_in_front)
 
     def facts(self) -> None:
         """Edit name, revision, application and notes of the open file."""
         from amp_studio.ui.dialogs.file_dialogs import FactsDialog
 
-        workspace = self._workspace()
+        workspace = self.window.workspace_in_front
         dialog = FactsDialog(workspace.file.header, self.window)
         if run_dialog(dialog):
             workspace.do(self.tr("Machine facts"), lambda: vars(workspace.file.header).update(dialog.texts()))

@@ -6,7 +6,7 @@ from dataclasses import replace
 from functools import partial
 
 from PySide6.QtCore import QTimer
-from PySide6.QtGui import QAction, QKeySequence
+from PySide6.QtGui import QAction
 
 from amp_studio.find import Entry, Finder, Hit, Index, index_of
 from amp_studio.schema import family_ids, load_schema
@@ -33,7 +33,7 @@ _COMMAND = 0.8
 """What a command is worth among parameters whose words match as well."""
 
 
-class FindActions(Translated):
+class Search(Translated):
     """Builds the box; the words of a family are indexed in a thread when its first file is opened."""
 
     def __init__(self, window: StudioWindow) -> None:
@@ -57,15 +57,6 @@ class FindActions(Translated):
         self._is_read = False
         """Whether the commands are those of the present menus; they are read at the first key, as Qt gives the focus at odd moments."""
         self.box.entered.connect(self._forget_menus)
-        act = window.action
-        self.actions = [
-            act(self.tr("&Find…"), self.box.begin, "Ctrl+F", ""),
-            act(self.tr("&Go to Number…"), self.box.begin, "Ctrl+G", "file"),
-        ]
-        self.commands_action = act(
-            self.tr("&Commands…"), partial(self.box.begin, COMMANDS), "Ctrl+Shift+P", ""
-        )
-        self.actions[0].setShortcuts([QKeySequence("Ctrl+F"), QKeySequence("Ctrl+K")])
 
     # -- the files ---------------------------------------------------------------------
 

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -14,6 +13,7 @@ from amp_studio.schema import family_ids, load_schema
 from amp_studio.ui.base.questions import ask
 from amp_studio.ui.base.task import in_background
 from amp_studio.ui.base.translated import Translated
+from amp_studio.ui.merge.comparisons import AskPath, WriteNew
 from amp_studio.ui.window.studio_window import StudioWindow
 
 if TYPE_CHECKING:
@@ -25,15 +25,10 @@ _LONGEST = 400
 """Characters of a list in a question."""
 
 
-class FormatActions(Translated):
+class TextFormats(Translated):
     """Imports a text file as a parameter file, and exports the open file as text."""
 
-    def __init__(
-        self,
-        window: StudioWindow,
-        ask_path: Callable[[str, Path], Path | None],
-        write_new: Callable[[Path, Callable[[], Document]], None],
-    ) -> None:
+    def __init__(self, window: StudioWindow, ask_path: AskPath, write_new: WriteNew) -> None:
         self.window, self._ask_path, self._write_new = window, ask_path, write_new
         self._account: Account
         """What became of the text that was read last."""
@@ -41,10 +36,6 @@ class FormatActions(Translated):
         """Notes about the text that was read last."""
         self._machine, self._listing = "", 0
         """The machine type, and which of several listings, that a person chose for it."""
-        self.actions = [
-            window.action(self.tr("&Import…"), self.read),
-            window.action(self.tr("Ex&port…"), self.write, None, "file"),
-        ]
 
     def read(self) -> None:
         """Ask for a text file and a name, and show the imported parameter file."""
@@ -204,8 +195,7 @@ class FormatActions(Translated):
         """Ask for a name and export the open file; the file extension sets the format."""
         from amp_studio.formats import export_of, formats_of
 
-        workspace = self.window.workspace
-        assert workspace is not None
+        workspace = self.window.workspace_in_front
         offered = formats_of(workspace.file.schema.family.family)
         filters = {
             f"{f.title[:1].upper()}{f.title[1:]} ({' '.join(f'*{ending}' for ending in f.endings)})": f

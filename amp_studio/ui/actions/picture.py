@@ -19,27 +19,22 @@ from amp_studio.ui.pictures.page import PicturesPage
 from amp_studio.ui.pictures.split import Arrangement, PictureLayout
 from amp_studio.ui.window.studio_window import StudioWindow
 
-KEY = "F12"
 RAMPS = "amp_studio.pictures.ramps"
 LOAD_MS = 1500
 """Milliseconds after a file came to the front until what ramps need is loaded, beside the window."""
 
 
-class PictureActions(QObject):
+class Pictures(QObject):
     """Shows and hides the pictures of each file, beside its table or in its place."""
 
     def __init__(self, window: StudioWindow) -> None:
         super().__init__(window)
         self.window = window
-        name = self.tr("&Pictures")
-        self.action = window.action(name, self._toggle, KEY, "file", "frame-corners", self.tr("Pictures"))
-        self.action.setCheckable(True)
         self._early = QTimer(self)
         self._early.setSingleShot(True)
         self._early.setInterval(LOAD_MS)
         self._early.timeout.connect(self._prepare)
         window.tabs.current_changed.connect(lambda _: self._early.start())
-        self.save = window.action(self.tr("Save P&icture As SVG…"), self._save)
 
     def _prepare(self) -> None:
         """Load what pictures need; then show them for a file that comes to the front as for the files before it."""
@@ -86,11 +81,11 @@ class PictureActions(QObject):
 
     def check(self, page: FilePage | None) -> None:
         """Press the button where the file in front shows its pictures."""
-        self.action.setChecked(page is not None and page.shows_pictures)
+        self.window.menus["view.pictures"].setChecked(page is not None and page.shows_pictures)
 
-    def _toggle(self) -> None:
-        page = self.window.page
-        assert page is not None
+    def toggle(self) -> None:
+        """Show the pictures of the file in front, or its table alone."""
+        page = self.window.page_in_front
         if page.shows_pictures:
             self._close(page)
             return
@@ -130,9 +125,9 @@ class PictureActions(QObject):
         page.table_view.setFocus()
         self.check(self.window.page)
 
-    def _save(self) -> None:
-        page = self.window.page
-        assert page is not None
+    def save(self) -> None:
+        """Save the picture in front as a drawing."""
+        page = self.window.page_in_front
         self.show(page, True)
         card = self.pages(page).chosen_card
         if card is None:

@@ -13,10 +13,8 @@ from amp_studio.ui.window.studio_window import StudioWindow
 if TYPE_CHECKING:
     from amp_studio.ui.paper.preview_panel import PreviewPanel
 
-KEY = "Ctrl+5"
 
-
-class PreviewActions(QObject):
+class Preview(QObject):
     """Shows and hides the dock of the preview."""
 
     def __init__(self, window: StudioWindow) -> None:
@@ -24,10 +22,6 @@ class PreviewActions(QObject):
         self.window = window
         self.panel: PreviewPanel | None = None
         self._wants_focus = False
-        self.action = window.action(
-            self.tr("Rep&ort Preview"), self.toggle, KEY, "file", "article", self.tr("Preview")
-        )
-        self.action.setCheckable(True)
         window.docks.preview.visibilityChanged.connect(lambda _: self._look())
         window.tabs.current_changed.connect(lambda _: self._look())
 
@@ -43,14 +37,15 @@ class PreviewActions(QObject):
         self._wants_focus = True
         self.window.docks.show_preview(True)
 
-    def check(self) -> None:
-        """Check the action where the preview is to be seen."""
-        self.action.setChecked(not self.window.docks.preview.isHidden())
+    @property
+    def is_shown(self) -> bool:
+        """Whether the preview is to be seen."""
+        return not self.window.docks.preview.isHidden()
 
     def _look(self) -> None:
         """Follow the file in front while the preview is seen; it is made after the window has been painted."""
-        self.check()
-        if not self.window.docks.preview.isHidden():
+        self.window.menus["view.preview"].setChecked(self.is_shown)
+        if self.is_shown:
             QTimer.singleShot(0, self, self._load)
         elif self.panel is not None:
             self.panel.show_page(None)

@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from itertools import pairwise
 
-from PySide6.QtCore import QMimeData, Qt
-from PySide6.QtGui import QAction, QGuiApplication, QKeySequence
+from PySide6.QtCore import QMimeData
+from PySide6.QtGui import QGuiApplication
 
 from amp_studio.files import (
     BlockEntry,
@@ -26,8 +26,7 @@ from amp_studio.formats import (
 )
 from amp_studio.schema import Address, InvalidValueError, Value, quoted, write_value
 from amp_studio.ui.base.modal import run_dialog
-from amp_studio.ui.base.translated import Translated, tr
-from amp_studio.ui.page.file_page import FilePage
+from amp_studio.ui.base.translated import tr
 from amp_studio.ui.table.block_preview import BlockPreview
 from amp_studio.ui.window.studio_window import StudioWindow
 
@@ -36,31 +35,14 @@ _LISTED = 4
 """Refusals that a message lists."""
 
 
-class RangeActions(Translated):
+class RangeEdits:
     """The actions on the selected cells of the table in front."""
 
     def __init__(self, window: StudioWindow) -> None:
         self.window = window
-        act, keys = window.action, QKeySequence.StandardKey
-        copy = act(tr("&Copy"), self.copy, keys.Copy, "file")
-        named = act(tr("Copy with Na&mes"), self.copy_with_names, "Ctrl+Shift+C", "file")
-        paste = act(tr("&Paste…"), self.paste, keys.Paste, "edit")
-        down = act(tr("Fill &Down"), self.fill_down, "Ctrl+D", "edit")
-        across = act(tr("Fill &Across Axes"), self.fill_across, "Ctrl+R", "edit")
-        default = act(tr("&Back to Default"), self.to_default, "Ctrl+Backspace", "edit")
-        clear = act(tr("Clear (&Not Set)"), self.clear, keys.Delete, "edit")
-        every = act(tr("Copy to All A&xes of the Type"), self.to_all_axes, "Ctrl+Shift+A", "axes")
-        self.actions: list[QAction] = [copy, named, paste, down, across, default, clear, every]
-        for action in (copy, named, paste, down, across, default, clear):  # a text field has its own
-            action.setShortcutContext(Qt.ShortcutContext.WidgetShortcut)
-
-    def _page(self) -> FilePage:
-        page = self.window.page
-        assert page is not None
-        return page
 
     def _selected(self) -> list[Address]:
-        found = self._page().table_view.cells.addresses()
+        found = self.window.page_in_front.table_view.cells.addresses()
         if not found:
             raise ValueError(tr("Select a value in the table first."))
         return found
@@ -69,11 +51,11 @@ class RangeActions(Translated):
 
     def copy(self) -> None:
         """Copy the selected values, exact and with their units."""
-        self._put(self._page().table_view.cells.block(), [])
+        self._put(self.window.page_in_front.table_view.cells.block(), [])
 
     def copy_with_names(self) -> None:
         """Copy the selected values with the numbers and names of parameters and the heads of the axes."""
-        page = self._page()
+        page = self.window.page_in_front
         table, view = page.table, page.table_view
         block = view.cells.block()
         places = [table.index_of(next(a for a in row if a)) for row in block if any(row)]
@@ -90,9 +72,9 @@ class RangeActions(Translated):
     def _put(self, block: AddressBlock, names: list[list[str]]) -> None:
         """Put a block into the clipboard; a secret alone is refused, among others it is left out."""
         chosen = [address for row in block for address in row if address is not None]
-        masked = [address for address in chosen if self._page().workspace.is_masked(address)]
+        masked = [address for address in chosen if self.window.page_in_front.workspace.is_masked(address)]
         if masked and len(chosen) == 1:
-            name = describe(self._page().workspace.file, masked[0])
+            name = describe(self.window.page_in_front.workspace.file, masked[0])
             raise ValueError(
                 tr("{name} is secret. To copy it, first switch on Show Secrets.").format(name=name)
             )
@@ -112,7 +94,7 @@ class RangeActions(Translated):
         QGuiApplication.clipboard().setMimeData(data)
 
     def _cell(self, address: Address | None) -> BlockCell:
-        page = self._page()
+        page = self.window.page_in_front
         workspace = page.workspace
         if address is None or workspace.is_masked(address):
             return BlockCell("")
@@ -139,11 +121,11 @@ class RangeActions(Translated):
         entry = self._planned(texts, doubtful)
         if len(entry.cells) == 1 and not left_out:
             self._take(entry)
-        elif run_dialog(BlockPreview(self._page().workspace, entry, left_out, self.window)):
-            self._page().workspace.take(entry)
+        elif run_dialog(BlockPreview(self.window.page_in_front.workspace, entry, left_out, self.window)):
+            self.window.page_in_front.workspace.take(entry)
 
     def _planned(self, texts: Mapping[Address, str], doubtful: set[str]) -> BlockEntry:
-        page = self._page()
+        page = self.window.page_in_front
         workspace = page.workspace
 
         def read(address: Address, text: str) -> Value | None:
@@ -159,7 +141,7 @@ class RangeActions(Translated):
 
     def _targets(self, rows: list[list[str]]) -> tuple[dict[Address, str], list[str]]:
         """Return the text for each address, and what of the block has no place in the table."""
-        view = self._page().table_view
+        view = self.window.page_in_front.table_view
         if [cell.strip() for cell in rows[0][:2]] == [tr("No."), tr("Parameter")] and len(rows[0]) > 2:
             return self._by_name(rows)
         chosen = view.cells.block()
@@ -186,7 +168,7 @@ class RangeActions(Translated):
 
     def _by_name(self, rows: list[list[str]]) -> tuple[dict[Address, str], list[str]]:
         """Return the text for each address of a block that has numbers and heads, wherever its rows are now."""
-        table = self._page().table
+        table = self.window.page_in_front.table
         heads = [table.column_head(c) for c in range(len(table.columns))]
         columns = {
             letter: c for c, (letter, _) in enumerate(heads) if letter
@@ -215,11 +197,11 @@ class RangeActions(Translated):
 
     def fill_down(self) -> None:
         """Give every selected cell the value of the top one; a single row gets that of the row above."""
-        self._fill_lines(self._page().table_view.cells.block_to_fill(down=True))
+        self._fill_lines(self.window.page_in_front.table_view.cells.block_to_fill(down=True))
 
     def fill_across(self) -> None:
         """Give every selected cell the value of the leftmost one; a single column gets that of the axis before it."""
-        block = self._page().table_view.cells.block_to_fill(down=False)
+        block = self.window.page_in_front.table_view.cells.block_to_fill(down=False)
         self._fill_lines([list(column) for column in zip(*block, strict=True)])
 
     def _fill_lines(self, lines: AddressBlock) -> None:
@@ -234,7 +216,7 @@ class RangeActions(Translated):
 
     def fill_from(self, pairs: Mapping[Address, Address]) -> None:
         """Give each target the value of its source, all or none: what is refused is listed, and nothing is changed."""
-        workspace = self._page().workspace
+        workspace = self.window.page_in_front.workspace
         file, texts = workspace.file, {}
         for target, source in pairs.items():
             parameter = file.schema.parameters[source[0]]
@@ -245,7 +227,7 @@ class RangeActions(Translated):
 
     def _take(self, entry: BlockEntry) -> None:
         """Make a planned change where nothing of it is refused; else list what is."""
-        page = self._page()
+        page = self.window.page_in_front
         if not entry.refused:
             page.workspace.take(entry)
             return
@@ -258,7 +240,7 @@ class RangeActions(Translated):
 
     def to_default(self) -> None:
         """Set the selected values to their printed defaults; those without one stay as they are."""
-        workspace, chosen = self._page().workspace, self._selected()
+        workspace, chosen = self.window.page_in_front.workspace, self._selected()
         wanted = {a: d for a in chosen if (d := workspace.file.default(a)) is not None}
         if not wanted:
             name = describe(workspace.file, chosen[0])
@@ -271,12 +253,12 @@ class RangeActions(Translated):
 
     def clear(self) -> None:
         """Clear the selected values: they are not set, and the control keeps its own."""
-        workspace = self._page().workspace
+        workspace = self.window.page_in_front.workspace
         self._take(plan_values(workspace.file, dict.fromkeys(self._selected())))
 
     def to_all_axes(self) -> None:
         """Copy the selected value to every fitted axis of the same type."""
-        page = self._page()
+        page = self.window.page_in_front
         workspace, address = page.workspace, page.table_view.address()
         file = workspace.file
         fitted = fitted_axes(file) or axis_instances(file)

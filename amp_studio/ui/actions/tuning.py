@@ -18,8 +18,7 @@ def tune(window: StudioWindow, exchanges: ControlExchange) -> None:
     from amp_studio.calibration import compensation_of
     from amp_studio.ui.motion.tuning_window import TuningWindow
 
-    workspace = window.workspace
-    assert workspace is not None
+    workspace = window.workspace_in_front
     offered = compensation_of(workspace.file.schema.family.family)
     if not offered.pages and not offered.reversal:
         raise ValueError(

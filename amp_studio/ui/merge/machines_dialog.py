@@ -41,7 +41,7 @@ from amp_studio.ui.base.workspace import Workspace
 from amp_studio.ui.dialogs.file_dialogs import PAPER_KINDS, path_of_kind
 from amp_studio.ui.forms.message_bar import MessageBar
 
-from .compare_actions import FILTER
+from .comparisons import FILTER
 from .machines_model import MachinesFilter, MachinesModel
 
 _ROW_HEAD, _COLUMN = 290, 130

@@ -24,7 +24,7 @@ from amp_studio.files import (
 from amp_studio.schema import UnknownFamilyError, load_schema
 from amp_studio.ui.base.questions import ask
 from amp_studio.ui.base.task import PATIENCE_MS, ProgressDialog, in_background
-from amp_studio.ui.merge.compare_actions import FILTER, CompareActions
+from amp_studio.ui.merge.comparisons import FILTER, Comparisons
 from amp_studio.ui.page.file_page import FilePage
 from amp_studio.ui.window.studio_window import StudioWindow
 
@@ -41,7 +41,7 @@ class ProjectFiles(QObject):
         self,
         window: StudioWindow,
         open_path: Callable[[Path], None],
-        comparing: CompareActions,
+        comparing: Comparisons,
         show_at: Callable[..., None],
         information: Callable[[], None],
     ) -> None:

@@ -40,6 +40,134 @@
             <translation>Notizen</translation>
         </message>
         <message>
+            <source>&amp;File</source>
+            <translation>&amp;Datei</translation>
+        </message>
+        <message>
+            <source>&amp;New…</source>
+            <translation>&amp;Neu…</translation>
+        </message>
+        <message>
+            <source>New</source>
+            <translation>Neu</translation>
+        </message>
+        <message>
+            <source>&amp;Open…</source>
+            <translation>Ö&amp;ffnen…</translation>
+        </message>
+        <message>
+            <source>&amp;Save</source>
+            <translation>&amp;Speichern</translation>
+        </message>
+        <message>
+            <source>Save &amp;As…</source>
+            <translation>Speichern &amp;unter…</translation>
+        </message>
+        <message>
+            <source>&amp;Close</source>
+            <translation>Sch&amp;ließen</translation>
+        </message>
+        <message>
+            <source>Compare and Merge &amp;With…</source>
+            <translation>Vergleichen und &amp;zusammenführen mit…</translation>
+        </message>
+        <message>
+            <source>Compare</source>
+            <translation>Vergleichen</translation>
+        </message>
+        <message>
+            <source>Recover &amp;Backup…</source>
+            <translation>Si&amp;cherung zurückholen…</translation>
+        </message>
+        <message>
+            <source>&amp;Import…</source>
+            <translation>&amp;Importieren…</translation>
+        </message>
+        <message>
+            <source>Ex&amp;port…</source>
+            <translation>Expo&amp;rtieren…</translation>
+        </message>
+        <message>
+            <source>&amp;Report…</source>
+            <translation>&amp;Bericht…</translation>
+        </message>
+        <message>
+            <source>&amp;Form to Fill In…</source>
+            <translation>F&amp;ormular zum Ausfüllen…</translation>
+        </message>
+        <message>
+            <source>New Report &amp;Template…</source>
+            <translation>Neue Berichts&amp;vorlage…</translation>
+        </message>
+        <message>
+            <source>&amp;Machine Facts…</source>
+            <translation>An&amp;gaben zur Maschine…</translation>
+        </message>
+        <message>
+            <source>E&amp;xit</source>
+            <translation>Been&amp;den</translation>
+        </message>
+        <message>
+            <source>&amp;Edit</source>
+            <translation>&amp;Bearbeiten</translation>
+        </message>
+        <message>
+            <source>Undo</source>
+            <translation>Zurücknehmen</translation>
+        </message>
+        <message>
+            <source>Redo</source>
+            <translation>Wiederholen</translation>
+        </message>
+        <message>
+            <source>Histor&amp;y of Steps…</source>
+            <translation>Verlauf der Sc&amp;hritte…</translation>
+        </message>
+        <message>
+            <source>&amp;Edit Value</source>
+            <translation>Wert &amp;bearbeiten</translation>
+        </message>
+        <message>
+            <source>N&amp;ote…</source>
+            <translation>N&amp;otiz…</translation>
+        </message>
+        <message>
+            <source>&amp;Quick Edit by Number…</source>
+            <translation>Schnell nach &amp;Nummer…</translation>
+        </message>
+        <message>
+            <source>Ca&amp;lculator…</source>
+            <translation>&amp;Rechner…</translation>
+        </message>
+        <message>
+            <source>&amp;Tables of the Manual…</source>
+            <translation>Tabellen &amp;des Handbuchs…</translation>
+        </message>
+        <message>
+            <source>F&amp;ix Selected Finding</source>
+            <translation>Befund &amp;jetzt beheben</translation>
+        </message>
+        <message>
+            <source>Fix Se&amp;veral…</source>
+            <translation>&amp;Probleme beheben…</translation>
+        </message>
+        <message>
+            <source>Apply All &amp;Safe Fixes</source>
+            <translation>Alle &amp;sicheren Korrekturen</translation>
+        </message>
+        <message>
+            <source>S&amp;how Explanation of Finding</source>
+            <translation>Befund erkl&amp;ären</translation>
+        </message>
+        <message>
+            <source>&amp;Find…</source>
+            <translation>&amp;Finden…</translation>
+        </message>
+        <message>
+            <source>&amp;Go to Number…</source>
+            <translation>&amp;Gehe zu Nummer…</translation>
+        </message>
+        <message>
             <source>&amp;Copy</source>
             <translation>&amp;Kopieren</translation>
         </message>
@@ -72,8 +200,244 @@
             <translation>Auf alle Achsen des &amp;Typs kopieren</translation>
         </message>
         <message>
+            <source>&amp;Axis</source>
+            <translation>&amp;Achse</translation>
+        </message>
+        <message>
+            <source>&amp;Units</source>
+            <translation>&amp;Einheiten</translation>
+        </message>
+        <message>
+            <source>Control &amp;Type</source>
+            <translation>&amp;Steuerungstyp</translation>
+        </message>
+        <message>
+            <source>S&amp;witch mm / inch</source>
+            <translation>mm / &amp;Zoll wechseln</translation>
+        </message>
+        <message>
+            <source>mm / inch</source>
+            <translation>mm / Zoll</translation>
+        </message>
+        <message>
+            <source>Show Values &amp;As Entered</source>
+            <translation>Werte &amp;wie eingegeben</translation>
+        </message>
+        <message>
+            <source>Show Un&amp;fitted Axes</source>
+            <translation>Nicht &amp;vorhandene Achsen zeigen</translation>
+        </message>
+        <message>
+            <source>Show &amp;Hidden Parameters</source>
+            <translation>Verborgene P&amp;arameter zeigen</translation>
+        </message>
+        <message>
+            <source>Show Se&amp;crets</source>
+            <translation>Gehei&amp;mes zeigen</translation>
+        </message>
+        <message>
+            <source>Show passwords in clear text, also in exports</source>
+            <translation>Passwörter im Klartext zeigen, auch in Exporten</translation>
+        </message>
+        <message>
+            <source>Ne&amp;xt File</source>
+            <translation>&amp;Nächste Datei</translation>
+        </message>
+        <message>
+            <source>Pre&amp;vious File</source>
+            <translation>V&amp;orige Datei</translation>
+        </message>
+        <message>
+            <source>Show File &amp;Beside</source>
+            <translation>Datei &amp;daneben zeigen</translation>
+        </message>
+        <message>
+            <source>&amp;Motion…</source>
+            <translation>Bewe&amp;gung…</translation>
+        </message>
+        <message>
+            <source>Motion</source>
+            <translation>Bewegung</translation>
+        </message>
+        <message>
+            <source>&amp;Pictures</source>
+            <translation>&amp;Bilder</translation>
+        </message>
+        <message>
+            <source>Pictures</source>
+            <translation>Bilder</translation>
+        </message>
+        <message>
+            <source>Save P&amp;icture As SVG…</source>
+            <translation>B&amp;ild als SVG speichern…</translation>
+        </message>
+        <message>
+            <source>Rep&amp;ort Preview</source>
+            <translation>Berich&amp;tsvorschau</translation>
+        </message>
+        <message>
+            <source>Preview</source>
+            <translation>Vorschau</translation>
+        </message>
+        <message>
             <source>Filte&amp;r</source>
             <translation>&amp;Filter</translation>
+        </message>
+        <message>
+            <source>Th&amp;eme</source>
+            <translation>Fa&amp;rben</translation>
+        </message>
+        <message>
+            <source>La&amp;nguage</source>
+            <translation>S&amp;prache</translation>
+        </message>
+        <message>
+            <source>&amp;Go To</source>
+            <translation>Ge&amp;he zu</translation>
+        </message>
+        <message>
+            <source>&amp;Table</source>
+            <translation>&amp;Tabelle</translation>
+        </message>
+        <message>
+            <source>&amp;Groups</source>
+            <translation>&amp;Gruppen</translation>
+        </message>
+        <message>
+            <source>&amp;Parameter Help</source>
+            <translation>&amp;Parameterhilfe</translation>
+        </message>
+        <message>
+            <source>&amp;Findings</source>
+            <translation>&amp;Befunde</translation>
+        </message>
+        <message>
+            <source>&amp;Next Finding</source>
+            <translation>&amp;Nächster Befund</translation>
+        </message>
+        <message>
+            <source>Pre&amp;vious Finding</source>
+            <translation>&amp;Voriger Befund</translation>
+        </message>
+        <message>
+            <source>&amp;Reset Layout</source>
+            <translation>&amp;Anordnung zurücksetzen</translation>
+        </message>
+        <message>
+            <source>&amp;Control</source>
+            <translation>&amp;Steuerung</translation>
+        </message>
+        <message>
+            <source>&amp;At the Control</source>
+            <translation>An der Ste&amp;uerung</translation>
+        </message>
+        <message>
+            <source>Control</source>
+            <translation>Steuerung</translation>
+        </message>
+        <message>
+            <source>Sen&amp;d to the Control…</source>
+            <translation>An Steuerung &amp;senden…</translation>
+        </message>
+        <message>
+            <source>&amp;Compare With the Control…</source>
+            <translation>Mit der Steuerung &amp;vergleichen…</translation>
+        </message>
+        <message>
+            <source>Read &amp;From the Control…</source>
+            <translation>Aus der Steuerung aus&amp;lesen…</translation>
+        </message>
+        <message>
+            <source>&amp;Restore Control From Backup…</source>
+            <translation>Steuerung aus Sicherung &amp;wiederherstellen…</translation>
+        </message>
+        <message>
+            <source>Enter Values by &amp;Hand…</source>
+            <translation>Werte von Hand &amp;eingeben…</translation>
+        </message>
+        <message>
+            <source>Se&amp;veral Controls…</source>
+            <translation>&amp;Mehrere Steuerungen…</translation>
+        </message>
+        <message>
+            <source>E&amp;xchanges of This File…</source>
+            <translation>Aus&amp;tausch dieser Datei…</translation>
+        </message>
+        <message>
+            <source>&amp;Tuning…</source>
+            <translation>&amp;Abgleich…</translation>
+        </message>
+        <message>
+            <source>&amp;Start Emulated Control</source>
+            <translation>Nach&amp;gebildete Steuerung starten</translation>
+        </message>
+        <message>
+            <source>Emulated Control in &amp;E-Stop</source>
+            <translation>Nachgebildete Steuerung im &amp;Not-Halt</translation>
+        </message>
+        <message>
+            <source>Sto&amp;p Emulated Control</source>
+            <translation>Nachgebildete Steuerung been&amp;den</translation>
+        </message>
+        <message>
+            <source>&amp;Project</source>
+            <translation>&amp;Projekt</translation>
+        </message>
+        <message>
+            <source>&amp;New Project…</source>
+            <translation>&amp;Neues Projekt…</translation>
+        </message>
+        <message>
+            <source>&amp;Open Project…</source>
+            <translation>Projekt ö&amp;ffnen…</translation>
+        </message>
+        <message>
+            <source>Project &amp;Information…</source>
+            <translation>An&amp;gaben zum Projekt…</translation>
+        </message>
+        <message>
+            <source>Open &amp;File of the Project…</source>
+            <translation>&amp;Datei des Projekts öffnen…</translation>
+        </message>
+        <message>
+            <source>Chec&amp;k All Files…</source>
+            <translation>Alle Dateien p&amp;rüfen…</translation>
+        </message>
+        <message>
+            <source>Compare &amp;Machines…</source>
+            <translation>Maschinen &amp;vergleichen…</translation>
+        </message>
+        <message>
+            <source>&amp;Copy File…</source>
+            <translation>Datei &amp;kopieren…</translation>
+        </message>
+        <message>
+            <source>Copy from &amp;Another Project…</source>
+            <translation>Aus einem &amp;anderen Projekt kopieren…</translation>
+        </message>
+        <message>
+            <source>&amp;Rename File…</source>
+            <translation>Datei &amp;umbenennen…</translation>
+        </message>
+        <message>
+            <source>&amp;Delete File…</source>
+            <translation>Datei &amp;löschen…</translation>
+        </message>
+        <message>
+            <source>Reco&amp;ver a Deleted or Older File…</source>
+            <translation>Gelöschte oder &amp;ältere Datei zurückholen…</translation>
+        </message>
+        <message>
+            <source>&amp;Help</source>
+            <translation>&amp;Hilfe</translation>
+        </message>
+        <message>
+            <source>&amp;Commands…</source>
+            <translation>Be&amp;fehle…</translation>
+        </message>
+        <message>
+            <source>&amp;About AMP Studio</source>
+            <translation>Ü&amp;ber AMP Studio</translation>
         </message>
         <message>
             <source>With findings</source>
@@ -213,8 +577,28 @@
             <translation>Checkliste</translation>
         </message>
         <message>
+            <source>Form to Fill In</source>
+            <translation>Formular zum Ausfüllen</translation>
+        </message>
+        <message>
             <source>{path} written</source>
             <translation>{path} geschrieben</translation>
+        </message>
+        <message>
+            <source>New Report Template</source>
+            <translation>Neue Berichtsvorlage</translation>
+        </message>
+        <message>
+            <source>About AMP Studio</source>
+            <translation>Über AMP Studio</translation>
+        </message>
+        <message>
+            <source>AMP Studio {version}
+
+The numbered parameters of machine controls: edit, check, print, exchange and simulate them.</source>
+            <translation>AMP Studio {version}
+
+Die nummerierten Parameter von Maschinensteuerungen: bearbeiten, prüfen, drucken, austauschen und simulieren.</translation>
         </message>
         <message>
             <source>Not set</source>
@@ -351,6 +735,10 @@
         <message>
             <source>All at their defaults, check them too: {steps}</source>
             <translation>Alle auf ihren Vorgaben, auch prüfen: {steps}</translation>
+        </message>
+        <message>
+            <source>{now} by {user}</source>
+            <translation>{now} von {user}</translation>
         </message>
         <message>
             <source>Step {number} not done</source>
@@ -828,59 +1216,6 @@
             <source>{letter} axis</source>
             <translation>{letter}-Achse</translation>
         </message>
-    </context>
-    <context>
-        <name>AddAxisDialog</name>
-        <message>
-            <source>Add axis</source>
-            <translation>Achse hinzufügen</translation>
-        </message>
-        <message>
-            <source>Before {axis}</source>
-            <translation>Vor {axis}</translation>
-        </message>
-        <message>
-            <source>A&amp;dd Axis</source>
-            <translation>Achse &amp;hinzufügen</translation>
-        </message>
-        <message>
-            <source>&amp;Letter</source>
-            <translation>&amp;Buchstabe</translation>
-        </message>
-        <message>
-            <source>&amp;Place</source>
-            <translation>&amp;Platz</translation>
-        </message>
-    </context>
-    <context>
-        <name>AskInDialogs</name>
-        <message>
-            <source>&amp;Continue checking</source>
-            <translation>&amp;Weiter prüfen</translation>
-        </message>
-        <message>
-            <source>&amp;Edit parameter</source>
-            <translation>Parameter &amp;bearbeiten</translation>
-        </message>
-        <message>
-            <source>&amp;Quit checking</source>
-            <translation>Prüfen be&amp;enden</translation>
-        </message>
-        <message>
-            <source>Out of range</source>
-            <translation>Außerhalb des Bereichs</translation>
-        </message>
-        <message>
-            <source>Edit parameter</source>
-            <translation>Parameter bearbeiten</translation>
-        </message>
-    </context>
-    <context>
-        <name>AxisActions</name>
-        <message>
-            <source>&amp;Axis</source>
-            <translation>&amp;Achse</translation>
-        </message>
         <message>
             <source>{family} has no parameter for the servo of an axis</source>
             <translation>{family} hat keinen Parameter für den Servo einer Achse</translation>
@@ -956,6 +1291,255 @@
         <message>
             <source>Swap axes {first} and {second}</source>
             <translation>Achsen {first} und {second} tauschen</translation>
+        </message>
+        <message>
+            <source>&amp;Undo</source>
+            <translation>&amp;Zurücknehmen</translation>
+        </message>
+        <message>
+            <source>&amp;Redo</source>
+            <translation>&amp;Wiederholen</translation>
+        </message>
+        <message>
+            <source>Open a project first: Project &gt; Open Project.</source>
+            <translation>Erst ein Projekt öffnen: Projekt &gt; Projekt öffnen.</translation>
+        </message>
+        <message>
+            <source>Project {name}: {count} in {folder}</source>
+            <translation>Projekt {name}: {count} in {folder}</translation>
+        </message>
+        <message>
+            <source>Folder of the new project</source>
+            <translation>Ordner des neuen Projekts</translation>
+        </message>
+        <message>
+            <source>Open project</source>
+            <translation>Projekt öffnen</translation>
+        </message>
+        <message>
+            <source>The project has no files of this kind.</source>
+            <translation>Das Projekt hat keine solchen Dateien.</translation>
+        </message>
+        <message>
+            <source>File</source>
+            <translation>Datei</translation>
+        </message>
+        <message>
+            <source>New name</source>
+            <translation>Neuer Name</translation>
+        </message>
+        <message>
+            <source>Open</source>
+            <translation>Öffnen</translation>
+        </message>
+        <message>
+            <source>The project has no files yet.</source>
+            <translation>Das Projekt hat noch keine Dateien.</translation>
+        </message>
+        <message>
+            <source>Check All Files</source>
+            <translation>Alle Dateien prüfen</translation>
+        </message>
+        <message>
+            <source>Copy</source>
+            <translation>Kopieren</translation>
+        </message>
+        <message>
+            <source>Copy from another project</source>
+            <translation>Aus einem anderen Projekt kopieren</translation>
+        </message>
+        <message>
+            <source>Copying</source>
+            <translation>Kopieren</translation>
+        </message>
+        <message>
+            <source>Rename</source>
+            <translation>Umbenennen</translation>
+        </message>
+        <message>
+            <source>Delete</source>
+            <translation>Löschen</translation>
+        </message>
+        <message>
+            <source>Delete {name}? It is kept as a backup and can be recovered.</source>
+            <translation>{name} löschen? Sie bleibt als Sicherung und kann zurückgeholt werden.</translation>
+        </message>
+        <message>
+            <source>&amp;Delete</source>
+            <translation>&amp;Löschen</translation>
+        </message>
+        <message>
+            <source>Cancel</source>
+            <translation>Abbrechen</translation>
+        </message>
+        <message>
+            <source>{name} deleted</source>
+            <translation>{name} gelöscht</translation>
+        </message>
+        <message>
+            <source>Recover</source>
+            <translation>Zurückholen</translation>
+        </message>
+        <message>
+            <source>Control type</source>
+            <translation>Steuerungstyp</translation>
+        </message>
+        <message>
+            <source>&amp;System</source>
+            <translation>&amp;System</translation>
+        </message>
+        <message>
+            <source>&amp;Light</source>
+            <translation>&amp;Hell</translation>
+        </message>
+        <message>
+            <source>&amp;Dark</source>
+            <translation>&amp;Dunkel</translation>
+        </message>
+        <message>
+            <source>The language is another one when AMP Studio is started again.</source>
+            <translation>Die Sprache ist nach dem nächsten Start von AMP Studio eine andere.</translation>
+        </message>
+        <message>
+            <source>&amp;Motion… (not for {family})</source>
+            <translation>B&amp;ewegung… (nicht für {family})</translation>
+        </message>
+        <message>
+            <source>Motion (F9)</source>
+            <translation>Bewegung (F9)</translation>
+        </message>
+        <message>
+            <source>Loading the simulator</source>
+            <translation>Der Simulator wird bereitgestellt</translation>
+        </message>
+    </context>
+    <context>
+        <name>AddAxisDialog</name>
+        <message>
+            <source>Add axis</source>
+            <translation>Achse hinzufügen</translation>
+        </message>
+        <message>
+            <source>Before {axis}</source>
+            <translation>Vor {axis}</translation>
+        </message>
+        <message>
+            <source>A&amp;dd Axis</source>
+            <translation>Achse &amp;hinzufügen</translation>
+        </message>
+        <message>
+            <source>&amp;Letter</source>
+            <translation>&amp;Buchstabe</translation>
+        </message>
+        <message>
+            <source>&amp;Place</source>
+            <translation>&amp;Platz</translation>
+        </message>
+    </context>
+    <context>
+        <name>AskInDialogs</name>
+        <message>
+            <source>&amp;Continue checking</source>
+            <translation>&amp;Weiter prüfen</translation>
+        </message>
+        <message>
+            <source>&amp;Edit parameter</source>
+            <translation>Parameter &amp;bearbeiten</translation>
+        </message>
+        <message>
+            <source>&amp;Quit checking</source>
+            <translation>Prüfen be&amp;enden</translation>
+        </message>
+        <message>
+            <source>Out of range</source>
+            <translation>Außerhalb des Bereichs</translation>
+        </message>
+        <message>
+            <source>Edit parameter</source>
+            <translation>Parameter bearbeiten</translation>
+        </message>
+    </context>
+    <context>
+        <name>AtControl</name>
+        <message>
+            <source>{name}: {state} (Alt+0)</source>
+            <translation>{name}: {state} (Alt+0)</translation>
+        </message>
+        <message>
+            <source>Starting an emulated control …</source>
+            <translation>Eine nachgebildete Steuerung wird gestartet …</translation>
+        </message>
+        <message>
+            <source>Emulated control at {address}, in E-stop</source>
+            <translation>Nachgebildete Steuerung an {address}, im Not-Halt</translation>
+        </message>
+        <message>
+            <source>The emulated control stopped: {output}</source>
+            <translation>Die nachgebildete Steuerung endete: {output}</translation>
+        </message>
+        <message>
+            <source>Emulated control stopped</source>
+            <translation>Nachgebildete Steuerung beendet</translation>
+        </message>
+        <message>
+            <source>Emulated control: {line}</source>
+            <translation>Nachgebildete Steuerung: {line}</translation>
+        </message>
+        <message>
+            <source>Read</source>
+            <translation>Auslesen</translation>
+        </message>
+        <message>
+            <source>Restore</source>
+            <translation>Wiederherstellen</translation>
+        </message>
+        <message>
+            <source>Enter Values by Hand</source>
+            <translation>Werte von Hand eingeben</translation>
+        </message>
+        <message>
+            <source>Connect</source>
+            <translation>Verbinden</translation>
+        </message>
+        <message>
+            <source>Emulated control</source>
+            <translation>Nachgebildete Steuerung</translation>
+        </message>
+        <message>
+            <source>emulated</source>
+            <translation>nachgebildet</translation>
+        </message>
+        <message>
+            <source>Control</source>
+            <translation>Steuerung</translation>
+        </message>
+        <message>
+            <source>none chosen</source>
+            <translation>keine gewählt</translation>
+        </message>
+        <message>
+            <source>Opening</source>
+            <translation>Öffnen</translation>
+        </message>
+        <message>
+            <source>Upload cancelled. No file was written.</source>
+            <translation>Auslesen abgebrochen. Keine Datei wurde geschrieben.</translation>
+        </message>
+        <message>
+            <source>Save upload as</source>
+            <translation>Ausgelesenes speichern unter</translation>
+        </message>
+        <message>
+            <source>Upload</source>
+            <translation>Auslesen</translation>
+        </message>
+        <message>
+            <source>{error}.
+
+Choose another name.</source>
+            <translation>{error}.
+
+Einen anderen Namen wählen.</translation>
         </message>
     </context>
     <context>
@@ -1279,11 +1863,7 @@
         </message>
     </context>
     <context>
-        <name>CompareActions</name>
-        <message>
-            <source>Compare and Merge &amp;With…</source>
-            <translation>Vergleichen und &amp;zusammenführen mit…</translation>
-        </message>
+        <name>Comparisons</name>
         <message>
             <source>Compare</source>
             <translation>Vergleichen</translation>
@@ -1321,141 +1901,6 @@
         <message>
             <source>Conditions</source>
             <translation>Bedingungen</translation>
-        </message>
-    </context>
-    <context>
-        <name>ControlActions</name>
-        <message>
-            <source>&amp;Control</source>
-            <translation>&amp;Steuerung</translation>
-        </message>
-        <message>
-            <source>Enter Values by Hand</source>
-            <translation>Werte von Hand eingeben</translation>
-        </message>
-        <message>
-            <source>Upload</source>
-            <translation>Auslesen</translation>
-        </message>
-        <message>
-            <source>&amp;Restore Control From Backup…</source>
-            <translation>Steuerung aus Sicherung &amp;wiederherstellen…</translation>
-        </message>
-        <message>
-            <source>&amp;At the Control</source>
-            <translation>An der Ste&amp;uerung</translation>
-        </message>
-        <message>
-            <source>Control</source>
-            <translation>Steuerung</translation>
-        </message>
-        <message>
-            <source>Sen&amp;d to the Control…</source>
-            <translation>An Steuerung &amp;senden…</translation>
-        </message>
-        <message>
-            <source>&amp;Compare With the Control…</source>
-            <translation>Mit der Steuerung &amp;vergleichen…</translation>
-        </message>
-        <message>
-            <source>Read &amp;From the Control…</source>
-            <translation>Aus der Steuerung aus&amp;lesen…</translation>
-        </message>
-        <message>
-            <source>Enter Values by &amp;Hand…</source>
-            <translation>Werte von Hand &amp;eingeben…</translation>
-        </message>
-        <message>
-            <source>Se&amp;veral Controls…</source>
-            <translation>&amp;Mehrere Steuerungen…</translation>
-        </message>
-        <message>
-            <source>E&amp;xchanges of This File…</source>
-            <translation>Aus&amp;tausch dieser Datei…</translation>
-        </message>
-        <message>
-            <source>&amp;Tuning…</source>
-            <translation>&amp;Abgleich…</translation>
-        </message>
-        <message>
-            <source>&amp;Start Emulated Control</source>
-            <translation>Nach&amp;gebildete Steuerung starten</translation>
-        </message>
-        <message>
-            <source>Emulated Control in &amp;E-Stop</source>
-            <translation>Nachgebildete Steuerung im &amp;Not-Halt</translation>
-        </message>
-        <message>
-            <source>Sto&amp;p Emulated Control</source>
-            <translation>Nachgebildete Steuerung been&amp;den</translation>
-        </message>
-        <message>
-            <source>{name}: {state} (Alt+0)</source>
-            <translation>{name}: {state} (Alt+0)</translation>
-        </message>
-        <message>
-            <source>Starting an emulated control …</source>
-            <translation>Eine nachgebildete Steuerung wird gestartet …</translation>
-        </message>
-        <message>
-            <source>Emulated control at {address}, in E-stop</source>
-            <translation>Nachgebildete Steuerung an {address}, im Not-Halt</translation>
-        </message>
-        <message>
-            <source>The emulated control stopped: {output}</source>
-            <translation>Die nachgebildete Steuerung endete: {output}</translation>
-        </message>
-        <message>
-            <source>Emulated control stopped</source>
-            <translation>Nachgebildete Steuerung beendet</translation>
-        </message>
-        <message>
-            <source>Emulated control: {line}</source>
-            <translation>Nachgebildete Steuerung: {line}</translation>
-        </message>
-        <message>
-            <source>Read</source>
-            <translation>Auslesen</translation>
-        </message>
-        <message>
-            <source>Connect</source>
-            <translation>Verbinden</translation>
-        </message>
-        <message>
-            <source>Emulated control</source>
-            <translation>Nachgebildete Steuerung</translation>
-        </message>
-        <message>
-            <source>emulated</source>
-            <translation>nachgebildet</translation>
-        </message>
-        <message>
-            <source>none chosen</source>
-            <translation>keine gewählt</translation>
-        </message>
-        <message>
-            <source>Restore</source>
-            <translation>Wiederherstellen</translation>
-        </message>
-        <message>
-            <source>Opening</source>
-            <translation>Öffnen</translation>
-        </message>
-        <message>
-            <source>Upload cancelled. No file was written.</source>
-            <translation>Auslesen abgebrochen. Keine Datei wurde geschrieben.</translation>
-        </message>
-        <message>
-            <source>Save upload as</source>
-            <translation>Ausgelesenes speichern unter</translation>
-        </message>
-        <message>
-            <source>{error}.
-
-Choose another name.</source>
-            <translation>{error}.
-
-Einen anderen Namen wählen.</translation>
         </message>
     </context>
     <context>
@@ -1967,102 +2412,7 @@ Eine nachgebildete Steuerung ist im Menü Steuerung.</translation>
         </message>
     </context>
     <context>
-        <name>DocumentActions</name>
-        <message>
-            <source>&amp;Report…</source>
-            <translation>&amp;Bericht…</translation>
-        </message>
-        <message>
-            <source>Report</source>
-            <translation>Bericht</translation>
-        </message>
-        <message>
-            <source>&amp;Form to Fill In…</source>
-            <translation>F&amp;ormular zum Ausfüllen…</translation>
-        </message>
-        <message>
-            <source>New Report &amp;Template…</source>
-            <translation>Neue Berichts&amp;vorlage…</translation>
-        </message>
-        <message>
-            <source>Form to Fill In</source>
-            <translation>Formular zum Ausfüllen</translation>
-        </message>
-        <message>
-            <source>{path} written</source>
-            <translation>{path} geschrieben</translation>
-        </message>
-        <message>
-            <source>New Report Template</source>
-            <translation>Neue Berichtsvorlage</translation>
-        </message>
-    </context>
-    <context>
-        <name>EditActions</name>
-        <message>
-            <source>&amp;Undo</source>
-            <translation>&amp;Zurücknehmen</translation>
-        </message>
-        <message>
-            <source>Undo</source>
-            <translation>Zurücknehmen</translation>
-        </message>
-        <message>
-            <source>&amp;Redo</source>
-            <translation>&amp;Wiederholen</translation>
-        </message>
-        <message>
-            <source>Redo</source>
-            <translation>Wiederholen</translation>
-        </message>
-        <message>
-            <source>&amp;Edit Value</source>
-            <translation>Wert &amp;bearbeiten</translation>
-        </message>
-        <message>
-            <source>Histor&amp;y of Steps…</source>
-            <translation>Verlauf der Sc&amp;hritte…</translation>
-        </message>
-        <message>
-            <source>&amp;Quick Edit by Number…</source>
-            <translation>Schnell nach &amp;Nummer…</translation>
-        </message>
-        <message>
-            <source>Ca&amp;lculator…</source>
-            <translation>&amp;Rechner…</translation>
-        </message>
-        <message>
-            <source>&amp;Tables of the Manual…</source>
-            <translation>Tabellen &amp;des Handbuchs…</translation>
-        </message>
-        <message>
-            <source>F&amp;ix Selected Finding</source>
-            <translation>Befund &amp;jetzt beheben</translation>
-        </message>
-        <message>
-            <source>S&amp;how Explanation of Finding</source>
-            <translation>Befund erkl&amp;ären</translation>
-        </message>
-        <message>
-            <source>Fix Se&amp;veral…</source>
-            <translation>&amp;Probleme beheben…</translation>
-        </message>
-        <message>
-            <source>Apply All &amp;Safe Fixes</source>
-            <translation>Alle &amp;sicheren Korrekturen</translation>
-        </message>
-        <message>
-            <source>N&amp;ote…</source>
-            <translation>N&amp;otiz…</translation>
-        </message>
-        <message>
-            <source>&amp;Edit</source>
-            <translation>&amp;Bearbeiten</translation>
-        </message>
-        <message>
-            <source>Select a value in the table first.</source>
-            <translation>Erst einen Wert in der Tabelle auswählen.</translation>
-        </message>
+        <name>Edits</name>
         <message>
             <source>Value not accepted</source>
             <translation>Wert nicht angenommen</translation>
@@ -2250,173 +2600,6 @@ Behaltene Kopie: {kept}</translation>
         </message>
     </context>
     <context>
-        <name>FileActions</name>
-        <message>
-            <source>&amp;New…</source>
-            <translation>&amp;Neu…</translation>
-        </message>
-        <message>
-            <source>New</source>
-            <translation>Neu</translation>
-        </message>
-        <message>
-            <source>&amp;Open…</source>
-            <translation>Ö&amp;ffnen…</translation>
-        </message>
-        <message>
-            <source>Open</source>
-            <translation>Öffnen</translation>
-        </message>
-        <message>
-            <source>&amp;Save</source>
-            <translation>&amp;Speichern</translation>
-        </message>
-        <message>
-            <source>Save &amp;As…</source>
-            <translation>Speichern &amp;unter…</translation>
-        </message>
-        <message>
-            <source>&amp;Close</source>
-            <translation>Sch&amp;ließen</translation>
-        </message>
-        <message>
-            <source>&amp;File</source>
-            <translation>&amp;Datei</translation>
-        </message>
-        <message>
-            <source>Recover &amp;Backup…</source>
-            <translation>Si&amp;cherung zurückholen…</translation>
-        </message>
-        <message>
-            <source>&amp;Machine Facts…</source>
-            <translation>An&amp;gaben zur Maschine…</translation>
-        </message>
-        <message>
-            <source>E&amp;xit</source>
-            <translation>Been&amp;den</translation>
-        </message>
-        <message>
-            <source>Reading the families</source>
-            <translation>Die Familien werden gelesen</translation>
-        </message>
-        <message>
-            <source>New parameter file</source>
-            <translation>Neue Parameterdatei</translation>
-        </message>
-        <message>
-            <source>Copy of an example</source>
-            <translation>Kopie eines Beispiels</translation>
-        </message>
-        <message>
-            <source>{name} already exists. Replace it? The existing file becomes its backup.</source>
-            <translation>{name} gibt es schon. Ersetzen? Die vorhandene Datei wird zur Sicherung.</translation>
-        </message>
-        <message>
-            <source>&amp;Replace</source>
-            <translation>E&amp;rsetzen</translation>
-        </message>
-        <message>
-            <source>Cancel</source>
-            <translation>Abbrechen</translation>
-        </message>
-        <message>
-            <source>{name} is open in a tab. Close it first, or choose another name.</source>
-            <translation>{name} ist in einem Reiter offen. Erst schließen oder einen anderen Namen wählen.</translation>
-        </message>
-        <message>
-            <source>Saving</source>
-            <translation>Speichern</translation>
-        </message>
-        <message>
-            <source>Opening</source>
-            <translation>Öffnen</translation>
-        </message>
-        <message>
-            <source>{error}.
-
-Open it read-only?</source>
-            <translation>{error}.
-
-Nur zum Lesen öffnen?</translation>
-        </message>
-        <message>
-            <source>File in use</source>
-            <translation>Datei in Gebrauch</translation>
-        </message>
-        <message>
-            <source>&amp;Open Read-Only</source>
-            <translation>Nur zum &amp;Lesen öffnen</translation>
-        </message>
-        <message>
-            <source>Not opened again: {list}</source>
-            <translation>Nicht wieder geöffnet: {list}</translation>
-        </message>
-        <message>
-            <source>
-
-The file was changed since then. Check the recovered values.</source>
-            <translation>
-
-Die Datei wurde seitdem geändert. Die wiederhergestellten Werte prüfen.</translation>
-        </message>
-        <message>
-            <source>The program ended before {count} from {day_and_time} ({who}) could be saved.{note}
-
-Recover the unsaved work? You can undo this.</source>
-            <translation>Das Programm endete, bevor {count} von {day_and_time} ({who}) gespeichert werden konnten.{note}
-
-Die ungespeicherte Arbeit wiederherstellen? Das lässt sich zurücknehmen.</translation>
-        </message>
-        <message>
-            <source>Unsaved work found</source>
-            <translation>Ungespeicherte Arbeit gefunden</translation>
-        </message>
-        <message>
-            <source>&amp;Recover</source>
-            <translation>&amp;Wiederherstellen</translation>
-        </message>
-        <message>
-            <source>&amp;Discard</source>
-            <translation>&amp;Verwerfen</translation>
-        </message>
-        <message>
-            <source>Decide &amp;Later</source>
-            <translation>&amp;Später entscheiden</translation>
-        </message>
-        <message>
-            <source>Recover unsaved work</source>
-            <translation>Ungespeicherte Arbeit wiederherstellen</translation>
-        </message>
-        <message>
-            <source>Save as</source>
-            <translation>Speichern unter</translation>
-        </message>
-        <message>
-            <source>{name} has no backup yet. The first save makes one.</source>
-            <translation>{name} hat noch keine Sicherung. Das erste Speichern legt eine an.</translation>
-        </message>
-        <message>
-            <source> Your unsaved changes will be lost.</source>
-            <translation> Die ungespeicherten Änderungen gehen verloren.</translation>
-        </message>
-        <message>
-            <source>Replace {name} by its backup? The present content becomes the backup.{lost}</source>
-            <translation>{name} durch die Sicherung ersetzen? Der jetzige Inhalt wird zur Sicherung.{lost}</translation>
-        </message>
-        <message>
-            <source>Recover backup</source>
-            <translation>Sicherung zurückholen</translation>
-        </message>
-        <message>
-            <source>Recovering</source>
-            <translation>Wird zurückgeholt</translation>
-        </message>
-        <message>
-            <source>Machine facts</source>
-            <translation>Angaben zur Maschine</translation>
-        </message>
-    </context>
-    <context>
         <name>FilePage</name>
         <message>
             <source>Not set</source>
@@ -2520,6 +2703,133 @@ Die ungespeicherte Arbeit wiederherstellen? Das lässt sich zurücknehmen.</tran
         </message>
     </context>
     <context>
+        <name>Files</name>
+        <message>
+            <source>Reading the families</source>
+            <translation>Die Familien werden gelesen</translation>
+        </message>
+        <message>
+            <source>New parameter file</source>
+            <translation>Neue Parameterdatei</translation>
+        </message>
+        <message>
+            <source>Copy of an example</source>
+            <translation>Kopie eines Beispiels</translation>
+        </message>
+        <message>
+            <source>{name} already exists. Replace it? The existing file becomes its backup.</source>
+            <translation>{name} gibt es schon. Ersetzen? Die vorhandene Datei wird zur Sicherung.</translation>
+        </message>
+        <message>
+            <source>&amp;Replace</source>
+            <translation>E&amp;rsetzen</translation>
+        </message>
+        <message>
+            <source>Cancel</source>
+            <translation>Abbrechen</translation>
+        </message>
+        <message>
+            <source>{name} is open in a tab. Close it first, or choose another name.</source>
+            <translation>{name} ist in einem Reiter offen. Erst schließen oder einen anderen Namen wählen.</translation>
+        </message>
+        <message>
+            <source>Saving</source>
+            <translation>Speichern</translation>
+        </message>
+        <message>
+            <source>Open</source>
+            <translation>Öffnen</translation>
+        </message>
+        <message>
+            <source>Opening</source>
+            <translation>Öffnen</translation>
+        </message>
+        <message>
+            <source>{error}.
+
+Open it read-only?</source>
+            <translation>{error}.
+
+Nur zum Lesen öffnen?</translation>
+        </message>
+        <message>
+            <source>File in use</source>
+            <translation>Datei in Gebrauch</translation>
+        </message>
+        <message>
+            <source>&amp;Open Read-Only</source>
+            <translation>Nur zum &amp;Lesen öffnen</translation>
+        </message>
+        <message>
+            <source>Not opened again: {list}</source>
+            <translation>Nicht wieder geöffnet: {list}</translation>
+        </message>
+        <message>
+            <source>
+
+The file was changed since then. Check the recovered values.</source>
+            <translation>
+
+Die Datei wurde seitdem geändert. Die wiederhergestellten Werte prüfen.</translation>
+        </message>
+        <message>
+            <source>The program ended before {count} from {day_and_time} ({who}) could be saved.{note}
+
+Recover the unsaved work? You can undo this.</source>
+            <translation>Das Programm endete, bevor {count} von {day_and_time} ({who}) gespeichert werden konnten.{note}
+
+Die ungespeicherte Arbeit wiederherstellen? Das lässt sich zurücknehmen.</translation>
+        </message>
+        <message>
+            <source>Unsaved work found</source>
+            <translation>Ungespeicherte Arbeit gefunden</translation>
+        </message>
+        <message>
+            <source>&amp;Recover</source>
+            <translation>&amp;Wiederherstellen</translation>
+        </message>
+        <message>
+            <source>&amp;Discard</source>
+            <translation>&amp;Verwerfen</translation>
+        </message>
+        <message>
+            <source>Decide &amp;Later</source>
+            <translation>&amp;Später entscheiden</translation>
+        </message>
+        <message>
+            <source>Recover unsaved work</source>
+            <translation>Ungespeicherte Arbeit wiederherstellen</translation>
+        </message>
+        <message>
+            <source>Save as</source>
+            <translation>Speichern unter</translation>
+        </message>
+        <message>
+            <source>{name} has no backup yet. The first save makes one.</source>
+            <translation>{name} hat noch keine Sicherung. Das erste Speichern legt eine an.</translation>
+        </message>
+        <message>
+            <source> Your unsaved changes will be lost.</source>
+            <translation> Die ungespeicherten Änderungen gehen verloren.</translation>
+        </message>
+        <message>
+            <source>Replace {name} by its backup? The present content becomes the backup.{lost}</source>
+            <translation>{name} durch die Sicherung ersetzen? Der jetzige Inhalt wird zur Sicherung.{lost}</translation>
+        </message>
+        <message>
+            <source>Recover backup</source>
+            <translation>Sicherung zurückholen</translation>
+        </message>
+        <message>
+            <source>Recovering</source>
+            <translation>Wird zurückgeholt</translation>
+        </message>
+        <message>
+            <source>Machine facts</source>
+            <translation>Angaben zur Maschine</translation>
+        </message>
+    </context>
+    <context>
         <name>FilterBar</name>
         <message>
             <source>Filters of the table</source>
@@ -2536,25 +2846,6 @@ Die ungespeicherte Arbeit wiederherstellen? Das lässt sich zurücknehmen.</tran
         <message>
             <source>More filters</source>
             <translation>Weitere Filter</translation>
-        </message>
-    </context>
-    <context>
-        <name>FindActions</name>
-        <message>
-            <source>&amp;Find…</source>
-            <translation>&amp;Finden…</translation>
-        </message>
-        <message>
-            <source>&amp;Go to Number…</source>
-            <translation>&amp;Gehe zu Nummer…</translation>
-        </message>
-        <message>
-            <source>&amp;Commands…</source>
-            <translation>Be&amp;fehle…</translation>
-        </message>
-        <message>
-            <source>Find</source>
-            <translation>Finden</translation>
         </message>
     </context>
     <context>
@@ -2728,115 +3019,6 @@ Die ungespeicherte Arbeit wiederherstellen? Das lässt sich zurücknehmen.</tran
         </message>
     </context>
     <context>
-        <name>FormatActions</name>
-        <message>
-            <source>&amp;Import…</source>
-            <translation>&amp;Importieren…</translation>
-        </message>
-        <message>
-            <source>Ex&amp;port…</source>
-            <translation>Expo&amp;rtieren…</translation>
-        </message>
-        <message>
-            <source>Import</source>
-            <translation>Importieren</translation>
-        </message>
-        <message>
-            <source>Text formats ({endings});;All files (*)</source>
-            <translation>Textformate ({endings});;Alle Dateien (*)</translation>
-        </message>
-        <message>
-            <source>&amp;Import</source>
-            <translation>&amp;Importieren</translation>
-        </message>
-        <message>
-            <source>Import as</source>
-            <translation>Importieren als</translation>
-        </message>
-        <message>
-            <source>Listing:</source>
-            <translation>Auflistung:</translation>
-        </message>
-        <message>
-            <source>Machine type:</source>
-            <translation>Maschinentyp:</translation>
-        </message>
-        <message>
-            <source>Control family:</source>
-            <translation>Steuerungsfamilie:</translation>
-        </message>
-        <message>
-            <source>{error}.
-
-Keep the lines that are not recognised, so that an export writes them back?
-{listed}</source>
-            <translation>{error}.
-
-Die nicht erkannten Zeilen behalten, damit ein Export sie wieder schreibt?
-{listed}</translation>
-        </message>
-        <message>
-            <source>&amp;Keep Them</source>
-            <translation>&amp;Behalten</translation>
-        </message>
-        <message>
-            <source>Cancel</source>
-            <translation>Abbrechen</translation>
-        </message>
-        <message>
-            <source>Importing</source>
-            <translation>Wird importiert</translation>
-        </message>
-        <message>
-            <source>
-and {what} more</source>
-            <translation>
-und {what} weitere</translation>
-        </message>
-        <message>
-            <source>One value is</source>
-            <translation>Ein Wert ist</translation>
-        </message>
-        <message>
-            <source>{count} values are</source>
-            <translation>{count} Werte sind</translation>
-        </message>
-        <message>
-            <source>{count} not allowed:
-{listed}{more}
-
-Import them and mark them as forced?</source>
-            <translation>{count} nicht erlaubt:
-{listed}{more}
-
-Importieren und als erzwungen kennzeichnen?</translation>
-        </message>
-        <message>
-            <source>&amp;Import and Mark</source>
-            <translation>&amp;Importieren und kennzeichnen</translation>
-        </message>
-        <message>
-            <source>Export</source>
-            <translation>Exportieren</translation>
-        </message>
-        <message>
-            <source>Exporting</source>
-            <translation>Wird exportiert</translation>
-        </message>
-        <message>
-            <source>&amp;Export</source>
-            <translation>&amp;Exportieren</translation>
-        </message>
-        <message>
-            <source>{written} of {total} values</source>
-            <translation>{written} von {total} Werten</translation>
-        </message>
-        <message>
-            <source>{name}: {written} of {total} values go across as they are.</source>
-            <translation>{name}: {written} von {total} Werten kommen unverändert hinüber.</translation>
-        </message>
-    </context>
-    <context>
         <name>GroupList</name>
         <message>
             <source>Parameter groups</source>
@@ -2852,13 +3034,6 @@ Importieren und als erzwungen kennzeichnen?</translation>
                 <numerusform>%n Wert nicht gesetzt</numerusform>
                 <numerusform>%n Werte nicht gesetzt</numerusform>
             </translation>
-        </message>
-    </context>
-    <context>
-        <name>GuideActions</name>
-        <message>
-            <source>{now} by {user}</source>
-            <translation>{now} von {user}</translation>
         </message>
     </context>
     <context>
@@ -3062,21 +3237,6 @@ Importieren und als erzwungen kennzeichnen?</translation>
         </message>
     </context>
     <context>
-        <name>LanguageActions</name>
-        <message>
-            <source>La&amp;nguage</source>
-            <translation>S&amp;prache</translation>
-        </message>
-        <message>
-            <source>&amp;System</source>
-            <translation>&amp;System</translation>
-        </message>
-        <message>
-            <source>The language is another one when AMP Studio is started again.</source>
-            <translation>Die Sprache ist nach dem nächsten Start von AMP Studio eine andere.</translation>
-        </message>
-    </context>
-    <context>
         <name>LeftPanel</name>
         <message>
             <source>This file is in no project.</source>
@@ -3249,38 +3409,6 @@ Importieren und als erzwungen kennzeichnen?</translation>
     </context>
     <context>
         <name>MainWindow</name>
-        <message>
-            <source>&amp;Next Finding</source>
-            <translation>&amp;Nächster Befund</translation>
-        </message>
-        <message>
-            <source>Pre&amp;vious Finding</source>
-            <translation>&amp;Voriger Befund</translation>
-        </message>
-        <message>
-            <source>&amp;Reset Layout</source>
-            <translation>&amp;Anordnung zurücksetzen</translation>
-        </message>
-        <message>
-            <source>&amp;Help</source>
-            <translation>&amp;Hilfe</translation>
-        </message>
-        <message>
-            <source>&amp;About AMP Studio</source>
-            <translation>Ü&amp;ber AMP Studio</translation>
-        </message>
-        <message>
-            <source>About AMP Studio</source>
-            <translation>Über AMP Studio</translation>
-        </message>
-        <message>
-            <source>AMP Studio {version}
-
-The numbered parameters of machine controls: edit, check, print, exchange and simulate them.</source>
-            <translation>AMP Studio {version}
-
-Die nummerierten Parameter von Maschinensteuerungen: bearbeiten, prüfen, drucken, austauschen und simulieren.</translation>
-        </message>
         <message>
             <source>Calculator</source>
             <translation>Rechner</translation>
@@ -4336,33 +4464,6 @@ Die nummerierten Parameter von Maschinensteuerungen: bearbeiten, prüfen, drucke
         </message>
     </context>
     <context>
-        <name>PictureActions</name>
-        <message>
-            <source>&amp;Pictures</source>
-            <translation>&amp;Bilder</translation>
-        </message>
-        <message>
-            <source>Pictures</source>
-            <translation>Bilder</translation>
-        </message>
-        <message>
-            <source>Save P&amp;icture As SVG…</source>
-            <translation>B&amp;ild als SVG speichern…</translation>
-        </message>
-        <message>
-            <source>The window is too small for that; the pictures are there once it is larger</source>
-            <translation>Das Fenster ist dafür zu klein; die Bilder sind dort, sobald es größer ist</translation>
-        </message>
-        <message>
-            <source>Save Picture</source>
-            <translation>Bild speichern</translation>
-        </message>
-        <message>
-            <source>{path} written</source>
-            <translation>{path} geschrieben</translation>
-        </message>
-    </context>
-    <context>
         <name>PictureCanvas</name>
         <message>
             <source>Handle of the picture: arrow keys change the value, Shift by ten steps</source>
@@ -4420,6 +4521,21 @@ Die nummerierten Parameter von Maschinensteuerungen: bearbeiten, prüfen, drucke
         </message>
     </context>
     <context>
+        <name>Pictures</name>
+        <message>
+            <source>The window is too small for that; the pictures are there once it is larger</source>
+            <translation>Das Fenster ist dafür zu klein; die Bilder sind dort, sobald es größer ist</translation>
+        </message>
+        <message>
+            <source>Save Picture</source>
+            <translation>Bild speichern</translation>
+        </message>
+        <message>
+            <source>{path} written</source>
+            <translation>{path} geschrieben</translation>
+        </message>
+    </context>
+    <context>
         <name>PicturesHead</name>
         <message>
             <source>Pictures</source>
@@ -4470,15 +4586,7 @@ Die nummerierten Parameter von Maschinensteuerungen: bearbeiten, prüfen, drucke
         </message>
     </context>
     <context>
-        <name>PreviewActions</name>
-        <message>
-            <source>Rep&amp;ort Preview</source>
-            <translation>Berich&amp;tsvorschau</translation>
-        </message>
-        <message>
-            <source>Preview</source>
-            <translation>Vorschau</translation>
-        </message>
+        <name>Preview</name>
         <message>
             <source>Smaller (-)</source>
             <translation>Kleiner (-)</translation>
@@ -4565,137 +4673,6 @@ Die nummerierten Parameter von Maschinensteuerungen: bearbeiten, prüfen, drucke
 {why}, trying again …</source>
             <translation>
 {why}, neuer Versuch …</translation>
-        </message>
-    </context>
-    <context>
-        <name>ProjectActions</name>
-        <message>
-            <source>&amp;Project</source>
-            <translation>&amp;Projekt</translation>
-        </message>
-        <message>
-            <source>&amp;New Project…</source>
-            <translation>&amp;Neues Projekt…</translation>
-        </message>
-        <message>
-            <source>&amp;Open Project…</source>
-            <translation>Projekt ö&amp;ffnen…</translation>
-        </message>
-        <message>
-            <source>Project &amp;Information…</source>
-            <translation>An&amp;gaben zum Projekt…</translation>
-        </message>
-        <message>
-            <source>Open &amp;File of the Project…</source>
-            <translation>&amp;Datei des Projekts öffnen…</translation>
-        </message>
-        <message>
-            <source>Chec&amp;k All Files…</source>
-            <translation>Alle Dateien p&amp;rüfen…</translation>
-        </message>
-        <message>
-            <source>Compare &amp;Machines…</source>
-            <translation>Maschinen &amp;vergleichen…</translation>
-        </message>
-        <message>
-            <source>&amp;Copy File…</source>
-            <translation>Datei &amp;kopieren…</translation>
-        </message>
-        <message>
-            <source>Copy from &amp;Another Project…</source>
-            <translation>Aus einem &amp;anderen Projekt kopieren…</translation>
-        </message>
-        <message>
-            <source>&amp;Rename File…</source>
-            <translation>Datei &amp;umbenennen…</translation>
-        </message>
-        <message>
-            <source>&amp;Delete File…</source>
-            <translation>Datei &amp;löschen…</translation>
-        </message>
-        <message>
-            <source>Reco&amp;ver a Deleted or Older File…</source>
-            <translation>Gelöschte oder &amp;ältere Datei zurückholen…</translation>
-        </message>
-        <message>
-            <source>Open a project first: Project &gt; Open Project.</source>
-            <translation>Erst ein Projekt öffnen: Projekt &gt; Projekt öffnen.</translation>
-        </message>
-        <message>
-            <source>Project {name}: {count} in {folder}</source>
-            <translation>Projekt {name}: {count} in {folder}</translation>
-        </message>
-        <message>
-            <source>Folder of the new project</source>
-            <translation>Ordner des neuen Projekts</translation>
-        </message>
-        <message>
-            <source>Open project</source>
-            <translation>Projekt öffnen</translation>
-        </message>
-        <message>
-            <source>The project has no files of this kind.</source>
-            <translation>Das Projekt hat keine solchen Dateien.</translation>
-        </message>
-        <message>
-            <source>File</source>
-            <translation>Datei</translation>
-        </message>
-        <message>
-            <source>New name</source>
-            <translation>Neuer Name</translation>
-        </message>
-        <message>
-            <source>Open</source>
-            <translation>Öffnen</translation>
-        </message>
-        <message>
-            <source>The project has no files yet.</source>
-            <translation>Das Projekt hat noch keine Dateien.</translation>
-        </message>
-        <message>
-            <source>Check All Files</source>
-            <translation>Alle Dateien prüfen</translation>
-        </message>
-        <message>
-            <source>Copy</source>
-            <translation>Kopieren</translation>
-        </message>
-        <message>
-            <source>Copy from another project</source>
-            <translation>Aus einem anderen Projekt kopieren</translation>
-        </message>
-        <message>
-            <source>Copying</source>
-            <translation>Kopieren</translation>
-        </message>
-        <message>
-            <source>Rename</source>
-            <translation>Umbenennen</translation>
-        </message>
-        <message>
-            <source>Delete</source>
-            <translation>Löschen</translation>
-        </message>
-        <message>
-            <source>Delete {name}? It is kept as a backup and can be recovered.</source>
-            <translation>{name} löschen? Sie bleibt als Sicherung und kann zurückgeholt werden.</translation>
-        </message>
-        <message>
-            <source>&amp;Delete</source>
-            <translation>&amp;Löschen</translation>
-        </message>
-        <message>
-            <source>Cancel</source>
-            <translation>Abbrechen</translation>
-        </message>
-        <message>
-            <source>{name} deleted</source>
-            <translation>{name} gelöscht</translation>
-        </message>
-        <message>
-            <source>Recover</source>
-            <translation>Zurückholen</translation>
         </message>
     </context>
     <context>
@@ -5216,6 +5193,13 @@ Hier erlaubt: {allowed}</translation>
         </message>
     </context>
     <context>
+        <name>Search</name>
+        <message>
+            <source>Find</source>
+            <translation>Finden</translation>
+        </message>
+    </context>
+    <context>
         <name>SettingsForm</name>
         <message>
             <source>empty:</source>
@@ -5684,22 +5668,104 @@ Die Arbeit ist noch offen.</translation>
         </message>
     </context>
     <context>
-        <name>ThemeActions</name>
+        <name>TextFormats</name>
         <message>
-            <source>Th&amp;eme</source>
-            <translation>Fa&amp;rben</translation>
+            <source>Import</source>
+            <translation>Importieren</translation>
         </message>
         <message>
-            <source>&amp;System</source>
-            <translation>&amp;System</translation>
+            <source>Text formats ({endings});;All files (*)</source>
+            <translation>Textformate ({endings});;Alle Dateien (*)</translation>
         </message>
         <message>
-            <source>&amp;Light</source>
-            <translation>&amp;Hell</translation>
+            <source>&amp;Import</source>
+            <translation>&amp;Importieren</translation>
         </message>
         <message>
-            <source>&amp;Dark</source>
-            <translation>&amp;Dunkel</translation>
+            <source>Import as</source>
+            <translation>Importieren als</translation>
+        </message>
+        <message>
+            <source>Importing</source>
+            <translation>Wird importiert</translation>
+        </message>
+        <message>
+            <source>Listing:</source>
+            <translation>Auflistung:</translation>
+        </message>
+        <message>
+            <source>Machine type:</source>
+            <translation>Maschinentyp:</translation>
+        </message>
+        <message>
+            <source>Control family:</source>
+            <translation>Steuerungsfamilie:</translation>
+        </message>
+        <message>
+            <source>{error}.
+
+Keep the lines that are not recognised, so that an export writes them back?
+{listed}</source>
+            <translation>{error}.
+
+Die nicht erkannten Zeilen behalten, damit ein Export sie wieder schreibt?
+{listed}</translation>
+        </message>
+        <message>
+            <source>&amp;Keep Them</source>
+            <translation>&amp;Behalten</translation>
+        </message>
+        <message>
+            <source>Cancel</source>
+            <translation>Abbrechen</translation>
+        </message>
+        <message>
+            <source>
+and {what} more</source>
+            <translation>
+und {what} weitere</translation>
+        </message>
+        <message>
+            <source>One value is</source>
+            <translation>Ein Wert ist</translation>
+        </message>
+        <message>
+            <source>{count} values are</source>
+            <translation>{count} Werte sind</translation>
+        </message>
+        <message>
+            <source>{count} not allowed:
+{listed}{more}
+
+Import them and mark them as forced?</source>
+            <translation>{count} nicht erlaubt:
+{listed}{more}
+
+Importieren und als erzwungen kennzeichnen?</translation>
+        </message>
+        <message>
+            <source>&amp;Import and Mark</source>
+            <translation>&amp;Importieren und kennzeichnen</translation>
+        </message>
+        <message>
+            <source>Export</source>
+            <translation>Exportieren</translation>
+        </message>
+        <message>
+            <source>Exporting</source>
+            <translation>Wird exportiert</translation>
+        </message>
+        <message>
+            <source>&amp;Export</source>
+            <translation>&amp;Exportieren</translation>
+        </message>
+        <message>
+            <source>{written} of {total} values</source>
+            <translation>{written} von {total} Werten</translation>
+        </message>
+        <message>
+            <source>{name}: {written} of {total} values go across as they are.</source>
+            <translation>{name}: {written} von {total} Werten kommen unverändert hinüber.</translation>
         </message>
     </context>
     <context>
@@ -5990,101 +6056,6 @@ Die Arbeit ist noch offen.</translation>
         <message>
             <source>{name} is not used: {why}.</source>
             <translation>{name} wird nicht benutzt: {why}.</translation>
-        </message>
-    </context>
-    <context>
-        <name>ViewActions</name>
-        <message>
-            <source>&amp;Units</source>
-            <translation>&amp;Einheiten</translation>
-        </message>
-        <message>
-            <source>Control &amp;Type</source>
-            <translation>&amp;Steuerungstyp</translation>
-        </message>
-        <message>
-            <source>S&amp;witch mm / inch</source>
-            <translation>mm / &amp;Zoll wechseln</translation>
-        </message>
-        <message>
-            <source>mm / inch</source>
-            <translation>mm / Zoll</translation>
-        </message>
-        <message>
-            <source>Show Values &amp;As Entered</source>
-            <translation>Werte &amp;wie eingegeben</translation>
-        </message>
-        <message>
-            <source>Show Un&amp;fitted Axes</source>
-            <translation>Nicht &amp;vorhandene Achsen zeigen</translation>
-        </message>
-        <message>
-            <source>Show &amp;Hidden Parameters</source>
-            <translation>Verborgene P&amp;arameter zeigen</translation>
-        </message>
-        <message>
-            <source>Show Se&amp;crets</source>
-            <translation>Gehei&amp;mes zeigen</translation>
-        </message>
-        <message>
-            <source>Show passwords in clear text, also in exports</source>
-            <translation>Passwörter im Klartext zeigen, auch in Exporten</translation>
-        </message>
-        <message>
-            <source>&amp;Motion…</source>
-            <translation>Bewe&amp;gung…</translation>
-        </message>
-        <message>
-            <source>Motion</source>
-            <translation>Bewegung</translation>
-        </message>
-        <message>
-            <source>&amp;Go To</source>
-            <translation>Ge&amp;he zu</translation>
-        </message>
-        <message>
-            <source>&amp;Groups</source>
-            <translation>&amp;Gruppen</translation>
-        </message>
-        <message>
-            <source>&amp;Parameter Help</source>
-            <translation>&amp;Parameterhilfe</translation>
-        </message>
-        <message>
-            <source>&amp;Findings</source>
-            <translation>&amp;Befunde</translation>
-        </message>
-        <message>
-            <source>&amp;Table</source>
-            <translation>&amp;Tabelle</translation>
-        </message>
-        <message>
-            <source>Ne&amp;xt File</source>
-            <translation>&amp;Nächste Datei</translation>
-        </message>
-        <message>
-            <source>Pre&amp;vious File</source>
-            <translation>V&amp;orige Datei</translation>
-        </message>
-        <message>
-            <source>Loading the simulator</source>
-            <translation>Der Simulator wird bereitgestellt</translation>
-        </message>
-        <message>
-            <source>Show File &amp;Beside</source>
-            <translation>Datei &amp;daneben zeigen</translation>
-        </message>
-        <message>
-            <source>Control type</source>
-            <translation>Steuerungstyp</translation>
-        </message>
-        <message>
-            <source>&amp;Motion… (not for {family})</source>
-            <translation>B&amp;ewegung… (nicht für {family})</translation>
-        </message>
-        <message>
-            <source>Motion (F9)</source>
-            <translation>Bewegung (F9)</translation>
         </message>
     </context>
     <context>

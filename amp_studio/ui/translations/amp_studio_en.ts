@@ -78,7 +78,7 @@
         </message>
     </context>
     <context>
-        <name>CompareActions</name>
+        <name>Comparisons</name>
         <message numerus="yes">
             <source>Merged with {source}. Values changed: %n.</source>
             <translation>

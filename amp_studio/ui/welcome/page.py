@@ -27,8 +27,8 @@ from PySide6.QtWidgets import (
 
 from amp_studio.files import Example, examples
 from amp_studio.schema import family_ids, load_schema
-from amp_studio.ui.actions.control import ControlActions
-from amp_studio.ui.actions.file import FileActions
+from amp_studio.ui.actions.control import AtControl
+from amp_studio.ui.actions.file import Files
 from amp_studio.ui.base.modal import pop_up
 from amp_studio.ui.base.task import Task
 from amp_studio.ui.base.theme import CONTROL, GAP, GAP2, GAP3, GAP4, GAP6, font, icon
@@ -62,8 +62,8 @@ class WelcomePage(QWidget):
     def __init__(
         self,
         window: StudioWindow,
-        files: FileActions,
-        control: ControlActions,
+        files: Files,
+        control: AtControl,
         open_project: Callable[[], object],
     ) -> None:
         super().__init__()

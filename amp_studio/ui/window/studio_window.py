@@ -1,18 +1,18 @@
 """The window as its parts see it: the open files, the panels, and what a menu action can ask for.
 
-The action classes and the watch of the disk take this class; ``MainWindow`` is one and builds them all. So nothing that
+What actions do and the watch of the disk take this class; ``MainWindow`` is one and has its parts. So nothing that
 is part of the window imports it.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from functools import cached_property
 from pathlib import Path
-from typing import TYPE_CHECKING, Literal
+from typing import TYPE_CHECKING
 
 from PySide6.QtCore import Signal
-from PySide6.QtGui import QAction, QKeySequence
+from PySide6.QtGui import QAction
 from PySide6.QtWidgets import QMainWindow
 
 from amp_studio.files import ChangedOnDiskError, Project, same_file
@@ -20,7 +20,6 @@ from amp_studio.schema import Address
 from amp_studio.ui.base.garbage import look_again
 from amp_studio.ui.base.questions import ask, show_message
 from amp_studio.ui.base.task import in_background
-from amp_studio.ui.base.theme import icon
 from amp_studio.ui.base.workspace import Workspace
 from amp_studio.ui.findings.panel import FindingsPanel
 from amp_studio.ui.page.file_page import FilePage
@@ -37,15 +36,16 @@ from .settings import UserSettings
 if TYPE_CHECKING:
     from .report_options import ReportChoice
 
-Needs = Literal["", "file", "edit", "axes", "project", "units"]
-"""What an action needs: nothing, an open file, the right to change it, axes as well, a project, several systems of units."""
-
 
 class StudioWindow(QMainWindow):
     """The open files in tabs, their panels and the actions. What is asked for without naming a file means the one in front."""
 
     project_changed = Signal()
     """Another project is open, or its information has changed."""
+    menus: Mapping[str, QAction]
+    """The actions by their keys; the main window makes them of their table."""
+    open_path: Callable[[Path], None]
+    """Opens a parameter file in a tab, or comes back to its tab."""
 
     def __init__(self) -> None:
         super().__init__()
@@ -56,14 +56,6 @@ class StudioWindow(QMainWindow):
         self.summaries = FileSummaries(self)
         self.settings = UserSettings()
         self.docks = Docks(self, self.settings)
-        self.actions_needing: dict[Needs, list[QAction]] = {
-            "": [],
-            "file": [],
-            "edit": [],
-            "axes": [],
-            "units": [],
-            "project": [],
-        }
 
     @cached_property
     def report_choice(self) -> ReportChoice:
@@ -106,6 +98,17 @@ class StudioWindow(QMainWindow):
         return self.page.workspace if self.page else None
 
     @property
+    def page_in_front(self) -> FilePage:
+        """The page of the file in front, for what is enabled with a file only."""
+        assert self.page is not None
+        return self.page
+
+    @property
+    def workspace_in_front(self) -> Workspace:
+        """The file in front, for what is enabled with a file only."""
+        return self.page_in_front.workspace
+
+    @property
     def table(self) -> ParameterTable | None:
         """The table model of the file in front."""
         return self.page.table if self.page else None
@@ -136,31 +139,6 @@ class StudioWindow(QMainWindow):
 
     # -- actions ---------------------------------------------------------------
 
-    def action(
-        self,
-        text: str,
-        act: Callable[[], object],
-        shortcut: QKeySequence | QKeySequence.StandardKey | str | None = None,
-        needs: Needs = "file",
-        icon_name: str = "",
-        short: str = "",
-    ) -> QAction:
-        """Return a menu action that shows an error of ``act`` as a message."""
-        action = QAction(text, self)
-        if shortcut is not None:
-            action.setShortcut(QKeySequence(shortcut))
-        if icon_name:
-            action.setIcon(icon(icon_name))
-        if short:
-            action.setIconText(short)
-        name = text.replace("&", "").rstrip("…")
-        keys = action.shortcut().toString(QKeySequence.SequenceFormat.NativeText)
-        action.setToolTip(f"{name} ({keys})" if keys else name)
-        action.triggered.connect(lambda *_: self.guarded(act, name))
-        self.actions_needing[needs].append(action)
-        self.addAction(action)
-        return action
-
     def guarded(self, act: Callable[[], object], title: str = "AMP Studio") -> object:
         """Run an action and return its result; an error is shown as a message, and the result is None."""
         if self.table_view is not None and not self.table_view.finish():
@@ -171,6 +149,9 @@ class StudioWindow(QMainWindow):
             is_bare = type(error) is KeyError and error.args  # its own text is in quotes
             show_message(self, title, str(error.args[0]) if is_bare else str(error))
             return None
+
+    def enable(self, *_: object) -> None:
+        """Update actions, title and status bar; the main window does, who has them."""
 
     # -- what is shown ---------------------------------------------------------
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Mapping, Sequence
 
 from PySide6.QtCore import QSize, Qt
 from PySide6.QtGui import QAction
@@ -22,25 +22,27 @@ class MainToolBar(QToolBar):
     """Words beside the icons where the window is wide; the words of a narrow one are in the tips."""
 
     def __init__(
-        self, window: StudioWindow, file: Iterable[QAction], steps: Iterable[QAction], switch: QAction,
-        views: Iterable[QAction], control: Iterable[QAction],
-    ) -> None:  # fmt: skip
-        """Return the bar of a window; ``switch`` changes the unit system, which the segment shows."""
+        self, window: StudioWindow, actions: Mapping[str, QAction], parts: Mapping[str, Sequence[str]]
+    ) -> None:
+        """Return the bar of a window; ``parts`` has the keys of the actions in each part of it."""
         super().__init__(self.tr("Main"), window)
         self.setObjectName("main-toolbar")
         self.setMovable(False)
         self.setIconSize(QSize(ICON, ICON))
         self.setContextMenuPolicy(Qt.ContextMenuPolicy.PreventContextMenu)
-        self._window, self._switch = window, switch
-        self.addActions(list(file))
+        self._window, self._switch = window, actions["view.switch_units"]
+        file, steps, views, control = (
+            [actions[key] for key in parts[part]] for part in ("file", "steps", "views", "control")
+        )
+        self.addActions(file)
         self.addSeparator()
-        self.addActions(list(steps))
+        self.addActions(steps)
         self._bare = [
             button for action in steps if isinstance(button := self.widgetForAction(action), QToolButton)
         ]
         self.addSeparator()
         self.units = Segment(self.tr("Unit system"))
-        self.units.setToolTip(switch.toolTip())
+        self.units.setToolTip(self._switch.toolTip())
         self.units.chosen.connect(self._choose)
         self._units_action = self.addWidget(self.units)
         self._slot = QWidget()
@@ -49,9 +51,9 @@ class MainToolBar(QToolBar):
         self._slot_row.setContentsMargins(12, 0, 12, 0)
         self._slot_row.addStretch(1)
         self.addWidget(self._slot)
-        self.addActions(list(views))
+        self.addActions(views)
         self.addSeparator()
-        self.addActions(list(control))
+        self.addActions(control)
         self.fit(window.width())
 
     def take_find_box(self, box: QWidget) -> None:

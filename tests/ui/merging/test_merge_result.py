@@ -31,7 +31,7 @@ def test_the_result_goes_into_the_file_as_one_step_once_no_conflict_is_left(
         Value(13.0, "mm"), Value(1.0, "mm"), Value(190.0, "mm/s")
     ]  # fmt: skip
     assert "Merged with CNC_1" in window.page.bar.text.text()
-    window.edits.undo.trigger()
+    window.menus["edit.undo"].trigger()
     assert (file.get(EXCESS), file.get(RAPID)) == (Value(12.0, "mm"), Value(10000.0, "mm/min"))
 
 
@@ -50,7 +50,7 @@ def test_header_and_unknown_entries_come_along_and_go_back_with_one_undo(
     assert window.workspace.is_dirty
     assert window.save()
     assert on_disk(window.workspace.path).unknown == {"future.thing": "7"}
-    window.edits.undo.trigger()
+    window.menus["edit.undo"].trigger()
     assert content_of(file) == before
 
 

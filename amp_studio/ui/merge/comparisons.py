@@ -41,7 +41,7 @@ AskPath = Callable[[str, Path], Path | None]
 WriteNew = Callable[[Path, Callable[[], Document]], None]
 
 
-class CompareActions(QObject):
+class Comparisons(QObject):
     """One window for every comparison."""
 
     def __init__(self, window: StudioWindow, ask_path: AskPath, write_new: WriteNew) -> None:
@@ -49,20 +49,12 @@ class CompareActions(QObject):
         self.window, self._ask_path, self._write_new = window, ask_path, write_new
         self.address_of: Callable[[], str | None] = lambda: None
         """Asks for the address of a control; set by who knows the controls."""
-        self.action = window.action(
-            self.tr("Compare and Merge &With…"),
-            self.compare,
-            "Ctrl+Shift+M",
-            "file",
-            "git-diff",
-            self.tr("Compare"),
-        )
 
     # -- what opens it ---------------------------------------------------------------
 
     def compare(self) -> None:
         """Compare the file in front: with what is saved where there is unsaved work, else with its backup, else its defaults."""
-        page = self._page()
+        page = self.window.page_in_front
         workspace = page.workspace
         shown = self.open(page)
         if workspace.is_dirty:
@@ -122,11 +114,6 @@ class CompareActions(QObject):
         shown.merged.connect(partial(self._merged, page))
         shown.show()
         return shown
-
-    def _page(self) -> FilePage:
-        page = self.window.page
-        assert page is not None
-        return page
 
     def _others(self, page: FilePage) -> list[Workspace]:
         return [each.workspace for each in self.window.tabs.pages() if each is not page]
