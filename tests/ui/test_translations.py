@@ -144,7 +144,7 @@ def test_the_page_of_a_parameter_has_no_english_frame(
     for english in ("Allowed", "What it does", ", page", "Calculate", "Formulas", "Facts"):
         assert english not in text, english
     assert window.page.table.titles[0] == "X 1 linear"
-    assert "Achse 1" in window.status.value.text()
+    assert "X-Achse" in window.status.value.text()
 
 
 def test_the_language_is_that_of_the_choice_or_of_the_system() -> None:

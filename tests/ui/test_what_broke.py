@@ -32,8 +32,8 @@ from amp_studio.ui.project.files import to_trash
 from .conftest import WAIT_MS, Person, action, editor
 
 SIDE_WINDOWS = (
-    "Compare and Merge With", "Calculator", "Tables of the Manual", "Compare Axes", "Motion", "Exchanges of This File",
-    "Tuning", "Several Controls", "Quick Edit by Number", "Machine Facts", "Name Axis", "Add Axis",
+    "Compare and Merge With", "Calculator", "Tables of the Manual", "Compare Axes", "Motion",
+    "Tuning", "Quick Edit by Number", "Machine Facts", "Name Axis", "Add Axis",
     "Copy Axis", "History of Steps", "New", "Check All Files",
 )  # fmt: skip
 
