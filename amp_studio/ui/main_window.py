@@ -13,13 +13,13 @@ from amp_studio.schema import Address
 from amp_studio.validate import Finding
 
 from .actions import filters, guide, project, view
-from .actions.control import AtControl
+from .actions.control import ControlDesk
 from .actions.edit import Edits
 from .actions.file import Files
-from .actions.find import Search
+from .actions.find import FindSearch
 from .actions.parts import PartsWindow
 from .actions.picture import Pictures
-from .actions.preview import Preview
+from .actions.preview import ReportPreview
 from .actions.table import TOOL_BAR, menus
 from .base.garbage import collect_by_timer, set_apart
 from .base.program_icon import program_icon
@@ -59,11 +59,11 @@ class MainWindow(PartsWindow):
         self.files = Files(self, self.show_workspace)
         self.open_path = self.files.open_path
         self.edits = Edits(self)
-        self.finder = Search(self)
+        self.finder = FindSearch(self)
         self.pictures = Pictures(self)
-        self.preview = Preview(self)
+        self.preview = ReportPreview(self)
         self.centre = QStackedWidget()
-        self.control = AtControl(self, self.files, self.centre, self.show_values)
+        self.control = ControlDesk(self, self.files, self.centre, self.show_values)
         self.menus = Menus[PartsWindow](self, menus())
         self.project_files = ProjectFiles(
             self,

@@ -36,7 +36,7 @@ if TYPE_CHECKING:
 COPIES = "Backups of a control (*.img *.before-*.amp);;All files (*)"
 
 
-class AtControl(Translated):
+class ControlDesk(Translated):
     """Exchange with the control of the project, or with the emulated one."""
 
     def __init__(

@@ -33,7 +33,7 @@ _COMMAND = 0.8
 """What a command is worth among parameters whose words match as well."""
 
 
-class Search(Translated):
+class FindSearch(Translated):
     """Builds the box; the words of a family are indexed in a thread when its first file is opened."""
 
     def __init__(self, window: StudioWindow) -> None:

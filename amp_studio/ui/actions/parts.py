@@ -4,12 +4,12 @@ from __future__ import annotations
 
 from amp_studio.ui.window.studio_window import StudioWindow
 
-from .control import AtControl
+from .control import ControlDesk
 from .edit import Edits
 from .file import Files
-from .find import Search
+from .find import FindSearch
 from .picture import Pictures
-from .preview import Preview
+from .preview import ReportPreview
 
 
 class PartsWindow(StudioWindow):
@@ -17,10 +17,10 @@ class PartsWindow(StudioWindow):
 
     files: Files
     edits: Edits
-    finder: Search
+    finder: FindSearch
     pictures: Pictures
-    preview: Preview
-    control: AtControl
+    preview: ReportPreview
+    control: ControlDesk
 
     def step_findings(self, by: int) -> None:
         """Go to the next finding, or to the one before."""

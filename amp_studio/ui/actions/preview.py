@@ -14,7 +14,7 @@ if TYPE_CHECKING:
     from amp_studio.ui.paper.preview_panel import PreviewPanel
 
 
-class Preview(QObject):
+class ReportPreview(QObject):
     """Shows and hides the dock of the preview."""
 
     def __init__(self, window: StudioWindow) -> None:

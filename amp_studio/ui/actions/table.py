@@ -11,7 +11,7 @@ from PySide6.QtGui import QKeySequence
 
 from amp_studio.ui.base.theme import scheme
 from amp_studio.ui.base.translated import tr
-from amp_studio.ui.window.action import Action, Choice, FilledMenu, Menu
+from amp_studio.ui.window.action import Action, ChoiceMenu, FilledMenu, Menu
 
 from . import axis, document, filters, guide, project, view
 from .edit import show_redo, show_undo
@@ -132,8 +132,8 @@ def _guide() -> Menu[PartsWindow]:
 
 def _view() -> Menu[PartsWindow]:
     return Menu("view", tr("&View"), (
-        Choice("view.units", tr("&Units"), view.units, lambda w: w.workspace_in_front.file.header.units, view.set_units, "file"),
-        Choice("view.machine", tr("Control &Type"), view.machines, lambda w: w.workspace_in_front.file.machine, view.set_machine, "edit"),
+        ChoiceMenu("view.units", tr("&Units"), view.units, lambda w: w.workspace_in_front.file.header.units, view.set_units, "file"),
+        ChoiceMenu("view.machine", tr("Control &Type"), view.machines, lambda w: w.workspace_in_front.file.machine, view.set_machine, "edit"),
         Action("view.switch_units", tr("S&witch mm / inch"), view.switch_units, "Ctrl+M", "units", "ruler", tr("mm / inch")),
         Action("view.as_entered", tr("Show Values &As Entered"), view.show_as_entered, "Ctrl+E",
                is_on=lambda w: w.workspace.as_entered if w.workspace else None),
@@ -162,8 +162,8 @@ def _view() -> Menu[PartsWindow]:
             None,
             Action("filter.none", tr("&All Rows"), filters.show_all_rows, "Ctrl+0"),
         )),
-        Choice("view.theme", tr("Th&eme"), view.themes, lambda _: scheme().choice, view.choose_theme),
-        Choice("view.language", tr("La&nguage"), view.languages, lambda w: w.settings.language(), view.choose_language),
+        ChoiceMenu("view.theme", tr("Th&eme"), view.themes, lambda _: scheme().choice, view.choose_theme),
+        ChoiceMenu("view.language", tr("La&nguage"), view.languages, lambda w: w.settings.language(), view.choose_language),
     ))  # fmt: skip
 
 

@@ -29,13 +29,13 @@ from amp_studio.ui.window.studio_window import StudioWindow
 from .list import KEY, WelcomeList, WelcomeRow
 
 if TYPE_CHECKING:
-    from amp_studio.ui.actions.control import AtControl
+    from amp_studio.ui.actions.control import ControlDesk
 
 
 class WelcomeControls(QWidget):
     """A row for each control that is known. A click or Enter connects, Delete takes it from the list."""
 
-    def __init__(self, window: StudioWindow, control: AtControl) -> None:
+    def __init__(self, window: StudioWindow, control: ControlDesk) -> None:
         super().__init__()
         self._window, self._control = window, control
         self.names: Mapping[str, str] = {}

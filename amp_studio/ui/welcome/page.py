@@ -27,7 +27,7 @@ from PySide6.QtWidgets import (
 
 from amp_studio.files import Example, examples
 from amp_studio.schema import family_ids, load_schema
-from amp_studio.ui.actions.control import AtControl
+from amp_studio.ui.actions.control import ControlDesk
 from amp_studio.ui.actions.file import Files
 from amp_studio.ui.base.modal import pop_up
 from amp_studio.ui.base.task import Task
@@ -63,7 +63,7 @@ class WelcomePage(QWidget):
         self,
         window: StudioWindow,
         files: Files,
-        control: AtControl,
+        control: ControlDesk,
         open_project: Callable[[], object],
     ) -> None:
         super().__init__()

@@ -50,7 +50,7 @@ class Action(Generic[W]):
 
 
 @dataclass(frozen=True)
-class Choice(Generic[W]):
+class ChoiceMenu(Generic[W]):
     """A menu of which one row is on."""
 
     key: str
@@ -75,5 +75,5 @@ class Menu(Generic[W]):
 
     key: str
     text: str
-    rows: tuple[Action[W] | Choice[W] | FilledMenu[W] | Menu[W] | None, ...]
+    rows: tuple[Action[W] | ChoiceMenu[W] | FilledMenu[W] | Menu[W] | None, ...]
     shows_tips: bool = False

@@ -12,7 +12,7 @@ from PySide6.QtWidgets import QMenu
 
 from amp_studio.ui.base.theme import icon
 
-from .action import Action, Choice, FilledMenu, Menu, Needs
+from .action import Action, ChoiceMenu, FilledMenu, Menu, Needs
 from .studio_window import StudioWindow
 
 W = TypeVar("W", bound=StudioWindow)
@@ -26,7 +26,7 @@ class Menus(Mapping[str, QAction], Generic[W]):
         self._actions: dict[str, QAction] = {}
         self._rows: dict[str, Action[W]] = {}
         self._menus: dict[str, QMenu] = {}
-        self._choices: list[tuple[Choice[W], QMenu, QActionGroup]] = []
+        self._choices: list[tuple[ChoiceMenu[W], QMenu, QActionGroup]] = []
         for menu in menus:
             self._fill(window.menuBar().addMenu(menu.text), menu)
 
@@ -59,7 +59,7 @@ class Menus(Mapping[str, QAction], Generic[W]):
                 into.addAction(self._made(row))
             elif isinstance(row, FilledMenu):
                 into.addMenu(row.menu(self._window))
-            elif isinstance(row, Choice):
+            elif isinstance(row, ChoiceMenu):
                 inner = self._menus[row.key] = into.addMenu(row.text)
                 self._choices.append((row, inner, QActionGroup(inner)))
             else:
@@ -106,7 +106,7 @@ class Menus(Mapping[str, QAction], Generic[W]):
         for choice, menu, group in self._choices:
             self._offer(choice, menu, group, can[choice.needs])
 
-    def _offer(self, choice: Choice[W], menu: QMenu, group: QActionGroup, able: bool) -> None:
+    def _offer(self, choice: ChoiceMenu[W], menu: QMenu, group: QActionGroup, able: bool) -> None:
         """Fill the menu of a choice where it has other rows now, and check the present one."""
         offers = choice.offers(self._window)
         if offers is not None:
@@ -121,7 +121,7 @@ class Menus(Mapping[str, QAction], Generic[W]):
             self._check(choice, group)
         group.setEnabled(offers is not None and able)
 
-    def _offered(self, choice: Choice[W], group: QActionGroup, key: str, name: str) -> QAction:
+    def _offered(self, choice: ChoiceMenu[W], group: QActionGroup, key: str, name: str) -> QAction:
         action = QAction(name, group)
         action.setCheckable(True)
         action.setData(key)
@@ -134,7 +134,7 @@ class Menus(Mapping[str, QAction], Generic[W]):
         for choice, _, group in self._choices:
             self._check(choice, group)  # also where it was refused
 
-    def _check(self, choice: Choice[W], group: QActionGroup) -> None:
+    def _check(self, choice: ChoiceMenu[W], group: QActionGroup) -> None:
         if choice.offers(self._window) is not None:
             present = choice.present(self._window)
             for row in group.actions():
