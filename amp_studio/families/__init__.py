@@ -13,6 +13,7 @@ FAMILIES = {
     "57c422b": "amp_studio.families.servo57c422b:REGISTRATION",
     "syntec": "amp_studio.families.syntec:REGISTRATION",
     "grblhal": "amp_studio.families.grblhal:REGISTRATION",
+    "linuxcnc": "amp_studio.families.linuxcnc:REGISTRATION",
 }
 """Family -> its record."""
 
@@ -31,5 +32,6 @@ FORMATS = {
     },
     "57c422b": {"basic": "AutoMax BASIC task (.bas)", "registers": "AutoMax register table (.reg)"},
     "grblhal": {"grbl": "Grbl settings, as $$ lists them (.settings .grbl .nc)"},
+    "linuxcnc": {"ini": "LinuxCNC configuration (.ini)"},
 }
 """Family -> its text formats with their endings, for help, which loads none (a test compares them)."""

@@ -46,7 +46,7 @@ def name_axes(file: ParameterFile, names: Sequence[str]) -> list[Change]:
         return []
     _may_choose(file)
     if declared.letters:
-        return file.set_many(_compiled_in(file, declared, [name.upper() for name in names]))
+        return file.set_many(_lettered(file, declared, [name.upper() for name in names]))
     if declared.least > len(names):
         raise AxisError(f"{file.schema.family.name} has {declared.least} or more axes (page {declared.page})")
     wanted: dict[Address, Value | None] = {}
@@ -98,16 +98,28 @@ def _of_type(file: ParameterFile, profile: AxisProfile, axis: str, name: str) ->
     }
 
 
-def _compiled_in(
+def _lettered(
     file: ParameterFile, declared: AxisDeclaration, names: Sequence[str]
 ) -> dict[Address, Value | None]:
+    """Return what declares the letters of the axes; raises AxisError for letters that a control cannot have."""
     instances = axis_instances(file)
+    if declared.any_letters:
+        if bad := [name for n, name in enumerate(names) if name not in instances or name in names[:n]]:
+            raise AxisError(f"{quoted(bad[0])} is no name for one more axis: {', '.join(instances)}")
+        return {(str(declared.letters), ""): Value(" ".join(names)), **_counted(file, declared, len(names))}
     if tuple(names) != instances[: len(names)] or len(names) < declared.least:
         order = ", ".join(instances)
         raise AxisError(
             f"{file.schema.family.name} has the first {declared.least} or more of the axes {order}, in this order"
         )
     return {(str(declared.letters), ""): Value("".join(names))}
+
+
+def _counted(file: ParameterFile, declared: AxisDeclaration, axes: int) -> dict[Address, Value | None]:
+    """Return the number of motors: as many more or less as there are axes now."""
+    present = file.evaluation.canonical((str(declared.count), ""))
+    spare = int(present) - len(fitted_axes(file)) if isinstance(present, float) else 0
+    return {(str(declared.count), ""): Value(axes + max(0, spare))}
 
 
 def _may_choose(file: ParameterFile) -> None:
@@ -214,11 +226,14 @@ def _add_flagged(file: ParameterFile, declared: AxisDeclaration, name: str, at: 
 
 def _add_last(file: ParameterFile, declared: AxisDeclaration, name: str, at: str | None) -> str:
     instances, fitted = axis_instances(file), fitted_axes(file)
+    if declared.any_letters:
+        file.set_many(_lettered(file, declared, [*fitted, name.upper()]))
+        return name.upper()
     place = instances[len(fitted)]
     if at not in (None, place):
         raise AxisError(f"{file.schema.family.name} has the first axes in order: the next one is {place}")
     if declared.letters:
-        file.set_many(_compiled_in(file, declared, [*fitted, name.upper()]))
+        file.set_many(_lettered(file, declared, [*fitted, name.upper()]))
         return place
     file.set_many({**_named(file, declared, place, name), (str(declared.count), ""): Value(len(fitted) + 1)})
     _each_name_once(file, [place])
@@ -250,6 +265,9 @@ def _remove(file: ParameterFile, declared: AxisDeclaration, axis: str) -> None:
     if declared.flags:
         file.set_many({**_without_letter(file, declared, axis), **_flagged(file, declared, {axis: False})})
         file.set_many({a: v for a, v in bits_of_axes(file, {axis: False}).items() if file.get(a) is not None})
+        return
+    if declared.any_letters:
+        file.set_many(_lettered(file, declared, [name for name in fitted if name != axis]))
         return
     if axis != fitted[-1]:
         raise AxisError(

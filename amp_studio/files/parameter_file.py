@@ -17,6 +17,7 @@ from amp_studio.schema import (
     MachineSchema,
     Parameter,
     Schema,
+    Scope,
     UnitError,
     UnknownParameterError,
     Value,
@@ -288,18 +289,17 @@ class ParameterFile:
 
     def refit_turned(self, changes: Iterable[Change]) -> list[Change]:
         """Refit the units of each axis that these changes made turn, or move straight; returns the changes."""
-        return [change for axis in self._turned(changes) for change in self.refit_units(axis)]
+        return [change for place in self._turned(changes) for change in self.refit_units(*place)]
 
-    def _turned(self, changes: Iterable[Change]) -> Iterable[str]:
-        """Return the axes that changes may have made turn, or move straight."""
-        turning = self.schema.turning_parameters
-        changed = [c.address for c in changes if c.address[0] in turning]
-        if not changed:
-            return ()
+    def _turned(self, changes: Iterable[Change]) -> Iterable[tuple[str, Scope | None]]:
+        """Return the axes, or motors, that changes may have made turn, or move straight, with their scope."""
+        turning, scopes = self.schema.turning_parameters, self.machine_schema.scopes
+        changed = [(c.address[1], scopes[c.address[0]]) for c in changes if c.address[0] in turning]
+        own: dict[tuple[str, Scope | None], None] = dict.fromkeys(place for place in changed if place[0])
         family = self.schema.family
         axes = family.scopes["axis"].instances if "axis" in family.scopes else ()
-        whole = any(self.machine_schema.scopes[a[0]] != "axis" for a in changed)
-        return axes if whole else dict.fromkeys(instance for _, instance in changed)
+        whole = axes if any(scope != "axis" for _, scope in changed) else ()
+        return own | dict.fromkeys((axis, "axis") for axis in whole)
 
     @contextmanager
     def step(self) -> Iterator[list[Change]]:
@@ -344,12 +344,12 @@ class ParameterFile:
         self.header.machine = machine
         self.evaluation.forget()
 
-    def refit_units(self, axis: str) -> list[Change]:
-        """Give each value of an axis a unit that fits the way it moves; returns the changes."""
+    def refit_units(self, axis: str, scope: Scope | None = "axis") -> list[Change]:
+        """Give each value of an axis, or of an instance of another scope, a unit that fits the way it moves; returns the changes."""
         changes = []
         scopes = self.machine_schema.scopes
         for address in self.addresses():
-            if address[1] != axis or scopes[address[0]] != "axis":
+            if address[1] != axis or scopes[address[0]] != scope:
                 continue
             value = self.get(address)
             if value is None or not value.unit:

@@ -82,7 +82,7 @@ def import_file(
     schema = load_schema(family or _only_family(chosen))
     if machine and machine not in schema.machines:
         raise FormatError(unknown_name("machine type", machine, (m.key for m in schema.family.machines)))
-    read = chosen.read(text, schema, ReadOptions(keep_unknown, machine, listing))
+    read = chosen.read(text, schema, ReadOptions(keep_unknown, machine, listing, _beside(path)))
     read.machine = read.machine or machine
     for message in read.notes:
         notify(message)
@@ -103,6 +103,20 @@ def offer_of(path: Path, family: str | None = None) -> TextOffer | None:
         return chosen.offer(_decoded(content, chosen), load_schema(family or _only_family(chosen)))
     except FormatError:
         return None  # the import names it
+
+
+def _beside(path: Path) -> Callable[[str], str | None]:
+    """Return what reads a file in the folder of a text; one outside of it, or too large, is not there."""
+    folder = path.resolve().parent
+
+    def text_of(name: str) -> str | None:
+        try:
+            place = (folder / name).resolve()
+            return read_file(place, _MOST_BYTES).decode("latin-1") if place.is_relative_to(folder) else None
+        except (OSError, ValueError):
+            return None
+
+    return text_of
 
 
 def _decoded(content: bytes, chosen: TextFormat) -> str:
@@ -172,7 +186,9 @@ def export_of(
             f"'{sign}' is no sign of {chosen.encoding}, in which this format is written", line
         ) from None
     try:
-        read = chosen.read(content.decode(chosen.encoding), file.schema, ReadOptions(True, file.machine))
+        included = chosen.included(file) if chosen.included else {}
+        options = ReadOptions(True, file.machine, beside=included.get)
+        read = chosen.read(content.decode(chosen.encoding), file.schema, options)
     except FormatError as error:
         raise FormatError(
             f"what would be written cannot be read back ({error}); nothing was written"

@@ -7,7 +7,7 @@ meant, and nothing is imported then.
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 
 from amp_studio.errors import AmpStudioError
@@ -38,6 +38,8 @@ class ReadOptions:
     """The machine type; empty where the text shall decide."""
     listing: int = 0
     """Which of several listings of one text, counted from 1; 0 is the last one."""
+    beside: Callable[[str], str | None] = lambda _name: None
+    """Returns the text of a file beside this one that it names, its bytes as latin-1; None where there is none."""
 
 
 @dataclass
@@ -96,6 +98,8 @@ class TextFormat:
     """Names that are as good for its files."""
     offer: Callable[[str, Schema], TextOffer] | None = None
     """Returns what may be decided about a text; raises FormatError. None where a text decides everything."""
+    included: Callable[[ParameterFile], Mapping[str, str]] | None = None
+    """Returns the texts, by name, that a text takes in and that the file keeps; None where a text is alone."""
     otherwise: str = ""
     """The encoding of a text that is not of ``encoding``; without it such a text is refused."""
 

@@ -85,6 +85,7 @@ if TYPE_CHECKING:
         Range,
         ReachRole,
         Rule,
+        Scope,
         Severity,
         SpanRole,
         StateRule,
@@ -101,7 +102,7 @@ if TYPE_CHECKING:
     from .model.parameter import ValueType
     from .model.plausible import TravelSpan
     from .model_errors import read_model
-    from .nearest import did_you_mean, unknown_name
+    from .nearest import close_matches, did_you_mean, unknown_name
     from .quoting import quoted, short
     from .registration import (
         Registration,

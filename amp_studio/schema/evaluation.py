@@ -188,9 +188,13 @@ class Evaluation:
         return self._conditions.bound_sources(address)
 
     def turns(self, address: Address) -> bool:
-        """Return whether the length of an instance is an angle, as its axis turns."""
-        name = self.schema.angular_when(self.schema.parameters[address[0]])
-        return bool(name and self.scope(address) == "axis" and self.is_true(name, address[1], "axis"))
+        """Return whether the length of an instance is an angle, as its axis turns.
+
+        What belongs to no axis (a motor) has an angle only by the condition that its parameter names.
+        """
+        parameter, scope = self.schema.parameters[address[0]], self.scope(address)
+        name = self.schema.angular_when(parameter) if scope == "axis" else parameter.angular_when
+        return bool(name and self.is_true(name, address[1], scope))
 
     def unit(self, address: Address, system: str) -> str:
         """Return the unit of entry of an instance in a unit system."""

@@ -68,7 +68,7 @@ def _facts(schema: Schema, machine: str) -> dict[str, _Facts]:
             parameter,
             frozenset(choice.key for choice in parameter.choices or ()),
             measures,
-            turning if layout.scope == "axis" and turning != measures else None,
+            turning if (layout.scope == "axis" or parameter.angular_when) and turning != measures else None,
             not parameter.range_variants and not any(isinstance(bound, BoundRef) for bound in bounds),
         )
     return found

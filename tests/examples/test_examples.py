@@ -128,6 +128,7 @@ EDITS = {
     },
     "grblhal": {"homing.pull_off": "2.5 mm", "axis.max_rate@Y": "7500 mm/min", "general.mode": "Lathe mode"},
     "syntec": {"jog.feedrate@1": "2500 mm/min", "home.grid@1": "ON"},
+    "linuxcnc": {"joint.ferror@0": "0.8 mm", "display.program": "gmoccapy", "joint.home_use_index@2": "NO"},
 }
 """Values of each family that its examples do not have."""
 

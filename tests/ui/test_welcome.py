@@ -59,9 +59,9 @@ def test_every_family_is_there_with_what_it_is_for(open_window, qtbot: QtBot) ->
     found = {
         page.families.item(n).data(KEY): page.families.item(n).data(ROW) for n in range(page.families.count())
     }
-    assert set(found) == {"57c422b", "9pc", "acromill", "grblhal", "num", "syntec"}
+    assert set(found) == {"57c422b", "9pc", "acromill", "grblhal", "linuxcnc", "num", "syntec"}
     assert all(row.second and int(row.right) > 40 for row in found.values())
-    assert len(rows(page.examples)) == len(examples()) == 7
+    assert len(rows(page.examples)) == len(examples()) == 8
 
 
 def test_a_family_opens_the_dialog_for_a_new_file_of_it(open_window, qtbot: QtBot, monkeypatch) -> None:

@@ -92,7 +92,9 @@ class AxisDeclaration(Model):
     count: ParameterId | None = None
     """The number of axes: the first ones are there."""
     letters: ParameterId | None = None
-    """A text with the letters of the axes that are compiled into a control: the first ones, in order."""
+    """A text with the letters of the axes that a control has: the first ones, in order."""
+    any_letters: bool = False
+    """The letters may be any of the axes, in any order (``X Z``); ``count`` is then the number of motors, one more for each."""
     least: int = 1
     """The fewest axes there can be."""
     most: dict[Key, int] = {}

@@ -68,7 +68,8 @@ def _facts(schema: Schema) -> dict[str, _Known]:
         default = parameter.default.value if parameter.default else 0
         negative = isinstance(default, (int, float)) and default < 0
         printed = any(low is not None for low, _ in (parameter.ranges or {}).values())
-        signed = printed or bool(parameter.range_variants) or negative
+        both = any(low < 0 for low, _ in (usual.between if usual else {}).values())
+        signed = printed or bool(parameter.range_variants) or negative or both
         number, digits = 0.0, 0
         if parameter.default and isinstance(default, (int, float)) and not parameter.default.instances:
             number, digits = canonical(default, parameter.default.unit), significant_digits(default)

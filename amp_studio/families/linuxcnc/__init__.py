@@ -1,0 +1,11 @@
+"""LinuxCNC: a configuration file of sections and keys, which several programs read when the control starts."""
+
+from __future__ import annotations
+
+from amp_studio.schema import Registration
+
+REGISTRATION = Registration(
+    family="linuxcnc",
+    formulas="amp_studio.families.linuxcnc.formulas:FORMULAS",
+    formats=("amp_studio.families.linuxcnc.formats.ini:FORMAT",),
+)

@@ -1,0 +1,123 @@
+"""A value as it is written in a configuration file, and back: what the programs make of a text (F107 to F180).
+
+A number ends where it is none any more, whatever follows; a word has to be the whole text.
+"""
+
+from __future__ import annotations
+
+import re
+from decimal import Decimal
+from functools import lru_cache
+
+from amp_studio.formats import FormatError
+from amp_studio.schema import (
+    Address,
+    InvalidValueError,
+    MachineSchema,
+    Parameter,
+    Schema,
+    Value,
+    angular,
+    checked,
+    exact_number,
+    from_stored,
+    to_stored,
+)
+
+UNITS, TYPE = "traj.linear_units", "joint.type"
+_REAL = re.compile(r"[+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?")
+_WHOLE = re.compile(r"[+-]?(?:0[xX][0-9a-fA-F]+|\d+)")
+_BOOLEAN = {"true": "yes", "yes": "yes", "false": "no", "no": "no"}
+_OTHER_WORDS = {
+    UNITS: {"metric": "metric", "in": "inch", "imperial": "inch"},
+    "traj.angular_units": {"deg": "degree", "gon": "grad", "rad": "radian"},
+}
+"""Words for the choices of units besides their own (emcIniFile.cc 77 to 105)."""
+_INCH = (0.0393, 0.0394)
+"""A number for the unit of length is units per mm: 1 for mm, 1/25.4 for inches."""
+_ROTARY = "ABC"
+
+
+@lru_cache(maxsize=16)
+def addresses_by_name(schema: Schema, machine: str) -> dict[str, Address]:
+    """Return ``[JOINT_0]FERROR`` -> its address, for what a version reads."""
+    here: MachineSchema = schema.on(machine)
+    named = ((here.number(address), address) for address in here.addresses)
+    return {name: address for name, address in named if name}
+
+
+def unit_of(schema: Schema, address: Address, system: str, *, turns: bool) -> str:
+    """Return the unit of a bare figure; ``turns`` for one of a joint or an axis in degrees."""
+    parameter = schema.parameters[address[0]]
+    unit = schema.unit(parameter, system, turns=False)
+    return angular(unit) if turns and parameter.quantity else unit
+
+
+def is_rotary_axis(instance: str) -> bool:
+    """Return whether the letter of an axis is one of those that turn (X44)."""
+    return instance in _ROTARY and instance != ""
+
+
+def number_in(parameter: Parameter, text: str) -> str:
+    """Return the number at the start of a text, "" where there is none."""
+    found = (_REAL if parameter.type == "real" else _WHOLE).match(text)
+    return found[0] if found else ""
+
+
+def read_figure(parameter: Parameter, text: str, unit: str) -> Value:
+    """Return the value of a text; raises InvalidValueError for one that LinuxCNC refuses, too."""
+    if parameter.type == "text":
+        return checked(parameter, Value(text))
+    if parameter.choices:
+        return _read_choice(parameter, text)
+    digits = number_in(parameter, text)
+    if not digits:
+        raise InvalidValueError("it is no number")
+    number = exact_number(digits) if parameter.type == "real" else exact_number(str(_whole(digits)))
+    return checked(parameter, from_stored(parameter, number, unit))
+
+
+def _whole(digits: str) -> int:
+    """Return a whole number as C reads it: 0x is hexadecimal, a zero in front octal."""
+    sign, digits = (-1 if digits.startswith("-") else 1), digits.lstrip("+-")
+    try:
+        return sign * int(digits, 16 if digits[:2].casefold() == "0x" else 8 if digits[:1] == "0" else 10)
+    except ValueError:
+        return 0  # 08: the octal number ends before the 8
+
+
+def _read_choice(parameter: Parameter, text: str) -> Value:
+    choices = parameter.choices or ()
+    word = text.casefold()
+    labels = {choice.label.casefold(): choice.key for choice in choices} | _OTHER_WORDS.get(parameter.id, {})
+    is_number = choices[0].label.isdecimal()
+    if parameter.type == "boolean":
+        digits = _WHOLE.match(text)
+        if digits:
+            return Value(bool(_whole(digits[0])))
+        if not is_number and word in _BOOLEAN:
+            return Value(_BOOLEAN[word] == "yes")
+    elif word in labels:
+        return Value(labels[word])
+    elif parameter.id == UNITS and (found := _REAL.match(text)):
+        size = float(found[0])
+        if size == 1.0 or _INCH[0] < size < _INCH[1]:
+            return Value("metric" if size == 1.0 else "inch")
+    elif is_number and (found := _WHOLE.match(text)) and str(_whole(found[0])) in labels:
+        return Value(labels[str(_whole(found[0]))])
+    raise InvalidValueError(f"it is not one of {', '.join(c.label for c in choices)}")
+
+
+def write_figure(parameter: Parameter, value: Value, unit: str) -> str:
+    """Return the text of a value; raises FormatError for one that a line cannot contain."""
+    if parameter.choices:
+        key = ("yes" if value.value else "no") if isinstance(value.value, bool) else str(value.value)
+        return next((c.label for c in parameter.choices if c.key == key), key.removeprefix("raw:"))
+    if parameter.type == "text":
+        text = str(value.value)
+        if re.search(r"[\r\n]|\\$", text) or text != text.strip():
+            raise FormatError(f"{parameter.name} is a text that one line cannot contain")
+        return text
+    number = to_stored(parameter, value, unit)
+    text = format(Decimal(repr(float(number))) if parameter.type == "real" else Decimal(int(number)), "f")
+    return text.rstrip("0").rstrip(".") if "." in text else text

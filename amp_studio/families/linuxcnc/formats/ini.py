@@ -1,0 +1,356 @@
+"""The configuration file of LinuxCNC, byte for byte: what nobody changed is written back as it was read.
+
+Its lines are kept in the parameter file, with those of the files that it includes. A changed value is another one in its line; what is
+behind a number, the order of the lines and every remark stay. A new value becomes a line at the end of its section.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import dataclass
+
+from amp_studio.families.linuxcnc.figures import (
+    TYPE,
+    UNITS,
+    addresses_by_name,
+    is_rotary_axis,
+    number_in,
+    read_figure,
+    unit_of,
+    write_figure,
+)
+from amp_studio.families.linuxcnc.hal_text import references
+from amp_studio.families.linuxcnc.ini_text import IniEntry, IniText, read_ini, with_value
+from amp_studio.files import ParameterFile
+from amp_studio.formats import FormatError, ReadOptions, TextFormat, TextRead
+from amp_studio.schema import Address, InvalidValueError, Schema, Value, close_matches, same_value, written
+
+FAMILY = "linuxcnc"
+_KIND = "ini"
+"""Key of the header under which the lines are kept."""
+_HEAD = "# LinuxCNC configuration"
+_SECTIONS = re.compile(
+    r"(?m)^(?:[ \t]*\[(?:EMC|KINS|TRAJ|EMCMOT|EMCIO|RS274NGC|HAL|JOINT_[0-9]+|AXIS_[XYZABCUVW0-8]|SPINDLE_[0-9])\]|#INCLUDE[ \t]+\S+\.inc)"
+)
+_LISTS = "lists"
+"""The table of keys of which every line counts."""
+
+
+@dataclass(frozen=True)
+class _Row:
+    """One entry and what it is: a value of ``address``, an ``unknown`` name, or a line that sets nothing here."""
+
+    entry: IniEntry
+    address: Address | None = None
+    value: Value | None = None
+    unit: str = ""
+    unknown: str = ""
+
+
+# -- reading -----------------------------------------------------------------------------------------------------------
+
+
+def _recognises(text: str) -> bool:
+    return _SECTIONS.search(text) is not None
+
+
+def _read(text: str, schema: Schema, options: ReadOptions) -> TextRead:
+    text, encoding = _decoded(text)
+    newline = "crlf" if "\r\n" in text and "\n" not in text.replace("\r\n", "") else ""
+    text = text.replace("\r\n", "\n") if newline else text
+
+    def beside(name: str) -> str | None:
+        found = options.beside(name)
+        return None if found is None else _decoded(found)[0].replace("\r\n", "\n")
+
+    ini = read_ini(text, beside)
+    machine = options.machine or _likely_machine(ini, schema)
+    hal = _hal_references(ini, options.beside)
+    found = TextRead(machine=machine, name=_name(ini))
+    for row in _rows(ini, schema, machine, frozenset(hal)):
+        if row.address is not None and row.value is not None:
+            found.values[row.address] = row.value
+            if places := hal.get(row.entry.name):
+                found.value_notes[written(row.address)] = f"HAL: {', '.join(places)}"
+        elif row.unknown:
+            found.unknown[row.unknown] = row.entry.text
+            found.unknown_lines[row.unknown] = row.entry.line + 1
+        else:
+            found.kept.append(f"{row.entry.name} = {row.entry.text}")
+    found.notes += _notes(ini, schema, machine, options)
+    included = {name: lines for name, lines in ini.lines.items() if name}
+    found.extra[_KIND] = {
+        "lines": ini.lines[""],
+        **({"encoding": encoding} if encoding != "utf-8" else {}),
+        **({"newline": newline} if newline else {}),
+        **({"included": included} if included else {}),
+        **({"hal": sorted(hal)} if hal else {}),
+    }
+    return found
+
+
+def _decoded(text: str) -> tuple[str, str]:
+    """Return a text whose bytes were read one by one, and its encoding."""
+    try:
+        return text.encode("latin-1").decode("utf-8"), "utf-8"
+    except UnicodeError:
+        return text, "latin-1"
+
+
+def _name(ini: IniText) -> str:
+    entry = ini.counting().get(("EMC", "MACHINE"))
+    return entry.text if entry else ""
+
+
+def _likely_machine(ini: IniText, schema: Schema) -> str:
+    """Return the version that reads most of the keys, the usual one where several do."""
+    default = schema.family.default_machine
+    names = [entry.name for entry in ini.entries if not entry.shadow]
+
+    def known(machine: str) -> int:
+        table = addresses_by_name(schema, machine)
+        return sum(name in table for name in names)
+
+    return max(schema.machines, key=lambda machine: (known(machine), machine == default))
+
+
+def _notes(ini: IniText, schema: Schema, machine: str, options: ReadOptions) -> Iterator[str]:
+    if ini.missing:
+        yield f"included and not found beside the file: {', '.join(ini.missing)}"
+    if not options.machine:
+        name = next(m.name for m in schema.family.machines if m.key == machine)
+        others = ", ".join(m.key for m in schema.family.machines)
+        yield f"read as {name}; --machine chooses another version: {others}"
+
+
+def _hal_references(ini: IniText, beside: Callable[[str], str | None]) -> dict[str, list[str]]:
+    """Return ``[SECTION]KEY`` -> the pins that HAL files beside the configuration set to it."""
+    found: dict[str, list[str]] = {}
+    for entry in ini.entries:
+        if entry.section == "HAL" and entry.key.endswith("HALFILE"):
+            name = (entry.text.split() or [""])[0]
+            for line, where, pin in references((beside(name) if not name.startswith("LIB:") else None) or ""):
+                found.setdefault(where, []).append(
+                    f"{pin} ({name} line {line})" if pin else f"{name} line {line}"
+                )
+        elif entry.section == "HAL" and entry.key == "HALCMD":
+            for _, where, pin in references(entry.text):
+                found.setdefault(where, []).append(pin or "HALCMD")
+    return found
+
+
+def _rows(ini: IniText, schema: Schema, machine: str, hal: frozenset[str]) -> Iterator[_Row]:
+    """Yield every entry with what it is."""
+    known = addresses_by_name(schema, machine)
+    lists = {(section, key) for section, key, _ in schema.tables[_LISTS].rows}
+    counting = ini.counting()
+    system = _system(counting, schema)
+    for entry in ini.entries:
+        if (entry.section, entry.key) in lists or (entry.section, "*") in lists:
+            yield _Row(entry)
+        elif entry.shadow:
+            yield _Row(entry, unknown=f"{_placed(entry)} ({entry.shadow})")
+        elif address := known.get(entry.name):
+            unit = unit_of(schema, address, system, turns=_turns(schema, address, counting))
+            try:
+                value = read_figure(schema.parameters[address[0]], entry.text, unit)
+            except InvalidValueError as error:
+                yield _Row(entry, unknown=f"{_placed(entry)} ({error})")
+            else:
+                yield _Row(entry, address, value, unit)
+        elif entry.name in hal:
+            yield _Row(entry)
+        else:
+            yield _Row(entry, unknown=_unknown_name(entry, schema, machine, known))
+
+
+def _placed(entry: IniEntry) -> str:
+    return f"{entry.name} in {entry.file + ' ' if entry.file else ''}line {entry.line + 1}"
+
+
+def _unknown_name(entry: IniEntry, schema: Schema, machine: str, known: Mapping[str, Address]) -> str:
+    others = [
+        m.name
+        for m in schema.family.machines
+        if m.key != machine and entry.name in addresses_by_name(schema, m.key)
+    ]
+    if others:
+        return f"{_placed(entry)} (read by {', '.join(others)} alone)"
+    of_section = [name for name in known if name.startswith(f"[{entry.section}]")]
+    near = close_matches(entry.name, of_section, 1, 0.8)
+    return f"{_placed(entry)} ({near[0]}?)" if near else _placed(entry)
+
+
+def _system(counting: Mapping[tuple[str, str], IniEntry], schema: Schema) -> str:
+    """Return the unit system of the figures."""
+    entry = counting.get(("TRAJ", "LINEAR_UNITS"))
+    try:
+        return str(read_figure(schema.parameters[UNITS], entry.text, "").value) if entry else "metric"
+    except InvalidValueError:
+        return "metric"
+
+
+def _turns(schema: Schema, address: Address, counting: Mapping[tuple[str, str], IniEntry]) -> bool:
+    scope = (
+        schema.on(schema.family.default_machine).scopes.get(address[0])
+        or schema.parameters[address[0]].scopes[0]
+    )
+    if scope == "axis":
+        return is_rotary_axis(address[1])
+    entry = counting.get((f"JOINT_{address[1]}", "TYPE")) if scope == "group" else None
+    try:
+        return entry is not None and read_figure(schema.parameters[TYPE], entry.text, "").value == "angular"
+    except InvalidValueError:
+        return False
+
+
+# -- writing -----------------------------------------------------------------------------------------------------------
+
+
+def texts_of(file: ParameterFile) -> dict[str, str]:
+    """Return the text of a configuration under "", and those of the files that it includes by their names.
+
+    Raises FormatError for a value that no line can contain.
+    """
+    kept = file.header.extra.get(_KIND)
+    kept = kept if isinstance(kept, dict) else {}
+    lines = kept.get("lines")
+    if not isinstance(lines, list):
+        return {"": "\n".join(_new_text(file))}
+    included = _included(file)
+    ini = read_ini("\n".join(map(str, lines)), included.get)
+    hal = kept.get("hal")
+    edited = _Edited(file, ini, frozenset(map(str, hal)) if isinstance(hal, list) else frozenset())
+    return {name: "\n".join(rows) for name, rows in edited.rows().items()}
+
+
+def _included(file: ParameterFile) -> dict[str, str]:
+    kept = file.header.extra.get(_KIND)
+    included = kept.get("included") if isinstance(kept, dict) else None
+    if not isinstance(included, dict):
+        return {}
+    return {str(name): "\n".join(map(str, rows)) for name, rows in included.items() if isinstance(rows, list)}
+
+
+class _Edited:
+    """The lines of a configuration with the values that a file has now."""
+
+    def __init__(self, file: ParameterFile, ini: IniText, hal: frozenset[str]) -> None:
+        self.file, self.ini = file, ini
+        self.lines: dict[str, list[str | None]] = {name: list(rows) for name, rows in ini.lines.items()}
+        self.written: set[Address] = set()
+        for row in _rows(ini, file.schema, file.machine, hal):
+            if row.address is not None and row.value is not None:
+                self._value(row, row.address, row.value)
+            elif row.unknown and row.unknown not in file.unknown:
+                self._drop(row.entry)
+
+    def rows(self) -> dict[str, list[str]]:
+        """Return the lines of each file, with new values at the ends of their sections."""
+        new: dict[str, list[str]] = {}
+        for address in self.file.addresses():
+            value = self.file.get(address)
+            if (
+                value is not None
+                and address not in self.written
+                and (line := _new_line(self.file, address, value))
+            ):
+                new.setdefault(line[0], []).append(line[1])
+        for section in sorted(
+            (s for s in new if s in self.ini.last), key=self.ini.last.__getitem__, reverse=True
+        ):
+            at = self.ini.last[section] + 1
+            self.lines[""][at:at] = new.pop(section)
+        rows = {name: [row for row in lines if row is not None] for name, lines in self.lines.items()}
+        for section, lines in new.items():
+            main = rows[""]
+            ends = bool(main) and main[-1] == ""
+            main[len(main) - ends :] = ["", f"[{section}]", *lines, *[""] * ends]
+        return rows
+
+    def _value(self, row: _Row, address: Address, before: Value) -> None:
+        value, unit = self.file.get(address), _unit(self.file, address)
+        self.written.add(address)
+        if value is None:
+            self._drop(row.entry)
+        elif not same_value(value, before) or unit != row.unit:
+            parameter = self.file.schema.parameters[address[0]]
+            text = write_figure(parameter, value, unit)
+            if not parameter.choices and parameter.type != "text":
+                text += row.entry.text[len(number_in(parameter, row.entry.text)) :]
+            lines = self.lines[row.entry.file]
+            lines[row.entry.line] = with_value(str(lines[row.entry.line]), row.entry, text)
+            if row.entry.lines > 1:
+                lines[row.entry.line] = str(lines[row.entry.line]).removesuffix("\\")
+            for at in range(row.entry.line + 1, row.entry.line + row.entry.lines):
+                lines[at] = None
+
+    def _drop(self, entry: IniEntry) -> None:
+        for at in range(entry.line, entry.line + entry.lines):
+            self.lines[entry.file][at] = None
+
+
+def _unit(file: ParameterFile, address: Address) -> str:
+    units = file.get((UNITS, ""))
+    system = str(units.value) if units is not None and units.value in file.schema.family.units else "metric"
+    return file.evaluation.unit(address, system)
+
+
+def _new_line(file: ParameterFile, address: Address, value: Value) -> tuple[str, str] | None:
+    """Return the section and the line of a value that has none yet."""
+    name = re.fullmatch(r"\[([^\]]+)\](.+)", file.machine_schema.number(address) or "")
+    if name is None:
+        return None
+    text = write_figure(file.schema.parameters[address[0]], value, _unit(file, address))
+    return (name[1], f"{name[2]} = {text}") if text else None
+
+
+def _new_text(file: ParameterFile) -> Iterator[str]:
+    """Yield the lines of a configuration that was never a text."""
+    sections: dict[str, list[str]] = {}
+    for address in file.addresses():
+        value = file.get(address)
+        if value is not None and (line := _new_line(file, address, value)):
+            sections.setdefault(line[0], []).append(line[1])
+    if not sections:
+        raise FormatError("no parameter has a value: the file gives an empty configuration")
+    yield f"{_HEAD} of {' '.join(file.header.name.split()) or 'a machine'}"
+    for section, lines in sections.items():
+        yield from ("", f"[{section}]", *lines)
+    yield ""
+
+
+def _write(file: ParameterFile) -> str:
+    texts = texts_of(file)
+    included = _included(file)
+    if changed := [name for name, text in texts.items() if name and text != included[name]]:
+        raise FormatError(
+            f"a value of the included file {changed[0]} was changed: change it there, or send the whole folder"
+        )
+    kept = file.header.extra.get(_KIND)
+    encoding = str(kept.get("encoding", "utf-8")) if isinstance(kept, dict) else "utf-8"
+    try:
+        return texts[""].encode("latin-1" if encoding == "latin-1" else "utf-8").decode("latin-1")
+    except UnicodeEncodeError as error:
+        raise FormatError(
+            f"'{error.object[error.start]}' is no sign of latin-1, in which this text is"
+        ) from None
+
+
+def _newline(file: ParameterFile) -> str:
+    kept = file.header.extra.get(_KIND)
+    return "\r\n" if isinstance(kept, dict) and kept.get("newline") == "crlf" else "\n"
+
+
+FORMAT = TextFormat(
+    "ini",
+    "LinuxCNC configuration",
+    ".ini",
+    _recognises,
+    _read,
+    _write,
+    encoding="latin-1",
+    newline_of=_newline,
+    included=_included,
+)
