@@ -14,6 +14,9 @@ SCENARIOS = {
     "home": "amp_studio.sim.scenarios.home:SCENARIO",
     "jog": "amp_studio.sim.scenarios.jog:SCENARIO",
     "travel": "amp_studio.sim.scenarios.travel:SCENARIO",
+    "spindle": "amp_studio.sim.scenarios.spindle:SCENARIO",
+    "tap": "amp_studio.sim.scenarios.tap:SCENARIO",
+    "probe": "amp_studio.sim.scenarios.probe:SCENARIO",
 }
 """Scenario of any family -> where it is."""
 

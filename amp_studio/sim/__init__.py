@@ -43,23 +43,36 @@ if TYPE_CHECKING:
     from .errors import SimulationError
     from .identification.identify import figure_text, identified_text, identify, machine_settings
     from .identification.machine_file import machine_for, read_machine, write_machine
-    from .law import USUAL_SCENARIOS, AlarmText, AxisLaw, Law, Leader, Prediction, Source, law_of
+    from .law import (
+        USUAL_SCENARIOS,
+        AlarmText,
+        AxisLaw,
+        BoundMachine,
+        Law,
+        Leader,
+        Prediction,
+        Source,
+        law_of,
+    )
     from .listings import SimulationListing, listing
     from .model import assumptions, with_model
     from .motion_check import MotionCheck, check_motion
     from .plot.picture import Curve, Panel, Picture, Ring, picture_of, settling_span, unheld
     from .plot.svg import plot_svg
     from .plot.ticks import ring_levels
+    from .probing import Probing
     from .rounding import rounded_down, rounded_up, shown
     from .run import bind_axis, simulate, simulated_axes
     from .scenario import Scenario, Settings, above_zero, number, refuse_unknown
     from .scenarios.columns import alarms_of, column_units, per_minute
     from .scenarios.step import SCENARIO as STEP
     from .series import Series
+    from .spindle import Gear, Orient, SpeedWatch, Spindle, Tapping
     from .steady import error_at_speed
     from .trace import Figure, Recommendation, Trace, titled
     from .tuning.linear import linear_model
     from .tuning.trial import address_of, named_parameter
     from .write import trace_summary, trace_text, write_trace
+    from .zones import Zone
 else:
     __getattr__ = front_page(__name__)

@@ -31,7 +31,7 @@ Units: the axis unit u (mm or deg) and s everywhere inside; the parameters p are
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -40,13 +40,16 @@ import numpy.typing as npt
 from amp_studio.files import ParameterFile, fitted_axes
 from amp_studio.schema import load_part, load_schema, registered_families, registration_of, why_not_simulated
 
-from .axis_parameters import AxisParameters
+from .axis_parameters import AxisParameters, ParameterValue
 from .command.events import RAMPS, Homing, Jogging, Ramp, Travel
 from .engine.compiled import Sample
 from .engine.machine import Machine
 from .errors import SimulationError
+from .probing import Probing
 from .scenario import Scenario
+from .spindle import Gear, Spindle, Tapping
 from .trace import Recommendation, Trace
+from .zones import Zone
 
 Leader = Callable[["AxisLaw"], Mapping[str, npt.NDArray[np.float64]]]
 
@@ -178,6 +181,10 @@ class Law:
     ``scenarios``  those that the manual of the family carries
     ``advise``     the family's own recommendations after a scenario
     ``own``        scenarios of the family alone, by name
+    ``spindle``    spindle(values of the machine, its number) -> the spindle; None where no output to one is printed
+    ``tapping``    tapping(machine, spindle, gear, axis, pitch) -> how both follow each other; None where it is not printed
+    ``probing``    probing(values of the machine, axis, which cycle) -> how a probe is met
+    ``zones``      zones(machine, axes) -> areas that axes must not enter or leave
     """
 
     bind: Callable[[AxisParameters], AxisLaw]
@@ -187,6 +194,43 @@ class Law:
     scenarios: Sequence[str] = USUAL_SCENARIOS
     advise: Callable[[AxisLaw, Trace], Sequence[Recommendation]] = _no_advice
     own: Mapping[str, Scenario] = field(default_factory=dict)
+    spindle: Callable[[AxisParameters, str], Spindle] | None = None
+    tapping: Callable[[BoundMachine, Spindle, Gear, AxisLaw, float], Tapping] | None = None
+    probing: Callable[[AxisParameters, AxisLaw, str], Probing] | None = None
+    zones: Callable[[BoundMachine, Sequence[str]], Iterable[Zone]] | None = None
+
+
+@dataclass(frozen=True)
+class BoundMachine:
+    """A machine of a file for scenarios that are not about one axis: its axes, made when they are asked for, and its other values."""
+
+    law: Law
+    chosen: tuple[str, ...]
+    """Axes that were asked for, by themselves; () for none."""
+    fitted: tuple[str, ...]
+    bind: Callable[[str | None, Mapping[str, ParameterValue]], AxisLaw]
+    """bind(axis, further values by parameter id) -> the axis; raises SimulationError."""
+    read: Callable[[str], AxisParameters]
+    """The values of an axis, or of the machine for ""."""
+    letter: Callable[[str], str]
+
+    @property
+    def parameters(self) -> AxisParameters:
+        """The values that belong to no axis."""
+        return self.read("")
+
+    def axis(self, name: str | None = None) -> AxisLaw:
+        """Return an axis: that of the name or letter, else the first one that was asked for, else the first of the machine."""
+        chosen = name or (self.chosen[0] if self.chosen else None)
+        if chosen is not None and chosen not in self.fitted:
+            chosen = next((each for each in self.fitted if self.letter(each) == chosen.upper()), chosen)
+        return self.bind(chosen, {})
+
+    def one_chosen(self, scenario: str) -> str | None:
+        """Return the axis that was asked for, None for none; raises SimulationError for several."""
+        if len(self.chosen) > 1:
+            raise SimulationError(f"{scenario} takes one axis, not {', '.join(self.chosen)}")
+        return self.chosen[0] if self.chosen else None
 
 
 def simulated_families() -> tuple[str, ...]:
@@ -210,6 +254,7 @@ __all__ = [
     "USUAL_SCENARIOS",
     "AlarmText",
     "AxisLaw",
+    "BoundMachine",
     "Law",
     "Prediction",
     "Ramp",

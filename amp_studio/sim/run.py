@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 
 from amp_studio.files import ParameterFile, fitted_axes
@@ -11,9 +11,10 @@ from amp_studio.schema import Address, axis_name, load_part, registration_of, un
 from .axis_parameters import AxisParameters, ParameterValue, ReadParameter
 from .doubts import doubts
 from .errors import SimulationError
-from .law import AxisLaw, Law, law_of
+from .law import AxisLaw, BoundMachine, Law, law_of
 from .listings import known_settings
 from .model import with_model
+from .scenario import Settings
 from .scenarios import SCENARIOS
 from .scenarios.circle import SECOND
 from .settings import read_settings, refuse_other_unit
@@ -21,6 +22,9 @@ from .trace import Trace
 from .tuning.advice import recommendations
 from .tuning.trial import Trial
 from .unit_system import axis_unit, in_unit, length_unit
+
+POINTS = ("move.start", "move.to", "move.zone")
+"""Settings that have a figure for each of several axes, or several figures."""
 
 
 def simulate(
@@ -49,13 +53,24 @@ def simulate(
         )
     length = length_unit(file, system)
     unit = axis_unit(file, axis or next(iter(law.axes(file)), ""), length)
-    given, written = read_settings(settings or {}, known_settings(law, scenario), unit)
+    # A point has a figure for each axis: it is read by its scenario.
+    points = POINTS if axis and "," in axis else ()
+    texts = {name: value for name, value in (settings or {}).items() if name in points}
+    rest = {name: value for name, value in (settings or {}).items() if name not in points}
+    given, written = read_settings(rest, known_settings(law, scenario), unit)
+    given |= texts
     model = {name: value for name, value in given.items() if name.startswith("model.")}
     own = {
         **(like.move if like else {}),
         **{name: value for name, value in given.items() if name not in model},
     }
     read: list[Address] = []
+    whole = _whole_run(scenario, axis)
+    if whole is not None:
+        names = tuple(each.strip() for each in (axis or "").split(",") if each.strip())
+        trace = whole(_bound_machine(file, law, names, model, read.append), own)
+        letter = ",".join(axis_name(file.evaluation, each) or each for each in trace.axis.split(",") if each)
+        return in_unit(_named(replace(trace, doubts=doubts(file, read, model)), letter), length)
     bound = bind_axis(file, law, axis, model, read.append)
     refuse_other_unit(written, bound.axis, bound.unit)
     letter = axis_name(file.evaluation, bound.axis)
@@ -80,6 +95,51 @@ def simulate(
     notes, doubtful = (*trace.assumptions, *notes), doubts(file, read, model)
     done = replace(trace, recommendations=found, assumptions=notes, doubts=doubtful)
     return in_unit(_named(done, letter), length)
+
+
+def _whole_run(scenario: str, axis: str | None) -> Callable[[BoundMachine, Settings], Trace] | None:
+    """Return how a scenario is run that is not about one axis; None for one that is. Raises SimulationError for several axes of such a one."""
+    chosen = SCENARIOS.get(scenario)
+    if chosen is not None and chosen.of_machine:
+        return chosen.run
+    if axis is None or "," not in axis:
+        return None
+    if chosen is None or chosen.several is None:
+        raise SimulationError(f"{scenario} takes one axis, not {axis}")
+    return chosen.several
+
+
+def _bound_machine(
+    file: ParameterFile,
+    law: Law,
+    names: Sequence[str],
+    model: Mapping[str, ParameterValue],
+    note: Callable[[Address], None],
+) -> BoundMachine:
+    """Return the machine of a file; raises SimulationError for an axis that is not fitted."""
+    fitted = tuple(law.axes(file))
+
+    def letter(axis: str) -> str:
+        return axis_name(file.evaluation, axis)
+
+    def read(axis: str) -> AxisParameters:
+        values, tables = _values(file, note), file.schema.tables
+        return AxisParameters(values, axis, {}, tables, file.machine, file.header.application)
+
+    chosen = [
+        name if name in fitted else next((each for each in fitted if letter(each) == name.upper()), name)
+        for name in names
+    ]
+    for name in chosen:
+        if name not in fitted:
+            raise SimulationError(f"Axis {name} is not fitted. Fitted: {', '.join(fitted)}")
+    if len(set(chosen)) < len(chosen):
+        raise SimulationError(f"An axis is given twice: {', '.join(names)}")
+
+    def bind(axis: str | None, further: Mapping[str, ParameterValue]) -> AxisLaw:
+        return bind_axis(file, law, axis, {**model, **further}, note)
+
+    return BoundMachine(law, tuple(chosen), fitted, bind, read, letter)
 
 
 def _trial(file: ParameterFile, law: Law, axis: str, model: Mapping[str, ParameterValue]) -> Trial:

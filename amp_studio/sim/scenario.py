@@ -31,6 +31,10 @@ class Scenario:
     """Whether it tries other values: run(trial, settings, trials of the axes that make contours with this one)."""
     second: bool = False
     """Whether a second axis takes part: the one of ``move.second_axis``, else the next that can be simulated."""
+    of_machine: bool = False
+    """Whether it is not about one axis: run(machine, settings) with a `BoundMachine`."""
+    several: Callable[..., Trace] | None = None
+    """The same for several axes at once, run like one of the machine; None where it takes one axis."""
 
 
 def number(settings: Settings, name: str) -> float | None:

@@ -32,6 +32,15 @@ class Alarm:
 
 
 @dataclass(frozen=True)
+class PlaneArea:
+    """A zone in the plane of two axes, from least to greatest of each."""
+
+    name: str
+    x: tuple[float, float]
+    y: tuple[float, float]
+
+
+@dataclass(frozen=True)
 class Recommendation:
     """A recommended value, with the reason in one line."""
 
@@ -66,6 +75,8 @@ class Trace:
     """The letter that the file gives the axis, where it is another than ``axis``."""
     move: Mapping[str, float] = field(default_factory=dict)
     """Settings that the scenario chose by the axis or was given, in mm or deg: with them another axis makes the same move."""
+    areas: tuple[PlaneArea, ...] = ()
+    """Zones to draw in the plane of the first two axes."""
     doubts: tuple[str, ...] = ()
     """What is wrong or doubtful about the values that the axis was made of, each a sentence."""
 

@@ -32,6 +32,7 @@ from . import law_events as events
 from . import law_plant as plant
 from . import law_sample as loop
 from .law_filters import PASS, Biquad, lopass, notch
+from .law_spindle import probing, spindle
 
 AXES = ("X", "Y", "Z", "A", "B", "C", "U", "V")
 COUNT = "view.number_of_axes"
@@ -307,6 +308,8 @@ LAW = Law(
     bind=bind,
     axes=axes,
     without_axes="Number of Axes (view.number_of_axes) is 0: set it to simulate an axis",
-    scenarios=(*USUAL_SCENARIOS, "home", "jog", "travel"),
+    scenarios=(*USUAL_SCENARIOS, "home", "jog", "travel", "spindle", "probe"),
     advise=advise,
+    spindle=spindle,
+    probing=probing,
 )

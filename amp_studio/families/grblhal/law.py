@@ -23,6 +23,7 @@ from amp_studio.sim import (
 )
 
 from . import law_sample as loop
+from .law_spindle import probing, spindle
 
 STEPS, RATE, ACCELERATION, TRAVEL = "axis.steps", "axis.max_rate", "axis.acceleration", "axis.max_travel"
 CYCLE, DIRECTION, PULL_OFF, PASSES = (
@@ -177,5 +178,7 @@ LAW = Law(
     bind,
     axes,
     "No axis has steps. Set $100 of an axis",
-    scenarios=("step", "home", "jog", "travel"),
+    scenarios=("step", "home", "jog", "travel", "spindle", "probe"),
+    spindle=spindle,
+    probing=probing,
 )

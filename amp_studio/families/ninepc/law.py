@@ -32,10 +32,13 @@ from .law_advice import advise, follow
 from .law_drives import Parts, analog, digital, third_party
 from .law_feedback import OWN_TRAVEL, Feedback, feedback_of
 from .law_figures import Loop, predictions
+from .law_probing import probing
 from .law_ramps import ramps_of
 from .law_reading import above_zero, demand, if_set, not_negative
+from .law_spindle import spindle, tapping
 from .law_tune import SCENARIO as PROCEDURE
 from .law_units import OWN_INERTIA, OWN_TORQUE
+from .law_zones import zones
 
 HARDWARE, LOOP, POSITION_LOOP = "servo.hardware_type", "servo.loop_type", "servo.position_loop_type"
 CYCLE, RAPID, CUTTING = "servo.sercos_cycle", "feedrate.rapid", "feedrate.max_cutting"
@@ -272,8 +275,12 @@ def _bounded(source: Source, unit: str) -> Source:
 
 LAW = Law(
     bind,
-    scenarios=(*USUAL_SCENARIOS, "home", "jog", "travel"),
+    scenarios=(*USUAL_SCENARIOS, "home", "jog", "travel", "spindle", "tap", "probe"),
     settings=SETTINGS,
     advise=advise,
     own={PROCEDURE.name: PROCEDURE},
+    spindle=spindle,
+    tapping=tapping,
+    probing=probing,
+    zones=zones,
 )

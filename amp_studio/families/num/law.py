@@ -33,6 +33,7 @@ from .law_advice import advise, follow
 from .law_loop import loop
 from .law_notes import ALWAYS, DRIVE, NOT_SIMULATED
 from .law_pair import drive_axis, is_synchronised, refuse_chain, synchronised
+from .law_spindle import spindle, tapping
 from .law_words import FILTER, VOLTAGE, Words, above, read_words
 
 SCALE = "model.scale"
@@ -220,6 +221,8 @@ LAW = Law(
     axes,
     "No axis is servo-controlled. Declare one in P2N0 and P3N0, with its name and group in P9",
     SETTINGS,
-    scenarios=(*USUAL_SCENARIOS, "home", "jog", "travel"),
+    scenarios=(*USUAL_SCENARIOS, "home", "jog", "travel", "spindle", "tap"),
     advise=advise,
+    spindle=spindle,
+    tapping=tapping,
 )

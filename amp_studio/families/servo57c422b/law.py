@@ -34,6 +34,7 @@ from . import law_sample as loop
 from .law_axis import ModuleAxis
 from .law_commands import COMMANDS
 from .law_home import homing, travel
+from .law_registration import probing
 from .law_tune import Scales
 
 AXES = ("X", "Y")
@@ -332,7 +333,8 @@ LAW = Law(
     bind=bind,
     axes=axes,
     settings=SETTINGS,
-    scenarios=(*USUAL_SCENARIOS, "home", "travel"),
+    scenarios=(*USUAL_SCENARIOS, "home", "travel", "probe"),
     advise=advise,
+    probing=probing,
     own=COMMANDS,
 )

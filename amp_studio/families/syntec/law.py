@@ -40,6 +40,7 @@ from .formulas import (
 )
 from .formulas.resolution import STANDARD_BLU
 from .law_advice import advise
+from .law_zones import zones
 
 SHORTEST, LONGEST = 1e-4, 0.1
 """s: interpolation times that are simulated."""
@@ -363,4 +364,5 @@ LAW = Law(
     "No axis has a port. Give one its port (Pr21) and its type (Pr221)",
     scenarios=(*USUAL_SCENARIOS, "home", "jog", "travel"),
     advise=advise,
+    zones=zones,
 )

@@ -106,4 +106,5 @@ def travel(read: AxisParameters) -> Travel:
         "3.2",
         (STOPPED,),
         alarm_negative="MOT-018",
+        reads_ahead="COR-040",
     )

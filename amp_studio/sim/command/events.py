@@ -159,6 +159,8 @@ class Travel:
     """Whether the loop is switched off at a limit instead."""
     refuses: bool = False
     """Whether a move beyond a limit is not begun."""
+    reads_ahead: str = ""
+    """Code with which a programmed block beyond a limit is not begun; "" where it is begun."""
 
     def nearest(self, start: float, sign: float) -> tuple[str, float] | None:
         """Return name and place of the first limit in a direction from a place inside; None without one."""

@@ -93,6 +93,8 @@ def picture_of(trace: Trace, before: Trace | None = None) -> Picture:
         picture = _ballbar(trace, before)
     elif "predicted_torque" in trace.columns:
         picture = _fit(trace)
+    elif trace.areas:
+        picture = _plan(trace)
     else:
         picture = _motion(trace, before)
     return replace(
@@ -193,7 +195,8 @@ def _motion(trace: Trace, before: Trace | None) -> Picture:
     panels = [
         _panel(trace, before, "position", ("command_position", "position"), 0.9),
         _error(trace, before),
-        _panel(trace, before, "velocity", ("command_velocity", "velocity"), 1.0),
+        _panel(trace, before, "axis less spindle", ("tapping_error",), 1.0),
+        _panel(trace, before, "velocity", ("command_velocity", "expected_speed", "velocity"), 1.0),
         _panel(trace, before, "torque", ("torque_percent", "torque"), 0.8),
         _panel(trace, before, "output", ("output",), 0.8) if _has_own_output(trace) else None,
     ]
@@ -205,7 +208,7 @@ def _motion(trace: Trace, before: Trace | None) -> Picture:
 
 def _has_own_output(trace: Trace) -> bool:
     """Return whether the output is another thing than the torque: the input of a drive with a velocity loop."""
-    return trace.units.get("output", "") != trace.units.get("torque", trace.units.get("output", ""))
+    return trace.units.get("output", "") != trace.units.get("torque", "")
 
 
 _WORDS = {
@@ -317,6 +320,29 @@ def _fit(trace: Trace) -> Picture:
         Panel("measured less predicted, where used", unit, (rest,), height=0.8),
         Panel("velocity", trace.units["velocity"], (speed,), height=0.9),
     ))  # fmt: skip
+
+
+def _plan(trace: Trace) -> Picture:
+    """Return the way of two axes in their plane, with the zones."""
+    names = [name for name in trace.columns if name.startswith("position_")][:2]
+    letters = [name.removeprefix("position_") for name in names]
+    unit = trace.units[names[0]]
+    boxes = [
+        Curve(
+            area.name,
+            np.array([area.x[0], area.x[1], area.x[1], area.x[0], area.x[0]]),
+            np.array([area.y[0], area.y[0], area.y[1], area.y[1], area.y[0]]),
+            "other",
+        )
+        for area in trace.areas
+    ]
+    ways: list[Curve] = []
+    for what, role in (("command", "command"), ("position", "actual")):
+        x, y = (trace.columns[f"{what}_{letter}"] for letter in letters)
+        ways.append(Curve(role, x, y, role))  # type: ignore[arg-type]  # the role is one of both
+    return Picture(
+        "", (), f"{letters[0]} ({unit})", (Panel(letters[1], unit, (*boxes, *ways), height=3.0),)
+    )  # fmt: skip
 
 
 # -- over frequency ------------------------------------------------------------

@@ -18,6 +18,8 @@ from amp_studio.sim.scenario import Scenario, Settings, number, refuse_unknown
 from amp_studio.sim.trace import Alarm, Figure, Trace
 
 from .columns import alarms_of, column_units, per_minute
+from .plane import SETTINGS as PLANE
+from .plane import run_plane
 from .step import COAST, RUN_OUT, feedrate_of
 
 SETTINGS = {
@@ -144,5 +146,10 @@ def _zone(travel: Travel, settings: Settings) -> dict[str, tuple[float, float]] 
 
 
 SCENARIO = Scenario(
-    "travel", "Against a limit of the travel: where the axis stops", SETTINGS, run_travel, gains=False
+    "travel",
+    "Against a limit of the travel: where the axis stops; axes X,Y past zones to move.to",
+    {**PLANE, **SETTINGS},
+    run_travel,
+    gains=False,
+    several=run_plane,
 )

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Sequence
 from dataclasses import asdict
 from typing import TYPE_CHECKING
@@ -32,7 +33,7 @@ VERB = Verb(
         "record",
         nargs="?",
         type=path_of,
-        help="identify: CSV of a drive with time, velocity or position, and torque; units in the heads",
+        help="identify: CSV of a drive with time, velocity or position, and torque; units in the heads. spindle: the S word, as S1500",
     ),
     VerbArgument(
         "--list", action="store_true", help="list the scenarios of this family, its axes, and what can be set"
@@ -46,6 +47,12 @@ VERB = Verb(
         dest="assignments",
         help="parameter and its new value",
         completes=candidates.assignments,
+    ),
+    VerbArgument(
+        "--speed", metavar="SPEED", help="tap and probe: the speed, as 600 or '100 mm/min' (move.speed)"
+    ),
+    VerbArgument(
+        "--pitch", metavar="PITCH", help="tap: the pitch of the thread, as 1 or '0.05 in' (move.pitch)"
     ),
     VerbArgument(
         "--for",
@@ -77,6 +84,10 @@ VERB = Verb(
         "amp-studio simulate MILL_1394.amp step --axis X",
         "amp-studio simulate MILL_1394.amp step --axis X --set move.distance=50 -o trace.csv",
         "amp-studio simulate MILL_1394.amp tune --axis X --for stiff",
+        "amp-studio simulate MILL_1394.amp spindle S1500",
+        "amp-studio simulate MILL_1394.amp tap --pitch 1 --speed 400",
+        "amp-studio simulate MILL_1394.amp probe --axis Z --speed 100",
+        "amp-studio simulate MILL_1394.amp travel --axis X,Y --set move.start=-200,-50 --set move.to=-470,-50",
         "amp-studio simulate MILL_1394.amp identify record.csv --axis X -o machine.yaml",
         "amp-studio simulate MILL_1394.amp step --axis X --machine machine.yaml",
     ),
@@ -84,6 +95,8 @@ VERB = Verb(
 
 
 PICTURES = (".svg", ".png")
+SPOKEN = {"speed": ("spindle", "tap", "probe"), "pitch": ("tap",)}
+"""Option -> the scenarios that it belongs to."""
 
 SETTING_GROUPS = ("move", "model", "tune", "gear", "cam")
 """First words of settings that are no parameters."""
@@ -112,9 +125,11 @@ def run(options: Options) -> int:
         raise UsageError("Name a scenario; amp-studio simulate PATH --list lists them")
     if options.scenario == IDENTIFY:
         return _identify(options, file)
-    if options.record or options.scale:
+    spoken = _spoken(options)
+    if (options.record and not spoken) or options.scale:
         raise UsageError(f"a record and its scale belong to {IDENTIFY}, not to {options.scenario}")
     settings, own = _settings(options.assignments)
+    settings = {**spoken, **settings}
     if options.aim:
         if options.scenario != "tune":
             raise UsageError(f"--for belongs to tune, not to {options.scenario}")
@@ -142,14 +157,34 @@ def run(options: Options) -> int:
     return 1 if trace.alarms else 0
 
 
+def _spoken(options: Options) -> dict[str, float | str]:
+    """Return the settings that have an option, or a word, of their own: an S word, --speed, --pitch."""
+    found: dict[str, float | str] = {}
+    if options.record and options.scenario == "spindle":
+        word = str(options.record)
+        if not re.fullmatch(r"[Ss]?[+-]?[0-9]+([.,][0-9]+)?", word):
+            raise UsageError(f"'{word}' is no S word: S1500, with a minus for M4")
+        found["move.speed"] = word.lstrip("Ss")
+    for name in ("speed", "pitch"):
+        value = getattr(options, name)
+        if value is None:
+            continue
+        if options.scenario not in SPOKEN[name]:
+            raise UsageError(f"--{name} belongs to {' and '.join(SPOKEN[name])}, not to {options.scenario}")
+        found[f"move.{name}"] = value
+    return found
+
+
 def _axis(options: Options, file: ParameterFile) -> str | None:
+    """Return the axis by itself, several as ``1,2``."""
     from amp_studio.files import axis_instances
     from amp_studio.schema import axis_meant
     from amp_studio.sim import simulated_axes
 
     if not options.axis:
         return None
-    return axis_meant(file.evaluation, axis_instances(file) or simulated_axes(file), options.axis)
+    known = axis_instances(file) or simulated_axes(file)
+    return ",".join(axis_meant(file.evaluation, known, each.strip()) for each in options.axis.split(","))
 
 
 def _identify(options: Options, file: ParameterFile) -> int:

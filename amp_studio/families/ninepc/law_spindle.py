@@ -1,0 +1,133 @@
+"""Spindles and solid tapping of a 9/PC (chapters 12, 14 and 27)."""
+
+from __future__ import annotations
+
+from amp_studio.sim import (
+    AxisLaw,
+    AxisParameters,
+    BoundMachine,
+    Gear,
+    Orient,
+    SimulationError,
+    SpeedWatch,
+    Spindle,
+    Tapping,
+)
+
+from .law_ramps import SCAN, SCANS
+
+GEARS = 8
+PER_GAIN = 1000.0 / 60.0
+"""1/s for a gain of 1 rpm in 0.001 revolutions (12-15)."""
+GAIN = "servo.initial_gain"
+RAMPED = (
+    "The ramp takes Acceleration Time up to Maximum Tapping Speed with the solid tapping option, else Dev. Detection Filter Time up to Max. Spindle Speed"
+    " (12-3); its table names the ramp parameter itself for the second, which is a slip. ASSUMED: the option is there where Acceleration Time is set."
+)
+STEPPED = "Spindle DAC Output Ramping is off: the output changes in one step (12-3)."
+SHARED = "ASSUMED: the output is in proportion to the speed, to Voltage at Max at Max. Spindle Speed (12-5)."
+NO_GEARS = (
+    "A gear that is used has no legal minimum and maximum speed, or no tapping values: the control takes it that no gears are there and never"
+    " requests one (12-8, 27-2)"
+)
+TAPPED = "While tapping, the lower gain and the lower acceleration of axis and spindle are those of both (12-15, 27-2)."
+FORCED = "The axis has zero following error: the spindle is forced to the same loop and feed-forward (27-1)."
+SIGN = {"clockwise": 1.0, "counterclockwise": -1.0}
+
+
+def spindle(read: AxisParameters, number: str) -> Spindle:
+    """Return a spindle; raises SimulationError where it is not set."""
+    count = read.optional("spindle.gear_count", at=number)
+    if count is None:
+        raise SimulationError(f"Number of Gears Used of spindle {number} is not set", "spindle.gear_count")
+    names = [str(n) for n in range(1, min(int(count), GEARS) + 1)]
+    found = [_gear(read, number, name) for name in names]
+    gears = tuple(gear for gear in found if gear is not None)
+    ramped = read.value("spindle.dac_ramping", at=number) is True
+    notes = (SHARED, RAMPED if ramped else STEPPED)
+    fine = read.optional(SCAN, everywhere=True)
+    scans = read.optional(SCANS, everywhere=True)
+    # The code of a gear that is not requested is ours: the control shows none.
+    return Spindle(
+        number,
+        f"9/PC spindle {number}: {len(names)} gear{'s' if len(names) != 1 else ''}, analog output",
+        "V",
+        gears,
+        "12-3 to 12-9",
+        notes,
+        iteration=0.0 if not ramped or fine is None else fine * (scans or 1.0) / 1000.0,
+        orient=_orient(read, number),
+        watch=_watch(read, number),
+        refusal=NO_GEARS if len(gears) < len(names) else "",
+    )
+
+
+def _gear(read: AxisParameters, number: str, name: str) -> Gear | None:
+    """Return a gear; None for one without legal values."""
+    at = f"{number}.{name}"
+    low, high = (read.optional(f"spindle.{which}_speed", at=at) for which in ("min", "max"))
+    if low is None or high is None or not 0.0 <= low < high:
+        return None
+    volts = read.optional("spindle.voltage_at_max", at=at)
+    time, top = (read.optional(f"tapping.{which}", at=at) for which in ("acceleration_time", "max_speed"))
+    filtered = read.optional("spindle.deviation_filter_time", at=number)
+    is_ramped = read.value("spindle.dac_ramping", at=number) is True
+    seconds, to = ((time or 0.0) / 1000.0, top or high) if time else ((filtered or 0.0) / 1000.0, high)
+    return Gear(
+        name,
+        low,
+        high,
+        full=high,
+        output=10.0 if volts is None else volts,
+        ramp_time=seconds if is_ramped else 0.0,
+        ramp_top=to,
+        gain=(read.optional("spindle.gain", at=at) or 0.0) * PER_GAIN,
+        tap_rate=top / 60.0 / (time / 1000.0) if time and top else 0.0,
+        tap_speed=top or high,
+    )
+
+
+def _orient(read: AxisParameters, number: str) -> Orient | None:
+    speed = read.optional("spindle.orient_speed", at=number)
+    if not speed:
+        return None
+    direction = read.value("spindle.orient_direction", at=number)
+    return Orient(
+        speed,
+        SIGN.get(str(direction), 1.0),
+        read.optional("spindle.marker_calibration", at=number) or 0.0,
+        read.optional("spindle.orient_angle", at=number) or 0.0,
+        read.optional("spindle.orient_inposition_band", at=number) or 0.0,
+        page="12-10 to 12-15",
+    )
+
+
+def _watch(read: AxisParameters, number: str) -> SpeedWatch | None:
+    tolerance = read.optional("spindle.deviation_tolerance", at=number)
+    if tolerance is None:
+        return None
+    time = (read.optional("spindle.deviation_filter_time", at=number) or 0.0) / 1000.0
+    return SpeedWatch(tolerance / 100.0, time, "Spindle Speed Deviation Excessive", "12-5")
+
+
+def tapping(machine: BoundMachine, _spindle: Spindle, gear: Gear, axis: AxisLaw, pitch: float) -> Tapping:
+    """Return how axis and spindle follow one command (12-15, 27-1, 27-2)."""
+    read = machine.read(axis.axis)
+    own = axis.position_rate
+    gain = min(own, gear.gain) if gear.gain else own
+    rates = [rate for rate in (next(iter(axis.ramps.values())).acceleration, gear.tap_rate * pitch) if rate]
+    axis_gain = read.optional(GAIN)
+    overrides = {} if axis_gain is None or gain >= own else {GAIN: axis_gain * gain / own}
+    forced = read.value("servo.position_loop_type") == "zfe"
+    notes = (TAPPED, FORCED) if forced else (TAPPED,)
+    forward = (read.optional("servo.feed_forward") or 0.0) / 100.0 if forced else 0.0
+    return Tapping(
+        "",
+        overrides,
+        gain,
+        forward,
+        min(rates, default=0.0),
+        gear.tap_speed,
+        page="12-15, 27-1, 27-2",
+        notes=notes,
+    )

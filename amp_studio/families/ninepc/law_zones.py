@@ -1,0 +1,44 @@
+"""Programmable zones 2 and 3 of a 9/PC over the axes of a group (6-3 to 6-9)."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+
+from amp_studio.sim import BoundMachine, Zone
+
+ON = {"g22": ("2", "3"), "g22.1": ("3",), "g23": (), "g23.1": ("2",)}
+"""G code at power-up (524) -> zones that are on (16-16)."""
+GUARDS = {"2": "outside", "3": "by start"}
+GROUPS = ("g1", "g2", "g3")
+NOTE = "Zones count for the place of the axes alone: length and radius of the tool do not count (6-1). ASSUMED: the axes stop as at an overtravel; no stop is printed."
+THIRD = "Zone 3 keeps the axes inside if they are in it when it is switched on, else outside (6-2)."
+
+
+def zones(machine: BoundMachine, axes: Sequence[str]) -> Iterator[Zone]:
+    """Yield the zones of every group that these axes are in; an axis of no group is open to its overtravels (6-4)."""
+    read = machine.parameters
+    count = read.optional("zone.group_count", everywhere=True)
+    on = ON.get(str(read.value("powerup.zones", everywhere=True) or ""), ())
+    for n, group in enumerate(GROUPS, 1):
+        if count is not None and n > int(count):
+            return  # 0 switches the zones off (6-6)
+        members = [axis for axis in machine.fitted if machine.read(axis).value("zone.group") == group]
+        if not any(axis in axes for axis in members):
+            continue
+        for zone in ("2", "3"):
+            sides = {}
+            for axis in members:
+                own = machine.read(axis)
+                low, high = (own.optional(f"zone.limit{zone}_{side}") for side in ("min", "max"))
+                if low is not None and high is not None and low < high:
+                    sides[axis] = (low, high)
+            if sides:
+                yield Zone(
+                    f"programmable zone {zone}, group {n}",
+                    sides,
+                    "outside" if zone == "2" else "by start",
+                    is_on=zone in on,
+                    code=f"ZONE {zone}",
+                    page="6-3 to 6-9",
+                    notes=(NOTE,) if zone == "2" else (NOTE, THIRD),
+                )

@@ -1,0 +1,119 @@
+"""Spindles, indexing and rigid tapping of a NUM control (chapter 8)."""
+
+from __future__ import annotations
+
+import math
+
+from amp_studio.sim import (
+    AxisLaw,
+    AxisParameters,
+    BoundMachine,
+    Gear,
+    Orient,
+    SimulationError,
+    Spindle,
+    Tapping,
+)
+
+from .formulas.spindle import indexing_standstill, spindle_increment, tapping_deceleration_distance
+
+RANGES = range(40, 46)
+FULL_V = 10.0
+SEARCH = 1 << 7
+"""Bit of P7N0 that switches the automatic search of a range off (8-16)."""
+GROUP_1 = "1"
+PROPORTION = "ASSUMED: lower speeds are in proportion to the 10 V at the end of the range (8-16). No ramp of the reference is printed."
+INDEXED = "The reference of an indexing is error x P45, clipped to P43 (8-6)."
+FOLLOWS = "The axis follows the angle of the spindle; word 1 of P63 of group 1 puts its command ahead (8-35)."
+INTEGRAL = "ASSUMED: the integration of P63 word 0 and the start of the axis by word 2 are not simulated: both make the error smaller after it has begun."
+
+
+def spindle(read: AxisParameters, number: str) -> Spindle:
+    """Return a spindle with its six ranges; raises SimulationError where none is set."""
+    if number not in ("1", "2", "3", "4"):
+        raise SimulationError(f"There is no spindle {number}: 1 to 4", "move.spindle")
+    gears = []
+    for word in RANGES:
+        at = f"{number}.{word}"
+        high = read.optional("spindle.range_max", at=at) or 0.0
+        if high <= 0.0:
+            continue  # the range is not there (8-16)
+        limit = read.optional("spindle.limit_speed", at=at) or high
+        low = read.optional("spindle.range_min", at=at) or 0.0
+        gears.append(
+            Gear(
+                str(word),
+                low,
+                limit,
+                full=high,
+                output=FULL_V,
+                gain=(read.optional("spindle.gain", at=number) or 0.0) / 60.0,
+                tap_rate=read.optional("spindle.tapping_acceleration", at=number) or 0.0,
+            )
+        )
+    if not gears:
+        raise SimulationError(f"Spindle {number} has no speed range (P46 to P49)", "spindle.range_max")
+    functions = int(read.optional("misc.functions", everywhere=True) or 0.0)
+    return Spindle(
+        number,
+        f"NUM spindle {number}: {len(gears)} ranges, 10 V at the end of each",
+        "V",
+        tuple(gears),
+        "8-16",
+        (PROPORTION,)
+        if not functions & SEARCH
+        else (PROPORTION, "Bit 7 of P7N0 is set: no range is searched (8-16)."),
+        orient=_orient(read, number),
+        no_gear="ERROR 29",
+        programs_ranges=True,
+    )
+
+
+def _orient(read: AxisParameters, number: str) -> Orient | None:
+    speed, points = (read.optional(f"spindle.{each}", at=number) for each in ("indexing_speed", "points"))
+    period = read.optional("misc.sampling_period", everywhere=True)
+    if not speed or not points or not period:
+        return None
+    unit = spindle_increment(points)
+    return Orient(
+        speed,
+        1.0,
+        (read.optional("spindle.origin", at=number) or 0.0) * unit,
+        0.0,
+        (read.optional("spindle.window", at=number) or 0.0) * unit,
+        standstill=indexing_standstill(period if period > 1.0 else period * 1000.0),
+        page="8-5, 8-6",
+    )
+
+
+def tapping(machine: BoundMachine, spindle: Spindle, gear: Gear, axis: AxisLaw, pitch: float) -> Tapping:
+    """Return how the axis follows the spindle (8-32 to 8-35); raises SimulationError without an acceleration in P62."""
+    read = machine.parameters
+    if not gear.tap_rate:
+        raise SimulationError(
+            f"P62 gives spindle {spindle.name} no acceleration", "spindle.tapping_acceleration"
+        )
+    period = (read.optional("misc.sampling_period", everywhere=True) or 0.0) / 1000.0  # ms to s
+    ahead = (read.optional("spindle.position_anticipation", at=GROUP_1) or 0.0) / 1000.0 * period
+    start = (read.optional("spindle.zero_crossing_anticipation", at=GROUP_1) or 0.0) * period
+    volts = read.optional("spindle.hole_bottom_reference", at=spindle.name) or 0.0
+    distance = tapping_deceleration_distance(pitch, gear.high, gear.tap_rate)
+    figures = {
+        "deceleration_distance_at_limit": (distance, axis.unit),
+        "hole_bottom_speed": (volts / FULL_V * gear.full, "rpm"),
+        "anticipation": (ahead, "s"),
+        "zero_crossing_anticipation": (start, "s"),
+    }
+    return Tapping(
+        "",
+        {},
+        0.0,
+        0.0,
+        gear.tap_rate * pitch,
+        math.inf,
+        leads=True,
+        anticipation=ahead,
+        figures=figures,
+        page="8-32 to 8-35",
+        notes=(FOLLOWS, INTEGRAL),
+    )
