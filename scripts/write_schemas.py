@@ -29,6 +29,7 @@ from amp_studio.schema.model import (
     Model,
     PictureRoles,
     Plausible,
+    ProgramWords,
     Rules,
     Suppression,
     Tables,
@@ -60,6 +61,7 @@ FILES: dict[str, type[Model]] = {
     "commissioning": Commissioning,
     "pictures": PictureRoles,
     "plausible": Plausible,
+    "program": ProgramWords,
     "units": Units,
     "builder-rules": BuilderRules,
 }

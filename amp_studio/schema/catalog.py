@@ -22,6 +22,7 @@ from .model import (
     Parameter,
     PictureRoles,
     Plausible,
+    ProgramWords,
     Rule,
     Table,
 )
@@ -92,6 +93,11 @@ class Schema:
     def pictures(self) -> PictureRoles:
         """What each picture is drawn from."""
         return self._further.pictures
+
+    @property
+    def program(self) -> ProgramWords:
+        """How the words of its part programs are read."""
+        return self._further.program
 
     @cached_property
     def _on(self) -> dict[str, MachineSchema]:

@@ -31,6 +31,7 @@ from .model import (
     Model,
     PictureRoles,
     Plausible,
+    ProgramWords,
     Rule,
     Rules,
     Table,
@@ -39,9 +40,9 @@ from .model import (
 from .model.compiled_json import record_text, text_record
 from .model.family import define_units
 from .nearest import unknown_name
-from .picture_faults import faults_of_pictures
 from .quoting import LONGEST, quoted, short
 from .registration import added_facts
+from .role_faults import faults_of_pictures, faults_of_program
 from .units import UNITS_FILE
 from .yaml_reader import KeyPath, YamlDocument
 
@@ -75,6 +76,7 @@ class FurtherFacts(Model):
     messages: tuple[Messages, ...] = ()
     commissioning: Commissioning | None = None
     pictures: PictureRoles = PictureRoles.model_construct()
+    program: ProgramWords = ProgramWords.model_construct()
 
 
 class Compiled(Model):
@@ -151,6 +153,10 @@ def compile_family(folder: Path) -> Compiled:
     pictures = _read(drawn, PictureRoles) if drawn.exists() else PictureRoles()
     if wrong := next(iter(faults_of_pictures(pictures, groups)), None):
         raise DatabaseError(drawn, _parsed(drawn).line(wrong[0]), wrong[1])
+    programs = folder / "program.yaml"
+    program = _read(programs, ProgramWords) if programs.exists() else ProgramWords()
+    if wrong := next(iter(faults_of_program(program, groups)), None):
+        raise DatabaseError(programs, _parsed(programs).line(wrong[0]), wrong[1])
     experience = folder / "plausible.yaml"
     plausible = _read(experience, Plausible) if experience.exists() else Plausible()
     if wrong := next(iter(faults_of_experience(plausible, groups)), None):
@@ -172,6 +178,7 @@ def compile_family(folder: Path) -> Compiled:
         messages=tuple(messages.values()),
         commissioning=commissioning,
         pictures=pictures,
+        program=program,
     )
     return Compiled(
         family=family, groups=groups, rules=rules, plausible=plausible, further=record_text(further)

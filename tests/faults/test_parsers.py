@@ -32,6 +32,7 @@ READERS = {
     "cli/verbs/checks/validate.py": "damaged parameter file",
     "cli/verbs/controls/identify.py": "damaged control image",
     "cli/verbs/controls/upload.py": "damaged control image",
+    "families/acromill/emulated/card_motion.py": "",  # what the emulated card itself has written
     "cli/out_of_range.py": "",  # whether somebody is at the terminal
     "cli/verbs/controls/send.py": "",  # carries any bytes as they are
     "cli/program.py": "odd command lines",
@@ -136,7 +137,6 @@ READERS = {
     "ui/actions/range.py": "pasted blocks of cells",
     "ui/control/session.py": "damaged control image",
     "transfer/plain/ymodem.py": "hostile ends of plain files",
-    "ui/actions/sheet.py": "damaged control image",
     "ui/base/theme.py": "",  # a file of the icon package
     "ui/window/settings.py": "damaged settings",
     "validate/beside.py": "damaged record of exchanges",

@@ -82,7 +82,7 @@ def test_every_fact_file_names_the_schema_of_its_kind() -> None:
     for path in FACTS:
         kind = (
             path.stem
-            if path.stem in ("family", "commissioning", "pictures", "plausible")
+            if path.stem in ("family", "commissioning", "pictures", "plausible", "program")
             else kinds[path.parent.name]
         )
         assert named_in(path) == SCHEMAS / f"{kind}.schema.json"

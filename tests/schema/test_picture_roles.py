@@ -8,7 +8,7 @@ import pytest
 
 from amp_studio.schema import load_schema
 from amp_studio.schema.model import PictureRoles
-from amp_studio.schema.picture_faults import faults_of_pictures
+from amp_studio.schema.role_faults import faults_of_pictures
 
 SPAN = {
     "name": "Travel",

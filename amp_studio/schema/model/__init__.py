@@ -73,6 +73,14 @@ from .pictures import (
     ZoneRole,
 )
 from .plausible import Plausible, Usual
+from .program import (
+    CodeGroup,
+    Letter,
+    MacroCall,
+    ProgramCode,
+    ProgramWords,
+    WordUse,
+)
 from .record import (
     Instances,
     Key,
@@ -103,6 +111,7 @@ __all__ = [
     "BoundRef",
     "BuilderRule",
     "Choice",
+    "CodeGroup",
     "Commissioning",
     "CommissioningStep",
     "Condition",
@@ -128,7 +137,9 @@ __all__ = [
     "JogRoles",
     "Key",
     "Layout",
+    "Letter",
     "MachineType",
+    "MacroCall",
     "Messages",
     "Model",
     "Need",
@@ -139,6 +150,8 @@ __all__ = [
     "ParameterState",
     "PictureRoles",
     "Plausible",
+    "ProgramCode",
+    "ProgramWords",
     "Quantity",
     "RampKind",
     "RampRoles",
@@ -168,5 +181,6 @@ __all__ = [
     "Units",
     "Usual",
     "ValueType",
+    "WordUse",
     "ZoneRole",
 ]

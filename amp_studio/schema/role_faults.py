@@ -1,13 +1,30 @@
-"""What is wrong with the roles of a family's pictures: parameters and choices that there are not."""
+"""What is wrong with the roles of a family's pictures, and of the words of its programs: parameters and choices that there are not."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator
 
-from .model import Group, Parameter, PictureRoles
+from .model import Group, MacroCall, Model, Parameter, PictureRoles, ProgramWords
 from .model.pictures import Direction, ForbiddenSide, RampRoles, ZoneRole, parameters_named
 from .quoting import quoted
 from .yaml_reader import KeyPath
+
+_PARAMETERS = frozenset(
+    (
+        "param",
+        "params",
+        "leading",
+        "trailing",
+        "format",
+        "integrand",
+        "incremental",
+        "power_up",
+        "call",
+        "program",
+        "in_mdi",
+        "integrand_params",
+    )
+)
 
 
 def faults_of_pictures(pictures: PictureRoles, groups: tuple[Group, ...]) -> Iterator[tuple[KeyPath, str]]:
@@ -61,3 +78,29 @@ def _not_offered(
         for key in keys:
             if key not in offered:
                 yield place, f"{quoted(key)} is no choice of {parameter}"
+
+
+def faults_of_program(program: ProgramWords, groups: tuple[Group, ...]) -> Iterator[tuple[KeyPath, str]]:
+    """Yield each fault with its place in the file."""
+    known = {p.id: p for group in groups for p in group.parameters}
+    for place, named in _named(program, ()):
+        if named not in known:
+            yield place, f"there is no parameter {quoted(named)}"
+    for n, group in enumerate(program.groups):
+        offered = {c.key for c in known[group.power_up].choices or ()} if group.power_up in known else set()
+        for m, code in enumerate(group.codes):
+            if code.choice is not None and code.choice not in offered:
+                yield ("groups", n, "codes", m, "choice"), f"there is no choice {quoted(code.choice)}"
+
+
+def _named(model: Model, place: KeyPath) -> Iterator[tuple[KeyPath, str]]:
+    for name, value in model.items():
+        several = isinstance(value, tuple)
+        for n, entry in enumerate(value if several else (value,)):
+            here = (*place, name, n) if several else (*place, name)
+            if isinstance(entry, Model):
+                yield from _named(entry, here)
+            elif isinstance(entry, str) and (
+                name in _PARAMETERS or (name == "code" and isinstance(model, MacroCall))
+            ):
+                yield here, entry

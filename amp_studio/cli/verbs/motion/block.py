@@ -1,0 +1,148 @@
+"""A block, typed: each word, the number it becomes and what it does under a file; without a block, what is active after power-up."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+from amp_studio.cli.arguments import JSON, PATH
+from amp_studio.cli.console import print_json
+from amp_studio.cli.errors import UsageError
+from amp_studio.cli.opened import opened
+from amp_studio.cli.verb import Options, Verb, VerbArgument
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable, Sequence
+
+    from amp_studio.files import ParameterFile
+    from amp_studio.programs import PowerUp, PowerUpLine, ReadBlock
+    from amp_studio.schema import Address
+
+VERB = Verb(
+    __doc__,
+    PATH,
+    VerbArgument(
+        "block", nargs="*", help="a block, in quotes; each further one is read after it", signed=True
+    ),
+    JSON,
+    examples=('amp-studio block MILL_1394.amp "G01 X10.5 F200"', "amp-studio block MILL_1394.amp"),
+)
+MOST = 1000
+"""Blocks that are read."""
+
+
+def run(options: Options) -> int:
+    """Read blocks: 1 where the control refuses a word."""
+    from amp_studio.programs import BlockReader, ProgramBlockError, power_up
+
+    file = opened(options.path)
+    if not file.schema.program.page:
+        raise UsageError(f"{file.schema.family.name}: no page here prints how its blocks are read")
+    if not options.block:
+        state = power_up(file)
+        print_json(_state_json(file, state)) if options.json else _print_state(file, state)
+        return 0
+    lines = [line for text in options.block for line in text.splitlines()]
+    if len(lines) > MOST:
+        raise UsageError(f"{len(lines)} blocks are more than {MOST}")
+    reader = BlockReader(file)
+    try:
+        blocks = [reader.read(line) for line in lines]
+    except ProgramBlockError as error:
+        raise UsageError(f"{error}") from None
+    if options.json:
+        print_json(_json(file, blocks))
+    else:
+        _print(file, blocks)
+    return int(any(block.faults for block in blocks))
+
+
+def _labels(file: ParameterFile, addresses: Iterable[Address]) -> list[str]:
+    return [file.machine_schema.short(address) for address in addresses]
+
+
+def _json(file: ParameterFile, blocks: Sequence[ReadBlock]) -> dict[str, Any]:
+    words = [
+        {
+            "block": n,
+            "word": word.word,
+            "number": word.number,
+            "unit": word.unit,
+            "meaning": word.meaning,
+            "params": _labels(file, word.params),
+            "source": word.page,
+            **({"error": word.fault} if word.fault else {}),
+        }
+        for n, block in enumerate(blocks, 1)
+        for word in block.words
+    ]
+    return {
+        "file": str(file.header.name),
+        "words": words,
+        "errors": [fault for block in blocks for fault in block.faults],
+        "unknown": [word.word for block in blocks for word in block.words if not word.is_known],
+        "assumptions": list(dict.fromkeys(text for block in blocks for text in block.assumptions)),
+    }
+
+
+def _print(file: ParameterFile, blocks: Sequence[ReadBlock]) -> None:
+    for n, block in enumerate(blocks):
+        if len(blocks) > 1:
+            print("" if n == 0 else "\n", block.text, sep="")
+        rows = [
+            (
+                word.word,
+                "" if word.number is None else f"{word.number:.10g} {word.unit}".strip(),
+                f"{word.meaning}: {word.fault}" if word.fault else word.meaning,
+                f"{', '.join(_labels(file, word.params))} (page {word.page})".strip() if word.page else "",
+            )
+            for word in block.words
+        ]
+        _print_rows(rows)
+    unknown = [word.word for block in blocks for word in block.words if not word.is_known]
+    if unknown:
+        print(f"Not known here: {', '.join(unknown)}. {file.schema.program.not_printed}.")
+    for assumption in dict.fromkeys(text for block in blocks for text in block.assumptions):
+        print(f"ASSUMED {assumption.removeprefix('assumed: ')}")
+
+
+def _print_rows(rows: Sequence[Sequence[str]]) -> None:
+    widths = [max(map(len, column)) for column in zip(*rows, strict=True)]
+    for row in rows:
+        print("  ".join(f"{cell:{width}}" for cell, width in zip(row, widths, strict=True)).rstrip())
+
+
+def _state_json(file: ParameterFile, state: PowerUp) -> dict[str, Any]:
+    def rows(lines: Sequence[PowerUpLine]) -> list[dict[str, Any]]:
+        return [
+            {
+                "what": line.what,
+                "code": line.code,
+                "meaning": line.meaning,
+                "params": _labels(file, line.params),
+                "source": line.page,
+            }
+            for line in lines
+        ]
+
+    return {"active": rows(state.active), "changes": rows(state.changes), "calls": rows(state.calls)}
+
+
+def _print_state(file: ParameterFile, state: PowerUp) -> None:
+    for title, lines in (
+        ("After power-up", state.active),
+        ("What changes it", state.changes),
+        ("Calls", state.calls),
+    ):
+        if lines:
+            print(f"{title}:")
+            _print_rows(
+                [
+                    (
+                        f"  {line.what}",
+                        line.code,
+                        line.meaning,
+                        f"{', '.join(_labels(file, line.params))} (page {line.page})",
+                    )
+                    for line in lines
+                ]
+            )

@@ -1,0 +1,15 @@
+"""What a control does with the words of a part program under a parameter file: their numbers, codes and what is active.
+
+What a code means, and by which format a letter is read, are facts of a family (``program.yaml``).
+"""
+
+from typing import TYPE_CHECKING
+
+from amp_studio.front_pages import front_page
+
+if TYPE_CHECKING:
+    from .at_power_up import PowerUp, PowerUpLine, power_up
+    from .block import BlockReader, ReadBlock
+    from .words import ProgramBlockError
+else:
+    __getattr__ = front_page(__name__)

@@ -1,0 +1,295 @@
+"""A block, typed: each word, the number it becomes, and what it does under a parameter file."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
+from typing import TypeGuard
+
+from amp_studio.files import ParameterFile, fitted_axes
+from amp_studio.schema import Address, WordUse, axis_name
+
+from .codes import Call, ControlCodes
+from .formats import Justified, WordNumber, digits_of, number_of
+from .words import TypedWord, words_of
+
+
+@dataclass(frozen=True)
+class BlockWord:
+    """A word as the control reads it."""
+
+    word: str
+    letter: str
+    number: float | None
+    """None without one, for an expression, and for one that is no number to the control."""
+    unit: str
+    meaning: str
+    params: tuple[Address, ...] = ()
+    """The parameters that decide it."""
+    page: str = ""
+    fault: str = ""
+    assumed: str = ""
+    is_known: bool = True
+    """False for a code that no page here names."""
+
+
+@dataclass(frozen=True)
+class ReadBlock:
+    """One block."""
+
+    text: str
+    words: tuple[BlockWord, ...]
+
+    @property
+    def faults(self) -> tuple[str, ...]:
+        """What the control cannot use."""
+        return tuple(f"{word.word}: {word.fault}" for word in self.words if word.fault)
+
+    @property
+    def assumptions(self) -> tuple[str, ...]:
+        """What no source states."""
+        return tuple(dict.fromkeys(f"assumed: {word.assumed}" for word in self.words if word.assumed))
+
+
+class BlockReader:
+    """Reads blocks one after the other; a modal code stays active for the blocks after it, as on the control."""
+
+    def __init__(self, file: ParameterFile) -> None:
+        self.file = file
+        self.codes = ControlCodes(file)
+        self.active = {
+            group.key: code
+            for group in self.codes.groups
+            if (code := code_at_power_up(self.codes, group.key)) is not None
+        }
+        """Key of a group -> code without zeros."""
+
+    def read(self, block: str) -> ReadBlock:
+        """Return the words of a block in their order. Raises ProgramBlockError for a block that cannot be read at all."""
+        for statement in self.codes.facts.statements:
+            if re.match(statement.pattern, block.strip().upper()):
+                line = block.strip()
+                params = self.codes.whole(statement.params)
+                return ReadBlock(
+                    line, (BlockWord(line, "", None, "", statement.meaning, params, statement.page),)
+                )
+        words = tuple(words_of(block, self.codes.facts.expressions))
+        here = {word.code for word in words if word.letter in "GM"}
+        for code in sorted(here):
+            known = self.codes.known.get(code)
+            if known and known.group and code not in self.codes.calls and not known.facts.only_amp:
+                self.active[known.group.key] = code
+        seen: set[str] = set()
+        found = []
+        for word in words:
+            read = self._word(word, here)
+            if word.letter in seen and word.letter not in "GM" and not read.fault:
+                read = replace(read, assumed=f"which {word.letter}-word counts where a block has two")
+            seen.add(word.letter)
+            found.append(read)
+        return ReadBlock(block.strip(), tuple(found))
+
+    # -- codes -------------------------------------------------------------------
+
+    def _word(self, word: TypedWord, here: set[str]) -> BlockWord:
+        if word.letter in ("G", "M"):
+            return self._code(word)
+        use = self._use(word.letter, here)
+        read = self._of_use(word, use) if use else self._of_axis(word)
+        calls = self.codes.facts.word_calls
+        if calls and word.letter in calls.programs:
+            address = (calls.param, word.letter)
+            if self.file.evaluation.canonical(address) is True:
+                meaning = f"calls the program {calls.programs[word.letter]} with its number"
+                number, unit = (read.number, read.unit) if read else (None, "")
+                return BlockWord(word.text, word.letter, number, unit, meaning, (address,), calls.page)
+        return read or BlockWord(
+            word.text, word.letter, None, "", "not known", fault="this control has no such word"
+        )
+
+    def _code(self, word: TypedWord) -> BlockWord:
+        number = float(word.number) if word.number and "(" not in word.number else None
+        if number is None:
+            return BlockWord(word.text, word.letter, None, "", "no number", fault="a code without its number")
+        if (call := self.codes.calls.get(word.code)) is not None:
+            return self._call(word, number, call)
+        known = self.codes.known.get(word.code)
+        if known is None:
+            return BlockWord(word.text, word.letter, number, "", "no page here names it", is_known=False)
+        group, facts = known.group, known.facts
+        named = (*((group.power_up,) if group and group.power_up else ()), *facts.params)
+        fault = "the control knows this code and does not do it" if facts.refused else ""
+        if facts.only_amp:
+            fault = "a parameter can make it active, a program cannot"
+        return BlockWord(
+            word.text, word.letter, number, "", facts.meaning, self.codes.whole(named), facts.page, fault
+        )
+
+    def _call(self, word: TypedWord, number: float, call: Call) -> BlockWord:
+        kind = {None: "", True: ", modal", False: ", not modal"}[call.modal]
+        also = self.codes.known.get(word.code)
+        instead = f", in place of: {also.facts.meaning}" if also else ""
+        meaning = f"calls the program {call.program}{kind}{instead}"
+        return BlockWord(word.text, word.letter, number, "", meaning, call.params, call.facts.page)
+
+    # -- words -------------------------------------------------------------------
+
+    def _use(self, letter: str, here: set[str]) -> WordUse | None:
+        """Return how a letter is read now: the first of its uses whose conditions are true."""
+        now = {*here, *self.active.values()}
+        modes = {self.codes.known[code].facts.mode for code in now if code in self.codes.known}
+        for listed in self.codes.facts.letters:
+            if listed.letter != letter:
+                continue
+            for use in listed.uses:
+                codes = {TypedWord(code[0], code[1:], code).code for code in use.codes}
+                if (
+                    (not use.codes or codes & now)
+                    and (not use.mode or use.mode in modes)
+                    and (not use.systems or self.codes.system in use.systems)
+                ):
+                    return use
+        return None
+
+    def is_inch(self) -> bool:
+        """Return whether lengths are in inch now."""
+        for code in self.active.values():
+            if (known := self.codes.known.get(code)) and known.facts.mode in ("inch", "metric"):
+                return known.facts.mode == "inch"
+        units = self.codes.facts.units
+        return units is not None and self.file.evaluation.canonical((units.param, "")) in units.inch
+
+    def _of_use(self, word: TypedWord, use: WordUse) -> BlockWord:
+        unit = use.unit if isinstance(use.unit, str) else use.unit["in" if self.is_inch() else "mm"]
+        number = self._number(word, (use.format, "") if use.format else None, use.whole)
+        named = (*((use.format,) if use.format else ()), *use.params)
+        params = (*self.codes.whole(named), *self._justifying(word, use.whole))
+        return BlockWord(
+            word.text,
+            word.letter,
+            number.value,
+            unit,
+            use.meaning,
+            params,
+            use.page,
+            number.fault,
+            number.assumed,
+        )
+
+    def _of_axis(self, word: TypedWord) -> BlockWord | None:
+        axes = self.codes.facts.axes
+        found = next(iter(self._axes(word.letter)), None)
+        if axes is None or found is None:
+            return None
+        axis, meaning, named = found
+        number = self._number(word, (axes.format, axis) if axes.format else None, False)
+        params = (*self.codes.whole(named, axis), *self._justifying(word, False))
+        return BlockWord(
+            word.text,
+            word.letter,
+            number.value,
+            self._unit(axis),
+            meaning,
+            params,
+            axes.page,
+            number.fault,
+            number.assumed,
+        )
+
+    def _axes(self, letter: str) -> Iterator[tuple[str, str, tuple[str, ...]]]:
+        """Yield axis, meaning and parameters of a letter that names an axis, its distance or its arc center."""
+        axes, evaluation = self.codes.facts.axes, self.file.evaluation
+        if axes is None:
+            return
+        form = (axes.format,) if axes.format else ()
+        declared = self.file.schema.family.axes
+        named = (declared.name,) if declared and declared.name else ()
+        modes = {self.codes.known[c].facts.mode for c in self.active.values() if c in self.codes.known}
+        for axis in fitted_axes(self.file):
+            name = axis_name(evaluation, axis) or axis
+            if name.upper() == letter:
+                way = "distance of a move along" if "incremental" in modes else "position on"
+                yield axis, f"{way} {name}", (*form, *named)
+            if self.codes.system in axes.incremental_systems and self._names(axes.incremental, axis, letter):
+                yield axis, f"distance of a move along {name}", (*form, axes.incremental)
+            if self._names(axes.integrand, axis, letter):
+                yield axis, f"center of an arc along {name}", (*form, axes.integrand)
+            if axes.integrands.get(letter) == name:
+                yield axis, f"center of an arc along {name}", axes.integrand_params
+
+    def _names(self, parameter: str | None, axis: str, letter: str) -> TypeGuard[str]:
+        """Return whether a choice of an axis is a letter."""
+        return (
+            parameter is not None
+            and str(self.file.evaluation.canonical((parameter, axis)) or "").upper() == letter
+        )
+
+    def _unit(self, axis: str) -> str:
+        family, evaluation = self.file.schema.family, self.file.evaluation
+        if family.angular_when and evaluation.is_true(family.angular_when, axis, "axis"):
+            return "deg"
+        return "in" if self.is_inch() else "mm"
+
+    # -- numbers -------------------------------------------------------------------
+
+    def _number(self, word: TypedWord, form: Address | None, whole: bool) -> WordNumber:
+        if not word.number:
+            return self._without_number()
+        if "(" in word.number:
+            return WordNumber(
+                None, assumed="that the control works out the expression as it is printed for it"
+            )
+        digits, assumed = None, ""
+        if form is not None:
+            choice = self.file.evaluation.canonical(form)
+            if choice is None:
+                shown = self.file.schema.parameters[form[0]].name
+                assumed = f"any number of digits, as {shown} is not set"
+            elif isinstance(choice, str) and choice[:1].isdigit():
+                digits = digits_of(choice, self.is_inch())
+        elif whole:
+            digits = (len(word.number), 0)
+        number = number_of(word.number, digits, self._justified())
+        return replace(number, assumed=number.assumed or assumed)
+
+    def _without_number(self) -> WordNumber:
+        facts = self.codes.facts.no_number
+        is_error = self.file.evaluation.canonical((facts.param, "")) if facts else None
+        if is_error is False:
+            return WordNumber(0.0)
+        if is_error is True:
+            return WordNumber(None, "a letter without a number")
+        return WordNumber(None, "a letter without a number", assumed="that it is an error" if facts else "")
+
+    def _justified(self) -> Justified:
+        zeros = self.codes.facts.zeros
+        if zeros is None:
+            return ""
+        leading = self.file.evaluation.canonical((zeros.leading, "")) is True
+        trailing = self.file.evaluation.canonical((zeros.trailing, "")) is True
+        return "both" if leading and trailing else "right" if leading else "left" if trailing else ""
+
+    def _justifying(self, word: TypedWord, whole: bool) -> tuple[Address, ...]:
+        """Return the parameters that place the digits of a number without a point."""
+        facts = self.codes.facts
+        if not word.number:
+            return ((facts.no_number.param, ""),) if facts.no_number else ()
+        if facts.zeros is None or whole or "." in word.number:
+            return ()
+        return (facts.zeros.leading, ""), (facts.zeros.trailing, "")
+
+
+def code_at_power_up(codes: ControlCodes, key: str) -> str | None:
+    """Return the code of a group that is active after power-up, without zeros; None where none is, or it is not set."""
+    group = next(group for group in codes.groups if group.key == key)
+    if group.power_up is None:
+        return None
+    address = codes.whole((group.power_up,))[0]
+    if not codes.file.evaluation.state(address).is_active:
+        return None
+    choice = codes.file.evaluation.canonical(address)
+    for code, known in codes.known.items():
+        if known.group is group and known.facts.choice == choice:
+            return code
+    return None

@@ -1,0 +1,106 @@
+"""The codes of a control under a parameter file: its system, what each code means there, and the macro calls of the builder."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from functools import cached_property
+
+from amp_studio.files import ParameterFile
+from amp_studio.schema import ACTIVE, Address, CodeGroup, MacroCall, ProgramCode
+
+from .words import TypedWord
+
+
+@dataclass(frozen=True)
+class KnownCode:
+    """A code of this control."""
+
+    code: str
+    """As it is programmed: G01."""
+    group: CodeGroup | None
+    facts: ProgramCode
+
+
+@dataclass(frozen=True)
+class Call:
+    """A code that calls a program of the builder."""
+
+    code: str
+    program: str
+    modal: bool | None
+    params: tuple[Address, ...]
+    facts: MacroCall
+
+
+class ControlCodes:
+    """What codes the control of a file has."""
+
+    def __init__(self, file: ParameterFile) -> None:
+        self.file = file
+        self.facts = file.schema.program
+
+    @cached_property
+    def system(self) -> str:
+        """The machine type, or the system that a parameter chooses; "" while that is not set."""
+        system = self.facts.system
+        if system is None or self.file.machine not in system.machines:
+            return self.file.machine
+        return str(self.file.evaluation.canonical((system.param, "")) or "")
+
+    @cached_property
+    def groups(self) -> tuple[CodeGroup, ...]:
+        """The groups that this control has."""
+        return tuple(g for g in self.facts.groups if not g.systems or self.system in g.systems)
+
+    @cached_property
+    def known(self) -> dict[str, KnownCode]:
+        """Code without zeros -> what it is."""
+        found: dict[str, KnownCode] = {}
+        for group in (None, *self.groups):
+            for facts in group.codes if group else self.facts.codes:
+                for code in self._written(facts):
+                    found[TypedWord(code[0], code[1:], code).code] = KnownCode(code, group, facts)
+        return found
+
+    def _written(self, facts: ProgramCode) -> Iterator[str]:
+        code = facts.code if isinstance(facts.code, str) else facts.code.get(self.system, "")
+        first, _, last = code.partition("..")
+        if last:
+            yield from (f"{first[0]}{n}" for n in range(int(first[1:]), int(last[1:]) + 1))
+        elif first:
+            yield first
+
+    @cached_property
+    def calls(self) -> dict[str, Call]:
+        """Code without zeros -> the program that it calls."""
+        return {call.code: call for facts in self.facts.calls for call in self._calls(facts)}
+
+    def _calls(self, facts: MacroCall) -> Iterator[Call]:
+        evaluation = self.file.evaluation
+        for instance in self.file.machine_schema.instances(self.file.schema.parameters[facts.code]):
+            address = (facts.code, instance)
+            number = evaluation.canonical(address)
+            if (
+                not isinstance(number, float | int)
+                or number == facts.none
+                or evaluation.state(address) is not ACTIVE
+            ):
+                continue
+            kind = evaluation.canonical((facts.call, instance)) if facts.call else None
+            if facts.call and kind in (None, facts.not_used):
+                continue
+            params = [address, *((named, instance) for named in (facts.call, facts.program) if named)]
+            program = evaluation.canonical((facts.program, instance)) if facts.program else instance
+            shown = f"{program:g}" if isinstance(program, float | int) else str(program or "?")
+            code = TypedWord(facts.letter, f"{number:g}", "").code
+            yield Call(code, shown, None if facts.call is None else kind == "modal", tuple(params), facts)
+
+    def whole(self, parameters: tuple[str, ...], axis: str = "") -> tuple[Address, ...]:
+        """Return addresses of parameters: the one of an axis where they have axes, else the first."""
+        found = []
+        for named in parameters:
+            instances = self.file.machine_schema.instances(self.file.schema.parameters[named])
+            if instances:
+                found.append((named, axis if axis in instances else instances[0]))
+        return tuple(found)

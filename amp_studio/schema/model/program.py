@@ -1,0 +1,193 @@
+"""How the words of a part program are read, and what its codes mean: no reader of blocks knows a family, it knows these roles."""
+
+from typing import Literal
+
+from .record import Key, Model, Page, ParameterId
+
+Codes = str | dict[str, str]
+"""A code as it is programmed, or the one of each system (a mill, the types of a lathe)."""
+
+
+class CodeSystem(Model):
+    """What decides which set of codes a control has."""
+
+    param: ParameterId
+    machines: tuple[Key, ...]
+    """Of these machine types the choice is the system; another machine type is a system by itself."""
+
+
+class InchMetric(Model):
+    """In which unit lengths are programmed after power-up."""
+
+    param: ParameterId
+    inch: tuple[Key, ...]
+    page: Page
+
+
+class Zeros(Model):
+    """How a number without a decimal point is read."""
+
+    leading: ParameterId
+    """Yes: its digits are at the right end of the word format."""
+    trailing: ParameterId
+    """Yes: at the left end."""
+    page: Page
+
+
+class NoNumber(Model):
+    """What a letter without a number is."""
+
+    param: ParameterId
+    """Yes: an error; else it counts as 0."""
+    page: Page
+
+
+class AxisLetters(Model):
+    """The words of the axes."""
+
+    page: Page
+    format: ParameterId | None = None
+    integrand: ParameterId | None = None
+    """The letter of an axis for the center of an arc."""
+    integrands: dict[str, str] = {}
+    """Letter -> axis, where no parameter sets it."""
+    integrand_params: tuple[ParameterId, ...] = ()
+    incremental: ParameterId | None = None
+    """The letter for a move by a distance."""
+    incremental_systems: tuple[str, ...] = ()
+    diameter: str = ""
+    """The mode in which a word of the first axis is a diameter."""
+
+
+class WordUse(Model):
+    """One way to read a letter."""
+
+    meaning: str
+    page: Page
+    codes: tuple[str, ...] = ()
+    """With one of these codes, in the block or active; without any it is always so."""
+    mode: str = ""
+    """While this mode is active."""
+    systems: tuple[str, ...] = ()
+    format: ParameterId | None = None
+    whole: bool = False
+    """A number of something: no unit, no decimals."""
+    unit: str | dict[Literal["in", "mm"], str] = ""
+    params: tuple[ParameterId, ...] = ()
+
+
+class Letter(Model):
+    """A letter with its uses: the first one whose conditions are true."""
+
+    letter: str
+    uses: tuple[WordUse, ...]
+
+
+class ProgramCode(Model):
+    """A code, or a span of codes with one meaning (``G101..G199``)."""
+
+    code: Codes
+    meaning: str
+    page: Page
+    mode: str = ""
+    """The mode that it makes active for the words."""
+    choice: Key | None = None
+    """The choice of the parameter of its group that is this code after power-up."""
+    params: tuple[ParameterId, ...] = ()
+    refused: bool = False
+    """The control knows the code and does not do it."""
+    only_amp: bool = False
+    """A parameter can make it active, a program cannot."""
+    steps: tuple[str, ...] = ()
+    """What a cycle does, in its order."""
+
+
+class CodeGroup(Model):
+    """Codes of which one is active."""
+
+    key: str
+    name: str
+    page: Page
+    codes: tuple[ProgramCode, ...]
+    power_up: ParameterId | None = None
+    systems: tuple[str, ...] = ()
+    """Where only these have the group."""
+    params: tuple[ParameterId, ...] = ()
+    kept_at_reset: bool = False
+    """A reset leaves its code as it is."""
+
+
+class MacroCall(Model):
+    """Codes that call a program of the builder."""
+
+    letter: str
+    page: Page
+    code: ParameterId
+    """Its instances are the calls; the number is that of the code."""
+    none: float | None = None
+    """The number that is no code."""
+    call: ParameterId | None = None
+    not_used: Key | None = None
+    program: ParameterId | None = None
+    """The program that is called; without it the instance is its number."""
+    in_mdi: ParameterId | None = None
+
+
+class WordCall(Model):
+    """Letters whose word calls a program."""
+
+    param: ParameterId
+    """Its instances are the letters."""
+    programs: dict[str, int]
+    page: Page
+
+
+class BackAtPowerUp(Model):
+    """What brings the codes of power-up back."""
+
+    what: str
+    page: Page
+    param: ParameterId | None = None
+    """Yes: it does; without it, it always does."""
+
+
+class ProgramLine(Model):
+    """A line that is no words: a branch, or a calculation."""
+
+    pattern: str
+    """The regular expression of its beginning, in capitals."""
+    meaning: str
+    page: Page
+    params: tuple[ParameterId, ...] = ()
+
+
+class PowerUpValue(Model):
+    """What is active after power-up beside the codes."""
+
+    name: str
+    params: tuple[ParameterId, ...]
+    page: Page
+
+
+class ProgramWords(Model):
+    """A file ``program.yaml``: words and codes of a family's part programs."""
+
+    page: Page | None = None
+    not_printed: str = ""
+    """What no source here prints of its programs."""
+    system: CodeSystem | None = None
+    units: InchMetric | None = None
+    zeros: Zeros | None = None
+    no_number: NoNumber | None = None
+    expressions: bool = False
+    """A word may have an expression in parentheses for its number."""
+    axes: AxisLetters | None = None
+    letters: tuple[Letter, ...] = ()
+    groups: tuple[CodeGroup, ...] = ()
+    codes: tuple[ProgramCode, ...] = ()
+    """Codes for one block, or that belong to no group."""
+    calls: tuple[MacroCall, ...] = ()
+    word_calls: WordCall | None = None
+    backs: tuple[BackAtPowerUp, ...] = ()
+    values: tuple[PowerUpValue, ...] = ()
+    statements: tuple[ProgramLine, ...] = ()
