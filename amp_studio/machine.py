@@ -49,7 +49,7 @@ if TYPE_CHECKING:
 
 NOT_SET = "not-set"
 """The text of an assignment that clears a parameter."""
-_OF_SCENARIOS = ("move", "model", "tune", "gear", "cam")
+_OF_SCENARIOS = ("move", "model", "tune", "sweep", "gear", "cam")
 """First words of the settings of a scenario that are no parameters."""
 
 NewValue = str | float | bool | Value | None

@@ -10,6 +10,7 @@ SCENARIOS = {
     "frequency": "amp_studio.sim.scenarios.frequency:SCENARIO",
     "tune": "amp_studio.sim.scenarios.tune:SCENARIO",
     "load": "amp_studio.sim.scenarios.load:SCENARIO",
+    "sweep": "amp_studio.sim.variations.scenario:SCENARIO",
     "circle": "amp_studio.sim.scenarios.circle:SCENARIO",
     "home": "amp_studio.sim.scenarios.home:SCENARIO",
     "jog": "amp_studio.sim.scenarios.jog:SCENARIO",

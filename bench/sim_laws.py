@@ -16,9 +16,9 @@ from measure import Measure, timed
 from amp_studio.files import open_file
 from amp_studio.sim import AxisLaw, law_of
 from amp_studio.sim.axis.motion import Until, prepared, run_axis, steps
+from amp_studio.sim.binding import bind_axis
 from amp_studio.sim.command.ramps import move
 from amp_studio.sim.engine.compiled import compiled
-from amp_studio.sim.run import bind_axis
 
 SECONDS = 10.0
 TIMES_REAL = 10_000.0

@@ -17,6 +17,7 @@ if TYPE_CHECKING:
     from .axis.motion import Motion, Until, run_axis
     from .axis.simulated_machine import SimulatedAxis, SimulatedMachine
     from .axis_parameters import AxisParameters, ParameterValue
+    from .binding import bind_axis
     from .command.events import CodedScale, Failure, Homing, Jogging, Ramp, Travel
     from .command.pieces import Piece, change, length
     from .command.ramps import end_of, exponential_pieces, leg, move, profile_of
@@ -57,12 +58,13 @@ if TYPE_CHECKING:
     from .listings import SimulationListing, listing
     from .model import assumptions, with_model
     from .motion_check import MotionCheck, check_motion
-    from .plot.picture import Curve, Panel, Picture, Ring, picture_of, settling_span, unheld
+    from .plot.panels import Curve, Field, Panel, Picture, Ring
+    from .plot.picture import picture_of, settling_span, unheld
     from .plot.svg import plot_svg
     from .plot.ticks import ring_levels
     from .probing import Probing
     from .rounding import rounded_down, rounded_up, shown
-    from .run import bind_axis, simulate, simulated_axes
+    from .run import simulate, simulated_axes, sweep
     from .scenario import Scenario, Settings, above_zero, number, refuse_unknown
     from .scenarios.columns import alarms_of, column_units, per_minute
     from .scenarios.step import SCENARIO as STEP
@@ -72,6 +74,7 @@ if TYPE_CHECKING:
     from .trace import Figure, Recommendation, Trace, titled
     from .tuning.linear import linear_model
     from .tuning.trial import address_of, named_parameter
+    from .variations.scenario import Way as SweepWay
     from .write import trace_summary, trace_text, write_trace
     from .zones import Zone
 else:

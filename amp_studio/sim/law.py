@@ -53,7 +53,7 @@ from .zones import Zone
 
 Leader = Callable[["AxisLaw"], Mapping[str, npt.NDArray[np.float64]]]
 
-USUAL_SCENARIOS = ("step", "velocity", "frequency", "tune", "load", "circle")
+USUAL_SCENARIOS = ("step", "velocity", "frequency", "tune", "load", "sweep", "circle")
 """Scenarios of every family."""
 
 

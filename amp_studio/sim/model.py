@@ -126,6 +126,13 @@ def _coupled(machine: Machine, assumed: dict[str, str]) -> Machine:
     return replace(machine, resonance=frequency, damping=damping, inertia_ratio=ratio)
 
 
+def present_setting(axis: AxisLaw, name: str) -> tuple[float, str]:
+    """Return the value and the unit of a setting of the machine as the axis has it."""
+    figure, factor, unit, _ = _FIGURES[name]
+    value = getattr(axis.machine, figure)
+    return (0.0 if value is None else value / factor), unit.format(u=axis.unit, torque=torque_unit(axis))
+
+
 def torque_unit(axis: AxisLaw) -> str:
     """Return the unit of a torque of the machine: that of the output, % of rated torque behind a drive with a velocity loop."""
     return "%" if axis.machine.velocity_per_output > 0.0 else axis.output_unit

@@ -9,9 +9,10 @@ from typing import Literal
 from amp_studio.files import ParameterFile
 from amp_studio.schema import axis_name
 
+from .binding import bind_axis
 from .errors import SimulationError
 from .law import Law, law_of
-from .run import bind_axis, simulate
+from .run import simulate
 from .trace import Alarm, Figure, Trace
 
 Verdict = Literal["good", "doubtful", "bad", "not possible"]

@@ -8,12 +8,12 @@ from dataclasses import replace
 from amp_studio.files import ParameterFile, fitted_axes
 from amp_studio.schema import Address, axis_name, load_part, registration_of, unknown_name
 
-from .axis_parameters import AxisParameters, ParameterValue, ReadParameter
+from .axis_parameters import AxisParameters, ParameterValue
+from .binding import axis_values, bind_axis
 from .doubts import doubts
 from .errors import SimulationError
 from .law import AxisLaw, BoundMachine, Law, law_of
 from .listings import known_settings
-from .model import with_model
 from .scenario import Settings
 from .scenarios import SCENARIOS
 from .scenarios.circle import SECOND
@@ -22,6 +22,7 @@ from .trace import Trace
 from .tuning.advice import recommendations
 from .tuning.trial import Trial
 from .unit_system import axis_unit, in_unit, length_unit
+from .variations.scenario import Way
 
 POINTS = ("move.start", "move.to", "move.zone")
 """Settings that have a figure for each of several axes, or several figures."""
@@ -36,6 +37,7 @@ def simulate(
     *,
     advise: bool = True,
     like: Trace | None = None,
+    way: Way | None = None,
 ) -> Trace:
     """Run a scenario with the present values of a file; ``axis`` None means the first axis that can be simulated.
 
@@ -81,7 +83,8 @@ def simulate(
         return in_unit(_named(replace(trace, recommendations=advice, doubts=doubtful), letter), length)
     chosen = SCENARIOS[scenario]
     if chosen.tried:
-        trace = chosen.run(_trial(file, law, bound.axis, model), own, _alike(file, law, bound, model))
+        others = _alike(file, law, bound, model)
+        trace = chosen.run(_trial(file, law, bound.axis, model), own, others, *([way] if way else []))
         doubtful = doubts(file, read, model)
         return in_unit(_named(replace(trace, doubts=doubtful), letter), length)
     second = (_second(file, law, bound, own.get(SECOND), model),) if chosen.second else ()
@@ -123,7 +126,7 @@ def _bound_machine(
         return axis_name(file.evaluation, axis)
 
     def read(axis: str) -> AxisParameters:
-        values, tables = _values(file, note), file.schema.tables
+        values, tables = axis_values(file, note), file.schema.tables
         return AxisParameters(values, axis, {}, tables, file.machine, file.header.application)
 
     chosen = [
@@ -142,8 +145,20 @@ def _bound_machine(
     return BoundMachine(law, tuple(chosen), fitted, bind, read, letter)
 
 
+def sweep(
+    file: ParameterFile,
+    axis: str | None = None,
+    settings: Mapping[str, float | str] | None = None,
+    system: str | None = None,
+    *,
+    way: Way,
+) -> Trace:
+    """Run the scenario `sweep` as `simulate` does, over the cores or the cluster that ``way`` names."""
+    return simulate(file, "sweep", axis, settings, system, way=way)
+
+
 def _trial(file: ParameterFile, law: Law, axis: str, model: Mapping[str, ParameterValue]) -> Trial:
-    return Trial(file, lambda other: bind_axis(other, law, axis, model))
+    return Trial(file, lambda other: bind_axis(other, law, axis, model), model)
 
 
 def _alike(file: ParameterFile, law: Law, first: AxisLaw, model: Mapping[str, ParameterValue]) -> list[Trial]:
@@ -191,44 +206,3 @@ def simulated_axes(file: ParameterFile) -> tuple[str, ...]:
     place = registration_of(file.schema.family.family).law
     found = load_part(place) if place else None
     return tuple(found.axes(file)) if isinstance(found, Law) else fitted_axes(file)
-
-
-def bind_axis(
-    file: ParameterFile,
-    law: Law,
-    axis: str | None = None,
-    overrides: Mapping[str, ParameterValue] | None = None,
-    note: Callable[[Address], None] = lambda _address: None,
-) -> AxisLaw:
-    """Return one axis of a file, named by itself or its letter, with its machine; ``overrides`` are values by parameter id or ``model.*``, ``note`` is called
-    with each address that is read.
-
-    Raises SimulationError for an axis that is not fitted, a value that is missing, an override that is not used.
-    """
-    fitted = tuple(law.axes(file))
-    if not fitted:
-        raise SimulationError(law.without_axes)
-    chosen = axis or fitted[0]
-    if chosen not in fitted:
-        chosen = next((each for each in fitted if axis_name(file.evaluation, each) == chosen.upper()), chosen)
-    if chosen not in fitted:
-        raise SimulationError(f"Axis {chosen} is not fitted. Fitted: {', '.join(fitted)}")
-    read = AxisParameters(
-        _values(file, note),
-        chosen,
-        overrides or {},
-        file.schema.tables,
-        file.machine,
-        file.header.application,
-    )
-    bound = with_model(law.bind(read), read)
-    read.refuse_unused()
-    return bound
-
-
-def _values(file: ParameterFile, note: Callable[[Address], None]) -> ReadParameter:
-    def value(parameter_id: str, instance: str) -> ParameterValue:
-        note((parameter_id, instance))
-        return file.evaluation.canonical((parameter_id, instance))
-
-    return value

@@ -36,6 +36,8 @@ def read_settings(
     for name, value in given.items():
         values[name], units = value, units_of(known.get(name, ""))
         rest = ""
+        if isinstance(value, str) and "=" in value:
+            continue  # what a sweep varies
         if isinstance(value, str):
             try:
                 values[name], rest = read_number(value)

@@ -80,6 +80,11 @@ class Trace:
     doubts: tuple[str, ...] = ()
     """What is wrong or doubtful about the values that the axis was made of, each a sentence."""
 
+    over: tuple[str, ...] = ()
+    """Columns that are what a sweep varies; their present values are its limits."""
+    figure: str = ""
+    """The column that a sweep is about."""
+
     @property
     def axis_title(self) -> str:
         """The axis as a person knows it: ``1 (X)``."""

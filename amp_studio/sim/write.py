@@ -14,6 +14,7 @@ from .errors import SimulationError
 from .plot.svg import plot_svg
 from .rounding import shown
 from .trace import Trace
+from .variations.text import parted, spread_lines, variation_lines, variations_summary
 
 PIXELS_PER_INCH = 144
 """Resolution of a PNG; a point of the SVG is 1/72 inch."""
@@ -62,11 +63,14 @@ def trace_text(trace: Trace) -> str:
     lines = [f"{trace.scenario}{', axis ' + trace.axis_title if trace.axis else ''}: {trace.model}"]
     lines += [f"DOUBTFUL: {doubt}" for doubt in trace.doubts]
     lines += [f"ALARM {alarm.code} at {shown(alarm.time_s, 's')}: {alarm.message}" for alarm in trace.alarms]
-    width = max(len(name) for name in trace.result)
-    for name, (value, unit) in trace.result.items():
+    result, spread = parted(trace)
+    width = max(len(name) for name in (*result, *spread))
+    for name, (value, unit) in result.items():
         words = name.replace("_", " ").ljust(width)
         none = "not steady" if name.startswith("steady") else "not reached"
         lines.append(f"  {words}  {none if value is None else shown(value, unit, 6)}")
+    lines += spread_lines(spread, width)
+    lines += [f"  {line}" for line in variation_lines(trace)]
     for heading, entries in (
         (
             "Recommendations",
@@ -124,4 +128,5 @@ def trace_summary(trace: Trace, named: Callable[[str], str] = str) -> dict[str, 
         "doubts": list(trace.doubts),
         "assumptions": list(trace.assumptions),
         "trace": {"columns": list(trace.columns), "rows": trace.rows},
+        **variations_summary(trace),
     }

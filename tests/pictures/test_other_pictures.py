@@ -9,8 +9,8 @@ import pytest
 from amp_studio.pictures import draw, pictures_of
 from amp_studio.pictures.ramps import ramp_of
 from amp_studio.schema import Value
+from amp_studio.sim.binding import bind_axis
 from amp_studio.sim.law import law_of
-from amp_studio.sim.run import bind_axis
 
 
 def handle(scene, *parameters):

@@ -12,9 +12,9 @@ from amp_studio.files import open_file
 from amp_studio.schema import Value
 from amp_studio.sim import AxisLaw, Machine, law_of, simulate
 from amp_studio.sim.axis.motion import Until, run_axis, steps
+from amp_studio.sim.binding import bind_axis
 from amp_studio.sim.command.ramps import move
 from amp_studio.sim.engine.machine import DELAY_SHARE, machine_array
-from amp_studio.sim.run import bind_axis
 from amp_studio.sim.scenarios import SCENARIOS
 from amp_studio.sim.tuning.linear import linear_model
 

@@ -10,10 +10,10 @@ import pytest
 from amp_studio.files import open_file
 from amp_studio.sim import law_of
 from amp_studio.sim.axis.motion import Until, run_axis
+from amp_studio.sim.binding import bind_axis
 from amp_studio.sim.command.ramps import move
 from amp_studio.sim.engine.signals import POSITION_LOOP, VELOCITY_LOOP
 from amp_studio.sim.law import simulated_families
-from amp_studio.sim.run import bind_axis
 
 EXAMPLES = [
     path

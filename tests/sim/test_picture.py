@@ -9,7 +9,8 @@ import numpy as np
 import pytest
 
 from amp_studio.sim import Trace
-from amp_studio.sim.plot.picture import Ring, banded, picture_of, settling_span, thinned, unheld
+from amp_studio.sim.plot.panels import Ring
+from amp_studio.sim.plot.picture import banded, picture_of, settling_span, thinned, unheld
 from amp_studio.sim.plot.svg import plot_svg
 from amp_studio.sim.plot.svg_parts import COLOURS
 from amp_studio.sim.plot.ticks import ring_levels

@@ -10,8 +10,8 @@ import pytest
 from amp_studio.files import ParameterFile, open_file
 from amp_studio.schema import Value
 from amp_studio.sim import SimulationError, Trace, address_of, simulate
+from amp_studio.sim.binding import bind_axis
 from amp_studio.sim.law import law_of
-from amp_studio.sim.run import bind_axis
 from amp_studio.sim.tuning.aims import AIMS
 from amp_studio.sim.tuning.loops import SOUND
 from amp_studio.sim.tuning.solver import Candidate, levels_of, solve

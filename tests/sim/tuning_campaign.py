@@ -17,9 +17,9 @@ from pathlib import Path
 
 from amp_studio.files import open_file
 from amp_studio.schema import Value
+from amp_studio.sim.binding import bind_axis
 from amp_studio.sim.errors import SimulationError
 from amp_studio.sim.law import law_of
-from amp_studio.sim.run import bind_axis
 from amp_studio.sim.tuning.aims import AIMS
 from amp_studio.sim.tuning.loops import SOUND, Loops
 from amp_studio.sim.tuning.solver import Candidate, Gain, Search, Solved, gains_of, levels_of, solve

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, replace
-from functools import partial
+from functools import lru_cache, partial
 
 from amp_studio.schema import canonical, load_schema
 from amp_studio.sim import (
@@ -262,6 +262,7 @@ def _alarms(read: AxisParameters, kind: Kind, parameters: list[float]) -> dict[i
     return {int(samples.EXCESS_ERROR_ALARM): AlarmText("EXCESS FOLLOWING ERROR", text)}
 
 
+@lru_cache(maxsize=256)
 def _bounded(source: Source, unit: str) -> Source:
     """Return the source with the bound that is printed for an axis that moves in ``unit``, in canonical units."""
     parameter = load_schema("9pc").parameters[source.parameter]

@@ -17,7 +17,7 @@ from amp_studio.sim.engine.signals import DIVERGED, FEED_SHARE, MODE, MONITOR, P
 from amp_studio.sim.errors import SimulationError
 from amp_studio.sim.law import AxisLaw
 
-IO, STATE, TIMING = 2, 6, 8
+PARAMETERS, IO, MACHINE, BEFORE, AFTER, STATE, LINE, TIMING, PROFILE, PUSH = 0, *range(2, 11)
 """Places of vectors that `prepared` returns."""
 Engine = Literal["auto", "plain", "compiled"]
 
@@ -85,17 +85,7 @@ def run_axis(
     sees the commanded position only; after an alarm, or the emergency stop at ``emergency`` s, the axis runs out for up to
     ``coast`` s. Raises SimulationError where the run would take too long or its figures are beyond all numbers.
     """
-    if axis.after is not None:
-
-        def lead(other: AxisLaw) -> dict[str, npt.NDArray[np.float64]]:
-            # A push from outside is found by many runs: worth the time to load machine code.
-            own: Engine = "compiled" if engine == "auto" and other.push else engine
-            first = run_axis(
-                other, profile, until, mode=mode, share_rate=share_rate, engine=own, refine=refine
-            )
-            return {name: column[:: first.rows_per_servo_period] for name, column in first.columns.items()}
-
-        axis = axis.after(axis, lead)
+    axis = with_leader(axis, profile, until, mode=mode, share_rate=share_rate, engine=engine, refine=refine)
     samples, substeps = steps(axis, refine)
     stride = substeps if thin else 1
     vectors, rows = prepared(axis, profile, until, stride, refine, coast)
@@ -117,6 +107,29 @@ def run_axis(
         int(x[kernel.ALARM_ROW]) if x[kernel.ALARM_ROW] >= 0.0 else None,
         x[kernel.ENDED] * axis.servo_period if x[kernel.ENDED] >= 0.0 else None,
     )
+
+
+def with_leader(
+    axis: AxisLaw,
+    profile: list[float],
+    until: Until,
+    *,
+    mode: float = POSITION_LOOP,
+    share_rate: float = math.inf,
+    engine: Engine = "auto",
+    refine: int = 1,
+) -> AxisLaw:
+    """Return an axis that goes by the motion of another with that motion, which is run first; any other axis as it is."""
+    if axis.after is None:
+        return axis
+
+    def lead(other: AxisLaw) -> dict[str, npt.NDArray[np.float64]]:
+        # A push from outside is found by many runs: worth the time to load machine code.
+        own: Engine = "compiled" if engine == "auto" and other.push else engine
+        first = run_axis(other, profile, until, mode=mode, share_rate=share_rate, engine=own, refine=refine)
+        return {name: column[:: first.rows_per_servo_period] for name, column in first.columns.items()}
+
+    return axis.after(axis, lead)
 
 
 def prepared(
@@ -151,7 +164,7 @@ def prepared(
     machine = machine_array(axis.machine, step)
     part = machine[DELAY_SHARE] * step
     before, after = (
-        machine_array(axis.machine, span if part > 0.0 else step) for span in (part, step - part)
+        machine_array(axis.machine, span) if part > 0.0 else [*machine] for span in (part, step - part)
     )
     line = [0.0] * (int(machine[DELAY_STEPS]) + 2)
     parameters, state = [float(each) for each in axis.parameters], [0.0] * axis.state_size

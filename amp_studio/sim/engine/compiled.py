@@ -41,12 +41,43 @@ def plain(position_sample: Sample, velocity_sample: Sample | None) -> Run:
     return cast(Run, _copy(kernel.run, _own(position_sample, velocity_sample)))
 
 
+def plain_batch(
+    batch: Callable[..., None], position_sample: Sample, velocity_sample: Sample | None
+) -> Callable[..., None]:
+    """Return a function that calls `kernel.run` as plain Python, with that of a law in its place."""
+    return cast("Callable[..., None]", _copy(batch, {"run": plain(position_sample, velocity_sample)}))
+
+
 @lru_cache(maxsize=64)
 def compiled(position_sample: Sample, velocity_sample: Sample | None) -> Run:
     """Return the kernel of a law as machine code; its vectors are contiguous numpy arrays.
 
     The first call on a machine compiles it and stores the result. Only where `can_compile`.
     """
+    import numba
+
+    vector = numba.float64[::1]
+    signature = numba.int64(*[vector] * 11, numba.float64[:, ::1])
+    return _machine_code(kernel.run, position_sample, velocity_sample, signature)
+
+
+@lru_cache(maxsize=64)
+def compiled_batch(
+    batch: Callable[..., None], position_sample: Sample, velocity_sample: Sample | None
+) -> Callable[..., None]:
+    """Return a function that calls `kernel.run` as machine code (`variations/batch.py`), with that of a law in its place."""
+    import numba
+
+    vector, table = numba.float64[::1], numba.float64[:, ::1]
+    given = [*[table] * 5, *[vector] * 3, table, *[vector] * 5, table, table]
+    made = _machine_code(batch, position_sample, velocity_sample, numba.void(*given))
+    return cast("Callable[..., None]", made)
+
+
+def _machine_code(
+    entry: Callable[..., Any], position_sample: Sample, velocity_sample: Sample | None, signature: Any
+) -> Run:
+    """Return a function and all that it calls as machine code of a law."""
     import numba
 
     own = _own(position_sample, velocity_sample)
@@ -58,11 +89,9 @@ def compiled(position_sample: Sample, velocity_sample: Sample | None) -> Run:
             jitted[function] = numba.njit(_copy(function, names), forceinline=True, **OPTIONS)
         return jitted[function]
 
-    called = {name: machine_code(each) for name, each in _called(kernel.run, own).items()}
-    run = _copy(kernel.run, called)
-    run.__qualname__ = run.__name__ = kernel_name(position_sample, velocity_sample)
-    vector = numba.float64[::1]
-    signature = numba.int64(*[vector] * 11, numba.float64[:, ::1])
+    called = {name: machine_code(each) for name, each in _called(entry, own).items()}
+    run = _copy(entry, called)
+    run.__qualname__ = run.__name__ = kernel_name(position_sample, velocity_sample, entry)
     try:
         found = cast(Run, numba.njit(signature, cache=True, **OPTIONS)(run))
     except RuntimeError:  # no folder can be written in which it would be found again
@@ -71,10 +100,12 @@ def compiled(position_sample: Sample, velocity_sample: Sample | None) -> Run:
     return found
 
 
-def kernel_name(position_sample: Sample, velocity_sample: Sample | None) -> str:
+def kernel_name(
+    position_sample: Sample, velocity_sample: Sample | None, entry: Callable[..., Any] = kernel.run
+) -> str:
     """Return the name of the machine code of a law: another one as soon as any of its code or constants is another."""
-    described = [repr(OPTIONS), *_described(kernel.run, _own(position_sample, velocity_sample), {})]
-    return f"run_{hashlib.sha256(chr(10).join(described).encode()).hexdigest()[:16]}"
+    described = [repr(OPTIONS), *_described(entry, _own(position_sample, velocity_sample), {})]
+    return f"{entry.__name__}_{hashlib.sha256(chr(10).join(described).encode()).hexdigest()[:16]}"
 
 
 def can_compile() -> bool:

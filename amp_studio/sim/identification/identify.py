@@ -10,11 +10,11 @@ import numpy as np
 from amp_studio.files import ParameterFile
 from amp_studio.scenarios import IDENTIFY
 from amp_studio.schema import axis_name
+from amp_studio.sim.binding import bind_axis
 from amp_studio.sim.errors import SimulationError
 from amp_studio.sim.law import AxisLaw, law_of
 from amp_studio.sim.model import AT_SPEED, torque_unit
 from amp_studio.sim.rounding import rounded, shown
-from amp_studio.sim.run import bind_axis
 from amp_studio.sim.trace import Figure, Trace
 from amp_studio.sim.unit_system import in_unit, length_unit
 

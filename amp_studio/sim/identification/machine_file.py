@@ -18,11 +18,11 @@ from typing import Any
 
 from amp_studio.files import Notify, ParameterFile, scalar_text, text_of_name, write_atomic
 from amp_studio.schema import FileError, axis_name, read_yaml_file
+from amp_studio.sim.binding import bind_axis
 from amp_studio.sim.errors import SimulationError
 from amp_studio.sim.law import law_of
 from amp_studio.sim.model import torque_unit
 from amp_studio.sim.rounding import shown
-from amp_studio.sim.run import bind_axis
 from amp_studio.sim.trace import Trace
 
 from .identify import FIGURES, figure_text, machine_settings

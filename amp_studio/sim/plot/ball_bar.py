@@ -5,9 +5,10 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 
+from amp_studio.sim.plot.panels import Picture
+from amp_studio.sim.plot.picture import thinned
 from amp_studio.sim.rounding import shown
 
-from .picture import Picture, thinned
 from .svg_parts import COLOURS, DIM, EDGE, GRID, coordinate, line_svg, text_svg
 from .ticks import ring_levels
 

@@ -7,80 +7,21 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass, field, replace
-from typing import Literal
+from dataclasses import replace
 
 import numpy as np
 
 from amp_studio.sim.rounding import shown
 from amp_studio.sim.series import Series
 from amp_studio.sim.trace import Trace
+from amp_studio.sim.variations.picture import sweep_picture
 
-Role = Literal["command", "actual", "other", "output", "before"]
+from .panels import Curve, Panel, Picture, Ring, Role
 
 CLOSE = 10.0
 """Inposition bands around the end of a move that a close look at the settling begins with."""
 FAR = 1.6
 """A limit below this multiple of the peak is drawn as a line; a higher one is given as text."""
-
-
-@dataclass(frozen=True, eq=False)
-class Curve:
-    """One curve; ``dots`` for single measured values, ``held`` for a value that is constant
-    between two samples of the control.
-    """
-
-    name: str
-    x: Series
-    y: Series
-    role: Role
-    dots: bool = False
-    held: bool = False
-    dense: bool = False
-    """Whether it ripples between samples: where it is too dense it is drawn as its mean in the band it fills."""
-
-
-@dataclass(frozen=True, eq=False)
-class Panel:
-    """Curves over one vertical axis; ``levels`` are named values on it, ``marks`` named places on the x axis."""
-
-    label: str
-    unit: str
-    curves: tuple[Curve, ...]
-    levels: tuple[tuple[str, float], ...] = ()
-    marks: tuple[tuple[str, float], ...] = ()
-    height: float = 1.0
-    """Share of the height of a picture."""
-    step: float = 0.0
-    """Distance of the numbers on the axis where round decimal numbers are wrong (degrees); 0 for those."""
-
-
-@dataclass(frozen=True, eq=False)
-class Ring:
-    """A closed path of a ball-bar picture: the radius deviation over the angle in rad."""
-
-    name: str
-    angle: Series
-    deviation: Series
-    role: Role
-
-
-@dataclass(frozen=True, eq=False)
-class Picture:
-    """One picture."""
-
-    title: str
-    facts: tuple[str, ...]
-    """Figures in words, the most important first."""
-    x_label: str
-    panels: tuple[Panel, ...]
-    x_log: bool = False
-    close: Panel | None = None
-    """The settling, over a separate time axis."""
-    rings: tuple[Ring, ...] = ()
-    ring_unit: str = ""
-    alarms: tuple[tuple[str, float], ...] = ()
-    assumed: tuple[str, ...] = field(default=())
 
 
 def picture_of(trace: Trace, before: Trace | None = None) -> Picture:
@@ -91,6 +32,8 @@ def picture_of(trace: Trace, before: Trace | None = None) -> Picture:
         picture = _bode(trace, before)
     elif "radius_deviation" in trace.columns:
         picture = _ballbar(trace, before)
+    elif trace.over:
+        picture = sweep_picture(trace)
     elif "predicted_torque" in trace.columns:
         picture = _fit(trace)
     elif trace.areas:

@@ -8,12 +8,14 @@ from textwrap import wrap
 
 import numpy as np
 
+from amp_studio.sim.plot.panels import Curve, Panel, Picture
+from amp_studio.sim.plot.picture import banded, limits_outside, picture_of, thinned, unheld
+from amp_studio.sim.plot.svg_field import HEIGHT, field_svg
 from amp_studio.sim.rounding import shown
 from amp_studio.sim.series import Series
 from amp_studio.sim.trace import Trace
 
 from .ball_bar import BALL, ball_bar
-from .picture import Curve, Panel, Picture, banded, limits_outside, picture_of, thinned, unheld
 from .svg_parts import COLOURS, DIM, EDGE, ERROR, GRID, coordinate, dot_svg, line_svg, number, text_svg
 from .ticks import decades, multiples, ticks
 
@@ -51,6 +53,10 @@ def plot_svg(
     if picture.rings:
         parts += ball_bar(picture, y, (LEFT + right) / 2)
         y += BALL + GAP + 14
+    if picture.field is not None:
+        y += 22
+        parts += field_svg(picture.field, LEFT, y, right)
+        y += HEIGHT + GAP + 34
     for n, panel in enumerate(picture.panels):
         frame = _Frame(panel, y, unit, picture.x_log, right)
         parts += frame.drawn(picture.alarms, numbered=n == len(picture.panels) - 1)

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from .picture import Ring
+from .panels import Ring
 
 
 def ticks(low: float, high: float, about: int = 5) -> list[float]:

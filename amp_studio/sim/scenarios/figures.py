@@ -5,14 +5,13 @@ from __future__ import annotations
 import numpy as np
 
 from amp_studio.sim.axis.motion import Motion
+from amp_studio.sim.axis.moves import STEADY_LAGS
 from amp_studio.sim.law import AxisLaw
 from amp_studio.sim.series import Series
 from amp_studio.sim.tuning.linear import Margins, axis_model
 
 STEADY_SPEED = 1e-3
 """Largest relative difference from the feedrate of a constant command speed."""
-STEADY_LAGS = 6.0
-"""Number of time constants of the position loop after which a constant speed can be steady."""
 NOISE_COUNTS = 3.0
 """Counts between which a measured figure may go to and fro and is still steady."""
 RIPPLE, DRIFT = 0.01, 0.005

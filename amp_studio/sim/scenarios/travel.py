@@ -7,6 +7,7 @@ from dataclasses import replace
 
 import numpy as np
 
+from amp_studio.sim.axis.moves import feedrate_of
 from amp_studio.sim.axis.moving_axis import MovingAxis, Watch
 from amp_studio.sim.command.events import Travel
 from amp_studio.sim.engine.kernel import STANDSTILL
@@ -20,7 +21,7 @@ from amp_studio.sim.trace import Alarm, Figure, Trace
 from .columns import alarms_of, column_units, per_minute
 from .plane import SETTINGS as PLANE
 from .plane import run_plane
-from .step import COAST, RUN_OUT, feedrate_of
+from .step import COAST, RUN_OUT
 
 SETTINGS = {
     "move.start": "where the axis starts in the coordinates of the machine (mm or deg); default: as near to the limit as it reaches its speed",

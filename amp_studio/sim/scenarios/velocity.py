@@ -10,6 +10,7 @@ import math
 import numpy as np
 
 from amp_studio.sim.axis.motion import Motion, Until, run_axis
+from amp_studio.sim.axis.moves import feedrate_of, ramp_of
 from amp_studio.sim.command.ramps import move
 from amp_studio.sim.engine.signals import VELOCITY_LOOP
 from amp_studio.sim.law import AxisLaw, Ramp
@@ -21,7 +22,7 @@ from amp_studio.sim.tuning.linear import LinearModel, axis_model
 
 from .columns import alarms_of, column_units, per_minute
 from .figures import steady
-from .step import RUN_OUT, feedrate_of, ramp_of
+from .step import RUN_OUT
 
 SETTINGS = {
     "move.feedrate": "commanded velocity (mm/min or deg/min); default: a tenth of the rapid feedrate",

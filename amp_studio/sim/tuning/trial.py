@@ -6,6 +6,7 @@ from collections.abc import Callable, Mapping
 
 from amp_studio.files import ParameterFile, RangeError
 from amp_studio.schema import Address, Value, limits
+from amp_studio.sim.axis_parameters import ParameterValue
 from amp_studio.sim.errors import SimulationError
 from amp_studio.sim.law import AxisLaw
 
@@ -30,10 +31,22 @@ def named_parameter(file: ParameterFile, parameter: str, axis: str) -> str:
 class Trial:
     """One axis of a file, bound with other values one after the other."""
 
-    def __init__(self, file: ParameterFile, bind: Callable[[ParameterFile], AxisLaw]) -> None:
+    def __init__(
+        self,
+        file: ParameterFile,
+        bind: Callable[[ParameterFile], AxisLaw],
+        settings: Mapping[str, ParameterValue] | None = None,
+    ) -> None:
         self._file, self._bind = file.copy(), bind
+        self.settings = settings or {}
+        """The settings of its machine that ``bind`` uses."""
         self.axis = bind(self._file)
         """The axis as it is."""
+
+    @property
+    def file(self) -> ParameterFile:
+        """Its file, a copy that nobody else changes."""
+        return self._file
 
     def value(self, parameter: str) -> Value | None:
         """Return the number that a parameter has; None if it has none."""

@@ -11,7 +11,7 @@ import pyqtgraph as pg
 from PySide6.QtCore import Qt, QTimer, Signal
 from PySide6.QtGui import QColor, QFont, QKeyEvent
 
-from amp_studio.sim import Curve, Panel, Picture, Ring, Series, ring_levels, shown, unheld
+from amp_studio.sim import Curve, Field, Panel, Picture, Ring, Series, ring_levels, shown, unheld
 from amp_studio.ui.base.plot_axis import plot_axes
 from amp_studio.ui.base.theme import Token, colour, scheme
 from amp_studio.ui.base.translated import worded
@@ -91,6 +91,11 @@ class MotionPlot(pg.GraphicsLayoutWidget):
             self._draw_rings(picture)
             row = 1
             self.ci.layout.setRowStretchFactor(0, 3)
+            yield
+        if picture.field is not None:
+            self._draw_field(picture.field)
+            row = 1
+            self.ci.layout.setRowStretchFactor(0, 5)
             yield
         for panel in picture.panels:
             plot = self.addPlot(row=row, col=0, axisItems=plot_axes(), enableMenu=False)
@@ -244,6 +249,42 @@ class MotionPlot(pg.GraphicsLayoutWidget):
             plot.addItem(label)
         for ring in picture.rings:
             plot.plot(*_path(ring, scale), pen=pg.mkPen(self._ink[ring.role], width=1.8), antialias=True)
+
+    def _draw_field(self, field: Field) -> None:
+        """Draw the map: a cell for each pair of values, pale where it is not safe, with the present and the best point."""
+        plot = self.addPlot(row=0, col=0, enableMenu=False)
+        plot.hideButtons()
+        unit = f" ({field.unit})" if field.unit else ""
+        plot.setTitle(
+            f"<b>{worded(field.label)}{unit}</b>&nbsp;&nbsp; {worded('pale cells are not safe')}",
+            size="9pt", color=self._ink["text"], justify="left",
+        )  # fmt: skip
+        known = np.isfinite(field.values)
+        chosen = field.values[known & field.safe] if (known & field.safe).any() else field.values[known]
+        least, most = (float(chosen.min()), float(chosen.max())) if chosen.size else (0.0, 1.0)
+        share = np.clip((np.nan_to_num(field.values, nan=least) - least) / ((most - least) or 1.0), 0.0, 1.0)
+        ends = [np.array(QColor(self._ink[name]).getRgb(), dtype=float) for name in ("base", "actual")]
+        colours = ends[0] + (0.15 + 0.85 * share[..., None]) * (ends[1] - ends[0])
+        colours[..., 3] = np.where(known, np.where(field.safe, 255.0, 90.0), 0.0)
+        image = pg.ImageItem(colours.astype(np.uint8), axisOrder="row-major")
+        plot.addItem(image)
+        for name, point, ink in (("present", field.present, "error"), ("best", field.best, "other")):
+            if point is not None:
+                x, y = (
+                    float(np.interp(at, side, np.arange(len(side)))) + 0.5
+                    for at, side in zip(point, (field.x, field.y), strict=True)
+                )
+                pen = pg.mkPen(self._ink[ink], width=2.5)
+                plot.addItem(pg.ScatterPlotItem([x], [y], symbol="o", size=11, pen=pen, brush=None))
+                label = pg.TextItem(worded(name), color=self._ink["text"], anchor=(-0.15, 0.5))
+                label.setPos(x, y)
+                plot.addItem(label)
+        for side, words, values in (("bottom", field.x_label, field.x), ("left", field.y_label, field.y)):
+            every = max(1, -(-len(values) // 8))
+            plot.getAxis(side).setTicks(
+                [[(n + 0.5, shown(float(values[n]), digits=4)) for n in range(0, len(values), every)]]
+            )
+            plot.setLabel(side, words, color=self._ink["dim"])
 
     # -- ranges ------------------------------------------------------------------
 

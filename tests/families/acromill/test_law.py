@@ -9,6 +9,7 @@ from amp_studio.families.acromill.law import LAW
 from amp_studio.files import ParameterFile
 from amp_studio.schema import Value, load_schema
 from amp_studio.sim import SimulationError, simulate, simulated_axes
+from amp_studio.sim.binding import bind_axis
 from amp_studio.sim.engine.signals import (
     COMMAND,
     COMMAND_ACCELERATION,
@@ -21,7 +22,6 @@ from amp_studio.sim.engine.signals import (
     STOP,
     VELOCITY_LOOP,
 )
-from amp_studio.sim.run import bind_axis
 
 TUNED = {
     "servo.p_gain": Value(0.01, "V/count"),

@@ -11,6 +11,7 @@ from amp_studio.files import ParameterFile
 from amp_studio.schema import Value, load_schema
 from amp_studio.sim import AxisLaw, SimulationError, simulate, simulated_axes
 from amp_studio.sim.axis.motion import Until, run_axis
+from amp_studio.sim.binding import bind_axis
 from amp_studio.sim.command.ramps import end_of, move
 from amp_studio.sim.engine.signals import (
     COMMAND,
@@ -22,7 +23,6 @@ from amp_studio.sim.engine.signals import (
     STOP,
     VELOCITY_LOOP,
 )
-from amp_studio.sim.run import bind_axis
 
 PAGE_5_5 = {
     "gain.proportional": Value(18700, ""),

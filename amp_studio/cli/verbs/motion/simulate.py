@@ -8,8 +8,8 @@ from dataclasses import asdict
 from typing import TYPE_CHECKING
 
 from amp_studio.cli import candidates
-from amp_studio.cli.arguments import AXIS, JSON, OUTPUT, PATH, path_of
-from amp_studio.cli.console import assignments, note, print_json
+from amp_studio.cli.arguments import AXIS, JSON, OUTPUT, PATH, count, path_of
+from amp_studio.cli.console import assignments, note, print_json, progress
 from amp_studio.cli.errors import UsageError
 from amp_studio.cli.opened import opened
 from amp_studio.cli.output import check_replaced
@@ -18,7 +18,7 @@ from amp_studio.scenarios import IDENTIFY
 
 if TYPE_CHECKING:
     from amp_studio.files import ParameterFile
-    from amp_studio.sim import Trace
+    from amp_studio.sim import SweepWay, Trace
 
 VERB = Verb(
     __doc__,
@@ -61,6 +61,25 @@ VERB = Verb(
         help="tune: quiet, normal, stiff, or contour (equal gains on all axes)",
     ),
     VerbArgument(
+        "--over",
+        action="append",
+        default=[],
+        metavar="NAME=FROM:TO:STEPS",
+        help="sweep: a parameter, model.… or move.… that is varied; several make a grid; NAME=FROM:TO or NAME=MEAN+-SIGMA with --samples",
+    ),
+    VerbArgument("--samples", type=count, metavar="N", help="sweep: so many samples instead of all steps"),
+    VerbArgument(
+        "--figure",
+        metavar="NAME",
+        help="sweep: what is drawn and sought the best of: settle_time, stiffness, Ms, …",
+    ),
+    VerbArgument(
+        "--scheduler",
+        metavar="ADDRESS",
+        help="sweep: a Dask cluster that computes it, tcp://HOST:PORT (default: this computer)",
+    ),
+    VerbArgument("--jobs", type=count, metavar="N", help="sweep: processes (default: as many as cores)"),
+    VerbArgument(
         "--machine",
         dest="machine_file",
         type=path_of,
@@ -88,6 +107,8 @@ VERB = Verb(
         "amp-studio simulate MILL_1394.amp tap --pitch 1 --speed 400",
         "amp-studio simulate MILL_1394.amp probe --axis Z --speed 100",
         "amp-studio simulate MILL_1394.amp travel --axis X,Y --set move.start=-200,-50 --set move.to=-470,-50",
+        "amp-studio simulate MILL_1394.amp sweep --axis X -o map.svg",
+        "amp-studio simulate MILL_1394.amp sweep --axis X --over model.inertia_ratio=0.5:2 --over model.resonance=60:90 --samples 200",
         "amp-studio simulate MILL_1394.amp identify record.csv --axis X -o machine.yaml",
         "amp-studio simulate MILL_1394.amp step --axis X --machine machine.yaml",
     ),
@@ -98,7 +119,7 @@ PICTURES = (".svg", ".png")
 SPOKEN = {"speed": ("spindle", "tap", "probe"), "pitch": ("tap",)}
 """Option -> the scenarios that it belongs to."""
 
-SETTING_GROUPS = ("move", "model", "tune", "gear", "cam")
+SETTING_GROUPS = ("move", "model", "tune", "sweep", "gear", "cam")
 """First words of settings that are no parameters."""
 
 
@@ -110,6 +131,7 @@ def run(options: Options) -> int:
         named_parameter,
         read_machine,
         simulate,
+        sweep,
         trace_summary,
         trace_text,
         write_trace,
@@ -134,6 +156,7 @@ def run(options: Options) -> int:
         if options.scenario != "tune":
             raise UsageError(f"--for belongs to tune, not to {options.scenario}")
         settings["tune.for"] = options.aim
+    settings |= _sweep_settings(options)
     told: list[str] = []
     before = file.copy()
     for address, value in read_assignments(file, assignments(own), told.append).items():
@@ -143,7 +166,10 @@ def run(options: Options) -> int:
         axis, machine = machine_for(file, read_machine(options.machine_file), axis)
         settings = {**machine, **settings}
     system = options.units or file.header.units
-    trace = simulate(file, options.scenario, axis, settings, system)
+    if options.scenario == "sweep":
+        trace = sweep(file, axis, settings, system, way=_way(options))
+    else:
+        trace = simulate(file, options.scenario, axis, settings, system)
     for said in told:
         note(said)
     if options.output:
@@ -173,6 +199,25 @@ def _spoken(options: Options) -> dict[str, float | str]:
             raise UsageError(f"--{name} belongs to {' and '.join(SPOKEN[name])}, not to {options.scenario}")
         found[f"move.{name}"] = value
     return found
+
+
+def _sweep_settings(options: Options) -> dict[str, float | str]:
+    """Return what is said of a sweep, as its settings; raises UsageError for another scenario."""
+    given = {
+        "sweep.over": ";".join(options.over), "sweep.samples": options.samples, "sweep.figure": options.figure,
+    }  # fmt: skip
+    found = {name: value for name, value in given.items() if value}
+    if options.scenario != "sweep" and (found or options.scheduler or options.jobs):
+        raise UsageError(
+            f"--over, --samples, --figure, --scheduler and --jobs belong to sweep, not to {options.scenario}"
+        )
+    return {name: float(value) if isinstance(value, int) else value for name, value in found.items()}
+
+
+def _way(options: Options) -> SweepWay:
+    from amp_studio.sim import SweepWay
+
+    return SweepWay(options.scheduler, options.jobs, progress(), options.output)
 
 
 def _axis(options: Options, file: ParameterFile) -> str | None:

@@ -1,0 +1,181 @@
+"""Spreads a job over the cores of this computer or an existing cluster; keeps what is done, so that a stopped sweep goes on.
+
+Locally this process works too, beside one process for each further core: the starting of those is not waited for. It takes chunks from the
+end of the list while they begin at its start. With `--scheduler` the same chunks go to a Dask cluster (the extra ``cluster``), whose
+workers have the same version of this program.
+"""
+
+from __future__ import annotations
+
+import base64
+import gc
+import json
+import os
+import signal
+from collections.abc import Callable, Iterator
+from concurrent.futures import ProcessPoolExecutor
+from concurrent.futures.process import BrokenProcessPool
+from contextlib import suppress
+from dataclasses import dataclass, field
+from multiprocessing import get_context
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from amp_studio.sim.errors import SimulationError
+from amp_studio.sim.tuning.sampled import Matrix
+
+from .job import AT_ONCE, Job, figures_of
+
+Progress = Callable[[str, int, int], None]
+"""progress(stage, done, of all)."""
+STAGE = "sweep"
+SMALL = 500
+"""Variations for which no further process is worth its start; of those with loops each counts as many times as below."""
+LOOPS_COUNT = 10
+SCHEMES = ("tcp://", "tls://")
+SUFFIX = ".part"
+
+
+@dataclass
+class Kept:
+    """The chunks of a job that are done, in a file beside the result; each is written when it comes."""
+
+    path: Path | None
+    digest: str
+    done: dict[int, Matrix] = field(default_factory=dict)
+
+    @classmethod
+    def beside(cls, output: Path | None, job: Job, points: Matrix) -> Kept:
+        """Return what is kept beside an output of the same job; nothing of another one."""
+        kept = cls(None if output is None else output.with_name(output.name + SUFFIX), job.digest(points))
+        if kept.path is not None:
+            with suppress(OSError, ValueError, KeyError, TypeError):
+                kept._read(len(job.columns), len(points))
+        return kept
+
+    def _read(self, width: int, count: int) -> None:
+        assert self.path is not None
+        head, *lines = self.path.read_text("ascii").splitlines()
+        if json.loads(head) != {"sweep": self.digest}:
+            return
+        for line in lines:
+            entry = json.loads(line)
+            chunk = np.frombuffer(base64.b64decode(entry["figures"], validate=True)).reshape(-1, width)
+            if 0 <= entry["start"] <= count - len(chunk):
+                self.done[int(entry["start"])] = chunk
+
+    def add(self, start: int, figures: Matrix) -> None:
+        """Keep a chunk."""
+        self.done[start] = figures
+        if self.path is None:
+            return
+        head = "" if len(self.done) > 1 else json.dumps({"sweep": self.digest}) + "\n"
+        entry = {
+            "start": start,
+            "figures": base64.b64encode(np.ascontiguousarray(figures).tobytes()).decode(),
+        }
+        try:
+            with self.path.open("w" if head else "a", encoding="ascii") as file:
+                file.write(head + json.dumps(entry) + "\n")
+        except OSError:  # the result alone is promised
+            self.path = None
+
+    def end(self) -> None:
+        """Remove the file: all is done."""
+        if self.path is not None:
+            self.path.unlink(missing_ok=True)
+
+
+def run_job(
+    job: Job,
+    points: Matrix,
+    *,
+    scheduler: str | None = None,
+    cores: int | None = None,
+    progress: Progress = lambda _stage, _done, _total: None,
+    output: Path | None = None,
+) -> Matrix:
+    """Return the figures (points, columns).
+
+    ``progress`` is called with every part that is done, and may raise to stop; with ``output`` what is done is kept beside it and
+    used by the next call. Raises SimulationError for a cluster that cannot be reached.
+    """
+    kept = Kept.beside(output, job, points)
+    starts = [start for start in range(0, len(points), AT_ONCE) if start not in kept.done]
+
+    def report() -> None:
+        progress(STAGE, sum(len(each) for each in kept.done.values()), len(points))
+
+    report()
+    parts = _on_cluster if scheduler else _here
+    for start, figures in parts(job, points, starts, scheduler or str(_cores(job, points, cores))):
+        kept.add(start, figures)
+        report()
+    kept.end()
+    return np.concatenate([kept.done[start] for start in sorted(kept.done)])
+
+
+def _cores(job: Job, points: Matrix, cores: int | None) -> int:
+    if cores is not None:
+        return cores
+    work = len(points) * (LOOPS_COUNT if job.loops else 1)
+    return (os.cpu_count() or 1) if work > SMALL else 1
+
+
+def _here(job: Job, points: Matrix, starts: list[int], cores: str) -> Iterator[tuple[int, Matrix]]:
+    if cores == "1":
+        for start in starts:
+            yield start, figures_of(job, points[start : start + AT_ONCE])
+        return
+    pool = ProcessPoolExecutor(int(cores) - 1, mp_context=get_context("spawn"), initializer=_begin)
+    try:
+        yield from _beside(pool, job, points, starts)
+    finally:
+        pool.shutdown(wait=True, cancel_futures=True)
+
+
+def _beside(
+    pool: ProcessPoolExecutor, job: Job, points: Matrix, starts: list[int]
+) -> Iterator[tuple[int, Matrix]]:
+    """Yield the parts: this process takes the last one that has not begun, until none is left."""
+    waiting = {start: pool.submit(figures_of, job, points[start : start + AT_ONCE]) for start in starts}
+    for start in reversed(starts):
+        if waiting[start].cancel():
+            del waiting[start]
+            yield start, figures_of(job, points[start : start + AT_ONCE])
+    for start, future in waiting.items():
+        try:
+            yield start, future.result()
+        except BrokenProcessPool:  # one of them was ended from outside: what it had is done here
+            yield start, figures_of(job, points[start : start + AT_ONCE])
+
+
+def _begin() -> None:
+    signal.signal(signal.SIGINT, signal.SIG_IGN)  # the process that waits for these ends them
+    gc.freeze()
+
+
+def _on_cluster(job: Job, points: Matrix, starts: list[int], scheduler: str) -> Iterator[tuple[int, Matrix]]:
+    if not scheduler.startswith(SCHEMES):
+        raise SimulationError(f"'{scheduler[:80]}' is no address of a scheduler: tcp://HOST:PORT")
+    try:
+        from distributed import Client
+        from distributed import as_completed as as_done
+    except ImportError:
+        raise SimulationError(
+            "A cluster needs the extra 'cluster': pip install 'amp-studio[cluster]', here and on its workers"
+        ) from None
+    try:
+        client: Any = Client(scheduler, timeout="10s", set_as_default=False)
+    except (OSError, ValueError) as error:
+        raise SimulationError(f"No scheduler answers at {scheduler}: {error}") from None
+    with client:
+        shared = client.scatter(job, broadcast=True)
+        futures = {
+            client.submit(figures_of, shared, points[start : start + AT_ONCE], pure=False): start
+            for start in starts
+        }
+        for future in as_done(futures):
+            yield futures[future], future.result()

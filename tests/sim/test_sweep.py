@@ -1,0 +1,179 @@
+"""A sweep has the figures of single runs, whatever computes it, and goes on where it was stopped."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from amp_studio.files import ParameterFile, open_file
+from amp_studio.sim import SimulationError, SweepWay, simulate, sweep
+from amp_studio.sim.axis.moves import move_of, until_of
+from amp_studio.sim.binding import bind_axis
+from amp_studio.sim.law import law_of
+from amp_studio.sim.plot.svg import plot_svg
+from amp_studio.sim.variations.batch import FIGURES, run_batch
+from amp_studio.sim.variations.plan import points_of, read_varied
+from amp_studio.sim.write import trace_summary, trace_text
+
+EXAMPLES = Path(__file__).parents[2] / "examples"
+MOVE = {"move.distance": 2.0, "move.duration": 0.2}
+MILL = "mill-1394/MILL_1394.amp"
+AXES = (
+    ("57c422b-label-press/LABEL_PRESS.amp", "X"),
+    ("acromill-router/ROUTER.amp", "X"),
+    ("lathe-ls176/LATHE_LS176.amp", "1"),
+    (MILL, "3"),
+    ("num-1060-mill/MILL_1060.amp", "0"),
+    ("syntec-mill/SYNTEC_MILL.amp", "1"),
+)
+ALONE = SweepWay(cores=1)
+
+
+def file_of(example: str) -> ParameterFile:
+    return open_file(EXAMPLES / example).file
+
+
+@pytest.mark.parametrize(("example", "axis"), AXES)
+def test_a_variation_has_the_figures_of_its_own_run(example: str, axis: str) -> None:
+    file = file_of(example)
+    over = {
+        "sweep.over": "model.viscous_friction=0:0.4:2;model.delay=0.1:1.3:2",
+        "sweep.figure": "settle_time",
+    }
+    trace = sweep(file, axis, {**over, **MOVE}, "metric", way=ALONE)
+    for row in range(4):
+        varied = {name: float(trace.columns[name][row]) for name in trace.over}
+        single = simulate(file, "step", axis, {**varied, **trace.move, **MOVE}, "metric", advise=False).result
+        for name in FIGURES[1:-1]:
+            found = float(trace.columns[name][row])
+            assert single[name][0] == (
+                None if np.isnan(found) else pytest.approx(found, rel=1e-12, abs=1e-15)
+            ), name
+
+
+def test_parameters_are_varied_as_the_control_can_have_them() -> None:
+    file = file_of(MILL)
+    over = {"sweep.over": "1350@3=0.5:1.5:3;servo.velocity_proportional_gain=1000:2000:3"}
+    trace = sweep(file, "3", {**over, "sweep.figure": "Ms"}, way=ALONE)
+    assert trace.rows == 9
+    assert trace.result["count"] == (9.0, "")
+    assert set(trace.columns["sound"]) <= {0.0, 1.0}
+    out_of_range = sweep(
+        file, "3", {"sweep.over": "servo.initial_gain=1:1000:2", "sweep.figure": "Ms"}, way=ALONE
+    )
+    assert out_of_range.result["not_possible"][0] == 1.0
+
+
+def test_the_map_without_a_word_shows_two_gains_their_safe_region_and_the_present_point() -> None:
+    trace = simulate(file_of(MILL), "sweep", "1")
+    assert trace.over == ("servo.initial_gain", "servo.velocity_proportional_gain")
+    safe = trace.columns["safe"] == 1.0
+    assert 0 < safe.sum() < trace.rows
+    assert (trace.columns["Ms"][safe] <= 1.6).all()
+    summary = trace_summary(trace)
+    assert summary["present"]["servo.velocity_proportional_gain"]["value"] == 6000.0
+    best = summary["best"]["figures"]["stiffness"]["value"]
+    assert best == min(trace.columns["stiffness"][safe]) == summary["result"]["best"]["value"]
+    drawn = plot_svg(trace)
+    assert "present" in drawn
+    assert drawn.count("<rect") > trace.rows / 2
+    assert "percentiles" in trace_text(trace)
+
+
+def test_samples_are_those_of_their_seed_and_fill_their_distribution() -> None:
+    file = file_of(MILL)
+    varied = (
+        read_varied(file, "1", "model.inertia_ratio=1:3"),
+        read_varied(file, "1", "model.resonance=80+-4"),
+    )
+    points = points_of(varied, 1000, 7)
+    assert np.array_equal(points, points_of(varied, 1000, 7))
+    assert not np.array_equal(points, points_of(varied, 1000, 8))
+    assert points[:, 0].mean() == pytest.approx(2.0, abs=2e-3)
+    assert np.percentile(points[:, 1], 84.13) == pytest.approx(84.0, abs=0.1)
+    assert sorted(np.floor((points[:, 0] - 1.0) * 500.0)) == list(range(1000))  # one in each part
+
+
+@pytest.mark.parametrize(
+    ("text", "said"),
+    [
+        ("servo.initial_gain", "does not say what is varied"),
+        ("servo.initial_gain=1", "no range"),
+        ("servo.initial_gain=2:1:5", "the first one must be the smaller"),
+        ("servo.initial_gain=1:2", "no number of steps"),
+        ("servo.initial_gain=1:2:1.5", "must be a whole number"),
+        ("model.nonsense=1:2:3", "Unknown setting"),
+        ("no.such=1:2:3", "no.such"),
+        ("model.delay=1:2:3;model.delay=1:2:3", "varied twice"),
+        ("model.delay=1+-2", "say how many"),
+    ],
+)
+def test_what_cannot_be_varied_is_one_sentence(text: str, said: str) -> None:
+    with pytest.raises(SimulationError, match=said):
+        simulate(file_of(MILL), "sweep", "1", {"sweep.over": text})
+
+
+class Stopped(Exception):
+    """A person stops the sweep."""
+
+
+def test_a_sweep_that_was_stopped_goes_on_with_what_it_has(tmp_path: Path) -> None:
+    seen: list[int] = []
+
+    def stop(_stage: str, done: int, _total: int) -> None:
+        seen.append(done)
+        if done >= 500:
+            raise Stopped
+
+    file, output = file_of("num-1060-mill/MILL_1060.amp"), tmp_path / "map.csv"
+    given = {"sweep.over": "model.delay=1:3:900", "sweep.figure": "Ms"}
+    with pytest.raises(Stopped):
+        sweep(file, "0", given, way=SweepWay(cores=1, progress=stop, output=output))
+    again: list[int] = []
+    way = SweepWay(cores=1, progress=lambda _stage, done, _total: again.append(done), output=output)
+    trace = sweep(file, "0", given, way=way)
+    assert again[0] == seen[-1] == 500
+    assert not list(tmp_path.iterdir())
+    whole = sweep(file, "0", given, way=ALONE)
+    assert np.array_equal(trace.columns["Ms"], whole.columns["Ms"])
+
+
+def test_what_was_kept_of_another_sweep_or_is_damaged_is_not_used(tmp_path: Path) -> None:
+    file, output = file_of("num-1060-mill/MILL_1060.amp"), tmp_path / "map.csv"
+    given = {"sweep.over": "model.delay=1:3:4", "sweep.figure": "Ms"}
+    for text in ("", "{", json.dumps({"sweep": "another"}) + "\n", "\x00\n\x00"):
+        output.with_name("map.csv.part").write_text(text)
+        seen: list[int] = []
+        way = SweepWay(cores=1, progress=lambda _s, done, _t, seen=seen: seen.append(done), output=output)
+        assert sweep(file, "0", given, way=way).rows == 4
+        assert seen[0] == 0
+
+
+@pytest.mark.parametrize("machine_code", [False, True])
+def test_both_engines_have_equal_figures(machine_code: bool) -> None:
+    law, file = law_of("9pc"), file_of(MILL)
+    axis = bind_axis(file, law, "3", {"model.coulomb_friction": 2.0})
+    moved = move_of(axis, {"move.distance": 1.0})
+    runs = [(axis, moved.profile, until_of(axis, moved, 0.05), moved.distance, moved.share_rate)] * 2
+    found = run_batch(runs, machine_code=machine_code)
+    assert np.array_equal(found[0], found[1], equal_nan=True)
+    assert np.array_equal(found, run_batch(runs, machine_code=False), equal_nan=True)
+
+
+def test_a_scheduler_that_is_none_is_one_sentence() -> None:
+    given = {"sweep.over": "model.delay=1:2:2", "sweep.figure": "Ms"}
+    with pytest.raises(SimulationError, match="no address of a scheduler"):
+        sweep(file_of(MILL), "1", given, way=SweepWay(scheduler="host"))
+
+
+def test_a_cluster_computes_what_this_computer_does() -> None:
+    distributed = pytest.importorskip("distributed", reason="the extra 'cluster' is not installed")
+    given = {"sweep.over": "model.delay=1:2:300", "sweep.figure": "Ms"}
+    file = file_of("num-1060-mill/MILL_1060.amp")
+    with distributed.LocalCluster(n_workers=1, threads_per_worker=1, dashboard_address=None) as cluster:
+        there = sweep(file, "0", given, way=SweepWay(scheduler=cluster.scheduler_address))
+    here = sweep(file, "0", given, way=ALONE)
+    assert np.array_equal(there.columns["Ms"], here.columns["Ms"])
