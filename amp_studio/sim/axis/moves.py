@@ -1,4 +1,4 @@
-"""A single commanded move: what can be said of it, the profile it makes, and when it is over."""
+"""A single commanded move: its settings, the profile it makes, and when it is over."""
 
 from __future__ import annotations
 

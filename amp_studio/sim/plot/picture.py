@@ -14,9 +14,9 @@ import numpy as np
 from amp_studio.sim.rounding import shown
 from amp_studio.sim.series import Series
 from amp_studio.sim.trace import Trace
-from amp_studio.sim.variations.picture import sweep_picture
 
 from .panels import Curve, Panel, Picture, Ring, Role
+from .sweep_picture import sweep_picture
 
 CLOSE = 10.0
 """Inposition bands around the end of a move that a close look at the settling begins with."""

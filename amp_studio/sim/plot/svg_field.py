@@ -31,7 +31,7 @@ def shade(share: float) -> str:
 
 
 def levels_of(field: Field) -> tuple[float, float]:
-    """Return the values at both ends of the scale; of the safe cells where there are any, so that these are told apart."""
+    """Return the values at both ends of the scale; of the safe cells where there are any, so that these differ."""
     known = np.isfinite(field.values)
     chosen = field.values[known & field.safe] if (known & field.safe).any() else field.values[known]
     if not chosen.size:

@@ -1,7 +1,7 @@
 """Many runs of one law over flat arrays, each figured out where it was made: no rows leave the kernel.
 
 ``batch`` calls `kernel.run` once for each variation into one scratch array, and ``measure`` reduces its rows to the figures of the scenario
-`step`, with the definitions of scenarios/step.py and scenarios/figures.py; tests/sim/test_sweep.py holds both against each other. Like
+`step`, with the definitions of scenarios/step.py and scenarios/figures.py; tests/sim/test_sweep.py compares both. Like
 the kernel it is plain Python and machine code (`compiled.compiled_batch`) with equal results.
 """
 

@@ -1,6 +1,6 @@
 """The part of a sweep that can be done anywhere: plain data in, an array of figures out.
 
-A `Job` is pickled once for every process or cluster that takes part; `figures_of` binds the axis for each point, as the file would be
+A `SweepJob` is pickled once for every process or cluster that takes part; `figures_of` binds the axis for each point, as the file would be
 with it, and computes what is asked for. Where no parameter is varied the law is bound once and the machine alone is another each time.
 """
 
@@ -46,7 +46,7 @@ AT_ONCE = 250
 
 
 @dataclass(frozen=True)
-class Job:
+class SweepJob:
     """What is computed for each point."""
 
     content: bytes
@@ -70,13 +70,13 @@ class Job:
         return hashlib.sha256(self.content + plain.encode() + points.tobytes()).hexdigest()
 
 
-def figures_of(job: Job, points: Matrix) -> Matrix:
+def figures_of(job: SweepJob, points: Matrix) -> Matrix:
     """Return the figures (points, columns) of a job; nan in all of them where an axis cannot be so."""
     parts = [_chunk(job, points[n : n + AT_ONCE]) for n in range(0, len(points), AT_ONCE)]
     return np.concatenate(parts) if parts else np.empty((0, len(job.columns)))
 
 
-def _chunk(job: Job, points: Matrix) -> Matrix:
+def _chunk(job: SweepJob, points: Matrix) -> Matrix:
     found = np.full((len(points), len(job.columns)), np.nan)
     bound = [(n, *each) for n, each in enumerate(_axes(job).all(points)) if each is not None]
     if job.motion:
@@ -131,7 +131,7 @@ _Bound = tuple[AxisLaw, Mapping[str, ParameterValue], LawMatrices | None]
 class _Axes:
     """Binds the axis of a job for one point after the other."""
 
-    def __init__(self, job: Job) -> None:
+    def __init__(self, job: SweepJob) -> None:
         self.job = job
         self.file = read_content(Path("sweep.amp"), job.content)
         self.law = law_of(self.file.schema.family.family)
@@ -205,11 +205,11 @@ def _nothing(_parameter: str, _instance: str) -> ParameterValue:
 
 
 @lru_cache(maxsize=2)
-def _axes(job: Job) -> _Axes:
+def _axes(job: SweepJob) -> _Axes:
     return _Axes(job)
 
 
-def bound_at_present(job: Job) -> AxisLaw:
-    """Return the axis as the file has it; raises SimulationError where a varied setting is none of it."""
+def bound_at_present(job: SweepJob) -> AxisLaw:
+    """Return the axis as the file has it; raises SimulationError for a varied setting that it does not have."""
     axes = _axes(job)
     return bind_axis(axes.file, axes.law, job.axis, axes.model)

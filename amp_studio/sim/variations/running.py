@@ -26,9 +26,9 @@ import numpy as np
 from amp_studio.sim.errors import SimulationError
 from amp_studio.sim.tuning.sampled import Matrix
 
-from .job import AT_ONCE, Job, figures_of
+from .job import AT_ONCE, SweepJob, figures_of
 
-Progress = Callable[[str, int, int], None]
+SweepProgress = Callable[[str, int, int], None]
 """progress(stage, done, of all)."""
 STAGE = "sweep"
 SMALL = 500
@@ -47,7 +47,7 @@ class Kept:
     done: dict[int, Matrix] = field(default_factory=dict)
 
     @classmethod
-    def beside(cls, output: Path | None, job: Job, points: Matrix) -> Kept:
+    def beside(cls, output: Path | None, job: SweepJob, points: Matrix) -> Kept:
         """Return what is kept beside an output of the same job; nothing of another one."""
         kept = cls(None if output is None else output.with_name(output.name + SUFFIX), job.digest(points))
         if kept.path is not None:
@@ -89,12 +89,12 @@ class Kept:
 
 
 def run_job(
-    job: Job,
+    job: SweepJob,
     points: Matrix,
     *,
     scheduler: str | None = None,
     cores: int | None = None,
-    progress: Progress = lambda _stage, _done, _total: None,
+    progress: SweepProgress = lambda _stage, _done, _total: None,
     output: Path | None = None,
 ) -> Matrix:
     """Return the figures (points, columns).
@@ -117,14 +117,14 @@ def run_job(
     return np.concatenate([kept.done[start] for start in sorted(kept.done)])
 
 
-def _cores(job: Job, points: Matrix, cores: int | None) -> int:
+def _cores(job: SweepJob, points: Matrix, cores: int | None) -> int:
     if cores is not None:
         return cores
     work = len(points) * (LOOPS_COUNT if job.loops else 1)
     return (os.cpu_count() or 1) if work > SMALL else 1
 
 
-def _here(job: Job, points: Matrix, starts: list[int], cores: str) -> Iterator[tuple[int, Matrix]]:
+def _here(job: SweepJob, points: Matrix, starts: list[int], cores: str) -> Iterator[tuple[int, Matrix]]:
     if cores == "1":
         for start in starts:
             yield start, figures_of(job, points[start : start + AT_ONCE])
@@ -137,7 +137,7 @@ def _here(job: Job, points: Matrix, starts: list[int], cores: str) -> Iterator[t
 
 
 def _beside(
-    pool: ProcessPoolExecutor, job: Job, points: Matrix, starts: list[int]
+    pool: ProcessPoolExecutor, job: SweepJob, points: Matrix, starts: list[int]
 ) -> Iterator[tuple[int, Matrix]]:
     """Yield the parts: this process takes the last one that has not begun, until none is left."""
     waiting = {start: pool.submit(figures_of, job, points[start : start + AT_ONCE]) for start in starts}
@@ -157,7 +157,9 @@ def _begin() -> None:
     gc.freeze()
 
 
-def _on_cluster(job: Job, points: Matrix, starts: list[int], scheduler: str) -> Iterator[tuple[int, Matrix]]:
+def _on_cluster(
+    job: SweepJob, points: Matrix, starts: list[int], scheduler: str
+) -> Iterator[tuple[int, Matrix]]:
     if not scheduler.startswith(SCHEMES):
         raise SimulationError(f"'{scheduler[:80]}' is no address of a scheduler: tcp://HOST:PORT")
     try:

@@ -31,9 +31,9 @@ from amp_studio.sim.tuning.solver import gains_of, solve
 from amp_studio.sim.tuning.trial import Trial, address_of
 
 from .batch import FIGURES
-from .job import LOOP_FIGURES, Job, bound_at_present
+from .job import LOOP_FIGURES, SweepJob, bound_at_present
 from .plan import Varied, points_of, read_varied
-from .running import Progress, run_job
+from .running import SweepProgress, run_job
 from .text import MORE_IS_BETTER
 
 OVER, SAMPLES, FIGURE, SEED = "sweep.over", "sweep.samples", "sweep.figure", "sweep.seed"
@@ -45,7 +45,7 @@ SETTINGS = {
     **{name: text for name, text in MOVE.items() if name != "move.emergency_time"},
 }
 SIDE, ALONE = 15, 41
-"""Steps of each of two gains, and of one, where nothing is said."""
+"""Steps of each of two gains, and of one, by default."""
 FURTHEST = 4.0
 """Times the present gain, and its part, between which is swept then."""
 MOST_LOOPS = 2500
@@ -59,7 +59,7 @@ class Way:
 
     scheduler: str | None = None
     cores: int | None = None
-    progress: Progress = lambda _stage, _done, _total: None
+    progress: SweepProgress = lambda _stage, _done, _total: None
     output: Path | None = None
 
 
@@ -110,7 +110,7 @@ def _job(
     motion: bool,
     loops: bool,
     others: Mapping[str, float] | None = None,
-) -> Job:
+) -> SweepJob:
     """Return the job of a sweep, with ``others`` as values of parameters that are not varied; its move is one for all variations."""
     file = trial.file.copy()
     for parameter, figure in (others or {}).items():
@@ -118,7 +118,7 @@ def _job(
         old = file.get(address) if address else None
         if address and old:
             file.set(address, Value(int(figure) if isinstance(old.value, int) else figure, old.unit))
-    job = Job(
+    job = SweepJob(
         content_of(file),
         trial.axis.axis,
         tuple(trial.settings.items()),
@@ -136,7 +136,7 @@ def _job(
     )
 
 
-def _run(job: Job, points: Matrix, way: Way) -> Matrix:
+def _run(job: SweepJob, points: Matrix, way: Way) -> Matrix:
     return run_job(
         job, points, scheduler=way.scheduler, cores=way.cores, progress=way.progress, output=way.output
     )
@@ -196,7 +196,7 @@ def _two_gains(trial: Trial, also: Mapping[str, float]) -> tuple[Varied, ...]:
     return tuple(found)
 
 
-def _trace(job: Job, trial: Trial, points: Matrix, found: Matrix, figure: str) -> Trace:
+def _trace(job: SweepJob, trial: Trial, points: Matrix, found: Matrix, figure: str) -> Trace:
     axis = bound_at_present(job)
     columns: dict[str, Series] = {each.name: points[:, n] for n, each in enumerate(job.varied)}
     columns |= {name: found[:, n] for n, name in enumerate(job.columns)}
@@ -221,7 +221,7 @@ def _trace(job: Job, trial: Trial, points: Matrix, found: Matrix, figure: str) -
     )
 
 
-def _safe(job: Job, columns: dict[str, Series]) -> Series:
+def _safe(job: SweepJob, columns: dict[str, Series]) -> Series:
     """Return 1 where an axis is safe: its loops are sound where they were computed, and its motion ends and stays in position."""
     safe = np.ones(len(next(iter(columns.values()))), dtype=bool)
     if job.loops:
@@ -231,7 +231,7 @@ def _safe(job: Job, columns: dict[str, Series]) -> Series:
     return safe.astype(np.float64)
 
 
-def _note(job: Job) -> str:
+def _note(job: SweepJob) -> str:
     parts = [f"both loops keep {SOUND.text()}"] if job.loops else []
     parts += ["the move ends without an alarm and stays in position"] if job.motion else []
     return f"Safe is a variation where {' and '.join(parts)}."
@@ -256,7 +256,7 @@ def setting_unit(axis: AxisLaw, name: str) -> str:
     )
 
 
-def _present(axis: AxisLaw, job: Job, trial: Trial, varied: Varied) -> float | None:
+def _present(axis: AxisLaw, job: SweepJob, trial: Trial, varied: Varied) -> float | None:
     if varied.address is not None:
         value = trial.file.get(varied.address)
         return None if value is None else float(value.value)

@@ -202,10 +202,12 @@ def _spoken(options: Options) -> dict[str, float | str]:
 
 
 def _sweep_settings(options: Options) -> dict[str, float | str]:
-    """Return what is said of a sweep, as its settings; raises UsageError for another scenario."""
+    """Return the options of a sweep as its settings; raises UsageError for another scenario."""
     given = {
-        "sweep.over": ";".join(options.over), "sweep.samples": options.samples, "sweep.figure": options.figure,
-    }  # fmt: skip
+        "sweep.over": ";".join(options.over),
+        "sweep.samples": options.samples,
+        "sweep.figure": options.figure,
+    }
     found = {name: value for name, value in given.items() if value}
     if options.scenario != "sweep" and (found or options.scheduler or options.jobs):
         raise UsageError(

@@ -6,12 +6,12 @@ import math
 
 import numpy as np
 
-from amp_studio.sim.plot.panels import Curve, Field, Panel, Picture
 from amp_studio.sim.rounding import shown
 from amp_studio.sim.series import Series
 from amp_studio.sim.trace import Trace
+from amp_studio.sim.variations.text import best_row
 
-from .text import best_row
+from .panels import Curve, Field, Panel, Picture
 
 WIDEST = 200
 """Values of each side of a map at most; a sweep of more is drawn as samples."""
