@@ -69,7 +69,7 @@ class ConnectedControl:
         ``expect`` is the SHA-256 of what may be replaced, ``keep`` the folder of the copy: that of the machine's file, where it
         is left out. A machine with errors is refused with MachineError unless they are accepted.
         """
-        errors = [finding for finding in machine.check() if finding.severity == "error"]
+        errors = [finding for finding in machine.check(as_delivered=True) if finding.severity == "error"]
         if errors and not accept_errors:
             raise MachineError(f"{len(errors)} errors, nothing was sent; the first: {errors[0].message}")
         folder = Path(keep) if keep is not None else machine.path.parent if machine.path else None

@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Any
 
 from amp_studio.errors import AmpStudioError
 from amp_studio.files import Document, ParameterFile, compare, new_file, open_file, same_file
+from amp_studio.guide import found_in
 from amp_studio.schema import (
     Address,
     Parameter,
@@ -146,9 +147,14 @@ class MachineParameters:
 
     # -- what is wrong -------------------------------------------------------------
 
-    def check(self) -> tuple[Finding, ...]:
-        """Return the findings, errors first; the builder's rules beside the file count too."""
-        return self._validator().run()
+    def check(self, *, as_delivered: bool = False) -> tuple[Finding, ...]:
+        """Return the findings, errors first; the builder's rules beside the file count too.
+
+        Those about printed defaults of steps that nobody has reached are left out, as ``validate`` does, unless
+        ``as_delivered``: a download asks for them.
+        """
+        validator = self._validator()
+        return validator.run() if as_delivered else found_in(validator)
 
     def fix(self, rule: str = "", *, safe: bool = False) -> list[Fixed]:
         """Make the suggested fixes of all findings, or of one rule, and return what changed; with ``safe`` only what moves nothing."""

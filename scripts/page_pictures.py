@@ -140,7 +140,7 @@ def new(stage: Stage, _: Path) -> QPixmap:
 
 
 def errors(stage: Stage, path: Path) -> QPixmap:
-    """The new file with what is wrong in it."""
+    """The new file, calm: what is as delivered is a state."""
     window = _shown(stage, path, later=False)
     window.go_to(("servo.hardware_type", "1"))
     window.show_panel("Findings")

@@ -7,9 +7,9 @@ A finding belongs to the last step of which it reads an untouched value: not bef
 to the others. Where it reads none it belongs to the step of what is wrong.
 
 The steps are reached in their order, as far as the first that is not finished: it has an open value, or an error belongs
-to it. A finding that belongs to a later step is deferred (left out of a list, never of a check), unless somebody has set
-what is wrong: he learns it at once.
-A download and its preview know nothing of steps.
+to it. In a file in which nobody has set anything but its axes none is reached; in one that lacks no value all are. A finding
+that belongs to a later step is deferred, as delivered: a state of the file and no fault in it, unless somebody has set what
+is wrong: he learns it at once. A download and its preview know nothing of steps.
 """
 
 from __future__ import annotations
@@ -20,7 +20,7 @@ from dataclasses import dataclass
 from typing import Literal
 
 from amp_studio.files import ParameterFile
-from amp_studio.schema import Address
+from amp_studio.schema import Address, Family
 from amp_studio.validate import NOT_SET, Finding, Validator
 
 from .steps import REST, SetupStep, step_of, steps_of
@@ -43,6 +43,8 @@ class StepProgress:
     """Active values that are not the printed default."""
     findings: tuple[Finding, ...]
     """The findings about its values that are not deferred."""
+    errors: int
+    """How many errors are about its values, deferred ones too."""
     ticked: str
     """By whom and when it was ticked as done; empty where nobody has."""
 
@@ -64,7 +66,7 @@ class StepProgress:
         """
         if not self.active or (self.step.id == REST and not self.total and not self.own):
             return "not needed"
-        if not self.open and not self.count("error") and (self.total or self.ticked):
+        if not self.open and not self.errors and (self.total or self.ticked):
             return "done"
         return "begun" if self.own or self.ticked else "not begun"
 
@@ -78,6 +80,8 @@ class GuideProgress:
     """The first step that is not finished, up to which the steps are reached; None where all are."""
     deferred: tuple[Finding, ...]
     """Findings of steps that have not been reached."""
+    deferred_to: tuple[int, ...]
+    """The numbers of these steps, in their order."""
     places: Mapping[Address, int]
     """The place of each address in the manual's order."""
 
@@ -124,33 +128,58 @@ def progress(validator: Validator, findings: Sequence[Finding] | None = None) ->
             has_default = parameters[address[0]].default is not None
             total[number] += not has_default
             own[number] += not has_default or not file.is_default(address)
-    belongs = [(f, *belongs_to(file, f)) for f in findings if f.rule != NOT_SET]
+    belongs = [(f, *_belongs_to(file, f)) for f in findings if f.rule != NOT_SET]
     errors = [number for f, number, _ in belongs if f.severity == "error" and number]
     reached = min([*open_of, *errors], default=len(steps) + 1)
+    come_to = len(steps) if not not_set else 0 if _is_fresh(file) else reached
     about: dict[int, list[Finding]] = {}
-    deferred = []
+    errors_about = Counter[int]()
+    deferred: list[tuple[Finding, int]] = []
     for finding, number, is_own in belongs:
-        if number > reached and not is_own:
-            deferred.append(finding)
+        its = {places[name].number for name, _ in finding.causes if name in places}
+        if finding.severity == "error":
+            errors_about.update(its)
+        if number > come_to and not is_own:
+            deferred.append((finding, number))
             continue
-        for place in {places[name].number for name, _ in finding.causes if name in places}:
+        for place in its:
             about.setdefault(place, []).append(finding)
     each = tuple(
         StepProgress(
             step, total[step.number], _in_order(step, open_of.get(step.number, ())), active[step.number],
-            own[step.number], tuple(about.get(step.number, ())), file.header.done.get(step.id, ""),
+            own[step.number], tuple(about.get(step.number, ())),
+            errors_about[step.number], file.header.done.get(step.id, ""),
         )
         for step in steps
     )  # fmt: skip
     return GuideProgress(
         each,
         each[reached - 1] if reached <= len(steps) else None,
-        tuple(deferred),
+        tuple(finding for finding, _ in deferred),
+        tuple(sorted({number for _, number in deferred})),
         file.machine_schema.places,
     )
 
 
-def belongs_to(file: ParameterFile, finding: Finding) -> tuple[int, bool]:
+def _is_fresh(file: ParameterFile) -> bool:
+    """Return whether a file contains printed defaults and its axes only."""
+    given = _axis_parameters(file.schema.family)
+    return all(address[0] in given or file.is_default(address) for address in file.values)
+
+
+def _axis_parameters(family: Family) -> frozenset[str]:
+    """Return the parameters that a new file has values of besides the printed defaults."""
+    named: list[str | None] = [family.machine_parameter, family.unit_parameter]
+    if family.axes is not None:
+        named += [family.axes.name, family.axes.type, family.axes.fitted_by]
+    declared = family.declared_axes
+    if declared is not None:
+        named += [*declared.flags, declared.count, declared.letters, declared.group_count]
+        named += [field.param for field in (declared.name, declared.group) if field is not None]
+    return frozenset(filter(None, named))
+
+
+def _belongs_to(file: ParameterFile, finding: Finding) -> tuple[int, bool]:
     """Return the number of the step to which a finding belongs, 0 for none, and whether somebody has set what is wrong."""
     places = step_of(file.schema)
 

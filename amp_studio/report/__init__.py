@@ -44,7 +44,7 @@ if TYPE_CHECKING:
     from .parameter.why import why_parts, why_text
     from .templating.starting import write_starting_template
     from .templating.templates import OWN
-    from .wording import counted, severity_name, state_name
+    from .wording import counted, delivered_text, severity_name, state_name
     from .write import print_report, set_report
 else:
     __getattr__ = front_page(__name__)

@@ -22,6 +22,7 @@ from amp_studio.files import (
     open_file,
     without_secrets,
 )
+from amp_studio.guide import Present, present
 from amp_studio.schema import Address, Schema, label_of
 from amp_studio.validate import NO_RULES, BuilderRules, Finding, Validator
 from amp_studio.version import __version__
@@ -36,7 +37,7 @@ from .model import ExchangeLine, PrintedFigure, Report, ReportRow
 from .parameter.manual_page import help_parts
 from .rows import Rows, row_of, rows_of
 from .sections import numbers_of, sections_of
-from .wording import counted, joined_places
+from .wording import counted, delivered_text, joined_places
 
 _SHORT = 16
 """Digits of a schema's signature that are printed."""
@@ -63,8 +64,8 @@ def build_report(
     printed = tuple(row for row in found.rows if _is_wanted(row, contents))
     anchors = {row.anchor for row in printed}
     validator = Validator(file, own)
-    findings = validator.run()
-    heads, axes = _axes(file, found.rows, findings)
+    now = present(validator, validator.run())
+    heads, axes = _axes(file, found.rows, now.findings)
     family = file.schema.family
     name = source.name if source else ""
     return Report(
@@ -76,14 +77,14 @@ def build_report(
         contents=contents,
         machine=tuple(_machine(file, project)),
         facts=tuple(_facts(file, source, contents)),
-        counts=tuple(_counts(file, found, len(printed), findings)),
+        counts=tuple(_counts(file, found, len(printed), now)),
         remarks=machine_note(file).strip(),
         remarked=tuple(
             (note.label, note.text.strip()) for note in all_notes(file) if note.subject != "machine"
         ),
         axis_heads=heads,
         axes=axes,
-        notes=notes_of(file, findings, anchors) + suppressed_notes(file, validator.suppressed, anchors),
+        notes=notes_of(file, now.findings, anchors) + suppressed_notes(file, validator.suppressed, anchors),
         dangers=dangers_of(file.schema, printed),
         forced=_forced(file, found.rows),
         not_set=tuple(_not_set(found.rows)),
@@ -177,13 +178,12 @@ def _signature(file: ParameterFile) -> str:
     return f"{own} (the file was written under {written})" if written and written != own else own
 
 
-def _counts(
-    file: ParameterFile, found: Rows, printed: int, findings: Sequence[Finding]
-) -> list[tuple[str, str]]:
+def _counts(file: ParameterFile, found: Rows, printed: int, now: Present) -> list[tuple[str, str]]:
     rows = found.rows
-    severities = [counted(n, s) for s in ("error", "warning", "advice") if (n := _severity(findings, s))]
+    severities = [counted(n, s) for s in ("error", "warning", "advice") if (n := _severity(now.findings, s))]
     counts = [
         ("Findings", ", ".join(severities) or "none"),
+        *([("State", delivered_text(now.delivered, now.steps))] if now.delivered else []),
         ("Values", str(len(rows))),
         ("Printed here", str(printed)),
         ("Differ from the default", str(sum(r.is_changed for r in rows))),

@@ -33,6 +33,7 @@ _OWN_FACTS = frozenset(
         "Order",
         "Contents",
         "Findings",
+        "State",
     }
 )
 """Facts in words of the report."""

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
+
+from amp_studio.validate import SEVERITIES, Finding
 
 _SEVERITIES = {"advice": "recommendation", "suppressed": "suppressed finding"}
 _STATES = {"in-force": "active", "ignored": "ignored", "unusable": "not available", "hidden": "hidden"}
@@ -21,6 +23,14 @@ def state_name(state: str) -> str:
 def counted(number: int, noun: str, none: str = "0") -> str:
     """Return ``1 error``, ``2 errors``, ``3 recommendations``; ``none`` replaces the number 0."""
     return f"{number or none} {severity_name(noun)}{'' if number == 1 else 's'}"
+
+
+def delivered_text(findings: Sequence[Finding], steps: Sequence[int]) -> str:
+    """Return what is as delivered, and in which steps it is set: ``as delivered, to be set in step 3 of commissioning: 6 errors``; "" for nothing."""
+    counts = [(s, sum(f.severity == s for f in findings)) for s in SEVERITIES]
+    text = ", ".join(counted(count, severity) for severity, count in counts if count)
+    numbers = f"step{'' if len(steps) == 1 else 's'} {', '.join(map(str, steps))}"
+    return f"as delivered, to be set in {numbers} of commissioning: {text}" if text else ""
 
 
 def joined_places(places: Iterable[str]) -> str:

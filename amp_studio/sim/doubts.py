@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator
 
 from amp_studio.files import ParameterFile
+from amp_studio.guide import present
 from amp_studio.schema import Address
 from amp_studio.validate import Validator
 
@@ -21,11 +22,14 @@ def doubts(file: ParameterFile, read: Iterable[Address], overridden: Iterable[st
     addresses = dict.fromkeys(
         address for address in read if address[0] in file.schema.parameters and address[0] not in replaced
     )
-    errors = [finding for finding in Validator(file).run() if finding.severity == "error"]
+    validator = Validator(file)
+    errors = [finding for finding in validator.run() if finding.severity == "error"]
     own = [finding for finding in errors if not addresses.keys().isdisjoint(finding.addresses)]
     said = [finding.message for finding in own[:MOST]]
-    if len(errors) > len(said):
-        others = len(errors) - len(said)
+    others = len(own[MOST:]) + sum(
+        f.severity == "error" and f not in own for f in present(validator, validator.findings()).findings
+    )
+    if others:
         said.append(
             f"The file has {others} other error{'s' if others > 1 else ''}: validate it before this result is trusted"
         )

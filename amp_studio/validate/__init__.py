@@ -22,7 +22,6 @@ if TYPE_CHECKING:
     from .plausible.earlier import Earlier
     from .result_check import ResultCheck
     from .rule_file import GENERAL_RULES, read_builder_rules, suppress
-    from .summary import FileSummary, summary_of
     from .validator import Validator
 else:
     __getattr__ = front_page(__name__)

@@ -8,7 +8,7 @@ import pytest
 
 from amp_studio.files import ParameterFile, new_file, open_file
 from amp_studio.files.example_files import examples_folder
-from amp_studio.guide import as_delivered
+from amp_studio.guide import present, progress
 from amp_studio.schema import Value, family_ids
 from amp_studio.validate import NOT_SET, Finding, Validator
 
@@ -16,9 +16,7 @@ from amp_studio.validate import NOT_SET, Finding, Validator
 def shown(file: ParameterFile) -> list[Finding]:
     """Return what is left of the findings without those about values as delivered."""
     validator = Validator(file)
-    findings = validator.run()
-    state = set(map(id, as_delivered(validator, findings).findings))
-    return [f for f in findings if f.rule != NOT_SET and id(f) not in state]
+    return [f for f in present(validator, validator.run()).findings if f.rule != NOT_SET]
 
 
 @pytest.mark.parametrize("family", family_ids())
@@ -30,8 +28,8 @@ def test_a_fresh_file_has_no_finding_with_axes_or_without(family: str) -> None:
 
 def test_what_is_as_delivered_has_its_steps() -> None:
     validator = Validator(new_file("acromill"))
-    state = as_delivered(validator, validator.run())
-    assert sum(f.severity == "warning" for f in state.findings) == 31
+    state = present(validator, validator.run())
+    assert sum(f.severity == "warning" for f in state.delivered) == 31
     assert state.steps == (2, 3, 4, 5, 8)
 
 
@@ -53,4 +51,5 @@ def test_once_somebody_has_begun_the_first_step_has_its_errors() -> None:
 @pytest.mark.parametrize("path", sorted(examples_folder().glob("*/*.amp")), ids=lambda path: path.stem)
 def test_a_complete_file_has_no_such_state(path: Path) -> None:
     validator = Validator(open_file(path).file)
-    assert as_delivered(validator, validator.run()).findings == ()
+    assert present(validator, validator.run()).delivered == ()
+    assert progress(validator).deferred == ()

@@ -255,3 +255,20 @@ def test_the_project_is_shown_in_its_place(fresh: MainWindow) -> None:
     other = QLabel("another")
     left.set_project_tree(other)
     assert other.isVisible()
+
+
+def test_a_fresh_file_is_calm_wherever_one_looks(
+    open_window: Callable[..., MainWindow], tmp_path: Path
+) -> None:
+    """What is wrong with printed defaults is a state: no finding, no mark in a cell; the parameter panel has it."""
+    window, hardware = open_window(), ("servo.hardware_type", "1")
+    file = new_file("9pc", "mill", ["X", "Y", "Z"])
+    window.show_workspace(Workspace(Document.create(file, tmp_path / "new.amp")))
+    window.go_to(hardware)
+    assert window.workspace.count("error") == 0
+    assert window.table.values.worst == {}
+    assert "as delivered, to be set in steps" in window.findings.note.text()
+    assert "As delivered:" in window.detail.page.toPlainText()
+    window.workspace.edit("begin", {("home.position", "1"): Value(1.0, "mm")})
+    assert window.workspace.count("error") == 6
+    assert window.table.values.worst[hardware] == "error"

@@ -16,9 +16,11 @@ from typing import Any, NamedTuple
 from urllib.parse import quote_from_bytes
 
 from amp_studio.files import value_lines
+from amp_studio.guide import Present
 from amp_studio.report import (
     alike,
     counted,
+    delivered_text,
     finding_json,
     finding_parts,
     same_finding_text,
@@ -56,15 +58,17 @@ class FileFindings:
 
     path: Path
     validator: Validator
-    findings: Sequence[Finding]
+    present: Present
+    """Its findings, and apart from them what is as delivered."""
     why: bool
     """Whether each finding is explained."""
-    delivered: Sequence[Finding] = ()
-    """Findings about values as delivered, of steps that are not reached: a state of the file."""
-    steps: Sequence[int] = ()
-    """The numbers of these steps."""
     motion: object = None
     """What the check of the motion found, where it was asked for: text, or a part of the JSON document."""
+
+    @property
+    def findings(self) -> tuple[Finding, ...]:
+        """What was found in the file."""
+        return self.present.findings
 
     @property
     def counts(self) -> dict[str, int]:
@@ -77,16 +81,6 @@ class FileFindings:
         text = ", ".join(counted(count, severity) for severity, count in self.counts.items())
         suppressed = len(self.validator.suppressed)
         return f"{self.path}: {text}" + (f", {suppressed} suppressed" if suppressed else "")
-
-    @property
-    def state(self) -> str:
-        """How much is as delivered and to be set in later steps, in words; "" for nothing."""
-        counts = [(s, sum(f.severity == s for f in self.delivered)) for s in SEVERITIES]
-        text = ", ".join(counted(count, severity) for severity, count in counts if count)
-        steps = (
-            f"step {self.steps[0]}" if len(self.steps) == 1 else f"steps {', '.join(map(str, self.steps))}"
-        )
-        return f"as delivered, to be set in {steps} of commissioning: {text}" if text else ""
 
     def message(self, finding: Finding) -> str:
         """Return a finding in one line: what it is about, its page and its fix."""
@@ -127,8 +121,8 @@ class CheckFormat:
                 yield from _reasons(validator, same)
         for left in validator.suppressed:
             yield suppressed_text(validator.file, left)
-        if checked.state:
-            yield checked.state
+        if state := delivered_text(checked.present.delivered, checked.present.steps):
+            yield state
         yield checked.summary
         if checked.motion:
             yield str(checked.motion)
@@ -160,7 +154,7 @@ class JsonFormat(CheckFormat):
                     finding_json(file, s.finding) | {"by": s.suppression.by, "reason": s.suppression.reason}
                     for s in checked.validator.suppressed
                 ],
-                "delivered": [self._finding(checked, f) for f in checked.delivered],
+                "delivered": [self._finding(checked, f) for f in checked.present.delivered],
                 **({} if checked.motion is None else {"motion": checked.motion}),
             }
         )

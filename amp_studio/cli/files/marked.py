@@ -34,9 +34,10 @@ def with_marks(file: ParameterFile, path: Path, found: Sequence[Meant], wanted: 
 
     marks = ValueMarks(file)
     if "findings" in wanted:
+        from amp_studio.guide import found_in
         from amp_studio.validate import Validator, rules_beside
 
-        marks.take_findings(Validator(file, rules_beside(path, file)).run())
+        marks.take_findings(found_in(Validator(file, rules_beside(path, file))))
     if "since-download" in wanted:
         from amp_studio.transfer.client import last_download
 

@@ -321,7 +321,7 @@ class Workspace(QObject):
         self.changed.emit([])
 
     def findings_of(self, address: Address) -> tuple[Finding, ...]:
-        """Return the findings about one address."""
+        """Return the findings about one address, deferred ones too."""
         return tuple(f for f in self.findings if address in f.addresses)
 
     def effective(self) -> dict[Address, Value]:

@@ -21,10 +21,10 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
-from amp_studio.report import finding_axes
+from amp_studio.report import delivered_text, finding_axes
 from amp_studio.ui.base.modal import pop_up
 from amp_studio.ui.base.theme import FINDING_ROW, GAP2, colour, font, icon, paint_icon, severity_icon
-from amp_studio.ui.base.translated import counted
+from amp_studio.ui.base.translated import counted, worded
 from amp_studio.ui.base.workspace import Workspace
 from amp_studio.ui.forms.segment import Segment, chip
 from amp_studio.validate import NOT_SET, SEVERITIES, Finding, not_set
@@ -306,9 +306,11 @@ class FindingsPanel(QWidget):
             made.setToolTip(self.tr("{count}; press to leave them out or list them again").format(count=text))
         self.suppressed.setText(self.tr("{number} suppressed").format(number=suppressed))
         self.suppressed.setVisible(suppressed > 0)
-        self.note.setText(
-            self.tr("{number} of later steps left out").format(number=waiting) if waiting else ""
-        )
+        now = self._workspace.progress
+        steps = ", ".join(map(str, now.deferred_to))
+        text = self.tr("{number} as delivered, to be set in steps {steps}", "", len(now.deferred_to))
+        self.note.setText(text.format(number=waiting, steps=steps) if waiting else "")
+        self.note.setToolTip(worded(delivered_text(now.deferred, now.deferred_to)))
         self.several.setEnabled(self._workspace.may_edit and any(finding.fix for finding in reached))
 
     def _say_why_empty(self, number: int) -> None:

@@ -9,8 +9,8 @@ from pathlib import Path
 
 from PySide6.QtCore import QObject, Signal
 
+from amp_studio.guide import FileSummary, summary_of
 from amp_studio.ui.base.task import Task, TaskProgress
-from amp_studio.validate import FileSummary, summary_of
 
 
 class FileSummaries(QObject):

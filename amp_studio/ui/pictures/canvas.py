@@ -112,7 +112,7 @@ class PictureCanvas(QWidget):
         """Follow the findings, worst first."""
         drawn = set(self.scene.drawn_from)
         self._causes, self._about = {}, {}
-        for finding in self._workspace.findings:
+        for finding in self._workspace.listed:
             for address in drawn.intersection(finding.addresses):
                 self._about.setdefault(address, finding)
                 if address in finding.causes:

@@ -12,6 +12,7 @@ from PySide6.QtGui import QBrush
 from PySide6.QtWidgets import QDialog, QHeaderView, QLabel, QTreeWidget, QTreeWidgetItem, QVBoxLayout, QWidget
 
 from amp_studio.files import ParameterFileError, open_file
+from amp_studio.guide import found_in
 from amp_studio.schema import Address
 from amp_studio.ui.base.task import TaskProgress
 from amp_studio.ui.base.theme import severity_icon, severity_ink
@@ -53,7 +54,7 @@ def _checked(path: Path) -> CheckedFile:
         file = open_file(path).file
     except ParameterFileError as fault:
         return CheckedFile(path, fault=str(fault))
-    findings = Validator(file, rules_beside(path, file)).run()
+    findings = found_in(Validator(file, rules_beside(path, file)))
     labels = tuple(file.machine_schema.label(f.addresses[0]) if f.addresses else "" for f in findings)
     return CheckedFile(path, findings, labels)
 

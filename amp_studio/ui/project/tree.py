@@ -12,6 +12,7 @@ from PySide6.QtCore import QEvent, QFileSystemWatcher, QObject, QPoint, Qt, QTim
 from PySide6.QtGui import QDragEnterEvent, QDropEvent, QHideEvent, QKeyEvent, QShowEvent
 from PySide6.QtWidgets import QHBoxLayout, QMenu, QPushButton, QTreeWidgetItem, QVBoxLayout, QWidget
 
+from amp_studio.guide import FileSummary
 from amp_studio.ui.base.modal import pop_up
 from amp_studio.ui.base.task import Task
 from amp_studio.ui.base.theme import GAP2
@@ -19,7 +20,6 @@ from amp_studio.ui.base.time_words import in_words
 from amp_studio.ui.forms.folder_view import show_in_folder
 from amp_studio.ui.forms.place_tree import COUNTS, INK, KEY, PICTURE, RIGHT, PlaceTree
 from amp_studio.ui.page.file_page import FilePage
-from amp_studio.validate import FileSummary
 
 from .files import ProjectFiles
 

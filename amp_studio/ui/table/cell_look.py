@@ -188,7 +188,7 @@ class ShownValues(Translated):
     def find_findings(self) -> None:
         """Take the severities and effective values of the present findings."""
         worst: dict[Address, str] = {}
-        for finding in self.workspace.findings:  # errors come first
+        for finding in self.workspace.listed:  # errors come first
             if finding.rule != NOT_SET:
                 for address in finding.causes:
                     worst.setdefault(address, finding.severity)

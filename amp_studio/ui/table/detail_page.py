@@ -168,7 +168,11 @@ class DetailPage(Translated):
                 if finding.cited
                 else ""
             )
-            mark = f"{severity_html(finding.severity)} <b>{worded(severity_name(finding.severity)).capitalize()}:</b>"
+            if workspace.is_deferred(finding):
+                mark = f"<b>{self.tr('As delivered:')}</b>"
+            else:
+                name = worded(severity_name(finding.severity)).capitalize()
+                mark = f"{severity_html(finding.severity)} <b>{name}:</b>"
             lines.append(f"<p>{mark} {html.escape(finding.message)}{cited}</p>")
         rules = workspace.validator.rules_of(address)
         unmet = {finding.rule for finding in broken}

@@ -190,7 +190,7 @@ class DetailPanel(QWidget):
         severities = {
             f.severity
             for f in self._workspace.findings_of(address)
-            if f.rule != NOT_SET and address in f.causes
+            if f.rule != NOT_SET and address in f.causes and not self._workspace.is_deferred(f)
         }
         worst = next((severity for severity in SEVERITIES if severity in severities), "")
         value, default = (_number(v, unit) for v in (file.get(address), file.default(address)))

@@ -169,7 +169,7 @@ class FilterBar(QWidget):
         self._count_later()
 
     def _take_state(self) -> None:
-        self.marks.take_findings(self._workspace.findings)
+        self.marks.take_findings(self._workspace.listed)
         self.marks.saved = self._workspace.document.saved
         self.marks.noted = noted(self._workspace.file)
 

@@ -986,6 +986,10 @@ Die nummerierten Parameter von Maschinensteuerungen: bearbeiten, prüfen, drucke
             <translation>Hier erlaubt:</translation>
         </message>
         <message>
+            <source>As delivered:</source>
+            <translation>Wie ausgeliefert:</translation>
+        </message>
+        <message>
             <source>Calculate…</source>
             <translation>Berechnen…</translation>
         </message>
@@ -2962,9 +2966,12 @@ Die ungespeicherte Arbeit wiederherstellen? Das lässt sich zurücknehmen.</tran
             <source>{number} suppressed</source>
             <translation>{number} unterdrückt</translation>
         </message>
-        <message>
-            <source>{number} of later steps left out</source>
-            <translation>{number} späterer Schritte ausgelassen</translation>
+        <message numerus="yes">
+            <source>{number} as delivered, to be set in steps {steps}</source>
+            <translation>
+                <numerusform>{number} wie ausgeliefert, zu setzen in Schritt {steps}</numerusform>
+                <numerusform>{number} wie ausgeliefert, zu setzen in den Schritten {steps}</numerusform>
+            </translation>
         </message>
         <message>
             <source>No findings with these filters.</source>

@@ -153,6 +153,16 @@
         </message>
     </context>
     <context>
+        <name>FindingsPanel</name>
+        <message numerus="yes">
+            <source>{number} as delivered, to be set in steps {steps}</source>
+            <translation>
+                <numerusform>{number} as delivered, to be set in step {steps}</numerusform>
+                <numerusform>{number} as delivered, to be set in steps {steps}</numerusform>
+            </translation>
+        </message>
+    </context>
+    <context>
         <name>GroupList</name>
         <message numerus="yes">
             <source>%n values not set</source>

@@ -265,17 +265,9 @@ def _in_motion(file: ParameterFile, *, as_document: bool) -> tuple[object, int]:
 def _checked(path: Path, validator: Validator, why: bool) -> FileFindings:
     """Return the findings of a file, apart from those about values as delivered, of steps that are not reached."""
     from amp_studio.cli.checks.formats import FileFindings
-    from amp_studio.validate import NOT_SET
+    from amp_studio.guide import present
 
-    findings = validator.run()
-    if not validator.not_set or all(finding.rule == NOT_SET for finding in findings):
-        return FileFindings(path, validator, findings, why)
-    from amp_studio.guide import as_delivered  # most files are complete
-
-    state = as_delivered(validator, findings)
-    deferred = set(map(id, state.findings))
-    shown = tuple(finding for finding in findings if id(finding) not in deferred)
-    return FileFindings(path, validator, shown, why, state.findings, state.steps)
+    return FileFindings(path, validator, present(validator, validator.run()), why)
 
 
 def _own_rules(options: Options, path: Path, file: ParameterFile) -> BuilderRules:

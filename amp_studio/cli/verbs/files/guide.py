@@ -237,7 +237,7 @@ def _shown(value: OpenValue) -> str:
 
 
 def _overview(file: ParameterFile, come: GuideProgress, path: Path) -> Iterator[str]:
-    from amp_studio.report import counted, open_value
+    from amp_studio.report import delivered_text, open_value
 
     yield f"{path}: {come.done} of {len(come.needed)} steps done, {come.set} of {come.total} values set"
     order = file.schema.commissioning
@@ -252,7 +252,7 @@ def _overview(file: ParameterFile, come: GuideProgress, path: Path) -> Iterator[
             if len(each.open) > _MOST:
                 yield f"        and {len(each.open) - _MOST} more"
     if come.deferred:
-        yield f"{counted(len(come.deferred), 'finding')} of later steps left out here; validate --json lists them"
+        yield f"{delivered_text(come.deferred, come.deferred_to)}; validate --json lists them"
 
 
 def _step_line(each: StepProgress, width: int) -> str:

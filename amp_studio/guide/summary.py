@@ -8,9 +8,9 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from amp_studio.files import axis_letter, fitted_axes, open_file
+from amp_studio.validate import Validator, rules_beside
 
-from .beside import rules_beside
-from .validator import Validator
+from .delivered import found_in
 
 
 @dataclass(frozen=True)
@@ -35,7 +35,7 @@ def summary_of(path: Path) -> FileSummary:
     file = open_file(path).file
     family = file.schema.family
     names = {m.key: m.name for m in family.machines}
-    findings = Validator(file, rules_beside(path, file)).run()
+    findings = found_in(Validator(file, rules_beside(path, file)))
     return FileSummary(
         name=file.header.name,
         family=family.family,

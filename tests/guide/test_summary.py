@@ -8,8 +8,8 @@ import pytest
 
 from amp_studio.files import ParameterFileError, content_of, new_file
 from amp_studio.files.example_files import examples
+from amp_studio.guide.summary import summary_of
 from amp_studio.schema import Value
-from amp_studio.validate.summary import summary_of
 
 
 @pytest.mark.parametrize(
