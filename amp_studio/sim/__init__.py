@@ -14,6 +14,7 @@ from amp_studio.front_pages import front_page
 from . import one_thread as one_thread
 
 if TYPE_CHECKING:
+    from .axis.file_machine import FileMachine
     from .axis.motion import Motion, Until, run_axis
     from .axis.simulated_machine import SimulatedAxis, SimulatedMachine
     from .axis_parameters import AxisParameters, ParameterValue

@@ -24,7 +24,7 @@ from amp_studio.transfer.links import Endpoint, Link, LinkError, Listener, liste
 
 from .control import Control
 from .faults import Faults, FaultyLine, arm
-from .panel import OperatorPanel, PlainPanel, Start
+from .panel import OperatorPanel, PlainPanel, Start, TimedPanel
 from .responder import CHUNK, WINDOW, Responder
 
 RESTART_SECONDS = 0.5
@@ -101,6 +101,7 @@ class Emulator:
         self._restart_due = False
         self._back_at: float | None = None  # when a restart ends
         self._clock, self._sleep = clock, sleep
+        self._now = clock()
         arm(control, faults)
 
     def command(self, line: str) -> None:
@@ -120,6 +121,9 @@ class Emulator:
 
     def turn(self) -> None:
         """Do what the operator asks for, and give each client its turn; waits 0.05 s at most for something to do."""
+        if isinstance(self._panel, TimedPanel):
+            before, self._now = self._now, self._clock()
+            self._panel.advance(self._control, self._now - before)
         self._obey()
         if self._restart_due:
             self._restart_due = False

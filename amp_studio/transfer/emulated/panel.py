@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Protocol
+from typing import Protocol, runtime_checkable
 
 from .control import Control
 
@@ -31,6 +31,14 @@ class OperatorPanel(Protocol):
 
     def command(self, control: Control, verb: str, rest: str) -> str | None:
         """Do an operator's command and return what he reads; None for one of others. Raises ValueError, RefusalError, OSError."""
+
+
+@runtime_checkable
+class TimedPanel(Protocol):
+    """A panel behind which a machine moves."""
+
+    def advance(self, control: Control, duration: float) -> None:
+        """Let a time pass, s; called before anything else of a turn."""
 
 
 class PlainPanel:

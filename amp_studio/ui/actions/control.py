@@ -32,6 +32,7 @@ from .tuning import tune
 
 if TYPE_CHECKING:
     from amp_studio.transfer.client import Copy
+    from amp_studio.ui.control.live import LivePage
 
 COPIES = "Backups of a control (*.img *.before-*.amp);;All files (*)"
 
@@ -52,6 +53,7 @@ class ControlDesk(Translated):
         self._page: ControlPage | None = None
         self._sessions: dict[tuple[str, str, str], ControlSession] = {}
         """Address, family and file -> its exchanges."""
+        self._live: LivePage | None = None
         self.exchanges.show_page = lambda: self.show("compare")
         files.comparing.address_of = self.exchanges.chosen_address
         self.emulated.ready.connect(self._ready)
@@ -64,6 +66,28 @@ class ControlDesk(Translated):
         action.setIconText(f"{name}  {state}" if self.exchanges.address_of(self.window.workspace) else name)
         action.setToolTip(self.tr("{name}: {state} (Alt+0)").format(name=name, state=state))
         action.setIcon(icon("warning-fill", "warn") if warns else icon("cpu"))
+
+    def live(self) -> None:
+        """Show what the control of the file in front states of itself now; raises ValueError while something is sent."""
+        from amp_studio.ui.control.live import LivePage
+
+        if self.is_sending:
+            raise ValueError(self.tr("Something is being sent to a control: look at it afterwards."))
+        workspace = self.window.workspace_in_front
+        address = self.exchanges.chosen_address()
+        if address is None:
+            return
+        if self._live is not None:
+            self._live.close()
+        family = workspace.file.schema.family.family
+        page = self._live = LivePage(address, family, self.window.follow, self.window)
+        page.show()
+        page.start()
+
+    def _end_live(self, session: ControlSession) -> None:
+        """End the readings before an exchange takes the line."""
+        if self._live is not None and session.is_busy:
+            self._live.stop(self.tr("Stopped: an exchange is under way."))
 
     # -- the emulated control --------------------------------------------------
 
@@ -107,6 +131,8 @@ class ControlDesk(Translated):
         """Stop the emulated control."""
         for session in self._sessions.values():
             session.cancel()
+        if self._live is not None:
+            self._live.close()
         if self._page is not None:
             self._page.several.stop_all()
         self.emulated.ended.disconnect(self._ended)
@@ -191,6 +217,7 @@ class ControlDesk(Translated):
         if session is None:
             session = self._sessions[key] = ControlSession(address, family, self.window)
             session.ended.connect(partial(self._ended_exchange, session, workspace))
+            session.changed.connect(partial(self._end_live, session))
         self.page.use(session, self._name_of(address))
         self._follow()
 

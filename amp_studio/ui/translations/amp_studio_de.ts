@@ -364,6 +364,10 @@
             <translation>Aus&amp;tausch dieser Datei…</translation>
         </message>
         <message>
+            <source>&amp;Live…</source>
+            <translation>&amp;Live…</translation>
+        </message>
+        <message>
             <source>&amp;Tuning…</source>
             <translation>&amp;Abgleich…</translation>
         </message>
@@ -993,12 +997,20 @@ Die nummerierten Parameter von Maschinensteuerungen: bearbeiten, prüfen, drucke
             <source>Calculate…</source>
             <translation>Berechnen…</translation>
         </message>
+        <message>
+            <source>Cause:</source>
+            <translation>Ursache:</translation>
+        </message>
         <message numerus="yes">
             <source>Conflicts left: %n</source>
             <translation>
                 <numerusform>Noch %n Konflikt</numerusform>
                 <numerusform>Noch %n Konflikte</numerusform>
             </translation>
+        </message>
+        <message>
+            <source>Cure:</source>
+            <translation>Abhilfe:</translation>
         </message>
         <message>
             <source>Facts</source>
@@ -1019,6 +1031,10 @@ Die nummerierten Parameter von Maschinensteuerungen: bearbeiten, prüfen, drucke
         <message>
             <source>Page {pages}</source>
             <translation>Seite {pages}</translation>
+        </message>
+        <message>
+            <source>Parameters:</source>
+            <translation>Parameter:</translation>
         </message>
         <message>
             <source>Show all</source>
@@ -1464,89 +1480,6 @@ Die nummerierten Parameter von Maschinensteuerungen: bearbeiten, prüfen, drucke
         </message>
     </context>
     <context>
-        <name>AtControl</name>
-        <message>
-            <source>{name}: {state} (Alt+0)</source>
-            <translation>{name}: {state} (Alt+0)</translation>
-        </message>
-        <message>
-            <source>Starting an emulated control …</source>
-            <translation>Eine nachgebildete Steuerung wird gestartet …</translation>
-        </message>
-        <message>
-            <source>Emulated control at {address}, in E-stop</source>
-            <translation>Nachgebildete Steuerung an {address}, im Not-Halt</translation>
-        </message>
-        <message>
-            <source>The emulated control stopped: {output}</source>
-            <translation>Die nachgebildete Steuerung endete: {output}</translation>
-        </message>
-        <message>
-            <source>Emulated control stopped</source>
-            <translation>Nachgebildete Steuerung beendet</translation>
-        </message>
-        <message>
-            <source>Emulated control: {line}</source>
-            <translation>Nachgebildete Steuerung: {line}</translation>
-        </message>
-        <message>
-            <source>Read</source>
-            <translation>Auslesen</translation>
-        </message>
-        <message>
-            <source>Restore</source>
-            <translation>Wiederherstellen</translation>
-        </message>
-        <message>
-            <source>Enter Values by Hand</source>
-            <translation>Werte von Hand eingeben</translation>
-        </message>
-        <message>
-            <source>Connect</source>
-            <translation>Verbinden</translation>
-        </message>
-        <message>
-            <source>Emulated control</source>
-            <translation>Nachgebildete Steuerung</translation>
-        </message>
-        <message>
-            <source>emulated</source>
-            <translation>nachgebildet</translation>
-        </message>
-        <message>
-            <source>Control</source>
-            <translation>Steuerung</translation>
-        </message>
-        <message>
-            <source>none chosen</source>
-            <translation>keine gewählt</translation>
-        </message>
-        <message>
-            <source>Opening</source>
-            <translation>Öffnen</translation>
-        </message>
-        <message>
-            <source>Upload cancelled. No file was written.</source>
-            <translation>Auslesen abgebrochen. Keine Datei wurde geschrieben.</translation>
-        </message>
-        <message>
-            <source>Save upload as</source>
-            <translation>Ausgelesenes speichern unter</translation>
-        </message>
-        <message>
-            <source>Upload</source>
-            <translation>Auslesen</translation>
-        </message>
-        <message>
-            <source>{error}.
-
-Choose another name.</source>
-            <translation>{error}.
-
-Einen anderen Namen wählen.</translation>
-        </message>
-    </context>
-    <context>
         <name>AxisComparison</name>
         <message>
             <source>Compare axes</source>
@@ -1905,6 +1838,97 @@ Einen anderen Namen wählen.</translation>
         <message>
             <source>Conditions</source>
             <translation>Bedingungen</translation>
+        </message>
+    </context>
+    <context>
+        <name>ControlDesk</name>
+        <message>
+            <source>{name}: {state} (Alt+0)</source>
+            <translation>{name}: {state} (Alt+0)</translation>
+        </message>
+        <message>
+            <source>Something is being sent to a control: look at it afterwards.</source>
+            <translation>Es wird gerade etwas an eine Steuerung gesendet: danach ansehen.</translation>
+        </message>
+        <message>
+            <source>Stopped: an exchange is under way.</source>
+            <translation>Angehalten: ein Austausch läuft.</translation>
+        </message>
+        <message>
+            <source>Starting an emulated control …</source>
+            <translation>Eine nachgebildete Steuerung wird gestartet …</translation>
+        </message>
+        <message>
+            <source>Emulated control at {address}, in E-stop</source>
+            <translation>Nachgebildete Steuerung an {address}, im Not-Halt</translation>
+        </message>
+        <message>
+            <source>The emulated control stopped: {output}</source>
+            <translation>Die nachgebildete Steuerung endete: {output}</translation>
+        </message>
+        <message>
+            <source>Emulated control stopped</source>
+            <translation>Nachgebildete Steuerung beendet</translation>
+        </message>
+        <message>
+            <source>Emulated control: {line}</source>
+            <translation>Nachgebildete Steuerung: {line}</translation>
+        </message>
+        <message>
+            <source>Read</source>
+            <translation>Auslesen</translation>
+        </message>
+        <message>
+            <source>Restore</source>
+            <translation>Wiederherstellen</translation>
+        </message>
+        <message>
+            <source>Enter Values by Hand</source>
+            <translation>Werte von Hand eingeben</translation>
+        </message>
+        <message>
+            <source>Connect</source>
+            <translation>Verbinden</translation>
+        </message>
+        <message>
+            <source>Emulated control</source>
+            <translation>Nachgebildete Steuerung</translation>
+        </message>
+        <message>
+            <source>emulated</source>
+            <translation>nachgebildet</translation>
+        </message>
+        <message>
+            <source>Control</source>
+            <translation>Steuerung</translation>
+        </message>
+        <message>
+            <source>none chosen</source>
+            <translation>keine gewählt</translation>
+        </message>
+        <message>
+            <source>Opening</source>
+            <translation>Öffnen</translation>
+        </message>
+        <message>
+            <source>Upload cancelled. No file was written.</source>
+            <translation>Auslesen abgebrochen. Keine Datei wurde geschrieben.</translation>
+        </message>
+        <message>
+            <source>Save upload as</source>
+            <translation>Ausgelesenes speichern unter</translation>
+        </message>
+        <message>
+            <source>Upload</source>
+            <translation>Auslesen</translation>
+        </message>
+        <message>
+            <source>{error}.
+
+Choose another name.</source>
+            <translation>{error}.
+
+Einen anderen Namen wählen.</translation>
         </message>
     </context>
     <context>
@@ -2891,6 +2915,13 @@ Die ungespeicherte Arbeit wiederherstellen? Das lässt sich zurücknehmen.</tran
         </message>
     </context>
     <context>
+        <name>FindSearch</name>
+        <message>
+            <source>Find</source>
+            <translation>Finden</translation>
+        </message>
+    </context>
+    <context>
         <name>FindingList</name>
         <message>
             <source>New findings in the result</source>
@@ -3264,6 +3295,85 @@ Die ungespeicherte Arbeit wiederherstellen? Das lässt sich zurücknehmen.</tran
         <message>
             <source>Project</source>
             <translation>Projekt</translation>
+        </message>
+    </context>
+    <context>
+        <name>LivePage</name>
+        <message>
+            <source>Live: {address}</source>
+            <translation>Live: {address}</translation>
+        </message>
+        <message>
+            <source>No readings yet.</source>
+            <translation>Noch keine Werte.</translation>
+        </message>
+        <message>
+            <source>Reads only: nothing is written to the control.</source>
+            <translation>Liest nur: in die Steuerung wird nichts geschrieben.</translation>
+        </message>
+        <message>
+            <source>Axis</source>
+            <translation>Achse</translation>
+        </message>
+        <message>
+            <source>Position</source>
+            <translation>Position</translation>
+        </message>
+        <message>
+            <source>Following error</source>
+            <translation>Schleppfehler</translation>
+        </message>
+        <message>
+            <source>Velocity</source>
+            <translation>Geschwindigkeit</translation>
+        </message>
+        <message>
+            <source>Status</source>
+            <translation>Zustand</translation>
+        </message>
+        <message>
+            <source>Axes of the control</source>
+            <translation>Achsen der Steuerung</translation>
+        </message>
+        <message>
+            <source>Faults of the control</source>
+            <translation>Fehler der Steuerung</translation>
+        </message>
+        <message>
+            <source>Axis whose following error is drawn</source>
+            <translation>Achse, deren Schleppfehler gezeichnet wird</translation>
+        </message>
+        <message>
+            <source>Following error over time, a dot for each reading</source>
+            <translation>Schleppfehler über der Zeit, ein Punkt je Ablesung</translation>
+        </message>
+        <message>
+            <source>&amp;Start</source>
+            <translation>&amp;Starten</translation>
+        </message>
+        <message>
+            <source>&amp;Close</source>
+            <translation>Sch&amp;ließen</translation>
+        </message>
+        <message>
+            <source>&amp;Stop</source>
+            <translation>An&amp;halten</translation>
+        </message>
+        <message>
+            <source>Stopped.</source>
+            <translation>Angehalten.</translation>
+        </message>
+        <message>
+            <source>No answer for 2 s: the figures below are the last ones.</source>
+            <translation>Seit 2 s keine Antwort: die Werte darunter sind die letzten.</translation>
+        </message>
+        <message>
+            <source>Stopped: the control has a fault.</source>
+            <translation>Angehalten: die Steuerung hat einen Fehler.</translation>
+        </message>
+        <message>
+            <source> (page {page})</source>
+            <translation> (Seite {page})</translation>
         </message>
     </context>
     <context>
@@ -4593,45 +4703,6 @@ Die ungespeicherte Arbeit wiederherstellen? Das lässt sich zurücknehmen.</tran
         </message>
     </context>
     <context>
-        <name>Preview</name>
-        <message>
-            <source>Smaller (-)</source>
-            <translation>Kleiner (-)</translation>
-        </message>
-        <message>
-            <source>Larger (+)</source>
-            <translation>Größer (+)</translation>
-        </message>
-        <message>
-            <source>Fit the width (0)</source>
-            <translation>Auf volle Breite (0)</translation>
-        </message>
-        <message>
-            <source>Turn to the value that is selected in the table</source>
-            <translation>Zu dem Wert blättern, der in der Tabelle gewählt ist</translation>
-        </message>
-        <message>
-            <source>Export…</source>
-            <translation>Exportieren…</translation>
-        </message>
-        <message>
-            <source>Export</source>
-            <translation>Exportieren</translation>
-        </message>
-        <message>
-            <source>Print…</source>
-            <translation>Drucken…</translation>
-        </message>
-        <message>
-            <source>Print</source>
-            <translation>Drucken</translation>
-        </message>
-        <message>
-            <source>Close (Ctrl+5)</source>
-            <translation>Schließen (Strg+5)</translation>
-        </message>
-    </context>
-    <context>
         <name>PreviewHead</name>
         <message>
             <source>Report</source>
@@ -5153,6 +5224,45 @@ Hier erlaubt: {allowed}</translation>
         </message>
     </context>
     <context>
+        <name>ReportPreview</name>
+        <message>
+            <source>Smaller (-)</source>
+            <translation>Kleiner (-)</translation>
+        </message>
+        <message>
+            <source>Larger (+)</source>
+            <translation>Größer (+)</translation>
+        </message>
+        <message>
+            <source>Fit the width (0)</source>
+            <translation>Auf volle Breite (0)</translation>
+        </message>
+        <message>
+            <source>Turn to the value that is selected in the table</source>
+            <translation>Zu dem Wert blättern, der in der Tabelle gewählt ist</translation>
+        </message>
+        <message>
+            <source>Export…</source>
+            <translation>Exportieren…</translation>
+        </message>
+        <message>
+            <source>Export</source>
+            <translation>Exportieren</translation>
+        </message>
+        <message>
+            <source>Print…</source>
+            <translation>Drucken…</translation>
+        </message>
+        <message>
+            <source>Print</source>
+            <translation>Drucken</translation>
+        </message>
+        <message>
+            <source>Close (Ctrl+5)</source>
+            <translation>Schließen (Strg+5)</translation>
+        </message>
+    </context>
+    <context>
         <name>ResultBar</name>
         <message>
             <source>&amp;Report…</source>
@@ -5197,13 +5307,6 @@ Hier erlaubt: {allowed}</translation>
         <message>
             <source>Parameters</source>
             <translation>Parameter</translation>
-        </message>
-    </context>
-    <context>
-        <name>Search</name>
-        <message>
-            <source>Find</source>
-            <translation>Finden</translation>
         </message>
     </context>
     <context>

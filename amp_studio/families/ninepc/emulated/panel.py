@@ -15,6 +15,7 @@ from amp_studio.transfer import ImageError, decode_image, patch_image
 from amp_studio.transfer.emulated import Control, Start
 from amp_studio.transfer.house import Flags
 
+from .machine_keys import MachineKeys
 from .online_amp import OnlineAmp
 from .power_up import CORRECTED, MOST_AXES, corrected_limits, held_in_estop
 
@@ -38,11 +39,12 @@ def axes_supported(hardware: Mapping[str, str]) -> int:
 class NinePcPanel:
     """What an operator sees and does at a 9/PC that supports so many axes."""
 
-    words = f"password WORD, patch-amp WORD, search NUMBER, replace NUMBER VALUE, update, leave, can, messages, {OnlineAmp.words}"
+    words = f"password WORD, patch-amp WORD, search NUMBER, replace NUMBER VALUE, update, leave, can, messages, {OnlineAmp.words}, {MachineKeys.words}"
 
     def __init__(self, axes: int = MOST_AXES) -> None:
         self._axes = axes
         self._online = OnlineAmp()
+        self._keys = MachineKeys()
         self._has_level_0 = False
         self._edited: bytes | None = None
         """The copy of AMP that is edited; None while Patch AMP is not on the screen."""
@@ -54,6 +56,7 @@ class NinePcPanel:
         """Return the messages of a power-up and why E-Stop stays; nobody is logged on after it (assumed)."""
         self._has_level_0, self._edited = False, None
         self._online.started()
+        self._keys.started()
         self._messages = []
         if control.is_as_delivered:  # it is not configured yet: the manual names all of this after a download
             return Start()
@@ -68,6 +71,10 @@ class NinePcPanel:
             self._messages += _corrections(file)
             held = list(held_in_estop(file, self._axes))
         return Start(tuple(self._messages), "; ".join(held))
+
+    def advance(self, control: Control, duration: float) -> None:
+        """Let time pass, s: the axes move."""
+        self._keys.advance(control, duration)
 
     # -- at the keys -----------------------------------------------------------------
 
@@ -93,7 +100,8 @@ class NinePcPanel:
                 return "cleared"
             case "messages" if not rest:
                 return "; ".join(self._messages) or "no message"
-        return self._online.command(control, verb, rest)
+        moved = self._keys.command(control, verb, rest)
+        return self._online.command(control, verb, rest) if moved is None else moved
 
     def _password(self, control: Control, word: str) -> str:
         if word.ljust(_CHARACTERS) != _master_password(control):

@@ -13,6 +13,7 @@ from amp_studio.transfer.emulated import DeviceSetup, EmulatedOptions, serve_dev
 from amp_studio.transfer.links import Endpoint, Parity
 
 from .delivered import delivered_table
+from .manual_keys import VERBS, NumKeys
 from .parameter_memory import ParameterMemory, TableError, TableHeader, content_of
 
 XON, XOFF = 0x11, 0x13
@@ -26,7 +27,7 @@ PIECE = 128  # bytes it sends in one turn
 
 Doing = Literal["menu", "ready", "asking", "reading", "held", "sending"]
 Job = Literal["load", "unload", "verify"]
-COMMANDS = "load, unload, verify, enter, start, reference NNNNNNNN, comment TEXT, exit, parity none|even|odd, line BAUD STOP, patch P9N0=FF, reset, status, quit"
+COMMANDS = f"load, unload, verify, enter, start, reference NNNNNNNN, comment TEXT, exit, parity none|even|odd, line BAUD STOP, patch P9N0=FF, reset, status, quit, {NumKeys.words}"
 
 
 class NumControl:
@@ -35,6 +36,7 @@ class NumControl:
     def __init__(self, setup: DeviceSetup) -> None:
         self._say = setup.say
         self._parameters = ParameterMemory(setup.memory, delivered_table(setup.family))
+        self._keys = NumKeys(self._parameters)
         self._doing: Doing = "menu"
         self._job: Job = "load"
         self._parity: Parity = "even"
@@ -62,6 +64,10 @@ class NumControl:
 
     def connected(self) -> None:
         """Nobody connects to a serial line: what is under way goes on."""
+
+    def advance(self, duration: float) -> None:
+        """Let time pass, s: the axes move."""
+        self._keys.advance(duration)
 
     def line_set(self, baud: int, stop: int) -> None:
         """Compare how the client has set its end: another rate, or fewer stop bits than are awaited, make no characters."""
@@ -205,6 +211,8 @@ class NumControl:
     def command(self, line: str) -> str:
         """Press a key of the control, or set what its maker's menus set; returns what its screen shows."""
         verb, _, rest = line.partition(" ")
+        if verb in VERBS:
+            return self._keys.command(verb, rest)
         match verb:
             case "load" | "unload" | "verify" if not rest:
                 return self._select(verb)

@@ -1,0 +1,116 @@
+"""The machine behind the emulated 9/PC: the jog and home keys, MDI blocks, and what its position screen shows (chapters 5, 6 and 8).
+
+Commands are keys: ``jog X+ second`` goes on until ``release``, ``jog X+ increment third`` is one increment, ``manual-home X`` the home key (5-3),
+``mdi G28 X5``, ``mdi G0 X10 Y5`` and ``mdi G1 X10 F500`` a block, ``position`` the position screen. The house protocol shows no positions.
+"""
+
+from __future__ import annotations
+
+import re
+
+from amp_studio.families.ninepc.law import LAW
+from amp_studio.files import ParameterFile
+from amp_studio.sim import FileMachine, SimulationError, bind_axis
+from amp_studio.transfer import ImageError, decode_image
+from amp_studio.transfer.emulated import Control
+from amp_studio.transfer.house import Flags
+
+MUST_HOME, NOT_ALLOWED = "MUST HOME AXIS", "HOMING NOT ALLOWED"
+_WORD = re.compile(r"([A-Z])\s*([+-]?[0-9]*\.?[0-9]+)", re.IGNORECASE)
+_BLOCK = re.compile(r"G(0|00|1|01|28)((?:\s*[A-Z]\s*[+-]?[0-9]*\.?[0-9]+)+)\s*", re.IGNORECASE)
+
+
+class MachineKeys:
+    """What an operator moves at the control."""
+
+    words = "jog X+ [SPEED | increment NAME], release, manual-home AXIS, mdi G0 X10, position"
+
+    def __init__(self) -> None:
+        self._machine = FileMachine(LAW, bind_axis)
+        self._content = b""
+
+    def started(self) -> None:
+        """Begin as after a power-up: no axis is homed."""
+        self._machine.forget()
+        self._content = b""
+
+    def advance(self, control: Control, duration: float) -> None:
+        """Let time pass, s; E-stop takes the drives away."""
+        if control.flags & Flags.ESTOP:
+            self._machine.switch_off()
+        self._machine.advance(duration)
+
+    def command(self, control: Control, verb: str, rest: str) -> str | None:
+        """Do what a key does; None for other commands. Raises ValueError."""
+        if verb not in ("jog", "release", "manual-home", "mdi", "position"):
+            return None
+        if verb == "position":
+            return self._machine.screen()
+        if verb == "release":
+            self._machine.stop()
+            return "released"
+        try:
+            self._ready(control)
+            if verb == "jog":
+                return self._jog(rest.split())
+            if verb == "manual-home":
+                if self._machine.is_busy:
+                    raise ValueError(NOT_ALLOWED)
+                return f"homing {self._machine.home(rest.strip())}"
+            return self._mdi(rest)
+        except SimulationError as error:
+            raise ValueError(str(error)) from None
+
+    def _ready(self, control: Control) -> None:
+        if control.flags & Flags.ESTOP:
+            raise ValueError("the control is in E-stop")
+        if control.image != self._content:
+            self._machine.take(_file_of(control))
+            self._content = control.image
+        if not self._machine.is_busy:
+            self._machine.reset()
+
+    def _jog(self, words: list[str]) -> str:
+        match words:
+            case [key]:
+                speed = increment = ""
+            case [key, "increment", name]:
+                speed, increment = "", name
+            case [key, speed]:
+                increment = ""
+            case _:
+                raise ValueError(f"jog takes an axis with its direction: {self.words}")
+        if len(key) < 2 or key[-1] not in "+-":
+            raise ValueError("jog takes an axis with its direction, as X+ or X-")
+        return self._machine.jog(key[:-1], 1.0 if key[-1] == "+" else -1.0, speed, increment)
+
+    def _mdi(self, block: str) -> str:
+        found = _BLOCK.fullmatch(block.strip())
+        if found is None:
+            raise ValueError("of MDI blocks this control moves G0, G1 and G28 with axes and F")
+        words = {letter.upper(): float(figure) for letter, figure in _WORD.findall(found[2])}
+        feed = words.pop("F", None)
+        if found[1] == "28":
+            return self._reference(words)
+        if unhomed := [axis for axis in words if not self._machine.is_homed(axis)]:
+            raise ValueError(f"{MUST_HOME} {', '.join(unhomed)}")
+        is_feed = found[1] in ("1", "01")
+        if is_feed and not feed:
+            raise ValueError("G1 needs a feedrate F")
+        self._machine.move(words, feed / 60.0 if is_feed and feed else None)
+        return block.strip()
+
+    def _reference(self, words: dict[str, float]) -> str:
+        """Home what is not homed, else go over the point to the home position at rapid (5-13)."""
+        unhomed = [axis for axis in words if not self._machine.is_homed(axis)]
+        if unhomed:
+            return f"homing {', '.join(self._machine.home(axis) for axis in unhomed)}"
+        self._machine.move(words, None, {axis: self._machine.home_position(axis) for axis in words})
+        return f"to the home position of {', '.join(words)}"
+
+
+def _file_of(control: Control) -> ParameterFile:
+    try:
+        return decode_image(control.image)
+    except ImageError as error:
+        raise ValueError(f"its AMP cannot be read: {error}") from None

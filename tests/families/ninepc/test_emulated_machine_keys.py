@@ -1,0 +1,105 @@
+"""The machine behind the emulated 9/PC: jog and home keys, MDI blocks, E-stop, and the position screen."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+
+from amp_studio.families.ninepc.emulated.panel import NinePcPanel
+from amp_studio.files import open_file
+from amp_studio.transfer.emulated.control import Control
+from amp_studio.transfer.emulated.record import Identity
+from amp_studio.transfer.image import decode_image, encode_image
+
+MILL = Path(__file__).parents[3] / "examples" / "mill-1394" / "MILL_1394.amp"
+
+
+class Bench:
+    """A control with the example mill, out of E-stop, and the clock of its machine."""
+
+    def __init__(self, folder: Path) -> None:
+        file = open_file(MILL).file
+        identity = Identity("9pc", file.schema.signature)
+        self.control = Control(folder, identity, encode_image(file), accept=decode_image)
+        self.panel = NinePcPanel(8)
+        self.panel.started(self.control)
+        self.control.set_estop(False)
+
+    def give(self, line: str) -> str:
+        verb, _, rest = line.partition(" ")
+        return self.panel.command(self.control, verb, rest) or ""
+
+    def after(self, seconds: float) -> str:
+        for _ in range(round(seconds / 0.1)):
+            self.panel.advance(self.control, 0.1)
+        return self.give("position")
+
+
+@pytest.fixture
+def bench(tmp_path: Path) -> Iterator[Bench]:
+    made = Bench(tmp_path / "state")
+    yield made
+    made.control.close()
+
+
+def test_a_jog_goes_on_until_its_key_is_released(bench: Bench) -> None:
+    assert bench.give("jog X+ second").startswith("X+ at ")
+    moving = bench.after(0.5)
+    assert "X " in moving
+    assert "moving" in moving
+    bench.give("release")
+    assert "moving" not in bench.after(2.0)
+
+
+def test_an_incremental_jog_goes_one_increment(bench: Bench) -> None:
+    """Page 8-7."""
+    bench.give("jog X- increment largest")
+    assert bench.after(6.0).startswith("X -10.0")
+
+
+def test_a_block_needs_axes_that_are_homed_and_g28_homes_them(bench: Bench) -> None:
+    """Pages 5-13 and 5-14."""
+    with pytest.raises(ValueError, match="MUST HOME AXIS X"):
+        bench.give("mdi G0 X-100")
+    assert bench.give("mdi G28 X-50") == "homing X"
+    with pytest.raises(ValueError, match="HOMING NOT ALLOWED"):
+        bench.give("manual-home X")
+    assert "X 6.00" in bench.after(30.0)
+    assert " homed" in bench.give("position")
+    bench.give("mdi G0 X-100")
+    assert bench.after(3.0).startswith("X -100.0")
+
+
+def test_e_stop_takes_the_drives_away(bench: Bench) -> None:
+    bench.give("jog X+ second")
+    bench.after(0.5)
+    bench.control.set_estop(True)
+    bench.after(0.1)
+    with pytest.raises(ValueError, match="E-stop"):
+        bench.give("jog X+")
+    bench.control.set_estop(False)
+    assert bench.give("jog X-").startswith("X- at")
+
+
+def test_a_homed_axis_stops_at_its_overtravel(bench: Bench) -> None:
+    """Page 10-18: it passes it by its following error."""
+    bench.give("mdi G28 X0")
+    bench.after(30.0)
+    bench.give("jog X+ highest")
+    assert "OVERTRAVEL" in bench.after(10.0)
+
+
+@pytest.mark.parametrize(
+    ("line", "words"),
+    [
+        ("jog Q+", "not fitted"),
+        ("jog X", "direction"),
+        ("jog X+ warp", "No jog speed"),
+        ("mdi G2 X1", "G0, G1 and G28"),
+    ],
+)
+def test_what_is_not_possible_is_said_in_words(bench: Bench, line: str, words: str) -> None:
+    with pytest.raises(ValueError, match=words):
+        bench.give(line)

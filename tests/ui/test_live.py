@@ -1,0 +1,149 @@
+"""The live page: figures, faults with cause and cure, and what ends it."""
+
+from __future__ import annotations
+
+import threading
+from collections.abc import Callable
+
+import pytest
+from PySide6.QtCore import QObject, Signal
+from pytestqt.qtbot import QtBot
+
+from amp_studio.transfer import AxisStatus, ControlStatus, known_fault
+from amp_studio.ui.control import live
+from amp_studio.ui.control.live import LivePage, StatusReadings
+
+from .conftest import WAIT_MS
+
+
+class HeldReadings(QObject):
+    """Readings that a test gives, one at a time."""
+
+    read = Signal(object)
+    failed = Signal(object)
+
+    def __init__(self) -> None:
+        super().__init__()
+        self.is_running = False
+
+    def start(self) -> None:
+        self.is_running = True
+
+    def stop(self) -> None:
+        self.is_running = False
+        self.failed.emit(None)
+
+
+def status(*faults: str, error: float = 2.0) -> ControlStatus:
+    axes = (
+        AxisStatus("X", 1000.0, error, 50.0, "counts", ("axis busy", "control loop enabled")),
+        AxisStatus("Y", 0.0),
+    )
+    found = tuple(known_fault("57c422b", code, "Maximum position error exceeded", "X") for code in faults)
+    return ControlStatus("57c422b", "registers", "module", "", axes, found, {"feed": 20.0})
+
+
+@pytest.fixture
+def followed() -> list[str]:
+    """Return the parameters whose links were followed."""
+    return []
+
+
+@pytest.fixture
+def page(qtbot: QtBot, followed: list[str]) -> LivePage:
+    shown = LivePage("tcp://bench:1", "57c422b", followed.append, readings=HeldReadings())  # type: ignore[arg-type]  # the part that it uses
+    qtbot.addWidget(shown)
+    shown.start()
+    return shown
+
+
+def cell(page: LivePage, row: int, column: int) -> str:
+    item = page.axes.item(row, column)
+    return item.text() if item else ""
+
+
+def test_a_reading_shows_position_error_speed_and_the_words_of_the_control(page: LivePage) -> None:
+    page.show_status(status())
+    assert [cell(page, 0, n) for n in range(5)] == [
+        "X", "1000 counts", "2 counts", "50 counts/s", "axis busy, control loop enabled",
+    ]  # fmt: skip
+    assert cell(page, 1, 2) == "–"
+    assert "feed 20" in page.values.text()
+    assert page.toggle.text() == "&Stop"
+
+
+def test_a_fault_comes_with_cause_cure_parameters_and_page_and_stops_the_readings(
+    page: LivePage, followed: list[str]
+) -> None:
+    page.show_status(status())
+    page.show_status(status("R73 bit 4"))
+    text = page.faults.text()
+    assert "R73 bit 4" in text
+    assert "Cause:" in text
+    assert "(page " in text
+    assert not page.readings.is_running
+    assert page.state.text() == "Stopped: the control has a fault."
+    page.faults.linkActivated.emit("setup.max_position_error")
+    assert followed == ["setup.max_position_error"]
+
+
+def test_a_fault_that_is_over_goes_to_the_history(page: LivePage) -> None:
+    page.show_status(status("R73 bit 4"))
+    page.start()
+    page.show_status(status())
+    assert len(page.past) == 1
+    assert "R73 bit 4" in page.past[0]
+    assert page.readings.is_running
+
+
+def test_an_exchange_ends_it_and_it_can_be_started_again(page: LivePage) -> None:
+    page.show_status(status())
+    page.stop("Stopped: an exchange is under way.")
+    assert page.state.text() == "Stopped: an exchange is under way."
+    assert not page.axes.isEnabled()
+    page.toggle.click()
+    page.show_status(status())
+    assert page.axes.isEnabled()
+
+
+def test_a_control_is_asked_at_most_five_times_a_second_and_the_line_is_closed(
+    qtbot: QtBot, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    waits: list[float] = []
+    closed = threading.Event()
+
+    class Reader:
+        def __init__(self, _address: str, _family: str) -> None:
+            pass
+
+        def read(self) -> ControlStatus:
+            return status()
+
+        def close(self) -> None:
+            closed.set()
+
+    class Cancelled(threading.Event):
+        def wait(self, timeout: float | None = None) -> bool:
+            waits.append(timeout or 0.0)
+            return super().wait(0.001)
+
+    monkeypatch.setattr("amp_studio.transfer.client.StatusReader", Reader)
+    monkeypatch.setattr(live.Task, "__init__", _with_event(live.Task.__init__, Cancelled))
+    readings = StatusReadings("tcp://bench:1", "57c422b")
+    seen: list[object] = []
+    readings.read.connect(seen.append)
+    readings.start()
+    qtbot.waitUntil(lambda: len(seen) >= 3, timeout=WAIT_MS)
+    with qtbot.waitSignal(readings.failed, timeout=WAIT_MS):
+        readings.stop()
+    assert closed.is_set()
+    assert all(0.1 < wait <= 0.2 for wait in waits)
+    qtbot.waitUntil(lambda: not live.Task.running, timeout=WAIT_MS)
+
+
+def _with_event(begin: Callable[..., None], event: type[threading.Event]) -> Callable[..., None]:
+    def init(self: live.Task, *args: object) -> None:
+        begin(self, *args)
+        self.cancelled = event()
+
+    return init
