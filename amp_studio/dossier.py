@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import pickle
 from collections.abc import Iterator, Sequence
 from datetime import datetime
@@ -9,6 +10,7 @@ from pathlib import Path
 from typing import BinaryIO
 
 from amp_studio.files import (
+    RECORD,
     Notify,
     ParameterFile,
     content_of,
@@ -116,9 +118,13 @@ def answer(asked: BinaryIO, out: BinaryIO) -> None:
 
 def exchanges_of(source: Path) -> Iterator[ExchangeLine]:
     """Yield what the record of exchanges has of a file, oldest first; raises OSError."""
+    real = real_path(source)
+    if not os.path.lexists(
+        real.parent / RECORD
+    ):  # most files have none, and the room of exchanges takes 20 ms to load
+        return
     from amp_studio.transfer.client import read_exchanges
 
-    real = real_path(source)
     for each in read_exchanges(real.parent, text_of_name(real.name)):
         yield ExchangeLine(
             local_time(each.when), each.who, each.verb, each.control, each.before[:_SHORT], each.after[:_SHORT], each.text

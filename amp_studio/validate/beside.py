@@ -10,6 +10,7 @@ from pathlib import Path
 
 from amp_studio.files import (
     ENDING,
+    RECORD,
     ParameterFile,
     ParameterFileError,
     backup_path,
@@ -25,7 +26,6 @@ from amp_studio.schema import Address, Value, read_file
 from .builder_rules import NO_RULES, RULES_FILE, BuilderRules
 from .plausible import Earlier, values_of_fleet
 
-EXCHANGES = "exchanges.jsonl"
 LARGEST_FLEET = 40
 """Machines in a folder that are compared; more of them are no fleet that somebody looks after by hand."""
 
@@ -77,7 +77,7 @@ def _earlier(path: Path, file: ParameterFile) -> Iterator[Earlier]:
 def companions_of(path: Path) -> list[Path]:
     """Return what ``earlier_beside`` reads beside what a file names itself; not all of it is there. Raises OSError."""
     real = real_path(path)
-    return [backup_path(real), history_path(real), real.with_name(EXCHANGES), *fleet_of(real)]
+    return [backup_path(real), history_path(real), real.with_name(RECORD), *fleet_of(real)]
 
 
 def fleet_of(path: Path) -> list[Path]:
@@ -113,7 +113,7 @@ def _opened(path: Path, changed: int, size: int) -> ParameterFile:  # noqa: ARG0
 def _last_download(path: Path) -> str:
     """Return when a control took the content of a file last (UTC); "" for never."""
     try:
-        content = read_file(path.with_name(EXCHANGES), follow=False, tail=True)
+        content = read_file(path.with_name(RECORD), follow=False, tail=True)
     except OSError:
         return ""
     for line in reversed(content.decode("utf-8", "replace").split("\n")):

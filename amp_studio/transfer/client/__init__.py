@@ -24,7 +24,7 @@ if TYPE_CHECKING:
     from .parameters import download_file, fetch_file, fetch_image, restore_copy, sha256
     from .previous_download import NoDownloadError, last_download
     from .project_folder import FolderContent, FolderFile, folder_content
-    from .record import RECORD, RecordedExchange, read_exchanges, record_look
+    from .record import RecordedExchange, read_exchanges, record_look
     from .status import StatusReader
     from .verification import ImageComparison, completed, verify_content
 else:

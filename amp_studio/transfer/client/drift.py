@@ -14,6 +14,7 @@ from typing import Literal
 
 from amp_studio.files import (
     ENDING,
+    RECORD,
     ParameterFile,
     ParameterFileError,
     Project,
@@ -26,7 +27,7 @@ from amp_studio.transfer.links import parse_endpoint
 
 from .fleet import ExchangeOf, FleetResult, with_each
 from .parameters import fetch_image, sha256
-from .record import RECORD, RecordedExchange, file_of_exchange, read_exchanges, record_look
+from .record import RecordedExchange, file_of_exchange, read_exchanges, record_look
 from .verification import ImageComparison, verify_content
 
 _PUT = ("download", "restore")

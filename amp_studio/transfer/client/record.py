@@ -13,6 +13,7 @@ from pathlib import Path
 
 from amp_studio.files import (
     ENDING,
+    RECORD,
     ParameterFile,
     append_line,
     compare,
@@ -29,8 +30,6 @@ from amp_studio.transfer.exchange import Exchange
 from amp_studio.transfer.image import ImageError
 
 from .kept import BEFORE
-
-RECORD = "exchanges.jsonl"
 
 
 @dataclass(frozen=True)

@@ -8,7 +8,7 @@ from PySide6.QtCore import Qt, QTimer, QUrl, Signal
 from PySide6.QtGui import QResizeEvent, QShowEvent
 from PySide6.QtWidgets import QBoxLayout, QHBoxLayout, QLabel, QTextBrowser, QVBoxLayout, QWidget
 
-from amp_studio.files import axis_letter, real_path, shown_axes
+from amp_studio.files import RECORD, axis_letter, real_path, shown_axes
 from amp_studio.schema import Address, Value, convert, limits
 from amp_studio.ui.base.task import Task
 from amp_studio.ui.base.theme import GAP2, GAP3, font, scheme
@@ -157,7 +157,7 @@ class DetailPanel(QWidget):
         self.bar.show_range(self._in_range(address))
         if self.bar.isVisibleTo(self):
             self._rest.start()
-        self._writer.may_have_download = real_path(self._workspace.path).with_name("exchanges.jsonl").exists()
+        self._writer.may_have_download = real_path(self._workspace.path).with_name(RECORD).exists()
         text = self._writer.write(address)
         if self.page.property("written") != text:  # a page that did not change stays where it was scrolled to
             self.page.setProperty("written", text)

@@ -25,8 +25,8 @@ VERB = Verb(
 
 def run(options: Options) -> int:
     """List the exchanges of a file, or of all files of a folder; oldest first."""
-    from amp_studio.files import open_file, real_path, text_of_name
-    from amp_studio.transfer.client import RECORD, read_exchanges
+    from amp_studio.files import RECORD, open_file, real_path, text_of_name
+    from amp_studio.transfer.client import read_exchanges
 
     path: Path = options.path
     if path.is_dir():
