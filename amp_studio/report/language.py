@@ -30,6 +30,9 @@ class Language:
     titles: dict[str, str] = field(default_factory=dict)
     """Titles of steps, pictures and pages -> their own: a parameter may have the same name, which stays."""
     title_patterns: tuple[tuple[re.Pattern[str], str], ...] = ()
+    messages: dict[str, str] = field(default_factory=dict)
+    """Parts of what the check says -> their own; the name of a parameter is none of them."""
+    message_patterns: tuple[tuple[re.Pattern[str], str], ...] = ()
 
     def text(self, english: str) -> str:
         """Return a phrase in this language; as it is where the language has no other words for it."""
@@ -54,6 +57,16 @@ class Language:
             if found := pattern.fullmatch(english):
                 return own.format(*(self.title(group) for group in found.groups()))
         return self.text(english)
+
+    def message(self, english: str) -> str:
+        """Return what the check says of itself; what a rule says stays in the words of its facts."""
+        known = self.messages.get(english)
+        if known is not None:
+            return known
+        for pattern, own in self.message_patterns:
+            if found := pattern.fullmatch(english):
+                return own.format(*map(self.message, found.groups()))
+        return english
 
     def drawing(self, svg: str) -> str:
         """Return a drawing (SVG) with its texts in this language."""
@@ -100,6 +113,8 @@ def language_of(code: str) -> Language:
         {noun: (one, several) for noun, (one, several) in data["nouns"].items()},
         data["titles"],
         _compiled(data["title_patterns"]),
+        data["messages"],
+        _compiled(data["message_patterns"]),
     )
 
 

@@ -5,13 +5,15 @@ from __future__ import annotations
 import re
 import xml.etree.ElementTree as ET
 from collections.abc import Iterator
+from dataclasses import replace
 
 import pytest
 from PySide6.QtWidgets import QApplication
 
 from amp_studio.schema import Value
-from amp_studio.ui.base.figures import written
+from amp_studio.ui.base.figures import sentence, written
 from amp_studio.ui.base.translated import FOLDER, speak
+from amp_studio.ui.table.value_delegate import allowed_text
 
 
 @pytest.fixture
@@ -38,8 +40,7 @@ def test_loading_is_no_word_for_what_replaces_the_parameters_of_a_control() -> N
 
 def test_checking_is_what_rules_do_and_comparing_is_done_with_a_control() -> None:
     words = dict(translations())
-    assert words["Verify"] == "Vergleichen"
-    assert words["&Verify"] == "&Vergleichen"
+    assert words["Compare"] == "Vergleichen"
     assert not [s for s, d in words.items() if "erify" in s and re.search("[Pp]rüf", d.replace("&", ""))]
 
 
@@ -53,3 +54,47 @@ def test_numbers_are_shown_with_a_comma_and_typed_with_either_sign(german: None,
     assert window.table.typed_value(address) == "12.8 mm", "editors and the clipboard have a point"
     assert written("10.0.0.21") == "10,0,0,21", "which is why only values go through it"
     assert [button.text() for button in window.tools.units.buttons.values()] == ["mm", "Zoll"]
+
+
+@pytest.mark.parametrize(
+    ("message", "german_text"),
+    [
+        (
+            "Excess Error 300.5 mm is outside 0 to 214.1 mm.",
+            "Excess Error 300,5 mm ist außerhalb von 0 bis 214,1 mm.",
+        ),
+        (
+            "Excess Error is 0.001 mm on X and 11 mm on Y; they agree in 59 other values. Is it meant?",
+            "Excess Error: 0,001 mm bei X und 11 mm bei Y; in 59 anderen Werten stimmen sie überein. Ist das so gewollt?",
+        ),
+        (
+            "1300 Home Calibration is 25.4 mm, 25.4 times the 1 mm in the backup. Is it meant?",
+            "1300 Home Calibration ist 25,4 mm, war 1 mm in der Sicherung (das 25,4-fache). Ist das so gewollt?",
+        ),
+        ("Bits of P3N0.5 and $22.0 in revision 10.0.21 are 1.5.", "Bits of P3N0.5 and $22.0 in revision 10.0.21 are 1,5."),
+    ],
+)  # fmt: skip
+def test_what_the_check_says_is_german_with_a_comma_and_an_address_is_none(
+    german: None, message: str, german_text: str
+) -> None:
+    assert sentence(message) == german_text
+
+
+def test_a_finding_and_the_allowed_range_are_german_in_the_window_and_in_the_report(
+    german: None, window
+) -> None:
+    address = ("servo.excess_error", "1")
+    window.workspace.edit("rapid", {("feedrate.rapid", "1"): Value(100.5, "mm/s")})
+    texts = [window.findings.model.text_of(window.findings.model.index(n, 0)) for n in range(3)]
+    assert any("100,5 mm/s bei X und 10000 mm/min bei Y; in 64 anderen" in text for text in texts), texts
+    assert not any("100.5" in text for text in texts), "a rule has the words of its facts and the comma too"
+    assert allowed_text(window.workspace, address) == "0 bis 214,1 mm"
+
+
+def test_the_report_has_the_language_of_the_window_until_another_is_chosen(window) -> None:
+    choice = window.report_choice
+    choice.contents = replace(choice.contents, sort="number")
+    window.settings.keep_language("de")
+    assert choice.contents.language == "de", "the order was chosen, not the language"
+    choice.contents = replace(choice.contents, language="en")
+    assert choice.contents.language == "en"

@@ -57,7 +57,7 @@ def test_one_of_three_like_axes_that_is_ten_times_too_high_is_asked_about() -> N
     assert not finding.fix
     assert finding.causes == (("axes.inposition_band", "Y"),)
     assert finding.compared == (("axes.inposition_band", "X"), ("axes.inposition_band", "Z"))
-    assert "0.01 in on Axis Y and 0.001 in on Axis X (ten times the other)" in finding.message
+    assert "0.01 in on Y and 0.001 in on X (ten times the other)" in finding.message
     assert "ours, not the manual's" in finding.cited
     assert finding.page is None
     validator = Validator(file)

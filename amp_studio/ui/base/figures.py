@@ -10,14 +10,26 @@ import re
 from amp_studio import schema
 from amp_studio.schema import Parameter, Value
 
-from .translated import tr
+from .translated import message_in_words, tr
 
+_NUMBER = re.compile(r"(?<![\w.$@])[-−]?\d+\.\d+(?![\w]|\.\d)")
+"""A number in a sentence; no address (``P3N0.5``, ``$22.0``), version or network address."""
 _POINT = re.compile(r"(?<=\d)\.(?=\d)")
 
 
 def written(figure: str) -> str:
     """Return a number that has a decimal point with the decimal sign of the language."""
     return _POINT.sub(tr(".", "decimal sign"), figure)
+
+
+def sentence(text: str) -> str:
+    """Return a message that was made below the window (a finding, what is allowed) with its numbers as the language writes them.
+
+    What the program says of itself is in the language of the window; a rule has the words of its facts.
+    """
+    sign = tr(".", "decimal sign")
+    said = message_in_words(text)
+    return said if sign == "." else _NUMBER.sub(lambda found: found[0].replace(".", sign), said)
 
 
 def show_value(parameter: Parameter, value: Value | None, *, secrets: bool = False) -> str:

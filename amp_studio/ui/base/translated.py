@@ -40,6 +40,16 @@ def _worded(code: str, text: str) -> str:
     return language_of(code).title(text)
 
 
+def message_in_words(text: str) -> str:
+    """Return what the check says of a file in the language of the window; what a rule says has the words of its facts."""
+    return text if _spoken == "en" else _message(_spoken, text)
+
+
+@lru_cache(maxsize=4096)
+def _message(code: str, text: str) -> str:
+    return language_of(code).message(text)
+
+
 def counted(number: int, noun: str, none: str = "0") -> str:
     """Return ``1 error``, ``2 files`` in the language of the window; ``none`` replaces the number 0."""
     if _spoken == "en":

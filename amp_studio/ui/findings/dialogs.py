@@ -22,6 +22,7 @@ from PySide6.QtWidgets import (
 
 from amp_studio.report import FindingGroup, finding_groups, fix_lines, severity_name, why_parts
 from amp_studio.schema import Address, written
+from amp_studio.ui.base.figures import sentence
 from amp_studio.ui.base.theme import severity_html, severity_icon
 from amp_studio.ui.base.translated import worded
 from amp_studio.ui.base.workspace import Workspace
@@ -52,7 +53,7 @@ class WhyDialog(QDialog):
     def _written(self, workspace: Workspace, finding: Finding) -> str:
         file, why = workspace.file, explain(workspace.validator, finding)
         mark = f"{severity_html(finding.severity)} <b>{worded(severity_name(finding.severity)).capitalize()}:</b>"
-        lines, before = [f"<p>{mark} {html.escape(finding.message)}</p><table cellpadding=3>"], ""
+        lines, before = [f"<p>{mark} {html.escape(sentence(finding.message))}</p><table cellpadding=3>"], ""
         for title, text, address in why_parts(file, finding, why):
             cell = html.escape(text)
             if title in (
@@ -81,7 +82,7 @@ class SuppressDialog(QDialog):
         self.setWindowTitle(self.tr("Suppress a Finding"))
         self.setMinimumWidth(520)
         self._finding = finding
-        effect = QLabel(f"<b>{html.escape(finding.message)}</b><br>The finding is no longer listed, but reports print it "
+        effect = QLabel(f"<b>{html.escape(sentence(finding.message))}</b><br>The finding is no longer listed, but reports print it "
                       "with the reason and the name. The suppression is saved in rules.yaml beside the file.")  # fmt: skip
         effect.setWordWrap(True)
         self.reason, self.name = QLineEdit(), QLineEdit(who)
@@ -143,7 +144,7 @@ class FixSeveralDialog(QDialog):
         self._count()
 
     def _add(self, workspace: Workspace, group: FindingGroup) -> None:
-        top = QTreeWidgetItem(self.list, [group.message])
+        top = QTreeWidgetItem(self.list, [sentence(group.message)])
         top.setIcon(0, severity_icon(group.severity))
         top.setFlags(top.flags() | Qt.ItemFlag.ItemIsUserCheckable | Qt.ItemFlag.ItemIsAutoTristate)
         for finding in group.fixable:

@@ -8,6 +8,7 @@ from typing import Any
 from PySide6.QtCore import QAbstractItemModel, QModelIndex, QPersistentModelIndex, Qt
 
 from amp_studio.report import FindingGroup, finding_axes, finding_groups, fix_text, severity_name
+from amp_studio.ui.base.figures import sentence
 from amp_studio.ui.base.translated import worded
 from amp_studio.ui.base.workspace import Workspace
 from amp_studio.validate import Finding
@@ -66,13 +67,12 @@ class FindingsModel(QAbstractItemModel):
         """Return what is wrong, and for a finding in the words of its rule the values it is about."""
         finding, group = self.finding(index), self.group(index)
         if finding is None:
-            return group.message
+            return sentence(group.message)
         if finding.message != group.message:
-            return finding.message
+            return sentence(finding.message)
         here = self._workspace.file.machine_schema
-        return (
-            ", ".join(dict.fromkeys(here.label(address) for address in finding.addresses[:6]))
-            or group.message
+        return ", ".join(dict.fromkeys(here.label(address) for address in finding.addresses[:6])) or sentence(
+            group.message
         )
 
     # -- Qt's side -----------------------------------------------------------------

@@ -21,6 +21,7 @@ from PySide6.QtWidgets import (
 )
 
 from amp_studio.files import Choice, Row, Side, Typed
+from amp_studio.ui.base.figures import sentence
 from amp_studio.ui.base.theme import Token, colour, font, icon, scheme
 from amp_studio.ui.motion.tuning_target import effect_words
 from amp_studio.validate import SEVERITIES, Finding
@@ -188,8 +189,8 @@ class MergeDetail(QFrame):
         if not worst:
             label.say(self.tr("no finding"))
             return
-        more = "\n".join(finding.message for finding in worst)
-        label.say(worst[0].message, _INKS[worst[0].severity], more)
+        more = "\n".join(sentence(finding.message) for finding in worst)
+        label.say(sentence(worst[0].message), _INKS[worst[0].severity], more)
 
     def _words(self, row: Row) -> str:
         """Return in a sentence who changed the value."""

@@ -10,6 +10,7 @@ from PySide6.QtWidgets import QDialog, QTextBrowser, QVBoxLayout, QWidget
 
 from amp_studio.find import LinkedParameter, LinkedRule, MessagePage, message_page
 from amp_studio.schema import Address, Schema
+from amp_studio.ui.base.figures import sentence
 from amp_studio.ui.base.theme import GAP3, colour, scheme
 
 from .file_page import FilePage
@@ -76,7 +77,7 @@ class MessageWindow(QDialog):
     def _broken(self, rules: tuple[LinkedRule, ...]) -> list[str]:
         ink = colour("error").name()
         lines = [
-            f"<span style='color:{ink}'>✕</span> {self._link(finding.addresses[0], finding.message)}"
+            f"<span style='color:{ink}'>✕</span> {self._link(finding.addresses[0], sentence(finding.message))}"
             for linked in rules
             for finding in linked.findings
         ]

@@ -13,7 +13,7 @@ from typing import Literal
 from amp_studio.files import unlike_axes, value_note, with_days_and_times
 from amp_studio.report import state_name
 from amp_studio.schema import Address, Schema, UnitError, Value, convert, labels_of_word, shown, write_value
-from amp_studio.ui.base.figures import show_value
+from amp_studio.ui.base.figures import sentence, show_value
 from amp_studio.ui.base.translated import Translated, tr, worded
 from amp_studio.ui.base.workspace import Workspace
 from amp_studio.validate import NOT_SET
@@ -229,7 +229,7 @@ class ShownValues(Translated):
             return tr("Does not exist here: {why}").format(why=file.evaluation.state(address).why)
         state = file.evaluation.state(address)
         lines = [self.text(address, file.get(address))]
-        lines += [f.message for f in self.workspace.findings_of(address) if f.rule != NOT_SET]
+        lines += [sentence(f.message) for f in self.workspace.findings_of(address) if f.rule != NOT_SET]
         if not state.is_active:
             page = self.tr(" (page {page})").format(page=state.page) if state.page else ""
             lines.append(f"{worded(state_name(state.state)).capitalize()}: {state.why}{page}")

@@ -15,7 +15,7 @@ from amp_studio.files import (
 )
 from amp_studio.report import GRADES, facts, help_parts, severity_name, state_name, tables_of
 from amp_studio.schema import Address, Value, labels_of_word, limits, real_value, same_value, shown
-from amp_studio.ui.base.figures import show_value
+from amp_studio.ui.base.figures import sentence, show_value
 from amp_studio.ui.base.hazard import hazard_html
 from amp_studio.ui.base.theme import colour, icon_html, severity_html
 from amp_studio.ui.base.translated import Translated, worded
@@ -116,7 +116,7 @@ class DetailPage(Translated):
         if found is None:
             return self.tr("no bounds printed, in {shown}").format(shown=shown(unit)) if unit else ""
         sources = [s for s in (found.low_from, found.high_from) if s]
-        text = worded(found.text()) + "".join(
+        text = sentence(found.text()) + "".join(
             self.tr(" (set by {name})").format(name=file.machine_schema.label(s)) for s in sources
         )
         return text + (
@@ -173,7 +173,7 @@ class DetailPage(Translated):
             else:
                 name = worded(severity_name(finding.severity)).capitalize()
                 mark = f"{severity_html(finding.severity)} <b>{name}:</b>"
-            lines.append(f"<p>{mark} {html.escape(finding.message)}{cited}</p>")
+            lines.append(f"<p>{mark} {html.escape(sentence(finding.message))}{cited}</p>")
         rules = workspace.validator.rules_of(address)
         unmet = {finding.rule for finding in broken}
         met = [rule for rule in rules if rule.id not in unmet]

@@ -135,7 +135,7 @@ class RangeBar(QWidget):
         painter.drawPolygon(QPolygonF([QPointF(x - 5, _TOP - 7), QPointF(x + 5, _TOP - 7), QPointF(x, _TOP)]))
         painter.drawRect(QRectF(x - 0.5, _TOP, 1, _BAR))
         if found.value != found.default:
-            self._above(painter, x + 9, write_number(found.value), metrics, ink, right=False)
+            self._above(painter, x + 9, written(write_number(found.value)), metrics, ink, right=False)
 
     def _above(
         self, painter: QPainter, x: float, text: str, metrics: QFontMetrics, ink: Token, *, right: bool

@@ -28,7 +28,7 @@ from PySide6.QtWidgets import (
 )
 
 from amp_studio.schema import Address, InvalidValueError, Limits, Value, fault, limits, shown, write_value
-from amp_studio.ui.base.figures import show_value
+from amp_studio.ui.base.figures import sentence, show_value
 from amp_studio.ui.base.workspace import Workspace
 from amp_studio.ui.forms.choice_box import ChoiceBox
 from amp_studio.ui.forms.mask_list import MaskList
@@ -51,7 +51,7 @@ def allowed_text(workspace: Workspace, address: Address) -> str:
     if workspace.file.schema.parameters[address[0]].choices:
         return ""
     found = limits_of(workspace, address)
-    return found.text() if found else shown(workspace.typed_unit(address))
+    return sentence(found.text()) if found else shown(workspace.typed_unit(address))
 
 
 class ValueDelegate(QStyledItemDelegate):

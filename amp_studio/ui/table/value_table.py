@@ -30,6 +30,7 @@ from PySide6.QtWidgets import QAbstractItemView, QApplication, QTableView, QWidg
 
 from amp_studio.files import RangeError
 from amp_studio.schema import Address, InvalidValueError, Parameter
+from amp_studio.ui.base.figures import sentence
 from amp_studio.ui.base.theme import font
 
 from .cell_editor import CellEditor, Refusal
@@ -151,7 +152,7 @@ class ValueTable(QTableView):
         except RangeError as error:
             return self._delegate.out_of_range(address, str(error))
         except InvalidValueError as error:
-            return Refusal(str(error), allowed_text(workspace, address))
+            return Refusal(sentence(str(error)), allowed_text(workspace, address))
         return None
 
     def _end_editing(self, modifiers: int, editor: CellEditor) -> None:
@@ -177,7 +178,7 @@ class ValueTable(QTableView):
         try:
             self._table.workspace.enter(address, text, force=True)
         except InvalidValueError as error:
-            return Refusal(str(error), allowed_text(self._table.workspace, address))
+            return Refusal(sentence(str(error)), allowed_text(self._table.workspace, address))
         return None
 
     def _fill_typed(self, text: str) -> Refusal | None:

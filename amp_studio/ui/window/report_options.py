@@ -52,8 +52,9 @@ class ReportChoice(QObject):
     def contents(self, contents: Contents) -> None:
         if contents == self.contents:
             return
+        of_window = language_in_use(self._settings.language())
         self._settings.keep_report({
-            "sort": contents.sort, "units": contents.units, "paper": contents.paper, "language": contents.language,
+            "sort": contents.sort, "units": contents.units, "paper": contents.paper, "language": "" if contents.language == of_window else contents.language,
             "changed": "yes" if contents.changed_only else "no", "inactive": "yes" if contents.inactive else "no",
             "without": ",".join(sorted(contents.without)),
         })  # fmt: skip

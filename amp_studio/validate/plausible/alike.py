@@ -12,7 +12,7 @@ from functools import lru_cache
 from itertools import combinations
 from typing import NamedTuple
 
-from amp_studio.files import ParameterFile
+from amp_studio.files import ParameterFile, axis_letter
 from amp_studio.schema import ACTIVE, Address, Schema, dimension, show_value
 from amp_studio.validate.finding import Finding
 
@@ -206,7 +206,9 @@ class Alike:
         return f" ({words} the other)" if words else ""
 
     def _label(self, name: str, instance: str) -> str:
-        return self._file.schema.on(self._file.machine).instance_label((name, instance))
+        label = self._file.schema.on(self._file.machine).instance_label((name, instance))
+        scope = self._file.evaluation.scope((name, instance))
+        return (axis_letter(self._file, instance) if scope == "axis" else "") or label
 
 
 def _compare(a: dict[str, _Seen], b: dict[str, _Seen]) -> _Pair:
