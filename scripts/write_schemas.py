@@ -32,6 +32,7 @@ from amp_studio.schema.model import (
     ProgramWords,
     Rules,
     Suppression,
+    Synonyms,
     Tables,
     Units,
 )
@@ -63,6 +64,7 @@ FILES: dict[str, type[Model]] = {
     "plausible": Plausible,
     "program": ProgramWords,
     "units": Units,
+    "synonyms": Synonyms,
     "builder-rules": BuilderRules,
 }
 

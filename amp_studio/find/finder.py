@@ -21,12 +21,17 @@ from .entries import Entry, HitKind, Where, entries_of
 from .file_values import FileValues, asked_number
 from .index import Index, Match
 from .places import place_of
+from .synonyms import meanings, nearest_synonym
 from .words import words_of
 
 _EXACT, _VALUE, _DEFAULT = 100.0, 11.0, 7.0
 """Scores of what is no matter of words: a whole number, a value, a value that is the printed default."""
+_MEANT, _LESS_LIKELY = 0.95, 0.85
+"""What a hit is worth that has what the question means, and each further meaning against the one before it."""
 _TAIL = 0.2
 """Part of the best score below which a hit only buries the others."""
+_SURE = 4.0
+"""Score from which another family is worth naming: the words are in a name, not in the help alone."""
 _MOST_VALUES = 40
 """Parameters with the same value that are worth showing."""
 _LONGEST = 200
@@ -85,6 +90,7 @@ class Finder:
             found = index.search(query, most)
             # A choice of which only the parameter was named is no more than that parameter.
             hits += [self._hit(m) for m in found if m.entry.kind != "choice" or "choice" in m.where]
+        hits += self._meant(query, most)
         best: dict[tuple[str, str, str], Hit] = {}
         for hit in sorted(hits, key=lambda hit: -hit.score):
             best.setdefault((hit.kind, hit.key, hit.title if hit.kind in ("choice", "note") else ""), hit)
@@ -93,7 +99,8 @@ class Finder:
 
     def nearest(self, query: str) -> str:
         """Return the nearest question that has words which are known; empty where there is none."""
-        return index_of(self.schema, self.machine).nearest(query[:_LONGEST])
+        query = query[:_LONGEST]
+        return index_of(self.schema, self.machine).nearest(query) or nearest_synonym(query)
 
     # -- what is no matter of words -------------------------------------------------
 
@@ -170,6 +177,22 @@ class Finder:
         score = _VALUE if own else _DEFAULT
         return Hit("value", title, detail, why, first[0], score, ordered[0], tuple(ordered[1:]))
 
+    # -- what the words mean -----------------------------------------------------------
+
+    def _meant(self, query: str, most: int) -> list[Hit]:
+        """Return what is found for the words that the manuals have for those of a question."""
+        index, hits = index_of(self.schema, self.machine), []
+        for meaning in meanings(query):
+            worth = _MEANT * _LESS_LIKELY**meaning.place
+            why = f"'{meaning.said}' as '{meaning.means}'"
+            all_words = len(index.asked(meaning.means))
+            hits += [
+                replace(self._hit(match), score=match.score * worth, why=why)
+                for match in index.search(meaning.query, most)
+                if len(match.words) >= all_words and match.entry.kind != "choice"
+            ]
+        return hits
+
     # -- words --------------------------------------------------------------------------
 
     def _hit(self, match: Match) -> Hit:
@@ -225,6 +248,16 @@ class Finder:
 
     def _place(self, address: Address) -> str:
         return place_of(self.file, address) if self.file is not None else self._here.instance_label(address)
+
+
+def elsewhere(query: str, finders: Iterable[Finder], most: int = 3) -> list[tuple[Schema, Hit]]:
+    """Return the best hit of each family that has all words of a question, the best first."""
+    found = []
+    for finder in finders:
+        best = next(iter(finder.find(query, 1)), None)
+        if best is not None and best.score >= _SURE:
+            found.append((finder.schema, best))
+    return sorted(found, key=lambda each: -each[1].score)[:most]
 
 
 def _snippet(match: Match, where: Where) -> str:

@@ -67,7 +67,7 @@ class Index:
 
     def search(self, query: str, most: int) -> list[Match]:
         """Return the best matches of a question, the best first: with all its words, or most of them and every number."""
-        words = self._words(query)
+        words = self.asked(query)
         if not words:
             return []
         found: dict[int, dict[str, _Found]] = {}
@@ -105,7 +105,7 @@ class Index:
 
     # -- parts of a search --------------------------------------------------------
 
-    def _words(self, query: str) -> list[str]:
+    def asked(self, query: str) -> list[str]:
         """Return the words to look for: two that are known as one are one, and one that is known as two is both."""
         typed, words = asked_words(query), []
         n = 0

@@ -31,7 +31,7 @@ class Language:
     """Titles of steps, pictures and pages -> their own: a parameter may have the same name, which stays."""
     title_patterns: tuple[tuple[re.Pattern[str], str], ...] = ()
     messages: dict[str, str] = field(default_factory=dict)
-    """Parts of what the check says -> their own; the name of a parameter is none of them."""
+    """Parts of the program's own findings -> their own; names of parameters are not among them."""
     message_patterns: tuple[tuple[re.Pattern[str], str], ...] = ()
 
     def text(self, english: str) -> str:
@@ -59,7 +59,7 @@ class Language:
         return self.text(english)
 
     def message(self, english: str) -> str:
-        """Return what the check says of itself; what a rule says stays in the words of its facts."""
+        """Return a finding of the program itself in this language; a rule stays in the words of its facts."""
         known = self.messages.get(english)
         if known is not None:
             return known

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import shutil
 from pathlib import Path
 
@@ -50,6 +51,24 @@ def test_a_value_leads_to_the_number_of_its_parameter(amp, mill: Path) -> None:
     assert amp("set", mill, "2750=17.125").code == 0
     hit = amp("find", mill, "17.125", "mm", "--json").json["hits"][0]
     assert (hit["kind"], hit["param"], hit["instance"], hit["title"]) == ("value", "2750", "2", "17.125 mm")
+
+
+def test_a_question_without_an_answer_names_the_other_families_and_where_everything_is(amp) -> None:
+    said = amp("find", "syntec", "debounce")
+    assert said.out == "Nothing found for 'debounce'\n"
+    assert "In another family: grblhal: $26 Homing switch debounce delay" in said.err
+    assert "amp-studio guide syntec" in said.err
+    (first, *_) = json.loads(amp("find", "syntec", "debounce", "--json").out)["elsewhere"]
+    assert first == {
+        "family": "grblhal",
+        "id": "homing.debounce",
+        "title": "$26 Homing switch debounce delay",
+    }
+
+
+def test_a_german_word_finds_what_the_manual_calls_otherwise(amp) -> None:
+    (best, *_) = json.loads(amp("find", "9pc", "Schleppfehler", "--json").out)["hits"]
+    assert (best["id"], best["why"]) == ("servo.excess_error", "'schleppfehler' as 'excess error'")
 
 
 def test_where_nothing_is_found_the_nearest_is_offered(amp) -> None:

@@ -13,6 +13,7 @@ import pytest
 import write_schemas
 from jsonschema import Draft7Validator
 
+from amp_studio.find.synonyms import SYNONYMS_FILE
 from amp_studio.schema import database_folder
 from amp_studio.schema.registration import register, unregister
 from amp_studio.schema.units import UNITS_FILE
@@ -53,6 +54,14 @@ def test_the_units_are_valid_by_their_schema() -> None:
     assert faults("units", data) == []
     data["units"]["mm"]["mesures"] = "length"
     assert faults("units", data) != []
+
+
+def test_the_synonyms_are_valid_by_their_schema() -> None:
+    assert named_in(SYNONYMS_FILE) == SCHEMAS / "synonyms.schema.json"
+    data = read_yaml(SYNONYMS_FILE.read_text("utf-8")).data
+    assert faults("synonyms", data) == []
+    data["synonyms"][0]["means"] = data["synonyms"][0].pop("mean")
+    assert faults("synonyms", data) != []
 
 
 def test_an_editor_offers_the_units_that_a_family_has_alone() -> None:

@@ -12,7 +12,7 @@ from amp_studio.ui.base.workspace import Workspace
 from amp_studio.ui.main_window import MainWindow
 from amp_studio.ui.page.message_page import MessageWindow
 
-from .conftest import WAIT_MS, action
+from .conftest import WAIT_MS, Person, action
 
 
 @pytest.fixture
@@ -111,11 +111,39 @@ def test_the_list_closes_when_the_cursor_goes_elsewhere(window: MainWindow, box:
 
 def test_nothing_found_offers_the_nearest_and_enter_takes_it(window: MainWindow, box: FindBox) -> None:
     typed(box, "excccesss")
-    nothing, nearest = box.model.rows
+    nothing, nearest, *ways_on = box.model.rows
+    assert ways_on[-1].text == "Show all parameters in the table"
     assert (nothing.text, nearest.instead) == ("Nothing found", "excess")
     QTest.keyClick(box, Qt.Key.Key_Return)
     assert (box.text(), box.is_open) == ("excess", True)
     assert heads(box)[0] == "Parameters"
+
+
+def test_another_family_that_has_it_is_named_and_shown(
+    window: MainWindow, box: FindBox, person: Person, qtbot
+) -> None:
+    typed(box, "debounce")
+    qtbot.waitUntil(lambda: any(row.family for row in box.model.rows), timeout=WAIT_MS)
+    row = next(row for row in box.model.rows if row.family)
+    assert row.text.startswith("In grblHAL and Grbl: ")
+    box.chosen.emit(row)
+    assert "Id: homing.debounce" in person.reads()
+
+
+def test_a_german_word_leads_to_the_parameter_whatever_the_language(box: FindBox) -> None:
+    typed(box, "Schleppfehler")
+    assert box.model.rows[1].hit.key == "servo.excess_error"
+    assert box.model.rows[1].right == "'schleppfehler' as 'excess error'"
+
+
+def test_the_old_question_is_selected_by_the_click_that_comes_back(window: MainWindow, box: FindBox) -> None:
+    typed(box, "home")
+    window.table_view.setFocus()
+    box.setFocus(Qt.FocusReason.MouseFocusReason)  # as Qt does before the click
+    QTest.mouseClick(box, Qt.MouseButton.LeftButton)
+    assert box.selectedText() == "home"
+    QTest.mouseClick(box, Qt.MouseButton.LeftButton, pos=box.rect().center())
+    assert box.selectedText() == "", "the second click puts the cursor"
 
 
 def test_a_value_is_found_as_it_was_edited(workspace: Workspace, box: FindBox) -> None:

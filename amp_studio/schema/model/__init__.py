@@ -99,6 +99,7 @@ from .rule import (
     Severity,
     Suppression,
 )
+from .synonyms import Synonyms
 
 __all__ = [
     "Area",
@@ -170,6 +171,7 @@ __all__ = [
     "Statement",
     "Storage",
     "Suppression",
+    "Synonyms",
     "Table",
     "TableRoles",
     "Tables",

@@ -7,13 +7,16 @@ from functools import partial
 
 from PySide6.QtCore import QTimer
 from PySide6.QtGui import QAction
+from PySide6.QtWidgets import QMessageBox
 
-from amp_studio.find import Entry, Finder, Hit, Index, index_of
+from amp_studio.find import Entry, Finder, Hit, Index, elsewhere, index_of, prepare_synonyms
+from amp_studio.report import facts
 from amp_studio.schema import family_ids, load_schema
 from amp_studio.ui.base.menu_commands import commands
 from amp_studio.ui.base.modal import is_alive
+from amp_studio.ui.base.questions import show_message
 from amp_studio.ui.base.task import Task
-from amp_studio.ui.base.translated import Translated
+from amp_studio.ui.base.translated import Translated, worded
 from amp_studio.ui.page.file_page import FilePage
 from amp_studio.ui.page.message_page import MessageWindow
 from amp_studio.ui.table.cell_look import prepare_labels
@@ -104,17 +107,19 @@ class FindSearch(Translated):
         if query.startswith(COMMANDS):
             every = [self._hit(entry, 1.0) for entry in self._menu.entries]
             hits = self._among(own) if own else every
-            return rows_of(hits, self._commands) or self._nothing("")
+            return rows_of(hits, self._commands) or [FindRow(self.box.tr("Nothing found"))]
         if self.window.page is None:
             found = self._messages(own) + self._among(own)
-            return rows_of(sorted(found, key=lambda hit: -hit.score), self._commands) or self._nothing("")
+            return rows_of(sorted(found, key=lambda hit: -hit.score), self._commands) or self._nothing(
+                own, ""
+            )
         finder = self._finder()
         hits = finder.find(own, _MOST) if finder is not None else []
         found = [self._with_value(hit, self.window.page) for hit in hits]
         found = sorted(found + self._among(own), key=lambda hit: -hit.score)
         if found:
             return rows_of(found, self._commands) + self._every(found)
-        return self._nothing(finder.nearest(own) if finder is not None else "")
+        return self._nothing(own, finder.nearest(own) if finder is not None else "")
 
     def _finder(self) -> Finder | None:
         """Return the finder of the file in front once its family is indexed."""
@@ -137,19 +142,23 @@ class FindSearch(Translated):
 
     def _messages(self, query: str) -> list[Hit]:
         """Return messages of the controls of every family, for who has no file open; loaded in a thread at the first question."""
-        if self._families is None:
-            self._families = ()
-            task = Task(lambda *_: _every_family())
-            task.done.connect(self._take_families)
-            task.begin()
         found = []
-        for finder in self._families:
+        for finder in self._every_finder():
             family = finder.schema.family
             for hit in finder.find(query, _MOST):
                 if hit.kind == "message":
                     detail = f"{family.name}, {hit.detail}"
                     found.append(replace(hit, key=f"{family.family}:{hit.key}", detail=detail))
         return found
+
+    def _every_finder(self) -> tuple[Finder, ...]:
+        """Return a finder of each family; loaded in a thread at the first question, which is asked again then."""
+        if self._families is None:
+            self._families = ()
+            task = Task(lambda *_: _every_family())
+            task.done.connect(self._take_families)
+            task.begin()
+        return self._families
 
     def _take_families(self, finders: tuple[Finder, ...]) -> None:
         self._families = finders
@@ -187,12 +196,24 @@ class FindSearch(Translated):
         text = self.box.tr("Show %n parameters in the table", "", len(ids))
         return [FindRow(text, icon="table", every=ids)]
 
-    def _nothing(self, nearest: str) -> list[FindRow]:
-        nothing = FindRow(self.box.tr("Nothing found"))
-        if not nearest:
-            return [nothing]
-        text = self.box.tr("Did you mean “{words}”?").format(words=nearest)
-        return [nothing, FindRow(text, icon="magnifying-glass", instead=nearest)]
+    def _nothing(self, query: str, nearest: str) -> list[FindRow]:
+        """Return the ways on from a question without an answer: the nearest one, other families, where everything is."""
+        rows = [FindRow(self.box.tr("Nothing found"))]
+        if nearest:
+            text = self.box.tr("Did you mean “{words}”?").format(words=nearest)
+            rows.append(FindRow(text, icon="magnifying-glass", instead=nearest))
+        own = self.window.workspace.file.schema.family.family if self.window.workspace is not None else ""
+        others = [finder for finder in self._every_finder() if finder.schema.family.family != own]
+        for schema, hit in elsewhere(query, others):
+            text = self.box.tr("In {family}: {title}").format(family=schema.family.name, title=hit.title)
+            rows.append(FindRow(text, icon="cpu", hit=hit, family=schema.family.family))
+        if self.window.page is not None:
+            every = tuple(self.window.page.workspace.file.schema.parameters)
+            rows.append(FindRow(self.box.tr("Show all parameters in the table"), icon="table", every=every))
+        ask = next((a for a in self._commands.values() if a.objectName() == "report-problem"), None)
+        if ask is not None:
+            rows.append(FindRow(self.box.tr("Report a word that is missing"), icon="info", action=ask))
+        return rows
 
     # -- going there -----------------------------------------------------------------------
 
@@ -204,6 +225,8 @@ class FindSearch(Translated):
             self.box.clear()
             self._leave()
             row.action.trigger()
+        elif row.family and row.hit is not None:
+            self._show_fact(row.family, row.hit)
         elif row.hit is not None and self.window.page is None:
             family, _, message = row.hit.key.partition(":")
             MessageWindow(self.window, load_schema(family), message).show()
@@ -228,6 +251,17 @@ class FindSearch(Translated):
             page.follow(hit.key)
         page.table_view.setFocus()
 
+    def _show_fact(self, family: str, hit: Hit) -> None:
+        """Show what another family has: a message on its page, a parameter as the manual pages have it."""
+        schema = load_schema(family)
+        if hit.kind == "message":
+            MessageWindow(self.window, schema, hit.key).show()
+        else:
+            parameter = schema.parameters.get(hit.key)
+            listed = facts(schema, parameter) if parameter is not None else []
+            text = "\n".join(f"{worded(title)}: {fact}" for title, fact in listed) or hit.detail
+            show_message(self.window, hit.title, text, QMessageBox.Icon.Information)
+
     def _show_message(self, page: FilePage, message: str) -> None:
         MessageWindow(self.window, page.workspace.file.schema, message, page).show()
 
@@ -250,5 +284,6 @@ def _every_family() -> tuple[Finder, ...]:
 
 def _make_ready(finder: Finder, validator: Validator, *_: object) -> None:
     index_of(finder.schema, finder.machine)
+    prepare_synonyms()
     validator.prepare_edits()
     prepare_labels(finder.schema)

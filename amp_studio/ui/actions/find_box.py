@@ -14,6 +14,7 @@ from PySide6.QtGui import (
     QAccessibleAnnouncementEvent,
     QFocusEvent,
     QKeyEvent,
+    QMouseEvent,
     QPainter,
     QPaintEvent,
     QResizeEvent,
@@ -79,6 +80,10 @@ class FindBox(QLineEdit):
         layout.addWidget(self._foot)
         self._popup.hide()
         self._window = window
+        self._selects = False
+        """Whether the click that is under way selects the whole question."""
+        self._was_here = False
+        """Whether the cursor was here before the click: Qt gives the focus before the click."""
         self.textEdited.connect(self.search)
         self.textChanged.connect(self._emptied)
 
@@ -176,10 +181,25 @@ class FindBox(QLineEdit):
 
     def focusInEvent(self, event: QFocusEvent) -> None:
         super().focusInEvent(event)
+        self._was_here = event.reason() != Qt.FocusReason.MouseFocusReason
         self.entered.emit()
+
+    def mousePressEvent(self, event: QMouseEvent) -> None:
+        """Select the old question at the click that comes here, so that the next is typed over it."""
+        is_new = not self._was_here
+        super().mousePressEvent(event)
+        self._selects, self._was_here = is_new, True
+
+    def mouseReleaseEvent(self, event: QMouseEvent) -> None:
+        """Leave a selection that was dragged."""
+        super().mouseReleaseEvent(event)
+        if self._selects and not self.hasSelectedText():
+            self.selectAll()
+        self._selects = False
 
     def focusOutEvent(self, event: QFocusEvent) -> None:
         super().focusOutEvent(event)
+        self._was_here = False
         if event.reason() != Qt.FocusReason.PopupFocusReason:  # the menu of this field
             self.close_list()
 

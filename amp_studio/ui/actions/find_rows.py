@@ -51,6 +51,8 @@ class FindRow(NamedTuple):
     """The question that Enter puts in place of the present one."""
     every: tuple[str, ...] = ()
     """Ids of all parameters that were found, to be shown in the table."""
+    family: str = ""
+    """The other family that has it."""
 
     @property
     def is_head(self) -> bool:

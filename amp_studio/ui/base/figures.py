@@ -25,7 +25,7 @@ def written(figure: str) -> str:
 def sentence(text: str) -> str:
     """Return a message that was made below the window (a finding, what is allowed) with its numbers as the language writes them.
 
-    What the program says of itself is in the language of the window; a rule has the words of its facts.
+    The sentences of the program are in the language of the window; a rule has the words of its facts.
     """
     sign = tr(".", "decimal sign")
     said = message_in_words(text)

@@ -41,7 +41,7 @@ def _worded(code: str, text: str) -> str:
 
 
 def message_in_words(text: str) -> str:
-    """Return what the check says of a file in the language of the window; what a rule says has the words of its facts."""
+    """Return a finding of the program itself in the language of the window; a rule has the words of its facts."""
     return text if _spoken == "en" else _message(_spoken, text)
 
 

@@ -6497,5 +6497,17 @@ Importieren und als erzwungen kennzeichnen?</translation>
             <source>Did you mean “{words}”?</source>
             <translation>Gemeint „{words}“?</translation>
         </message>
+        <message>
+            <source>In {family}: {title}</source>
+            <translation>In {family}: {title}</translation>
+        </message>
+        <message>
+            <source>Show all parameters in the table</source>
+            <translation>Alle Parameter in der Tabelle zeigen</translation>
+        </message>
+        <message>
+            <source>Report a word that is missing</source>
+            <translation>Ein fehlendes Wort melden</translation>
+        </message>
     </context>
 </TS>

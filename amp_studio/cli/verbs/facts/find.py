@@ -4,13 +4,13 @@ are forgiven.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from amp_studio.cli import candidates
 from amp_studio.cli.arguments import JSON, count
-from amp_studio.cli.console import family, print_json
+from amp_studio.cli.console import family, note, print_json
 from amp_studio.cli.errors import UsageError
 from amp_studio.cli.opened import opened
 from amp_studio.cli.verb import Options, Verb, VerbArgument
@@ -94,14 +94,39 @@ def run(options: Options) -> int:
         found = [each for each in found if each[0].score >= found[0][0].score / 3]
     found = found[: options.limit]
     nearest = "" if found else next(filter(None, (s.finder.nearest(query) for s in sources)), "")
+    others = () if found or len(sources) > 1 else _elsewhere(query, sources[0].schema)
     if options.json:
         hits = [_as_json(hit, source) for hit, source in found]
-        print_json({"query": query, "hits": hits, "nearest": nearest})
+        named = [{"family": s.family.family, "id": hit.key, "title": hit.title} for s, hit in others]
+        print_json(
+            {"query": query, "hits": hits, "nearest": nearest} | ({"elsewhere": named} if named else {})
+        )
     elif found:
         _print(found, named=len(sources) > 1)
     else:
         print(f"Nothing found for {quoted(query)}" + (f". Nearest: {nearest}" if nearest else ""))
+        for way in _ways_on(others, sources):
+            note(way)
     return 0
+
+
+def _elsewhere(query: str, schema: Schema) -> Sequence[tuple[Schema, Hit]]:
+    """Return the best hit of each other family."""
+    from amp_studio.find import Finder, elsewhere
+    from amp_studio.schema import family_ids, load_schema
+
+    schemas = [load_schema(name) for name in family_ids() if name != schema.family.family]
+    return elsewhere(query, (Finder(s, s.family.default_machine) for s in schemas))
+
+
+def _ways_on(others: Sequence[tuple[Schema, Hit]], sources: list[_Source]) -> Iterator[str]:
+    """Yield what can be done about a question without an answer."""
+    for schema, hit in others:
+        yield f"In another family: {schema.family.family}: {hit.title}"
+    if len(sources) == 1:
+        name = sources[0].schema.family.family
+        yield f"Everything there is: amp-studio guide {name}, by step; amp-studio schema {name}, by group"
+    yield "A word that is missing: add it to synonyms.yaml of the parameter database, or report it (CONTRIBUTING.md)"
 
 
 def _sources(options: Options) -> tuple[list[_Source], list[str]]:

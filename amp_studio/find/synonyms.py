@@ -1,0 +1,96 @@
+"""What people type for what the manuals call otherwise: German and trade words, and what they see at the machine."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from functools import cache
+
+from amp_studio.schema import database_folder, read_yaml
+
+from .words import distance, words_of
+
+SYNONYMS_FILE = database_folder() / "synonyms.yaml"
+_BEGUN = 5
+"""Letters from which the last word of a question may be only begun."""
+_SLIP = 6
+"""Letters from which a word may have one slip."""
+_UMLAUTS = str.maketrans({"ä": "ae", "ö": "oe", "ü": "ue"})
+_ENDINGS = ("", "e", "n", "en", "er", "s", "es")
+"""What a German word may have behind it: ``Endschaltern``, ``Rampen``."""
+
+
+@dataclass(frozen=True, slots=True)
+class Meaning:
+    """Another question that a question may mean."""
+
+    query: str
+    said: str
+    """The words that were taken to mean something else."""
+    means: str
+    place: int
+    """0 for the likeliest meaning of those words."""
+
+
+def meanings(query: str) -> Iterator[Meaning]:
+    """Yield what a question may mean in the words of the manuals, the likeliest first; nothing for one without a synonym.
+
+    The longest group of words counts; what is around it stays in the question.
+    """
+    words = [word.translate(_UMLAUTS) for word in words_of(query)]
+    for length in range(len(words), 0, -1):
+        for start in range(len(words) - length + 1):
+            said = tuple(words[start : start + length])
+            known = _known(said, is_last=start + length == len(words))
+            if known is None:
+                continue
+            for place, mean in enumerate(_table()[known]):
+                asked = " ".join((*words[:start], mean, *words[start + length :]))
+                yield Meaning(asked, " ".join(said), mean, place)
+            return
+
+
+def _known(said: tuple[str, ...], *, is_last: bool) -> tuple[str, ...] | None:
+    """Return the words of the table that are meant: equal, with an ending, only begun, or with one slip."""
+    if said in _table():
+        return said
+    if not any(len(word) >= _BEGUN for word in said):
+        return None
+    same_length = [words for words in _table() if len(words) == len(said)]
+    if is_last:
+        begun = [w for w in same_length if w[:-1] == said[:-1] and w[-1].startswith(said[-1])]
+        if begun and len(said[-1]) >= _BEGUN:
+            return min(begun, key=lambda words: len(words[-1]))
+    return next((w for w in same_length if all(map(_is_like, said, w))), None)
+
+
+def _is_like(said: str, word: str) -> bool:
+    if said == word:
+        return True
+    if len(word) < _SLIP or len(said) < _SLIP:
+        return False
+    return said.removeprefix(word) in _ENDINGS or distance(said, word, 1) <= 1
+
+
+@cache
+def _table() -> dict[tuple[str, ...], tuple[str, ...]]:
+    """Return words -> what they mean."""
+    data = read_yaml(SYNONYMS_FILE.read_text("utf-8")).data
+    return {
+        tuple(word.translate(_UMLAUTS) for word in words_of(words)): tuple(each["mean"])
+        for each in data["synonyms"]
+        for words in each["words"]
+    }
+
+
+def nearest_synonym(query: str) -> str:
+    """Return the known word that is most alike a question; empty where none is near."""
+    said = " ".join(word.translate(_UMLAUTS) for word in words_of(query))
+    most = max(2, len(said) // 4)
+    near = min((distance(said, " ".join(words), most), " ".join(words)) for words in _table())
+    return near[1] if said and near[0] <= most else ""
+
+
+def prepare_synonyms() -> None:
+    """Read the table now, in a thread that nobody waits for."""
+    _table()

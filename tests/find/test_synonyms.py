@@ -1,0 +1,69 @@
+"""German and trade words, and what people see: each leads to something in the manuals' words."""
+
+from __future__ import annotations
+
+from collections import Counter
+
+import pytest
+
+from amp_studio.find import Finder, elsewhere
+from amp_studio.find.synonyms import SYNONYMS_FILE, meanings, nearest_synonym
+from amp_studio.schema import family_ids, load_schema, read_yaml
+
+SYNONYMS = read_yaml(SYNONYMS_FILE.read_text("utf-8")).data["synonyms"]
+
+
+@pytest.fixture(scope="module")
+def finders() -> dict[str, Finder]:
+    schemas = {name: load_schema(name) for name in family_ids()}
+    return {name: Finder(schema, schema.family.default_machine) for name, schema in schemas.items()}
+
+
+def test_no_word_means_two_things() -> None:
+    words = Counter(word.casefold() for each in SYNONYMS for word in each["words"])
+    assert [word for word, count in words.items() if count > 1] == []
+
+
+def test_each_group_of_words_leads_to_something_in_a_family(finders: dict[str, Finder]) -> None:
+    lost = {}
+    for each in SYNONYMS:
+        word = each["words"][0]
+        having = [
+            n
+            for n, f in finders.items()
+            if any(word.casefold() in h.why or h.score > 5 for h in f.find(word, 3))
+        ]
+        if not having:
+            lost[word] = having
+    assert lost == {}
+
+
+@pytest.mark.parametrize(
+    ("query", "means"),
+    [
+        ("Schleppfehler", "excess error"),
+        ("schleppfehlr", "excess error"),
+        ("Schleppf", "excess error"),
+        ("größter Schleppfehler", "excess error"),
+        ("Endschaltern", "limit switch"),
+        ("Not-Halt", "emergency stop"),
+        ("axis oscillates at 3 m", "initial gain of position loop at 3 m"),
+    ],
+)
+def test_a_word_is_known_begun_mistyped_with_an_ending_and_among_others(query: str, means: str) -> None:
+    assert next(meanings(query)).query == means
+
+
+@pytest.mark.parametrize("query", ["1300", "lead screw", "qwertz", "", "not", "12.7 mm"])
+def test_what_is_no_word_of_it_stays_as_it_is(query: str) -> None:
+    assert list(meanings(query)) == []
+
+
+def test_a_question_without_an_answer_has_a_near_word_and_the_families_that_have_it(
+    finders: dict[str, Finder],
+) -> None:
+    assert finders["syntec"].find("debounce") == []
+    others = elsewhere("debounce", [f for n, f in finders.items() if n != "syntec"])
+    assert others[0][0].family.family == "grblhal"
+    assert nearest_synonym("Umkerschpiel") == "umkehrspiel"
+    assert nearest_synonym("zzzzzzzzzz") == ""
