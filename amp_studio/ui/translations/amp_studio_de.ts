@@ -1847,7 +1847,6 @@ Die nummerierten Parameter von Maschinensteuerungen: bearbeiten, prüfen, drucke
             <translation>{name}: {state} (Alt+0)</translation>
         </message>
         <message>
-<<<<<<< HEAD
             <source>Something is being sent to a control: look at it afterwards.</source>
             <translation>Es wird gerade etwas an eine Steuerung gesendet: danach ansehen.</translation>
         </message>
@@ -1856,8 +1855,6 @@ Die nummerierten Parameter von Maschinensteuerungen: bearbeiten, prüfen, drucke
             <translation>Angehalten: ein Austausch läuft.</translation>
         </message>
         <message>
-=======
->>>>>>> 4478ed21 (The translations are in the order of the window's modules)
             <source>Starting an emulated control …</source>
             <translation>Eine nachgebildete Steuerung wird gestartet …</translation>
         </message>
