@@ -17,6 +17,7 @@ from typing import Any
 from pydantic import TypeAdapter
 
 from amp_studio.files.project import PROJECT_FORMAT, ProjectInfo
+from amp_studio.meaning.facts import Meanings
 from amp_studio.schema import database_folder, family_ids, load_schema
 from amp_studio.schema.model import (
     BuilderRule,
@@ -63,6 +64,7 @@ FILES: dict[str, type[Model]] = {
     "pictures": PictureRoles,
     "plausible": Plausible,
     "program": ProgramWords,
+    "meaning": Meanings,
     "units": Units,
     "synonyms": Synonyms,
     "builder-rules": BuilderRules,

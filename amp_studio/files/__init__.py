@@ -32,6 +32,7 @@ if TYPE_CHECKING:
         axis_letter,
         axis_profile,
         axis_title,
+        axis_turns,
         fitted_axes,
         other_use,
         shown_axes,

@@ -39,6 +39,7 @@ class Registration:
     ``curve``     how a compensation table that is one text is read and written (``CurveText`` of the room pictures)
     ``compensation``  what it has against the errors of an axis, and what is tuned at the machine (``Compensation``)
     ``describe``  description of a control -> its schema (``described``), for a family whose controls describe themselves
+    ``migrate``   a machine description and answers -> what a control of the family gets (``WrittenMachine`` of the room meaning)
     ``facts``     the folder of its facts; None where it is ``parameter_db/<family>``
     """
 
@@ -54,6 +55,7 @@ class Registration:
     curve: str = ""
     compensation: str = ""
     describe: str = ""
+    migrate: str = ""
     facts: Path | None = None
 
 

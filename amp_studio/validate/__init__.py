@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     from .finding import NOT_SET, SEVERITIES, Finding, Setting, not_set
     from .findings_between import new_findings
     from .fixes import Fixed, apply_all_safe, apply_fixes
-    from .functions import formulas
+    from .functions import formulas, rule_functions
     from .interim import Interim, NewValue
     from .plausible.earlier import Earlier
     from .result_check import ResultCheck

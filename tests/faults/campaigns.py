@@ -27,6 +27,7 @@ from tests.transfer.hostile_controls import exchange_with_hostile_control
 from tests.ui.killed import kill_editor
 
 from . import (
+    answers,
     descriptions,
     editor,
     exchanges,
@@ -266,6 +267,7 @@ CAMPAIGNS = (
     ),
     Campaign("damaged copies of a control", partial(_damaged_in, stored.fuzz_copies), MANY, 50, 5_000),
     Campaign("damaged lists of a control's screen", partial(_damaged, sheets.fuzz_screens), MANY, 100, 5_000),
+    Campaign("damaged answers of a migration", partial(_damaged_in, answers.fuzz_answers), MANY, 100, 5_000),
     Campaign("damaged points of a laser", partial(_damaged, measured_points.fuzz_points), MANY, 150, 5_000),
     Campaign("damaged records of a drive", partial(_damaged, records.fuzz_records), MANY, 300, 5_000),
     Campaign("damaged machines of an axis", partial(_damaged_in, records.fuzz_machines), MANY, 60, 2_000),

@@ -53,6 +53,8 @@ READERS = {
     "families/grblhal/formats/relatives.py": "damaged texts of controls",
     "families/grblhal/line.py": "damaged answers of a Grbl control",
     "families/linuxcnc/formats/ini.py": "damaged texts of controls",
+    "meaning/facts.py": "",  # facts of the program itself
+    "meaning/folder.py": "damaged answers of a migration",
     "families/num/emulated/parameter_memory.py": "odd keys and bytes at emulated NUM and ACR controls",
     "families/num/lines/content.py": "damaged contents of NUM and ACR",
     "families/num/lines/driver.py": "damaged unloads of a NUM control",

@@ -91,7 +91,7 @@ def test_every_fact_file_names_the_schema_of_its_kind() -> None:
     for path in FACTS:
         kind = (
             path.stem
-            if path.stem in ("family", "commissioning", "pictures", "plausible", "program")
+            if path.stem in ("family", "commissioning", "pictures", "plausible", "program", "meaning")
             else kinds[path.parent.name]
         )
         assert named_in(path) == SCHEMAS / f"{kind}.schema.json"

@@ -8,4 +8,5 @@ REGISTRATION = Registration(
     family="linuxcnc",
     formulas="amp_studio.families.linuxcnc.formulas:FORMULAS",
     formats=("amp_studio.families.linuxcnc.formats.ini:FORMAT",),
+    migrate="amp_studio.families.linuxcnc.migration:migrate",
 )

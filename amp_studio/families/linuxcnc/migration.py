@@ -1,0 +1,491 @@
+"""A machine description as a configuration of LinuxCNC. What was measured on the real program is decision 0076."""
+
+from __future__ import annotations
+
+import math
+import re
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+
+from amp_studio.meaning import (
+    AxisMeaning,
+    Graded,
+    GradeKind,
+    MachineMeaning,
+    MigrationQuestion,
+    WrittenMachine,
+    inwards_high,
+    inwards_low,
+    not_above,
+)
+
+from .kinematics import LETTERS
+from .template import hal_template
+
+_TURNING = "ABC"
+_GROUP = re.compile(r"[A-Z]+")
+
+
+@dataclass
+class _Ini:
+    """The lines of a configuration: section -> key, value and a remark above."""
+
+    sections: dict[str, list[tuple[str, str, str]]] = field(default_factory=dict)
+
+    def put(self, section: str, key: str, value: str, remark: str = "") -> None:
+        self.sections.setdefault(section, []).append((key, value, remark))
+
+    def text(self, name: str) -> str:
+        """Return the whole, with number and grade above each key."""
+        lines = [
+            f"# {name}, migrated. Above each key: the parameter of the old control and how well it was taken over."
+        ]
+        for section, rows in self.sections.items():
+            lines += ["", f"[{section}]"]
+            for key, value, remark in rows:
+                lines += [f"# {remark}"] * bool(remark) + [f"{key} = {value}"]
+        return "\n".join((*lines, ""))
+
+
+def migrate(machine: MachineMeaning, answers: Mapping[str, str]) -> WrittenMachine:
+    """Return the configuration folder of a machine, with a grade for each concept."""
+    return _Migration(machine, answers).written()
+
+
+class _Migration:
+    def __init__(self, machine: MachineMeaning, answers: Mapping[str, str]) -> None:
+        self.machine, self.answers = machine, answers
+        self.out, self.ini = WrittenMachine(), _Ini()
+        self.name = re.sub(r"[^A-Za-z0-9_-]+", "_", machine.name).strip("_") or "machine"
+        self.letters = {axis.instance: self._letter(axis) for axis in machine.axes}
+        order = sorted(
+            (a for a in machine.axes if self.letters[a.instance]),
+            key=lambda a: LETTERS.index(self.letters[a.instance]),
+        )
+        self.axes = {axis.instance: joint for joint, axis in enumerate(order)}
+        self.ordered = order
+
+    def written(self) -> WrittenMachine:
+        """Return all of it."""
+        asked = {q.id: self.out.answer(q, self.answers) for q in self.machine.questions}
+        steps = self._home_order()
+        self._programs()
+        self._path()
+        for axis in self.ordered:
+            self._joint(axis, asked.get(f"feedback.sign.{axis.letter}", ""), steps)
+        self._spindle()
+        self._startup()
+        texts = self.out.texts
+        texts[f"{self.name}.ini"] = self.ini.text(self.machine.name or self.name)
+        texts["machine.hal"] = hal_template(len(self.ordered))
+        texts[f"{self.name}.var"] = self._offsets()
+        texts["tool.tbl"] = ""
+        return self.out
+
+    # -- the whole machine ---------------------------------------------------------------------------------------------
+
+    def _letter(self, axis: AxisMeaning) -> str:
+        """Return the letter of an axis; LinuxCNC turns A, B and C, and no other (X44)."""
+        taken = [a.letter for a in self.machine.axes if a is not axis]
+        if axis.letter in LETTERS and (axis.letter in _TURNING) == axis.turns and axis.letter not in taken:
+            return axis.letter
+        what = "turns" if axis.turns else "does not turn"
+        free = [x for x in LETTERS if (x in _TURNING) == axis.turns and x not in taken]
+        source = axis.figures["kind"].sources if "kind" in axis.figures else ()
+        question = MigrationQuestion(
+            f"letter.{axis.letter}",
+            f"Axis {axis.letter} {what}: which letter shall it have ({', '.join(free)})?",
+            source,
+        )
+        found = self.out.answer(question, self.answers).upper()
+        return found if found in free else ""
+
+    def _home_order(self) -> dict[str, int]:
+        """Return letter -> step of Home All; empty where nobody has answered."""
+        names = ", ".join(self.letters[a.instance] for a in self.ordered)
+        question = MigrationQuestion(
+            "home.order", f"In which order do the axes home ({names})? Write the steps, as: Z, X Y"
+        )
+        groups = [_GROUP.findall(step) for step in self.out.answer(question, self.answers).upper().split(",")]
+        return {
+            letter: n for n, group in enumerate(g for g in groups if g) for word in group for letter in word
+        }
+
+    def _programs(self) -> None:
+        put, letters = self.ini.put, [self.letters[a.instance] for a in self.ordered]
+        put("EMC", "VERSION", "1.1")
+        put("EMC", "MACHINE", self.machine.name or self.name)
+        put(
+            "DISPLAY",
+            "DISPLAY",
+            "linuxcncrsh",
+            "without a screen, to try it; axis, gmoccapy or qtvcp for one",
+        )
+        put("DISPLAY", "POSITION_FEEDBACK", "ACTUAL")
+        put("TASK", "TASK", "milltask")
+        put("TASK", "CYCLE_TIME", "0.010")
+        put("RS274NGC", "PARAMETER_FILE", f"{self.name}.var")
+        put("EMCMOT", "EMCMOT", "motmod")
+        put("EMCMOT", "COMM_TIMEOUT", "1.0")
+        put("EMCMOT", "SERVO_PERIOD", "1000000")
+        put("EMCIO", "EMCIO", "io")
+        put("EMCIO", "CYCLE_TIME", "0.100")
+        put("EMCIO", "TOOL_TABLE", "tool.tbl")
+        put("HAL", "HALFILE", "machine.hal", "a template: it moves nothing until it is wired")
+        put("KINS", "KINEMATICS", f"trivkins coordinates={''.join(letters)}")
+        put("KINS", "JOINTS", str(len(letters)))
+        put("TRAJ", "COORDINATES", " ".join(letters))
+        put("TRAJ", "LINEAR_UNITS", "mm")
+        put("TRAJ", "ANGULAR_UNITS", "degree")
+        put("TRAJ", "SPINDLES", "1")
+
+    def _path(self) -> None:
+        linear = [axis.number("rapid") for axis in self.ordered if not axis.turns]
+        if linear and all(linear):
+            norm = math.sqrt(sum((speed or 0.0) ** 2 for speed in linear)) / 60.0
+            self.ini.put("TRAJ", "MAX_LINEAR_VELOCITY", not_above(norm), "the diagonal of the axes")
+        jogs = [axis.number("jog") for axis in self.ordered if not axis.turns]
+        speeds = [speed for speed in jogs if speed]
+        if speeds:
+            self.ini.put(
+                "DISPLAY",
+                "MAX_LINEAR_VELOCITY",
+                not_above(min(speeds) / 60.0),
+                "the slowest of the fastest jogs",
+            )
+            self.ini.put("DISPLAY", "DEFAULT_LINEAR_VELOCITY", not_above(min(speeds) / 600.0))
+        for axis in self.ordered:
+            self._grade(axis, "jog", "approximate", "[DISPLAY]MAX_LINEAR_VELOCITY", not_above(min(speeds) / 60.0) if speeds else "",
+                        "each axis has its own jog speeds", "one greatest jog speed for all linear axes, the least of them", "the new one")  # fmt: skip
+
+    def _spindle(self) -> None:
+        greatest, least = self._speeds("spindle.greatest"), self._speeds("spindle.least")
+        if not greatest:
+            self.out.less_safe.append(
+                "the spindle has no greatest speed: the old file has none that is active"
+            )
+            return
+        most, slow = max(greatest), min(least, default=0.0)
+        section = "SPINDLE_0"
+        for key, value in (
+            ("MAX_FORWARD_VELOCITY", most),
+            ("MIN_FORWARD_VELOCITY", slow),
+            ("MAX_REVERSE_VELOCITY", most),
+            ("MIN_REVERSE_VELOCITY", slow),
+        ):
+            self.ini.put(section, key, not_above(value))
+        for key, value in (("MAX_VELOCITY", most), ("MIN_VELOCITY", slow)):
+            self.ini.put(
+                section,
+                key,
+                not_above(value),
+                "the same for the 2.9.0~pre1 of Debian 12, which reads this name",
+            )
+        gears = (
+            "one range for each gear",
+            "one range for all gears: the gears and their voltages are a matter of HAL",
+            "the old one",
+        )
+        self.out.graded += [
+            Graded(
+                "",
+                "spindle.greatest",
+                "approximate",
+                "[SPINDLE_0]MAX_FORWARD_VELOCITY",
+                not_above(most),
+                *gears,
+            ),
+            Graded(
+                "", "spindle.least", "approximate", "[SPINDLE_0]MIN_FORWARD_VELOCITY", not_above(slow), *gears
+            ),
+        ]
+        self.out.measure.append("volts per rpm of each gear of the spindle")
+
+    def _speeds(self, concept: str) -> list[float]:
+        figure = self.machine.figures.get(concept)
+        values = figure.value if figure else None
+        listed = values if isinstance(values, list) else [values]
+        return [
+            float(v) for v in listed if isinstance(v, (int, float)) and not isinstance(v, bool) and v > 0.0
+        ]
+
+    def _startup(self) -> None:
+        figure = self.machine.figures.get("startup")
+        code = f"{figure.value if figure else 'G21 G90 G94'} G17 G40 G49 G54 G64 P0.01 G80 G97"
+        self.ini.put("RS274NGC", "RS274NGC_STARTUP_CODE", code)
+        self.out.graded.append(Graded("", "startup", "approximate", "[RS274NGC]RS274NGC_STARTUP_CODE", code,
+                                      "the modes after power-up", "the same modes; G64 P0.01 rounds corners by a hundredth", "neither"))  # fmt: skip
+
+    def _offsets(self) -> str:
+        """Return the numbered parameters: G28 (5161) and G30 (5181) in machine coordinates."""
+        rows = {
+            number: 0.0
+            for base in (5161, 5181, 5211, 5221, 5241, 5261, 5281, 5301, 5321, 5341, 5361, 5381)
+            for number in range(base, base + 9)
+        }
+        rows |= {5210: 0.0, 5220: 1.0}
+        for axis in self.ordered:
+            place = LETTERS.index(self.letters[axis.instance])
+            for concept, base, word in (("home.coordinate", 5161, "G28"), ("home.second", 5181, "G30")):
+                value = axis.number(concept)
+                if value is not None:
+                    rows[base + place] = value
+                    if concept == "home.second":
+                        self._grade(axis, concept, "exact", f"#{base + place}", f"{value:.6f}", word)
+        return "".join(f"{number}\t{value:.6f}\n" for number, value in sorted(rows.items()))
+
+    # -- one axis ------------------------------------------------------------------------------------------------------
+
+    def _joint(self, axis: AxisMeaning, sign: str, steps: Mapping[str, int]) -> None:
+        joint, letter = self.axes[axis.instance], self.letters[axis.instance]
+        j, a = f"JOINT_{joint}", f"AXIS_{letter}"
+        self.ini.put(j, "TYPE", "ANGULAR" if axis.turns else "LINEAR", self._of(axis, "kind", "exact"))
+        self._grade(axis, "kind", "exact", f"[{j}]TYPE", "ANGULAR" if axis.turns else "LINEAR")
+        self._travel(axis, j, a)
+        self._motion(axis, j, a)
+        self._loop(axis, j, sign)
+        self._home(axis, j, steps.get(letter))
+        if axis.number("feed.ceiling") is not None:
+            self._grade(axis, "feed.ceiling", "not_possible", loses="the ceiling of the cutting speed: F runs up to the rapid speed",
+                        do="look at the F words of programs")  # fmt: skip
+            self.out.less_safe.append(
+                f"{axis.letter}: no ceiling of the cutting speed; a program with a large F cuts at it, up to the rapid speed"
+            )
+        self.out.measure.append(
+            f"{axis.letter}: direction and scale of the feedback against a gauge, the way it needs to stop at each end, backlash"
+        )
+
+    def _travel(self, axis: AxisMeaning, j: str, a: str) -> None:
+        kind = axis.choice("travel.kind")
+        for concept, key, rounded in (
+            ("travel.low", "MIN_LIMIT", inwards_low),
+            ("travel.high", "MAX_LIMIT", inwards_high),
+        ):
+            value = axis.number(concept)
+            if kind == "limits" and value is not None:
+                for section in (j, a):
+                    self.ini.put(section, key, rounded(value), self._of(axis, concept, "exact"))
+                self._grade(axis, concept, "exact", f"[{j}]{key}, [{a}]{key}", rounded(value))
+            else:
+                self._grade(axis, concept, "exact", f"[{j}]{key}, [{a}]{key}", "left out")
+        self._grade(
+            axis,
+            "travel.kind",
+            "exact",
+            f"[{j}]MIN_LIMIT, [{j}]MAX_LIMIT",
+            "written" if kind == "limits" else "left out",
+        )
+        if kind != "limits":
+            self.out.less_safe.append(
+                f"{axis.letter}: no travel limits, as before"
+            ) if not axis.turns else None
+        if (axis.turns and axis.number("rollover")) or kind == "modulo":
+            self.ini.put(a, "WRAPPED_ROTARY", "1", self._of(axis, "rollover", "approximate"))
+            self._grade(axis, "rollover", "approximate", f"[{a}]WRAPPED_ROTARY", "1", "a turn is from 0 to 360, and the position starts again",
+                        "positions go on past a turn, and the sign of the word is the direction", "neither: try it without a part")  # fmt: skip
+
+    def _motion(self, axis: AxisMeaning, j: str, a: str) -> None:
+        rapid, ramp = axis.number("rapid"), axis.number("acceleration")
+        if rapid:
+            for section in (j, a):
+                self.ini.put(
+                    section, "MAX_VELOCITY", not_above(rapid / 60.0), self._of(axis, "rapid", "exact")
+                )
+            self._grade(
+                axis, "rapid", "exact", f"[{j}]MAX_VELOCITY, [{a}]MAX_VELOCITY", not_above(rapid / 60.0)
+            )
+        else:
+            self.out.less_safe.append(f"{axis.letter}: no rapid speed is known; LinuxCNC takes 1 unit/s")
+        if ramp:
+            for section in (j, a):
+                self.ini.put(
+                    section,
+                    "MAX_ACCELERATION",
+                    not_above(ramp),
+                    self._of(axis, "acceleration", "approximate"),
+                )
+            kind = axis.choice("ramp.kind") or "trapezoid"
+            now = "a straight ramp with it in jogs, homing and G61; G64 has half of it"
+            self._grade(
+                axis,
+                "acceleration",
+                "approximate",
+                f"[{j}]MAX_ACCELERATION",
+                not_above(ramp),
+                f"a {kind} ramp",
+                now,
+                "the new one is gentler on paths",
+            )
+            self._grade(
+                axis,
+                "ramp.kind",
+                "approximate",
+                f"[{j}]MAX_ACCELERATION",
+                not_above(ramp),
+                f"a {kind} ramp",
+                now,
+                "the old one where it is smoother",
+            )
+        if axis.number("jerk"):
+            self._grade(
+                axis,
+                "jerk",
+                "not_possible",
+                loses="the limited jerk of positioning",
+                do="MAX_JERK of LinuxCNC 2.10, or a lower acceleration",
+            )
+
+    def _loop(self, axis: AxisMeaning, j: str, sign: str) -> None:
+        limit, gain, forward = axis.number("error.limit"), axis.number("gain"), axis.number("feed_forward")
+        if limit:
+            for key in ("FERROR", "MIN_FERROR"):
+                self.ini.put(j, key, not_above(limit), self._of(axis, "error.limit", "exact"))
+            self._grade(axis, "error.limit", "exact", f"[{j}]FERROR, [{j}]MIN_FERROR", not_above(limit))
+            self.out.measure.append(
+                f"{axis.letter}: greatest following error in a rapid move; then FERROR as narrow as it works"
+            )
+        else:
+            self.out.less_safe.append(
+                f"{axis.letter}: no limit of the following error is known; LinuxCNC takes 1 unit"
+            )
+        if gain:
+            self.ini.put(j, "P", not_above(gain), self._of(axis, "gain", "exact"))
+            self._grade(axis, "gain", "exact", f"[{j}]P", not_above(gain))
+        self.ini.put(j, "FF1", not_above(forward or 0.0), self._of(axis, "feed_forward", "exact"))
+        self._grade(axis, "feed_forward", "exact", f"[{j}]FF1", not_above(forward or 0.0))
+        self.ini.put(j, "MAX_OUTPUT", "0")
+        if (play := axis.number("backlash")) is not None:
+            self.ini.put(j, "BACKLASH", not_above(play), self._of(axis, "backlash", "approximate"))
+            self._grade(axis, "backlash", "approximate", f"[{j}]BACKLASH", not_above(play), "the whole of it is added in one direction",
+                        "half of it is added in each direction: zero moves by half", "neither: measure it again")  # fmt: skip
+        if (scale := axis.number("scale")) is not None:
+            value = f"{'-' if sign.startswith('-') else ''}{scale:.9g}" if sign in ("+", "-") else ""
+            if value:
+                self.ini.put(j, "ENCODER_SCALE", value, self._of(axis, "scale", "exact"))
+            self._grade(axis, "scale", "exact", f"[{j}]ENCODER_SCALE", value or f"{scale:.9g}, sign open")
+
+    def _home(self, axis: AxisMeaning, j: str, step: int | None) -> None:
+        kind, search, leave = axis.choice("home.kind"), axis.number("home.search"), axis.number("home.leave")
+        towards = axis.number("home.towards")
+        if search is None and towards is not None:
+            search, leave = self._asked_speed(axis, towards)
+        self._home_place(axis, j)
+        if kind in ("", "none", "coded"):
+            self._grade(
+                axis,
+                "home.kind",
+                "not_possible",
+                loses="homing as it was",
+                do="choose a way of homing at the new control",
+            )
+            return
+        if search is not None and leave is not None:
+            self._home_speeds(axis, j, search, leave, alone=kind == "marker")
+        else:
+            for concept in ("home.search", "home.leave", "home.towards"):
+                self._grade(
+                    axis,
+                    concept,
+                    "approximate",
+                    f"[{j}]HOME_SEARCH_VEL",
+                    "left out",
+                    "a search of the switch",
+                    "no search until the question is answered",
+                    "neither",
+                )
+        index = "NO" if kind == "switch" else "YES"
+        self.ini.put(j, "HOME_USE_INDEX", index, self._of(axis, "home.kind", "approximate"))
+        nearest = kind == "switch-nearest-marker"
+        if nearest:
+            self.out.measure.append(
+                f"{axis.letter}: distance from the switch to the nearest marker; where it is behind, zero moves by one turn of the encoder"
+            )
+        self._grade(axis, "home.kind", "approximate" if nearest else "exact", f"[{j}]HOME_USE_INDEX", index, "the marker nearest to the switch, on either side" if nearest else "the next marker",
+                    "the next marker in the direction of the latch", "neither: measure the distance from the switch to the marker")  # fmt: skip
+        if step is not None:
+            self.ini.put(j, "HOME_SEQUENCE", str(step), "answered")
+
+    def _asked_speed(self, axis: AxisMeaning, towards: float) -> tuple[float | None, float | None]:
+        unit = "deg/min" if axis.turns else "mm/min"
+        question = MigrationQuestion(
+            f"home.speed.{axis.letter}",
+            f"With which speed does {axis.letter} search its switch, in {unit}? The PLC of the old control set it.",
+        )
+        answer = self.out.answer(question, self.answers)
+        try:
+            speed = abs(float(answer)) * towards
+        except ValueError:
+            return None, None
+        return (speed, -speed / 10.0) if speed else (None, None)
+
+    def _home_place(self, axis: AxisMeaning, j: str) -> None:
+        at, offset = axis.number("home.coordinate"), axis.number("home.offset")
+        if at is None:
+            return
+        low, high = (
+            axis.number(c) if axis.choice("travel.kind") == "limits" else None
+            for c in ("travel.low", "travel.high")
+        )
+        within = min(max(at, low if low is not None else at), high if high is not None else at)
+        outcome: GradeKind = "exact" if within == at else "approximate"
+        text = inwards_low(within) if within == low else inwards_high(within)
+        self.ini.put(j, "HOME", text, self._of(axis, "home.coordinate", outcome))
+        self._grade(
+            axis,
+            "home.coordinate",
+            outcome,
+            f"[{j}]HOME",
+            text,
+            f"it stays at {at:g}, beyond its limits",
+            "it goes on to the limit",
+            "the new one",
+        )
+        self.ini.put(
+            j,
+            "HOME_OFFSET",
+            inwards_high(at if offset is None else offset),
+            self._of(axis, "home.offset", "exact"),
+        )
+        self._grade(
+            axis, "home.offset", "exact", f"[{j}]HOME_OFFSET", inwards_high(at if offset is None else offset)
+        )
+
+    def _home_speeds(self, axis: AxisMeaning, j: str, search: float, leave: float, *, alone: bool) -> None:
+        rapid = axis.number("rapid") or abs(search)
+        first = 0.0 if alone else math.copysign(min(abs(search), rapid), search)
+        latch = search if alone else leave
+        slow = math.copysign(min(abs(latch), rapid), latch)
+        opposite = alone or search * leave < 0.0
+        self.ini.put(j, "HOME_SEARCH_VEL", not_above(first / 60.0), self._of(axis, "home.search", "exact"))
+        self.ini.put(
+            j,
+            "HOME_LATCH_VEL",
+            not_above(slow / 60.0),
+            self._of(axis, "home.leave", "exact" if opposite else "approximate"),
+        )
+        self.ini.put(j, "HOME_FINAL_VEL", not_above(abs(slow) / 60.0))
+        limited = abs(search) > rapid
+        self._grade(
+            axis,
+            "home.search",
+            "approximate" if limited else "exact",
+            f"[{j}]HOME_SEARCH_VEL",
+            not_above(first / 60.0),
+            "it searches faster than the rapid speed",
+            "with the rapid speed",
+            "the new one",
+        )
+        self._grade(axis, "home.towards", "exact", f"[{j}]HOME_SEARCH_VEL", not_above(first / 60.0))
+        self._grade(axis, "home.leave", "exact" if opposite else "approximate", f"[{j}]HOME_LATCH_VEL", not_above(slow / 60.0),
+                    "it runs on through the switch", "it backs off, and comes again in the same direction", "the new one needs room before the switch")  # fmt: skip
+
+    def _of(self, axis: AxisMeaning, concept: str, outcome: str) -> str:
+        figure = axis.figures.get(concept)
+        named = ", ".join(f"{s.param} {s.raw}" for s in figure.sources) if figure else ""
+        return f"{named}: {outcome}" if named else ""
+
+    def _grade(self, axis: AxisMeaning, concept: str, outcome: GradeKind, key: str = "", value: str = "", old: str = "", new: str = "",
+               safe_side: str = "", loses: str = "", do: str = "") -> None:  # fmt: skip
+        self.out.graded.append(
+            Graded(axis.letter, concept, outcome, key, value, old, new, safe_side, loses, do)
+        )

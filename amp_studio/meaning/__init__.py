@@ -1,0 +1,14 @@
+"""What the parameters of a machine mean, whatever the family: read by facts, written for another control, graded one by one."""
+
+from typing import TYPE_CHECKING
+
+from amp_studio.front_pages import front_page
+
+if TYPE_CHECKING:
+    from .description import AxisMeaning, MachineMeaning, MigrationQuestion
+    from .folder import read_answers, write_migration
+    from .migration import TargetError, migrate, migration_json, migration_lines
+    from .reading import MeaningError
+    from .writing import Graded, GradeKind, WrittenMachine, inwards_high, inwards_low, not_above
+else:
+    __getattr__ = front_page(__name__)

@@ -1,0 +1,240 @@
+"""The way out of an old control: its parameters, each exactly once, with what becomes of it at the new one."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+from fnmatch import fnmatchcase
+from typing import Any
+
+from amp_studio.errors import AmpStudioError
+from amp_studio.files import ParameterFile
+from amp_studio.schema import (
+    Address,
+    load_part,
+    registered_families,
+    registration_of,
+    show_value,
+    unknown_name,
+)
+
+from .description import MachineMeaning, MeantFigure, MigrationQuestion
+from .facts import RestFact, meanings_of
+from .reading import read_meaning
+from .writing import Graded, WrittenMachine
+
+_NO_FACT = RestFact.model_construct(
+    params=(),
+    outcome="not_possible",
+    loses="{name}",
+    do="look whether the machine needs it, and do it there by hand",
+    less_safe=False,
+)
+
+
+class TargetError(AmpStudioError, ValueError):
+    """A target that nothing can be migrated to; one clear sentence."""
+
+
+@dataclass(frozen=True)
+class MigratedParameter:
+    """What became of one parameter of the old file."""
+
+    address: Address
+    param: str
+    outcome: str
+    facts: Mapping[str, Any]
+
+
+@dataclass(frozen=True)
+class Migration:
+    """A machine on its way: its description, what was written, and what became of each active parameter."""
+
+    machine: MachineMeaning
+    target: str
+    written: WrittenMachine
+    entries: tuple[MigratedParameter, ...]
+
+    def of(self, outcome: str) -> list[MigratedParameter]:
+        """Return the parameters with an outcome."""
+        return [entry for entry in self.entries if entry.outcome == outcome]
+
+
+def targets() -> tuple[str, ...]:
+    """Return the families that a machine can be migrated to."""
+    return tuple(family for family in registered_families() if registration_of(family).migrate)
+
+
+def migrate(file: ParameterFile, target: str, answers: Mapping[str, str] | None = None) -> Migration:
+    """Return a file as a machine of another family; nothing is written. Raises TargetError, MeaningError."""
+    known = targets()
+    if target not in known:
+        raise TargetError(unknown_name("target", target, known))
+    if file.schema.family.family == target:
+        raise TargetError(f"the file is one of {file.schema.family.name} already")
+    machine = read_meaning(file)
+    if not machine.axes:
+        raise TargetError("no axis of the file is fitted: there is nothing to migrate")
+    written: WrittenMachine = load_part(registration_of(target).migrate)(machine, answers or {})
+    strange = sorted(set(answers or {}) - {q.id for q in written.asked})
+    if strange:
+        raise TargetError(unknown_name("answer", strange[0], (q.id for q in written.asked)))
+    return Migration(machine, target, written, tuple(_entries(file, machine, written)))
+
+
+def _entries(
+    file: ParameterFile, machine: MachineMeaning, written: WrittenMachine
+) -> Iterator[MigratedParameter]:
+    """Yield each active parameter with a value exactly once."""
+    here = file.machine_schema
+    used = _used(machine)
+    grades = {(g.axis, g.concept): g for g in written.graded}
+    asked = {source.address: q for q in written.asked for source in q.sources}
+    for address in here.addresses:
+        value = file.get(address)
+        if value is None or not file.evaluation.state(address).is_active:
+            continue
+        parameter, param = file.schema.parameters[address[0]], here.short(address)
+        raw = show_value(parameter, value)
+        if address in asked:
+            question = asked[address]
+            answer = written.answered.get(question.id)
+            yield MigratedParameter(
+                address, param, "asked", {"id": question.id, "answer": answer, "old": raw}
+            )
+        elif found := [(u, g) for u in used.get(address, ()) if (g := grades.get((u[0], u[1].concept)))]:
+            yield _graded(address, param, raw, found)
+        else:
+            yield _other(file, address, param, raw)
+
+
+def _used(machine: MachineMeaning) -> dict[Address, list[tuple[str, MeantFigure]]]:
+    """Return parameter -> the figures that come from it, with the letter of their axis."""
+    found: dict[Address, list[tuple[str, MeantFigure]]] = {}
+    places = [(axis.letter, figure) for axis in machine.axes for figure in axis.figures.values()]
+    for letter, figure in (*places, *(("", figure) for figure in machine.figures.values())):
+        for source in figure.sources:
+            found.setdefault(source.address, []).append((letter, figure))
+    return found
+
+
+_WORST = ("not_possible", "approximate", "exact")
+
+
+def _graded(
+    address: Address, param: str, raw: str, found: list[tuple[tuple[str, MeantFigure], Graded]]
+) -> MigratedParameter:
+    """Return a parameter with the worst grade of what comes from it; all keys that it went to are named."""
+    (_, figure), worst = min(found, key=lambda pair: _WORST.index(pair[1].outcome))
+    keys = list(dict.fromkeys(g.key for _, g in found if g.key))
+    facts: dict[str, Any] = {
+        "key": ", ".join(keys),
+        "value": worst.value,
+        "formula": figure.formula,
+        "page": figure.page,
+        "raw": raw,
+    }
+    if worst.outcome == "approximate":
+        facts |= {"old": worst.old, "new": worst.new, "safe_side": worst.safe_side}
+    if worst.outcome == "not_possible":
+        facts = {"loses": worst.loses, "do": worst.do, "page": figure.page, "raw": raw}
+    return MigratedParameter(address, param, worst.outcome, facts)
+
+
+def _other(file: ParameterFile, address: Address, param: str, raw: str) -> MigratedParameter:
+    parameter = file.schema.parameters[address[0]]
+    facts = meanings_of(file.schema.family.family)
+    rest = facts.rest if facts else ()
+    fact = next((r for r in rest if any(fnmatchcase(address[0], p) for p in r.params)), _NO_FACT)
+    if fact.outcome == "old_hardware":
+        return MigratedParameter(address, param, "old_hardware", {"raw": raw})
+    loses, do = fact.loses.format(name=parameter.name), fact.do or str(_NO_FACT.do)
+    return MigratedParameter(
+        address, param, "not_possible", {"loses": loses, "do": do, "raw": raw, "less_safe": fact.less_safe}
+    )
+
+
+def less_safe(migration: Migration) -> list[str]:
+    """Return what is less safe than before, a sentence each."""
+    lost = [str(e.facts["loses"]) for e in migration.of("not_possible") if e.facts.get("less_safe")]
+    return list(dict.fromkeys((*migration.written.less_safe, *lost)))
+
+
+def migration_json(migration: Migration) -> dict[str, Any]:
+    """Return a migration in the form of ``migrate --json``; every active parameter is once in the first five lists."""
+
+    def rows(outcome: str, *keys: str) -> list[dict[str, Any]]:
+        return [
+            {"param": e.param, **{k: e.facts[k] for k in keys if k in e.facts}} for e in migration.of(outcome)
+        ]
+
+    by_question: dict[str, list[str]] = {}
+    for entry in migration.of("asked"):
+        by_question.setdefault(str(entry.facts["id"]), []).append(entry.param)
+    return {
+        "from": migration.machine.family,
+        "to": migration.target,
+        "exact": rows("exact", "key", "value", "formula", "page", "raw"),
+        "approximate": rows(
+            "approximate", "key", "value", "formula", "old", "new", "safe_side", "page", "raw"
+        ),
+        "not_possible": rows("not_possible", "loses", "do", "page", "raw"),
+        "asked": [_question_json(q, by_question, migration.written) for q in migration.written.asked],
+        "old_hardware": rows("old_hardware", "raw"),
+        "less_safe": less_safe(migration),
+        "measure": migration.written.measure,
+        "open": [q.id for q in migration.written.open],
+        "files": list(migration.written.texts),
+    }
+
+
+def _question_json(
+    question: MigrationQuestion, params: Mapping[str, list[str]], written: WrittenMachine
+) -> dict[str, Any]:
+    return {
+        "id": question.id,
+        "question": question.question,
+        "params": params.get(question.id, []),
+        "answer": written.answered.get(question.id),
+    }
+
+
+def migration_lines(migration: Migration) -> Iterator[str]:
+    """Yield a migration in words: first what is less safe, then the questions, then each parameter once."""
+    counts = {
+        o: len(migration.of(o)) for o in ("exact", "approximate", "not_possible", "asked", "old_hardware")
+    }
+    yield f"Migration of {migration.machine.name or 'a machine'} ({migration.machine.family}) to {migration.target}"
+    yield (
+        f"{len(migration.entries)} active parameters: {counts['exact']} taken over exactly, {counts['approximate']} approximated, "
+        f"{counts['not_possible']} not possible, {counts['asked']} asked, {counts['old_hardware']} of the old hardware"
+    )
+    yield from _section("Less safe than before", less_safe(migration))
+    yield from _section(
+        "Open questions: the keys that wait for them are left out",
+        [f"{q.id}: {q.question}" for q in migration.written.open],
+    )
+    yield from _section("To be measured at the machine", migration.written.measure)
+    yield from _section("HAL is a template: it moves nothing, and nothing of the old wiring is in it", [])
+    for outcome, title in (("exact", "Taken over exactly"), ("approximate", "Approximated"), ("not_possible", "Not possible"),
+                           ("asked", "Asked"), ("old_hardware", "Of the old hardware")):  # fmt: skip
+        yield from _section(title, [_line(entry) for entry in migration.of(outcome)])
+
+
+def _section(title: str, lines: list[str]) -> Iterator[str]:
+    yield from ("", title, *(f"  {line}" for line in lines))
+
+
+def _line(entry: MigratedParameter) -> str:
+    facts = entry.facts
+    match entry.outcome:
+        case "exact":
+            return f"{entry.param} {facts['raw']} -> {facts['key']} = {facts['value']} ({facts['formula']}, page {facts['page']})"
+        case "approximate":
+            return f"{entry.param} {facts['raw']} -> {facts['key']} = {facts['value']}: before, {facts['old']}; now, {facts['new']}; safe: {facts['safe_side']}"
+        case "not_possible":
+            return f"{entry.param} {facts['raw']}: {facts['loses']}; {facts['do']}"
+        case "asked":
+            return f"{entry.param} {facts['old']}: {facts['id']} = {facts['answer'] or 'open'}"
+        case _:
+            return f"{entry.param} {facts['raw']}"

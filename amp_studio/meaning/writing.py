@@ -1,0 +1,85 @@
+"""What a writer gives: the parameters of the new control, and a grade for each concept."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from decimal import ROUND_CEILING, ROUND_FLOOR, Decimal
+from typing import Literal
+
+from .description import MigrationQuestion
+
+GradeKind = Literal["exact", "approximate", "not_possible"]
+_STEP = Decimal("0.000001")
+
+
+@dataclass(frozen=True)
+class Graded:
+    """One concept of one axis ("" for the machine): what it became, and how well.
+
+    ``key``, ``value``   of the new control, as they are written
+    ``old``, ``new``     how either control behaves, and ``safe_side`` which of them is safe, of what is approximate
+    ``loses``, ``do``    what the machine loses, and what to do, of what is not possible
+    """
+
+    axis: str
+    concept: str
+    outcome: GradeKind
+    key: str = ""
+    value: str = ""
+    old: str = ""
+    new: str = ""
+    safe_side: str = ""
+    loses: str = ""
+    do: str = ""
+
+
+@dataclass
+class WrittenMachine:
+    """What a writer gives.
+
+    ``texts``      name of a file -> its text; the first one is the configuration
+    ``graded``     a grade for every concept that it knows
+    ``open``       questions that have no answer, with those that have one in ``answered``
+    ``less_safe``  sentences
+    ``measure``    what is to be measured at the machine
+    """
+
+    texts: dict[str, str] = field(default_factory=dict)
+    graded: list[Graded] = field(default_factory=list)
+    open: list[MigrationQuestion] = field(default_factory=list)
+    answered: dict[str, str] = field(default_factory=dict)
+    asked: list[MigrationQuestion] = field(default_factory=list)
+    less_safe: list[str] = field(default_factory=list)
+    measure: list[str] = field(default_factory=list)
+
+    def answer(self, question: MigrationQuestion, answers: Mapping[str, str]) -> str:
+        """Return the answer to a question, "" where it is open."""
+        self.asked.append(question)
+        found = answers.get(question.id, "").strip()
+        if found:
+            self.answered[question.id] = found
+        else:
+            self.open.append(question)
+        return found
+
+
+def inwards_high(value: float) -> str:
+    """Return a greatest position, never beyond the old one: rounded down to a millionth."""
+    return _text(Decimal(repr(value)).quantize(_STEP, ROUND_FLOOR))
+
+
+def inwards_low(value: float) -> str:
+    """Return a least position, never beyond the old one: rounded up to a millionth."""
+    return _text(Decimal(repr(value)).quantize(_STEP, ROUND_CEILING))
+
+
+def not_above(value: float) -> str:
+    """Return a speed, a ramp or an error limit, never above the old one: rounded towards zero to a millionth."""
+    rounding = ROUND_FLOOR if value >= 0 else ROUND_CEILING
+    return _text(Decimal(repr(value)).quantize(_STEP, rounding))
+
+
+def _text(number: Decimal) -> str:
+    text = format(number, "f").rstrip("0").rstrip(".")
+    return "0" if text in ("", "-0") else text
