@@ -33,7 +33,7 @@ from .dangers import dangers_of
 from .drawings import drawings
 from .findings.alike import notes_of, suppressed_notes
 from .language import language_of
-from .model import ExchangeLine, PrintedFigure, Report, ReportRow
+from .model import ExchangeLine, PrintedFigure, ProgramState, Report, ReportRow
 from .parameter.manual_page import help_parts
 from .rows import Rows, row_of, rows_of
 from .sections import numbers_of, sections_of
@@ -91,6 +91,7 @@ def build_report(
         sections=sections_of(file, printed, contents.sort, language_of(contents.language)),
         pictures=() if "pictures" in contents.without else drawings(file, language_of(contents.language)),
         motion=() if "motion" in contents.without else tuple(motion),
+        power_up=() if "power-up" in contents.without else tuple(_power_up(file)),
         exchanges=() if "exchanges" in contents.without else tuple(exchanges),
         help={i: tuple(_help(file.schema, i)) for i in dict.fromkeys(row.id for row in printed)},
     )
@@ -102,6 +103,18 @@ def _is_wanted(row: ReportRow, contents: Contents) -> bool:
         return True
     is_wanted = contents.inactive or row.state == "in-force"
     return is_wanted and (not contents.changed_only or row.is_changed or row.no_default)
+
+
+def _power_up(file: ParameterFile) -> Iterator[ProgramState]:
+    """Yield what is active in part programs after power-up; nothing for a family of which no page prints it."""
+    if not file.schema.program.page:
+        return
+    from amp_studio.programs import power_up
+
+    state = power_up(file)
+    for line in (*state.active, *state.changes, *state.calls):
+        numbers = ", ".join(file.machine_schema.short(address) for address in line.params)
+        yield ProgramState(line.what, line.code, line.meaning, numbers, line.page)
 
 
 def _help(schema: Schema, parameter_id: str) -> Iterator[tuple[str, str]]:

@@ -15,10 +15,10 @@ SORTS: dict[Sort, str] = {
     "steps": "by step of commissioning",
 }
 
-Chapter = Literal["pictures", "motion", "exchanges", "signatures"]
+Chapter = Literal["pictures", "motion", "power-up", "exchanges", "signatures"]
 
-CHAPTERS: tuple[Chapter, ...] = ("pictures", "motion", "exchanges", "signatures")
-"""Chapters that can be left out of a PDF and of a web page; text and tables have only the last two, or none."""
+CHAPTERS: tuple[Chapter, ...] = ("pictures", "motion", "power-up", "exchanges", "signatures")
+"""Chapters that can be left out of a PDF and of a web page; text and tables have only the last three, or none."""
 
 UnitChoice = Literal["file", "metric", "inch", "both"]
 """The units of a report: those of the file, one system, or the file's with the other system's beside them."""

@@ -254,6 +254,18 @@ class ExchangeLine:
 
 
 @dataclass(frozen=True, slots=True)
+class ProgramState:
+    """A line of what is active in part programs after power-up, and what changes it."""
+
+    what: str
+    code: str
+    meaning: str
+    numbers: str
+    """Of the parameters that decide it."""
+    page: str
+
+
+@dataclass(frozen=True, slots=True)
 class Section:
     """One chapter of the report."""
 
@@ -293,6 +305,7 @@ class Report:
     sections: tuple[Section, ...]
     pictures: tuple[PrintedFigure, ...]
     motion: tuple[PrintedFigure, ...]
+    power_up: tuple[ProgramState, ...]
     exchanges: tuple[ExchangeLine, ...]
     help: dict[str, tuple[tuple[str, str], ...]]
     """Id of a printed parameter -> (title, text) of its help and its page."""

@@ -24,6 +24,7 @@ def render_json(report: Report) -> bytes:
             for note in report.notes
         ],
         "not_set": [{"number": number, "name": name, "place": place} for number, name, place in report.not_set],
+        "power_up": [{name: getattr(each, name) for name in each.__slots__} for each in report.power_up],
         "exchanges": [{name: getattr(each, name) for name in each.__slots__} for each in report.exchanges],
     }  # fmt: skip
     return (json.dumps(document, ensure_ascii=False, indent=1) + "\n").encode("utf-8")
@@ -50,6 +51,10 @@ def render_workbook(report: Report) -> bytes:
         )
     if report.not_set:
         sheets.append(WorkbookSheet("Not set", ("number", "parameter", "belongs to"), report.not_set))
+    if report.power_up:
+        names = report.power_up[0].__slots__
+        lines = [tuple(getattr(each, name) for name in names) for each in report.power_up]
+        sheets.append(WorkbookSheet("Power-up", tuple(names), lines))
     if report.exchanges:
         own = report.exchanges[0].__slots__
         sheets.append(

@@ -5195,6 +5195,10 @@ Hier erlaubt: {allowed}</translation>
             <translation>Bewe&amp;gung, simuliert</translation>
         </message>
         <message>
+            <source>Part pro&amp;grams after power-up</source>
+            <translation>Teilepro&amp;gramme nach dem Einschalten</translation>
+        </message>
+        <message>
             <source>E&amp;xchanges with controls</source>
             <translation>Aus&amp;tausch mit Steuerungen</translation>
         </message>

@@ -88,6 +88,7 @@ class ReportOptions(QWidget):
         named = {
             "pictures": self.tr("Pi&ctures"),
             "motion": self.tr("&Motion, simulated"),
+            "power-up": self.tr("Part pro&grams after power-up"),
             "exchanges": self.tr("E&xchanges with controls"),
             "signatures": self.tr("&Signatures"),
         }

@@ -26,7 +26,7 @@ VERB = Verb(
     VerbArgument(
         "--without",
         action="append",
-        choices=("pictures", "motion", "exchanges", "signatures"),
+        choices=("pictures", "motion", "power-up", "exchanges", "signatures"),
         help="leave out a chapter; again for more",
     ),
     LANGUAGE,
