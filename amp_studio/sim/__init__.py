@@ -57,6 +57,7 @@ if TYPE_CHECKING:
         law_of,
     )
     from .listings import SimulationListing, listing
+    from .machine_test import MachineTest, MachineTestStep
     from .model import assumptions, with_model
     from .motion_check import MotionCheck, check_motion
     from .plot.panels import Curve, Field, Panel, Picture, Ring
@@ -65,7 +66,7 @@ if TYPE_CHECKING:
     from .plot.ticks import ring_levels
     from .probing import Probing
     from .rounding import rounded_down, rounded_up, shown
-    from .run import simulate, simulated_axes, sweep
+    from .run import machine_tests, simulate, simulated_axes, sweep
     from .scenario import Scenario, Settings, above_zero, number, refuse_unknown
     from .scenarios.columns import alarms_of, column_units, per_minute
     from .scenarios.step import SCENARIO as STEP

@@ -45,6 +45,7 @@ from .command.events import RAMPS, Homing, Jogging, Ramp, Travel
 from .engine.compiled import Sample
 from .engine.machine import Machine
 from .errors import SimulationError
+from .machine_test import MachineTest
 from .probing import Probing
 from .scenario import Scenario
 from .spindle import Gear, Spindle, Tapping
@@ -184,6 +185,7 @@ class Law:
     ``spindle``    spindle(values of the machine, its number) -> the spindle; None where no output to one is printed
     ``tapping``    tapping(machine, spindle, gear, axis, pitch) -> how both follow each other; None where it is not printed
     ``probing``    probing(values of the machine, axis, which cycle) -> how a probe is met
+    ``machine_tests``  machine_tests(machine, axis) -> programs and procedures that try an axis out
     ``zones``      zones(machine, axes) -> areas that axes must not enter or leave
     """
 
@@ -198,6 +200,7 @@ class Law:
     tapping: Callable[[BoundMachine, Spindle, Gear, AxisLaw, float], Tapping] | None = None
     probing: Callable[[AxisParameters, AxisLaw, str], Probing] | None = None
     zones: Callable[[BoundMachine, Sequence[str]], Iterable[Zone]] | None = None
+    machine_tests: Callable[[BoundMachine, AxisLaw], Sequence[MachineTest]] | None = None
 
 
 @dataclass(frozen=True)

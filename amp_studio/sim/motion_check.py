@@ -13,6 +13,7 @@ from .binding import bind_axis
 from .errors import SimulationError
 from .law import Law, law_of
 from .run import simulate
+from .scenarios.spindle import HIGHEST
 from .trace import Alarm, Figure, Trace
 
 Verdict = Literal["good", "doubtful", "bad", "not possible"]
@@ -30,6 +31,7 @@ SHOWN = {
     "home": ("home_position", "home_grid", "switch_overrun", "time"),
     "jog": ("feedrate", "stop_position", "time"),
     "travel": ("limit", "stop_position", "overrun"),
+    "spindle": ("gear", "output", "ramp_time", "speed"),
 }
 """The figures of a check, as far as the scenario has them."""
 
@@ -66,6 +68,22 @@ def check_motion(file: ParameterFile, axis: str | None = None) -> Iterator[Motio
             yield _checked(file, law, scenario, each)
             if scenario == "circle":
                 break  # two axes make it
+    if axis is None and "spindle" in law.scenarios and (checked := _spindle_checked(file)):
+        yield checked
+
+
+def _spindle_checked(file: ParameterFile) -> MotionCheck | None:
+    """Return the check of the first spindle at its highest speed; None for a file without one."""
+    try:
+        trace = simulate(file, "spindle", None, {"move.speed": HIGHEST}, advise=False)
+    except SimulationError as error:
+        read = (error.parameter,) if error.parameter in file.schema.parameters else ()
+        return MotionCheck("spindle", "", "", "not possible", why=error.what, params=read) if read else None
+    verdict, why = _verdict(trace)
+    figures = {name: trace.result[name] for name in SHOWN["spindle"] if name in trace.result}
+    if trace.result.get("deviation_at_end", (0.0, ""))[0]:
+        verdict, why = "doubtful", "The speed stays outside of the tolerance of its watch"
+    return MotionCheck("spindle", "", "", verdict, figures, trace.alarms, why, (), trace.assumptions)
 
 
 def _checked(file: ParameterFile, law: Law, scenario: str, axis: str) -> MotionCheck:

@@ -14,6 +14,7 @@ from .doubts import doubts
 from .errors import SimulationError
 from .law import AxisLaw, BoundMachine, Law, law_of
 from .listings import known_settings
+from .machine_test import MachineTest
 from .scenario import Settings
 from .scenarios import SCENARIOS
 from .scenarios.circle import SECOND
@@ -199,6 +200,18 @@ def _second(
         if second.unit == first.unit:
             return second
     return None
+
+
+def machine_tests(file: ParameterFile, axis: str | None = None) -> tuple[MachineTest, ...]:
+    """Return the programs and procedures that try an axis out, the first one by default.
+
+    Raises SimulationError for a family that prints none, and where the axis cannot be made.
+    """
+    law = law_of(file.schema.family.family)
+    if law.machine_tests is None:
+        raise SimulationError(f"No test program is printed for {file.schema.family.name}")
+    machine = _bound_machine(file, law, (axis,) if axis else (), {}, lambda _address: None)
+    return tuple(law.machine_tests(machine, machine.axis()))
 
 
 def simulated_axes(file: ParameterFile) -> tuple[str, ...]:

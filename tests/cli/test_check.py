@@ -23,8 +23,10 @@ def test_every_scenario_of_every_axis_has_a_verdict(router: Path, capsys: pytest
     assert run(["check", str(router), "--json"]) == 0
     found = json.loads(capsys.readouterr().out)
     asked = {(check["scenario"], check["axis"]) for check in found["checks"]}
-    assert asked == {(scenario, axis) for scenario in ("step", "home", "jog", "travel") for axis in "XYZ"}
-    assert (found["good"], found["doubtful"], found["bad"]) == (12, 0, 0)
+    assert asked == {(scenario, axis) for scenario in ("step", "home", "jog", "travel") for axis in "XYZ"} | {
+        ("spindle", "")
+    }
+    assert (found["good"], found["doubtful"], found["bad"]) == (13, 0, 0)
     home = next(check for check in found["checks"] if check["scenario"] == "home")
     assert home["figures"]["home_position"] == {"value": -787.0, "unit": "mm"}
     assert any("ASSUMED" in note for note in home["assumptions"])
@@ -67,7 +69,7 @@ def test_another_ending_is_refused_before_anything_runs(
 
 def test_validate_adds_the_motion(router: Path, capsys: pytest.CaptureFixture[str]) -> None:
     assert run(["validate", str(router), "--motion", "--json"]) == 0
-    assert json.loads(capsys.readouterr().out)["motion"]["good"] == 12
+    assert json.loads(capsys.readouterr().out)["motion"]["good"] == 13
     assert run(["validate", str(router), "--motion"]) == 0
-    assert "12 good, 0 doubtful, 0 bad" in capsys.readouterr().out
+    assert "13 good, 0 doubtful, 0 bad" in capsys.readouterr().out
     assert run(["validate", str(router), "--motion", "--format", "sarif"]) == 2

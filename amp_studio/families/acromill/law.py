@@ -32,6 +32,7 @@ from . import law_events as events
 from . import law_plant as plant
 from . import law_sample as loop
 from .law_filters import PASS, Biquad, lopass, notch
+from .law_machine_tests import machine_tests
 from .law_spindle import probing, spindle
 
 AXES = ("X", "Y", "Z", "A", "B", "C", "U", "V")
@@ -312,4 +313,5 @@ LAW = Law(
     advise=advise,
     spindle=spindle,
     probing=probing,
+    machine_tests=machine_tests,
 )

@@ -32,6 +32,7 @@ from .law_advice import advise, follow
 from .law_drives import Parts, analog, digital, third_party
 from .law_feedback import OWN_TRAVEL, Feedback, feedback_of
 from .law_figures import Loop, predictions
+from .law_machine_tests import machine_tests
 from .law_probing import probing
 from .law_ramps import ramps_of
 from .law_reading import above_zero, demand, if_set, not_negative
@@ -284,4 +285,5 @@ LAW = Law(
     tapping=tapping,
     probing=probing,
     zones=zones,
+    machine_tests=machine_tests,
 )

@@ -31,6 +31,7 @@ from .formulas import approach_speed, circle_speed, increments_per_sample, measu
 from .formulas.servo import FOLLOWING_ERROR_MARGIN
 from .law_advice import advise, follow
 from .law_loop import loop
+from .law_machine_tests import machine_tests
 from .law_notes import ALWAYS, DRIVE, NOT_SIMULATED
 from .law_pair import drive_axis, is_synchronised, refuse_chain, synchronised
 from .law_spindle import spindle, tapping
@@ -225,4 +226,5 @@ LAW = Law(
     advise=advise,
     spindle=spindle,
     tapping=tapping,
+    machine_tests=machine_tests,
 )

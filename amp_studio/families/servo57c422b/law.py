@@ -34,6 +34,7 @@ from . import law_sample as loop
 from .law_axis import ModuleAxis
 from .law_commands import COMMANDS
 from .law_home import homing, travel
+from .law_machine_tests import machine_tests
 from .law_registration import probing
 from .law_tune import Scales
 
@@ -337,4 +338,5 @@ LAW = Law(
     advise=advise,
     probing=probing,
     own=COMMANDS,
+    machine_tests=machine_tests,
 )

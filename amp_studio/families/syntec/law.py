@@ -40,6 +40,7 @@ from .formulas import (
 )
 from .formulas.resolution import STANDARD_BLU
 from .law_advice import advise
+from .law_machine_tests import machine_tests
 from .law_zones import zones
 
 SHORTEST, LONGEST = 1e-4, 0.1
@@ -365,4 +366,5 @@ LAW = Law(
     scenarios=(*USUAL_SCENARIOS, "home", "jog", "travel"),
     advise=advise,
     zones=zones,
+    machine_tests=machine_tests,
 )

@@ -16,7 +16,7 @@ from amp_studio.sim.spindle import Gear, Orient, SpeedWatch, Spindle
 from amp_studio.sim.trace import Alarm, Figure, Trace
 
 SETTINGS = {
-    "move.speed": "programmed speed with its sign, minus for M4 (rpm); S1500 behind the scenario is the same",
+    "move.speed": "programmed speed with its sign, minus for M4 (rpm), or highest; S1500 behind the scenario is the same",
     "move.spindle": "which spindle, by its number; default: the first",
     "move.gear": "the gear it is in, or the range that is programmed; default: none",
     "move.from": "speed before (rpm); default: 0",
@@ -27,6 +27,7 @@ SETTINGS = {
     "move.position": "angle at which an orient begins (deg); default: 0",
     "move.estop_time": "when the emergency stop comes (s)",
 }
+HIGHEST = "highest"
 DRIVE_TIME = 0.05
 """s"""
 STEP = 0.001
@@ -46,7 +47,11 @@ def run_spindle(machine: BoundMachine, settings: Settings) -> Trace:
     spindle = spindle_of(machine, settings)
     if settings.get("move.orient") is not None:
         return _oriented(spindle, settings)
-    speed, before = number(settings, "move.speed"), number(settings, "move.from") or 0.0
+    before = number(settings, "move.from") or 0.0
+    if settings.get("move.speed") == HIGHEST:
+        speed: float | None = max((gear.high for gear in spindle.gears), default=0.0)
+    else:
+        speed = number(settings, "move.speed")
     if speed is None:
         raise SimulationError("Give the programmed speed: spindle S1500, or move.speed", "move.speed")
     gear, notes, alarms = _geared(spindle, settings, speed)

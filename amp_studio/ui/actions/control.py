@@ -84,6 +84,14 @@ class ControlDesk(Translated):
         page.show()
         page.start()
 
+    def check_in_motion(self) -> None:
+        """Run every scenario that the file in front allows, on a copy of it."""
+        from amp_studio.ui.motion.check_window import CheckWindow
+
+        window = CheckWindow(self.window.workspace_in_front.file.copy(), self.window.follow, self.window)
+        window.show()
+        window.start()
+
     def _end_live(self, session: ControlSession) -> None:
         """End the readings before an exchange takes the line."""
         if self._live is not None and session.is_busy:

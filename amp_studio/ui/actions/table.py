@@ -193,6 +193,7 @@ def _control() -> Menu[PartsWindow]:
         Action("control.several", tr("Se&veral Controls…"), lambda w: w.control.several()),
         Action("control.exchanges", tr("E&xchanges of This File…"), lambda w: w.control.recorded()),
         Action("control.live", tr("&Live…"), lambda w: w.control.live(), "Ctrl+L", icon="broadcast"),
+        Action("control.check", tr("Chec&k in Motion…"), lambda w: w.control.check_in_motion(), icon="arrows-left-right"),
         Action("control.tune", tr("&Tuning…"), lambda w: w.control.tune(), "Shift+F9"),
         None,
         Action("control.start", tr("&Start Emulated Control"), lambda w: w.control.start_emulated(), needs="no emulated"),

@@ -368,6 +368,10 @@
             <translation>&amp;Live…</translation>
         </message>
         <message>
+            <source>Chec&amp;k in Motion…</source>
+            <translation>Bewegung p&amp;rüfen…</translation>
+        </message>
+        <message>
             <source>&amp;Tuning…</source>
             <translation>&amp;Abgleich…</translation>
         </message>
@@ -1786,6 +1790,61 @@ Die nummerierten Parameter von Maschinensteuerungen: bearbeiten, prüfen, drucke
         <message>
             <source>Delete all points of</source>
             <translation>Alle Punkte löschen bei</translation>
+        </message>
+    </context>
+    <context>
+        <name>CheckWindow</name>
+        <message>
+            <source>Check in Motion</source>
+            <translation>Bewegung prüfen</translation>
+        </message>
+        <message>
+            <source>Verdict</source>
+            <translation>Urteil</translation>
+        </message>
+        <message>
+            <source>Scenario</source>
+            <translation>Szenario</translation>
+        </message>
+        <message>
+            <source>Axis</source>
+            <translation>Achse</translation>
+        </message>
+        <message>
+            <source>What is not good</source>
+            <translation>Was nicht gut ist</translation>
+        </message>
+        <message>
+            <source>Figures</source>
+            <translation>Zahlen</translation>
+        </message>
+        <message>
+            <source>Checks of the machine in motion</source>
+            <translation>Prüfungen der Maschine in Bewegung</translation>
+        </message>
+        <message>
+            <source>&amp;Close</source>
+            <translation>Sch&amp;ließen</translation>
+        </message>
+        <message>
+            <source>good</source>
+            <translation>gut</translation>
+        </message>
+        <message>
+            <source>doubtful</source>
+            <translation>zweifelhaft</translation>
+        </message>
+        <message>
+            <source>bad</source>
+            <translation>schlecht</translation>
+        </message>
+        <message>
+            <source>not possible</source>
+            <translation>nicht möglich</translation>
+        </message>
+        <message>
+            <source>checking …</source>
+            <translation>prüft …</translation>
         </message>
     </context>
     <context>

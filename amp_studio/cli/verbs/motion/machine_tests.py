@@ -1,0 +1,76 @@
+"""Programs and procedures that try a machine out, written from its file: inside its travel and speeds, or refused with the reason."""
+
+from __future__ import annotations
+
+from dataclasses import asdict
+from typing import TYPE_CHECKING
+
+from amp_studio.cli.arguments import AXIS, JSON, OUTPUT, PATH
+from amp_studio.cli.console import note, print_json
+from amp_studio.cli.errors import UsageError
+from amp_studio.cli.opened import opened
+from amp_studio.cli.output import check_replaced
+from amp_studio.cli.verb import Options, Verb, VerbArgument
+
+if TYPE_CHECKING:
+    from amp_studio.sim import MachineTest
+
+VERB = Verb(
+    __doc__,
+    PATH,
+    VerbArgument(
+        "name", nargs="?", metavar="TEST", help="one of them by its name; without it all are listed"
+    ),
+    AXIS,
+    OUTPUT.but(required=False, help="file for the program of one test, as the control reads it"),
+    JSON,
+    writes=("output",),
+    examples=(
+        "amp-studio machine-tests MILL_1394.amp --axis X",
+        "amp-studio machine-tests MILL_1394.amp tuning --axis X -o tuning.nc",
+    ),
+)
+
+
+def run(options: Options) -> int:
+    """List the tests of an axis, or write the program of one; 1 where one that was named is refused."""
+    from amp_studio.files import axis_instances, write_atomic
+    from amp_studio.schema import axis_meant
+    from amp_studio.sim import machine_tests, simulated_axes
+
+    if options.output:
+        check_replaced(options.output, options.path)
+    file = opened(options.path)
+    axis = None
+    if options.axis:
+        axis = axis_meant(file.evaluation, axis_instances(file) or simulated_axes(file), options.axis)
+    tests = machine_tests(file, axis)
+    if options.name:
+        tests = tuple(test for test in tests if test.name == options.name)
+        if not tests:
+            known = ", ".join(test.name for test in machine_tests(file, axis))
+            raise UsageError(f"Unknown test '{options.name}'. Known: {known}")
+    if options.output:
+        if len(tests) != 1:
+            raise UsageError("Name the test whose program is written")
+        if tests[0].refusal:
+            raise UsageError(tests[0].refusal)
+        write_atomic(
+            options.output, "".join(f"{line}\n" for line in tests[0].lines).encode("ascii"), keep_backup=False
+        )
+        note(f"{options.output}: {len(tests[0].lines)} lines")
+    if options.json:
+        print_json({"tests": [asdict(test) for test in tests]})
+    else:
+        print("\n\n".join(map(text, tests)))
+    return int(bool(options.name) and bool(tests[0].refusal))
+
+
+def text(test: MachineTest) -> str:
+    """Return a test as a person reads it at the machine, with a box to tick for each step."""
+    lines = [f"{test.name}: {test.title} (page {test.page})"]
+    if test.refusal:
+        return "\n".join([*lines, f"  refused: {test.refusal}"])
+    lines += [f"    {line}" for line in test.lines]
+    lines += [f"  [ ] {step.do}.\n      Must be seen: {step.see}." for step in test.steps]
+    return "\n".join([*lines, *(f"  {note}" for note in test.notes)])

@@ -1,0 +1,74 @@
+"""Test programs from a file: the axis' own letter, feedrate and travel, or a refusal with the reason."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+
+from amp_studio.files import open_file
+from amp_studio.schema import Value
+from amp_studio.sim import MachineTest, SimulationError, machine_tests
+
+EXAMPLES = Path(__file__).parents[2] / "examples"
+MILL = EXAMPLES / "mill-1394" / "MILL_1394.amp"
+
+
+def programs_of(path: str, axis: str | None = None, **changes: Value) -> dict[str, MachineTest]:
+    file = open_file(EXAMPLES / path).file
+    for parameter, value in changes.items():
+        file.set((parameter.replace("__", "."), axis or ""), value)
+    return {test.name: test for test in machine_tests(file, axis)}
+
+
+def test_the_tuning_program_of_appendix_a_reverses_six_times_at_the_highest_cutting_feedrate() -> None:
+    """A-8 prints 5 inches and the highest cutting feedrate of its machine."""
+    tuning = programs_of("mill-1394/MILL_1394.amp", "2")["tuning"]
+    assert "N00003 G01 Y127. F5000.;" in tuning.lines
+    assert "N00008 IF [#100 LT 6] GOTO 3;" in tuning.lines
+
+
+def test_a_travel_that_is_too_short_for_the_speed_is_refused() -> None:
+    short = {"zone__overtravel_positive": Value(0.0, "mm"), "zone__overtravel_negative": Value(-3.0, "mm")}
+    assert "its travel gives" in programs_of("mill-1394/MILL_1394.amp", "1", **short)["tuning"].refusal
+
+
+def test_the_homing_check_of_a_num_has_the_letter_and_number_of_its_axis() -> None:
+    """7-17: ten checks, L0 is the physical axis."""
+    homing = programs_of("num-1060-mill/MILL_1060.amp", "1")["homing"]
+    assert any("HOME Y" in line for line in homing.lines)
+    assert any(line.startswith("N5 L0=1 ") for line in homing.lines)
+    assert "N4 L10=L10+1 G79 L10<10 N1" in homing.lines
+
+
+def test_the_circle_of_a_num_is_that_of_page_6_46() -> None:
+    circle = programs_of("num-1060-mill/MILL_1060.amp", "0")["circle"]
+    assert circle.lines[-1].endswith("G120 G17 G3 R20 F3000")
+
+
+def test_the_bits_of_appendix_c_are_those_of_the_axes_of_the_file() -> None:
+    """Page 113: 769, 801, 833 for three axes, on output 32; three turns of 4096 pulses."""
+    lines = programs_of("acromill-router/ROUTER.amp")["excess-error"].lines
+    assert [line.split()[-1] for line in lines[-5:]] == ["769", "801", "833", "32", "RUN"]
+    assert "AXIS0 0.6" in lines[1]
+
+
+def test_a_family_that_prints_none_is_named() -> None:
+    with pytest.raises(SimulationError, match="No test program is printed"):
+        programs_of("grblhal-router/GRBL_ROUTER.amp")
+
+
+def test_a_program_is_written_as_the_control_reads_it(
+    amp: Callable[..., object], tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    from amp_studio.cli import run
+
+    target = tmp_path / "tuning.nc"
+    assert run(["machine-tests", str(MILL), "tuning", "--axis", "X", "-o", str(target), "--json"]) == 0
+    said = json.loads(capsys.readouterr().out)
+    assert target.read_text("ascii").splitlines() == said["tests"][0]["lines"]
+    assert said["tests"][0]["steps"][0]["see"]
+    assert run(["machine-tests", str(MILL), "warp"]) == 2
+    assert "Known: tuning" in capsys.readouterr().err
