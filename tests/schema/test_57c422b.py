@@ -248,3 +248,21 @@ def test_a_register_says_which_command_makes_the_module_read_it(schema: Schema, 
         if effect.level == "command" and command in str(effect.command):
             found.add(int(next(iter(schema.on("module").numbers(parameter).values())).removeprefix("R")))
     assert found == COMMANDS[command]
+
+
+@pytest.mark.parametrize(
+    ("parameter", "bits"),
+    [
+        ("setup.encoder", (0, 1, 2, 3, 8, 9, 10, 11)),
+        ("setup.drive", (0, 1)),
+        ("setup.switches", (0, 1, 2, 3, 4, 5, 8, 9, 10, 11)),
+        ("control.mode", (3, 6, 7, 8, 10, 11)),
+    ],
+)
+def test_a_bit_whose_figure_is_lost_is_called_inferred_and_counts_as_unknown(
+    schema: Schema, parameter: str, bits: tuple[int, ...]
+) -> None:
+    """Errata e-r0-bits, e-r1-bits, e-r2-bits and e-r65-bits have the evidence (4-3, 4-48, 5-5 to 5-7)."""
+    found = {each.bit: each for each in schema.parameters[parameter].bits or ()}
+    assert all(found[bit].label.endswith("(inferred)") and found[bit].unknown for bit in bits)
+    assert sum("(inferred)" in each.label for each in found.values()) == len(bits)

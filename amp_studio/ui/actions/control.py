@@ -13,6 +13,7 @@ from PySide6.QtWidgets import QFileDialog, QStackedWidget
 from amp_studio.files import Document, ParameterFile, settle
 from amp_studio.ui.base.emulated_control import EmulatedControl
 from amp_studio.ui.base.known_controls import ControlVerb
+from amp_studio.ui.base.loading import load
 from amp_studio.ui.base.questions import show_message
 from amp_studio.ui.base.task import in_background
 from amp_studio.ui.base.theme import icon
@@ -86,6 +87,7 @@ class ControlDesk(Translated):
 
     def check_in_motion(self) -> None:
         """Run every scenario that the file in front allows, on a copy of it."""
+        load("amp_studio.sim", "amp_studio.ui.motion.check_window")
         from amp_studio.ui.motion.check_window import CheckWindow
 
         window = CheckWindow(self.window.workspace_in_front.file.copy(), self.window.follow, self.window)
