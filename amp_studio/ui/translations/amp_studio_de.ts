@@ -365,7 +365,7 @@
         </message>
         <message>
             <source>&amp;Live…</source>
-            <translation>&amp;Live…</translation>
+            <translation>L&amp;ive…</translation>
         </message>
         <message>
             <source>Chec&amp;k in Motion…</source>
