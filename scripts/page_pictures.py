@@ -193,7 +193,7 @@ def motion(stage: Stage, path: Path) -> QPixmap:
     window.go_to(("feedrate.rapid", "1"))
     window.menus["view.motion"].trigger()
     with stage.beside("MotionView") as view:
-        settle(lambda: getattr(view, "trace", None) is not None and not Task.running and view.plot.is_drawn)
+        settle(lambda: getattr(view, "trace", None) is not None and not Task.running)
         view.resize(*SIZE)
         return _grab(view)
 
@@ -209,7 +209,7 @@ def record(stage: Stage, path: Path) -> QPixmap:
     dialog = IdentifyDialog(open_file(path).file, "1", path.with_name("record.csv"), stage.window)
     dialog.resize(1000, 560)
     dialog.show()
-    settle(lambda: dialog.plot.is_drawn and not Task.running)
+    settle(lambda: not Task.running)
     taken = _grab(dialog)
     dialog.close()
     return taken

@@ -287,7 +287,7 @@ class Stage:
         self.window.go_to(("feedrate.rapid", "1"))
         self.window.menus["view.motion"].trigger()
         with self.beside("MotionView") as view:
-            settle(lambda: view.trace is not None and view.plot.is_drawn and not Task.running)
+            settle(lambda: view.trace is not None and not Task.running)
             self.take("16-motion", view)
 
     def tuning(self) -> None:

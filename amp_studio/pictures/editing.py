@@ -4,11 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
+from amp_studio.drawing import Drag, Handle, Point, multiple
 from amp_studio.files import ParameterFile
 from amp_studio.schema import Address, Value, convert, dimension
-
-from .figures import multiple
-from .scene import Drag, Handle, Point
 
 WantedValues = Mapping[Address, Value]
 

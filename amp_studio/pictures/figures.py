@@ -5,9 +5,9 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 from dataclasses import dataclass
-from decimal import Decimal
 from typing import Literal
 
+from amp_studio.drawing import LEAST, MOST, Drag, Handle, PictureNote, Point, multiple, round_step
 from amp_studio.files import ParameterFile
 from amp_studio.schema import (
     Address,
@@ -26,8 +26,6 @@ from amp_studio.schema import (
     size_of,
     write_figure,
 )
-
-from .scene import LEAST, MOST, Drag, Handle, PictureNote, Point
 
 STEPS = 1000
 """Steps of a key over the length of a picture, at most."""
@@ -217,7 +215,7 @@ class ValueReader:
         address, unit = figure.address, figure.unit
         entry = self.evaluation.unit(address, self.file.header.units)
         across = abs(self._to_entry(address, span, unit, entry) or 0.0)
-        step = max(self.resolution(address), nice(across / STEPS) if across > 0.0 else 0.0) or 1e-6
+        step = max(self.resolution(address), round_step(across / STEPS) if across > 0.0 else 0.0) or 1e-6
         allowed = limits(self.evaluation, address, entry)
 
         def value_at(at: float) -> Value | None:
@@ -230,17 +228,3 @@ class ValueReader:
     def handle(self, figure: DrawnValue, at: Point, *drags: Drag, second: bool = False) -> Handle:
         """Return the handle of a figure."""
         return Handle(at, drags, figure.label, figure.shown, second)
-
-
-def nice(least: float) -> float:
-    """Return the smallest of 1, 2 and 5 times the powers of ten that is not below a number."""
-    power = 10.0 ** math.floor(math.log10(least))
-    return next(power * n for n in (1.0, 2.0, 5.0, 10.0) if power * n >= least * 0.999)
-
-
-def multiple(number: float, step: float) -> float:
-    """Return the multiple of a step that is nearest to a number, without the dust of doubles: -150.0, not -150.00000000000003."""
-    if step <= 0.0:
-        return number
-    grain = Decimal(f"{step:.12g}")
-    return float(round(Decimal(number) / grain) * grain)

@@ -6,6 +6,7 @@ from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass, replace
 from functools import partial
 
+from amp_studio.drawing import PictureNote, Scene
 from amp_studio.files import ParameterFile
 from amp_studio.schema import Address, ParameterId, RampRoles, axis_name
 
@@ -13,7 +14,6 @@ from .gain import draw_gain
 from .gears import draw_gears, spindles
 from .jog import draw_jog
 from .parts import axes_with, every_axis, pairs
-from .scene import PictureNote, Scene
 from .table import draw_table
 from .travel import draw_travel
 

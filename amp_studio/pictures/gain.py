@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
+from amp_studio.drawing import Handle, Polyline, Scale, Scene, Text
 from amp_studio.files import ParameterFile
 from amp_studio.schema import ErrorRoles
 
 from .figures import DrawnValue, ValueReader
-from .scene import Handle, Polyline, Scale, Scene, Text
 
 
 def draw_gain(file: ParameterFile, roles: ErrorRoles, axis: str, like: Scene | None = None) -> Scene:

@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from itertools import pairwise
 
+from amp_studio.drawing import FilledArea, Handle, Polyline, Scale, Scene, Text
 from amp_studio.files import ParameterFile
 from amp_studio.schema import GearRoles
 
 from .figures import DrawnValue, ValueReader
-from .scene import FilledArea, Handle, Polyline, Scale, Scene, Text
 
 
 def spindles(file: ParameterFile, roles: GearRoles) -> tuple[str, ...]:

@@ -6,11 +6,11 @@ import math
 from dataclasses import dataclass, field
 from typing import Literal
 
+from amp_studio.drawing import Dot, FilledArea, Handle, Point, Polyline, Text
 from amp_studio.files import ParameterFile
 from amp_studio.schema import HomePlace, TravelRoles
 
 from .figures import DrawnValue, ValueReader
-from .scene import Dot, FilledArea, Handle, Point, Polyline, Text
 
 MARGIN = 0.08
 """Share of the length of the drawing that is left free at each side."""

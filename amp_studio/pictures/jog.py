@@ -4,12 +4,12 @@ from __future__ import annotations
 
 from typing import Literal
 
+from amp_studio.drawing import Dot, Handle, PictureNote, Polyline, Scale, Scene, Text
 from amp_studio.files import ParameterFile
 from amp_studio.schema import JogRoles, ParameterId, shown
 
 from .figures import DrawnValue, ValueReader
 from .parts import axes_with
-from .scene import Dot, Handle, PictureNote, Polyline, Scale, Scene, Text
 
 TITLES = {"jog": "Jog speeds", "increments": "Jog increments"}
 

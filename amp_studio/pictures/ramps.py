@@ -6,13 +6,12 @@ import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
+from amp_studio.drawing import Handle, Point, Polyline, Scale, Scene, Text, figure_text, round_step
 from amp_studio.files import ParameterFile
 from amp_studio.schema import RampKind, RampRoles, TimeOf, UnitError, convert, shown
 from amp_studio.sim import Piece, Ramp, SimulationError, change, exponential_pieces, leg, length
 
-from .figures import DrawnValue, ValueReader, nice
-from .frame import figure_text
-from .scene import Handle, Point, Polyline, Scale, Scene, Text
+from .figures import DrawnValue, ValueReader
 
 HOLD = 1.8
 """A move is about so many times as long as its ramps."""
@@ -53,7 +52,7 @@ def draw_ramps(file: ParameterFile, roles: RampRoles, axis: str, like: Scene | N
     base, scale = feed.unit.split("/")[0], feed.number / speed
     kinds = [found for role in roles.kinds if (found := _drawn(figures, role, axis, speed, base))]
     ways = [way for each in kinds if (way := _way(each.ramp, speed)) > 0.0]
-    distance = like.fixed if like and like.fixed else nice(HOLD * max(ways, default=speed))
+    distance = like.fixed if like and like.fixed else round_step(HOLD * max(ways, default=speed))
     used = _mode(figures, roles, axis)
     lines: list[Polyline] = []
     handles: list[Handle] = []

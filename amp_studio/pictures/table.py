@@ -5,11 +5,11 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
+from amp_studio.drawing import Drag, Handle, Point, Polyline, Scale, Scene, Text, multiple, round_step
 from amp_studio.files import ParameterFile
 from amp_studio.schema import Address, TableRoles, Value, load_part, registration_of
 
-from .figures import STEPS, ValueReader, multiple, nice
-from .scene import Drag, Handle, Point, Polyline, Scale, Scene, Text
+from .figures import STEPS, ValueReader
 
 Points = Sequence[Point]
 
@@ -109,7 +109,7 @@ def _handle(
     ``table`` is the address, the letter of the axis, what is written beside the handle, and the text.
     """
     address, letter, label, text = table
-    step = max(form.grain, nice((y.high - y.low) / STEPS))
+    step = max(form.grain, round_step((y.high - y.low) / STEPS))
 
     def value_at(level: float) -> Value | None:
         changed = [*points[:n], (points[n][0], multiple(level, step)), *points[n + 1 :]]

@@ -6,13 +6,13 @@ import math
 from dataclasses import dataclass, replace
 from typing import Literal
 
+from amp_studio.drawing import Drag, FilledArea, Handle, Polyline, Scale, Scene, ShapeSort, Text
 from amp_studio.files import ParameterFile
 from amp_studio.schema import ReachRole, SpanRole, TravelRoles, ZoneRole
 
 from .figures import DrawnValue, ValueReader
 from .homing import MARGIN, Home, TravelShapes, draw_home, draw_rail, letters, read_home
 from .parts import part_name
-from .scene import Drag, FilledArea, Handle, Polyline, Scale, Scene, ShapeSort, Text
 
 TALL = 1.5
 """How many times as long as the travel along x that along y is at most."""

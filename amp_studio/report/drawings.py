@@ -4,8 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+from amp_studio.drawing import Scene, scene_in_words, scene_svg
 from amp_studio.files import ParameterFile
-from amp_studio.pictures import FilePicture, Scene, pictures_of, scene_in_words, scene_svg
+from amp_studio.pictures import FilePicture, pictures_of
 
 from .axes import axis_label
 from .language import ENGLISH, Language

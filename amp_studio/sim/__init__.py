@@ -3,7 +3,7 @@
 `run.simulate` is the single call from an open file to a trace. A family brings its law (`law.py`: two sample functions and
 the figures of an axis, bound from a file); the rest knows no family: what is commanded (`command/`), machine and loop over
 both (`engine/`), axes that run or are stepped (`axis/`), the scenarios, gains (`tuning/`), a machine out of a record
-(`identification/`), and what is drawn and written (`plot/`, `write.py`). Every assumption is documented where it is made, is
+(`identification/`), and what is drawn and written (`picture.py`, `write.py`). Every assumption is documented where it is made, is
 part of each trace, and is listed in docs/simulation.md.
 """
 
@@ -60,17 +60,13 @@ if TYPE_CHECKING:
     from .machine_test import MachineTest, MachineTestStep
     from .model import assumptions, with_model
     from .motion_check import MotionCheck, check_motion
-    from .plot.panels import Curve, Field, Panel, Picture, Ring
-    from .plot.picture import picture_of, settling_span, unheld
-    from .plot.svg import plot_svg
-    from .plot.ticks import ring_levels
+    from .picture import picture_of, plot_svg, settling_span
     from .probing import Probing
     from .rounding import rounded_down, rounded_up, shown
     from .run import machine_tests, simulate, simulated_axes, sweep
     from .scenario import Scenario, Settings, above_zero, number, refuse_unknown
     from .scenarios.columns import alarms_of, column_units, per_minute
     from .scenarios.step import SCENARIO as STEP
-    from .series import Series
     from .spindle import Gear, Orient, SpeedWatch, Spindle, Tapping
     from .steady import error_at_speed
     from .trace import Figure, Recommendation, Trace, titled

@@ -11,7 +11,7 @@ from amp_studio.files import Notify, write_atomic
 from amp_studio.schema import write_number
 
 from .errors import SimulationError
-from .plot.svg import plot_svg
+from .picture import plot_svg
 from .rounding import shown
 from .trace import Trace
 from .variations.text import parted, spread_lines, variation_lines, variations_summary

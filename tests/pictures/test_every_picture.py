@@ -10,8 +10,9 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from amp_studio.drawing import scene_json, scene_svg
 from amp_studio.files import open_file
-from amp_studio.pictures import draw, pictures_of, scene_json, scene_svg
+from amp_studio.pictures import draw, pictures_of
 from amp_studio.schema import Value
 from tests.campaigns import examples
 

@@ -6,8 +6,9 @@ from pathlib import Path
 
 import pytest
 
+from amp_studio.drawing import scene_svg
 from amp_studio.files import open_file
-from amp_studio.pictures import pictures_of, scene_svg
+from amp_studio.pictures import pictures_of
 
 EXAMPLES = sorted((Path(__file__).parents[2] / "examples").glob("*/*.amp"))
 

@@ -183,7 +183,8 @@ def test_grbl_counts_its_travel_from_the_switch(example):
 
 @pytest.mark.parametrize("family", ["9pc", "num", "syntec", "57c422b", "acromill", "grblhal"])
 def test_a_new_file_has_every_picture_and_says_what_is_missing(family):
-    from amp_studio.pictures import pictures_of, scene_json, scene_svg
+    from amp_studio.drawing import scene_json, scene_svg
+    from amp_studio.pictures import pictures_of
 
     file = new_file(family)
     for picture in pictures_of(file):

@@ -13,7 +13,7 @@ from amp_studio.sim import SimulationError, SweepWay, simulate, sweep
 from amp_studio.sim.axis.moves import move_of, until_of
 from amp_studio.sim.binding import bind_axis
 from amp_studio.sim.law import law_of
-from amp_studio.sim.plot.svg import plot_svg
+from amp_studio.sim.picture import plot_svg
 from amp_studio.sim.variations.batch import FIGURES, run_batch
 from amp_studio.sim.variations.plan import points_of, read_varied
 from amp_studio.sim.write import trace_summary, trace_text

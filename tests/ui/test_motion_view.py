@@ -6,19 +6,19 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from PySide6.QtCore import Qt, QUrl
+from PySide6.QtCore import QPoint, Qt, QUrl
 from PySide6.QtWidgets import QFileDialog, QLabel, QLineEdit
 from pytestqt.qtbot import QtBot
 
 from amp_studio.files import ParameterFile
 from amp_studio.schema import Value
 from amp_studio.sim import Recommendation, Trace, simulate
-from amp_studio.sim.plot.picture import picture_of
+from amp_studio.sim.picture import picture_of
 from amp_studio.sim.scenarios import SCENARIOS
+from amp_studio.ui.base.plot import Plot
 from amp_studio.ui.base.task import Task
 from amp_studio.ui.main_window import MainWindow
 from amp_studio.ui.motion import view as motion_view
-from amp_studio.ui.motion.plot import MotionPlot
 from amp_studio.ui.motion.view import MotionView
 from tests.sim.tiny import tiny
 
@@ -59,7 +59,7 @@ def view(window: MainWindow, qtbot: QtBot) -> MotionView:
 
 def settled(view: MotionView, qtbot: QtBot) -> None:
     """Wait until no run is on its way and its picture is there."""
-    qtbot.waitUntil(lambda: view._task is None and view.plot.is_drawn, timeout=WAIT_MS)
+    qtbot.waitUntil(lambda: view._task is None, timeout=WAIT_MS)
 
 
 def field(view: MotionView, name: str) -> QLineEdit:
@@ -78,7 +78,7 @@ def choose(view: MotionView, scenario: str, qtbot: QtBot) -> None:
 def test_it_begins_with_the_selected_axis_and_draws_a_trace(view: MotionView) -> None:
     assert view.axis.currentData() == "2"
     assert view.trace.axis == "2"
-    assert [len(panel.listDataItems()) for panel in view.plot.panels] == [2, 2, 3, 2]
+    assert [len(panel.curves) for panel in view.plot.panels] == [2, 1, 2, 1]
     assert "steady following error" in view.figures.toPlainText()
     assert view.save_button.isEnabled()
 
@@ -126,7 +126,7 @@ def test_distance_and_feedrate_take_units_and_a_decimal_comma(
     settled(view, qtbot)
     assert view.trace.result["distance"] == (2.0, "in")
     assert field(view, "distance").placeholderText().startswith("in,")
-    assert {panel.unit for panel in view.plot.picture.panels} == {"in", "in/min", "%"}
+    assert {panel.y.unit for panel in view.plot.picture.panels} == {"in", "in/min", "%"}
 
 
 def test_a_wrong_unit_is_told_in_place(view: MotionView, qtbot: QtBot) -> None:
@@ -165,10 +165,10 @@ def test_every_scenario_of_the_family_can_be_chosen_and_has_its_own_settings(
         view.scenario.itemData(n) for n in range(view.scenario.count())
     }
     choose(view, "velocity", qtbot)
-    assert [panel.label for panel in view.plot.picture.panels] == ["position", "velocity", "torque"]
+    assert [panel.title for panel in view.plot.picture.panels] == ["position", "velocity", "torque"]
     assert "move.distance" not in view.settings.fields
     choose(view, "circle", qtbot)
-    assert view.plot.picture.rings
+    assert view.plot.picture.above
     assert "radius error" in view.figures.toPlainText()
     choose(view, "step", qtbot)
     assert "move.distance" in view.settings.fields
@@ -179,7 +179,7 @@ def test_the_trace_before_an_edit_lies_under_the_one_after_it(
 ) -> None:
     window.workspace.edit("gain", {("servo.initial_gain", "2"): Value(0.5)})
     settled(view, qtbot)
-    assert view.plot.picture.panels[1].curves[0].role == "before"
+    assert view.plot.picture.panels[1].curves[0].is_before
     assert view.before.move == view.trace.move, (
         "the default distance depends on the gain, and both make one move"
     )
@@ -188,44 +188,64 @@ def test_the_trace_before_an_edit_lies_under_the_one_after_it(
     assert view.before.result["feedrate"] == view.trace.result["feedrate"] == (5000.0, "mm/min")
     assert "before" in view.figures.toPlainText()
     view.compare.setChecked(False)
-    assert view.plot.picture.panels[1].curves[0].role == "actual"
+    assert not view.plot.picture.panels[1].curves[0].is_before
     view.compare.setChecked(True)
     view.keep.click()
-    assert view.plot.picture.panels[1].curves[0].role == "actual"
+    assert not view.plot.picture.panels[1].curves[0].is_before
 
 
-def test_a_cursor_moves_through_all_panels_and_its_values_are_shown(view: MotionView) -> None:
-    view.plot.cursors[0][2].setValue(0.4)
-    assert {line.value() for line in view.plot.cursors[0]} == {0.4}
-    error = np.interp(0.4, view.trace.columns["time_s"], view.trace.columns["following_error"])
+def test_a_cursor_is_dragged_and_its_values_are_shown(view: MotionView, qtbot: QtBot) -> None:
+    view.plot.grab()  # where the panels are is known once they are painted
+    start, end = view.plot.cursors[0], 1.4 * view.plot.cursors[0]
+    x = [int(view.plot._frames[0].at((place, 0.0))[0]) for place in (start, end)]
+    for event, at in ((qtbot.mousePress, x[0]), (qtbot.mouseMove, x[1]), (qtbot.mouseRelease, x[1])):
+        event(
+            view.plot,
+            *(() if event is qtbot.mouseMove else (Qt.MouseButton.LeftButton,)),
+            pos=QPoint(at, 100),
+        )
+    assert view.plot.cursors[0] == pytest.approx(end, rel=0.01)
+    error = np.interp(
+        view.plot.cursors[0], view.trace.columns["time_s"], view.trace.columns["following_error"]
+    )
     assert f"{error:.5g}" in view.values.text()
 
 
 def test_the_arrow_keys_move_the_cursors(view: MotionView, qtbot: QtBot) -> None:
-    a, b = (lines[0].value() for lines in view.plot.cursors)
+    a, b = view.plot.cursors
     qtbot.keyClick(view.plot, Qt.Key.Key_Right)
     qtbot.keyClick(view.plot, Qt.Key.Key_Left, Qt.KeyboardModifier.ShiftModifier)
-    assert view.plot.cursors[0][1].value() > a
-    assert view.plot.cursors[1][1].value() < b
+    assert view.plot.cursors[0] > a
+    assert view.plot.cursors[1] < b
+
+
+def test_keys_and_a_dragged_place_show_a_part_of_the_axis_and_a_double_click_all_of_it(
+    view: MotionView, qtbot: QtBot
+) -> None:
+    view.plot.grab()
+    low, high = whole = view.plot.span
+    qtbot.keyClick(view.plot, Qt.Key.Key_Plus)
+    assert view.plot.span == pytest.approx((low + 0.1 * (high - low), high - 0.1 * (high - low)))
+    before = view.plot.span
+    qtbot.mousePress(view.plot, Qt.MouseButton.LeftButton, pos=QPoint(200, 100))
+    qtbot.mouseMove(view.plot, pos=QPoint(190, 100))
+    assert view.plot.span[0] > before[0]
+    qtbot.mouseRelease(view.plot, Qt.MouseButton.LeftButton, pos=QPoint(190, 100))
+    qtbot.mouseDClick(view.plot, Qt.MouseButton.LeftButton, pos=QPoint(300, 100))
+    assert view.plot.span == whole
 
 
 def test_zoom_to_settling_shows_the_end_of_the_move_and_all_of_it_comes_back(view: MotionView) -> None:
     view.settling.click()
-    (low, _), (bottom, top) = view.plot.panels[1].viewRange()
+    panel = view.plot.panels[1]
+    low, bottom, top = panel.x.low, panel.y.low, panel.y.high
     assert low > view.trace.columns["time_s"][-1] / 2
     assert top - bottom < view.trace.result["peak_following_error"][0] / 2
     view.all_of_it.click()
-    (low, _), (bottom, top) = view.plot.panels[1].viewRange()
+    panel = view.plot.panels[1]
+    low, bottom, top = panel.x.low, panel.y.low, panel.y.high
     assert low < 0.1
     assert top > view.trace.result["peak_following_error"][0]
-
-
-def test_a_peak_of_one_row_is_drawn_however_far_the_view_is(view: MotionView) -> None:
-    items = [item for plot in view.plot.panels for item in plot.listDataItems()]
-    drawn = {item.opts["downsampleMethod"] for item in items}
-    assert "peak" in drawn
-    error = [item for item in view.plot.panels[1].listDataItems() if item.opts["downsampleMethod"] == "peak"]
-    assert np.array_equal(error[0].yData, view.trace.columns["following_error"])
 
 
 def test_a_recommendation_is_applied_as_one_undoable_change_and_run_again(
@@ -296,14 +316,12 @@ def test_it_closes_with_its_file(view: MotionView, window: MainWindow, qtbot: Qt
 
 
 def test_a_bode_plot_is_painted_with_plain_numbers_on_its_axis(qtbot: QtBot) -> None:
-    plot = MotionPlot()
+    plot = Plot()
     qtbot.addWidget(plot)
     plot.resize(700, 500)
     plot.draw(picture_of(SCENARIOS["frequency"].run(tiny(gain=2500.0), {})))
-    plot.finish()
     assert not plot.grab().isNull()
-    ticks = plot.panels[1].getAxis("bottom").tickStrings([-1.0, 0.301, 2.0, 2.7782], 1.0, 1.0)
-    assert ticks == ["0.1", "2", "100", ""]
+    assert {"20", "50", "100"} <= {text for _, text in plot._frames[1].ticks("x")}
 
 
 def test_another_scenario_shows_the_fields_of_its_settings(view: MotionView, qtbot: QtBot) -> None:

@@ -7,11 +7,11 @@ from pathlib import Path
 
 from PySide6.QtCore import QPointF, QSizeF
 
+from amp_studio.drawing.frame import Placement
 from amp_studio.files import open_file
 from amp_studio.pictures import pictures_of
-from amp_studio.pictures.frame import Placement
+from amp_studio.ui.base.scene_painter import painted_labels
 from amp_studio.ui.pictures.canvas import PictureCanvas
-from amp_studio.ui.pictures.paint import painted_labels
 
 EXAMPLES = sorted((Path(__file__).parents[2] / "examples").glob("*/*.amp"))
 SIZES = ((240.0, 110.0), (424.0, 190.0), (880.0, 520.0))

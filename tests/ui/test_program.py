@@ -25,7 +25,7 @@ from .conftest import WAIT_MS, Person, during, on_disk
 
 EXCESS = ("servo.excess_error", "1")
 
-LATE = ("pyqtgraph", "numpy", "numba", "typst", "serial", "jinja2", "amp_studio.sim", "amp_studio.transfer")
+LATE = ("numpy", "numba", "typst", "serial", "jinja2", "amp_studio.sim", "amp_studio.transfer")
 """What a start must not wait for."""
 
 STARTED = f"""

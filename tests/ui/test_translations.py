@@ -12,9 +12,10 @@ import pytest
 from PySide6.QtCore import QCoreApplication
 from PySide6.QtWidgets import QMenu
 
+from amp_studio.drawing import scene_in_words
 from amp_studio.files import open_file
 from amp_studio.guide import steps_of
-from amp_studio.pictures import pictures_of, scene_in_words
+from amp_studio.pictures import pictures_of
 from amp_studio.ui.base.translated import (
     FOLDER,
     LANGUAGES,

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from amp_studio.calibration import Proposal
-from amp_studio.pictures import Polyline, Scale, Scene, ShapeSort, Text
+from amp_studio.drawing import Polyline, Scale, Scene, ShapeSort, Text
 from amp_studio.schema import shown
 
 MICRO = 1000.0

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from amp_studio.pictures import CurveText, Point
+from amp_studio.drawing import Point
+from amp_studio.pictures import CurveText
 
 from .formulas.ballscrew import ballscrew_words, is_ballscrew_table
 

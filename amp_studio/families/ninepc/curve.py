@@ -6,7 +6,8 @@ from collections.abc import Sequence
 from dataclasses import replace
 from fractions import Fraction
 
-from amp_studio.pictures import CurveText, Point
+from amp_studio.drawing import Point
+from amp_studio.pictures import CurveText
 
 from .formulas.calibration import DECIMALS, CalibrationText, read_calibration
 

@@ -10,8 +10,8 @@ from pathlib import Path
 from PySide6.QtCore import QObject, QTimer
 from PySide6.QtWidgets import QFileDialog
 
+from amp_studio.drawing import scene_svg
 from amp_studio.files import check_output, write_atomic
-from amp_studio.pictures import scene_svg
 from amp_studio.schema import Address
 from amp_studio.ui.base.loading import load, load_beside
 from amp_studio.ui.page.file_page import FilePage

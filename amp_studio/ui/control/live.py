@@ -10,7 +10,7 @@ from collections.abc import Callable
 from datetime import UTC, datetime
 from typing import TYPE_CHECKING
 
-import pyqtgraph as pg
+import numpy as np
 from PySide6.QtCore import QObject, Qt, QTimer, Signal
 from PySide6.QtGui import QCloseEvent
 from PySide6.QtWidgets import (
@@ -26,6 +26,8 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
+from amp_studio.drawing import Curve, Picture, panel_of
+from amp_studio.ui.base.plot import Plot
 from amp_studio.ui.base.task import Task, TaskProgress
 from amp_studio.ui.base.theme import GAP2, GAP3, colour, font
 
@@ -152,12 +154,9 @@ class LivePage(QDialog):
         self.chosen = QComboBox()
         self.chosen.setAccessibleName(self.tr("Axis whose following error is drawn"))
         self.chosen.currentIndexChanged.connect(lambda _: self._draw())
-        self.plot = pg.PlotWidget()
+        self.plot = Plot(has_cursors=False)
         self.plot.setAccessibleName(self.tr("Following error over time, a dot for each reading"))
         self.plot.setMinimumHeight(140)
-        self.plot.setMenuEnabled(False)
-        self.plot.hideButtons()
-        self.plot.setMouseEnabled(False, False)
         self.toggle = QPushButton(self.tr("&Start"))
         self.toggle.setAutoDefault(False)
         self.toggle.clicked.connect(self._toggle)
@@ -284,16 +283,13 @@ class LivePage(QDialog):
 
     def _draw(self) -> None:
         """Draw the readings of the chosen axis as dots; nothing is known between them."""
-        item = self.plot.getPlotItem()
-        item.clear()
-        self.plot.setBackground(colour("base"))
         points = self._errors.get(self.chosen.currentText())
         self.plot.setVisible(bool(points))
         self.chosen.setVisible(bool(points))
         if points:
-            x, y = zip(*points, strict=True)
-            dots = pg.ScatterPlotItem(list(x), list(y), size=4, pen=None, brush=colour("chg"))
-            item.addItem(dots)
+            x, y = np.array(points).T
+            dots = Curve("", x, y, "now", dots=True)
+            self.plot.draw(Picture("", (), (panel_of("following error", (dots,), ("time", "s")),)))
 
 
 def _titled(fault: ActiveFault) -> str:

@@ -10,7 +10,7 @@ from PySide6.QtWidgets import (
     QLineEdit,
 )
 
-from amp_studio.pictures import Handle, figure_text
+from amp_studio.drawing import Handle, figure_text
 from amp_studio.schema import Address, Value, convert, dimension, shown, write_figure, write_value
 from amp_studio.ui.base.figures import show_value
 from amp_studio.ui.base.theme import CONTROL, GAP3, font

@@ -212,8 +212,8 @@ class CalibrationPage(QWidget):
         self.fault.setVisible(bool(fault))
         self.limits.setText("\n".join(worded(line) for line in lines))
         self._fill(table)
-        self.plot.draw(
-            (ErrorTrace(self.tr("error that the table takes away"), table.curve, "sel"),), table.unit
+        self.plot.show_errors(
+            (ErrorTrace(self.tr("error that the table takes away"), table.curve, "now"),), table.unit
         )
         has, state = bool(table.points), file.evaluation.state((form.parameter, axis))
         may = self.target.may_edit and state.is_active

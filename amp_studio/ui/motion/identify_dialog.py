@@ -19,11 +19,10 @@ from PySide6.QtWidgets import (
 
 from amp_studio.files import ParameterFile, SaveError
 from amp_studio.sim import SimulationError, Trace, figure_text, identify, picture_of, shown, write_machine
+from amp_studio.ui.base.plot import Plot
 from amp_studio.ui.base.task import in_background
 from amp_studio.ui.base.theme import GAP2, GAP3
 from amp_studio.ui.base.translated import worded
-
-from .plot import MotionPlot
 
 
 class IdentifyDialog(QDialog):
@@ -35,7 +34,7 @@ class IdentifyDialog(QDialog):
         self.trace: Trace | None = None
         self.setWindowTitle(self.tr("Machine from a Record — {name}").format(name=path.name))
         self.resize(980, 640)
-        self.plot = MotionPlot()
+        self.plot = Plot()
         self.plot.setAccessibleName(self.tr("Measured and predicted torque"))
         self.scale = QLineEdit()
         self.scale.setPlaceholderText(self.tr("only for A, Nm or N: 0.056 A"))

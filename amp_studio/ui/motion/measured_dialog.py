@@ -210,7 +210,7 @@ class MeasuredDialog(QDialog):
     def _show_nothing(self, why: str) -> None:
         self.summary.clear()
         self.notes.clear()
-        self.plot.draw((), "mm")
+        self.plot.show_errors((), "mm")
         self._demand(why)
 
     def _demand(self, text: str) -> None:
@@ -230,14 +230,14 @@ class MeasuredDialog(QDialog):
         self.notes.setPlainText("\n".join(f"• {note}" for note in proposal.notes))
         sides = ((True, self.tr("rising")), (False, self.tr("falling")))
         before = [
-            ErrorTrace(self.tr("{side} as measured").format(side=name), proposal.before[side], "edge" if side else "warn", True)
+            ErrorTrace(self.tr("{side} as measured").format(side=name), proposal.before[side], "before" if side else "output", True)
             for side, name in sides if side in proposal.before
         ]  # fmt: skip
         after = [
-            ErrorTrace(self.tr("{side} expected").format(side=name), proposal.after[side], "sel" if side else "rec")
+            ErrorTrace(self.tr("{side} expected").format(side=name), proposal.after[side], "now" if side else "outside")
             for side, name in sides if side in proposal.after
         ]  # fmt: skip
-        self.plot.draw((*before, *after), proposal.unit)
+        self.plot.show_errors((*before, *after), proposal.unit)
 
     def _lines(self, measurement: Measurement, proposal: Proposal) -> list[str]:
         """Return what was read, the figures of ISO 230-2, and what would be set."""

@@ -7,12 +7,13 @@ from dataclasses import replace
 from PySide6.QtCore import Qt, QTimer
 from PySide6.QtWidgets import QComboBox, QHBoxLayout, QLabel, QPushButton, QVBoxLayout, QWidget
 
+from amp_studio.drawing import linked
 from amp_studio.files import ParameterFile
 from amp_studio.schema import axis_name
 from amp_studio.sim import SimulationError, Trace, picture_of, simulate, simulated_axes
+from amp_studio.ui.base.plot import Plot
 from amp_studio.ui.base.task import Task
 
-from .plot import MotionPlot
 from .tuning_target import TuningTarget
 
 _SHOWN = slice(1, 3)
@@ -31,7 +32,7 @@ class StepAnswer(QWidget):
         self._again = False
         self.trace: Trace | None = None
         self.before: Trace | None = None
-        self.axis, self.plot, self.text = QComboBox(), MotionPlot(), QLabel()
+        self.axis, self.plot, self.text = QComboBox(), Plot(), QLabel()
         self.axis.setAccessibleName(self.tr("Simulated axis"))
         self.plot.setAccessibleName(self.tr("Simulated answer to a step"))
         self.text.setWordWrap(True)
@@ -120,7 +121,7 @@ class StepAnswer(QWidget):
         if self.trace is None:
             return
         picture = picture_of(self.trace, self.before if self.before is not self.trace else None)
-        self.plot.draw(replace(picture, panels=picture.panels[_SHOWN]))
+        self.plot.draw(replace(picture, panels=linked(picture.panels[_SHOWN])))
         self.text.setText(self._figures())
 
     def _figures(self) -> str:

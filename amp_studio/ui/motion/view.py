@@ -40,6 +40,7 @@ from amp_studio.sim import (
     simulate,
     write_trace,
 )
+from amp_studio.ui.base.plot import Plot
 from amp_studio.ui.base.task import Task, TaskProgress
 from amp_studio.ui.base.theme import severity_ink
 from amp_studio.ui.base.translated import worded
@@ -47,7 +48,6 @@ from amp_studio.ui.base.workspace import Workspace
 from amp_studio.ui.forms.pages import LINK
 
 from .machine_page import MachinePage
-from .plot import MotionPlot
 from .results import AssumptionsPage, FiguresPage, RecommendationsPage, name_of
 from .settings import SettingsForm, refill, scrolled
 
@@ -137,7 +137,7 @@ class MotionView(QWidget):
         self.summary.setTextInteractionFlags(Qt.TextInteractionFlag.TextBrowserInteraction)
         self.values.setTextFormat(Qt.TextFormat.RichText)
         self.values.setAlignment(Qt.AlignmentFlag.AlignTop)
-        self.plot = MotionPlot()
+        self.plot = Plot()
         self.figures, self.assumptions = FiguresPage(self._follow), AssumptionsPage()
         self.plot.setAccessibleName(self.tr("Simulated motion"))
         self.figures.setAccessibleName(self.tr("Figures of the motion"))

@@ -8,16 +8,18 @@ from PySide6.QtCore import QPointF, QRect, QSize, QSizeF, Qt, Signal
 from PySide6.QtGui import QHideEvent, QKeyEvent, QMouseEvent, QPainter, QPaintEvent, QResizeEvent
 from PySide6.QtWidgets import QSizePolicy, QToolTip, QWidget
 
+from amp_studio.drawing import Handle, Placement, Scene
 from amp_studio.files import RangeError
-from amp_studio.pictures import Handle, Placement, Scene, dragged, stepped
+from amp_studio.pictures import dragged, stepped
 from amp_studio.schema import Address, Value
+from amp_studio.ui.base.scene_painter import ScenePainter
 from amp_studio.ui.base.theme import colour
 from amp_studio.ui.base.workspace import Workspace
 from amp_studio.ui.forms.handle_spot import REACH, HandleSpot
 from amp_studio.ui.table.value_drag import ValueDrag
 from amp_studio.validate import Finding
 
-from .paint import ScenePainter, Tag, empty_text, paint_handles, paint_tag
+from .paint import Tag, empty_text, paint_handles, paint_tag
 
 TOGETHER = 2
 """Handles so much farther away than the nearest one lie on it, in logical pixels; a click goes on to the next."""

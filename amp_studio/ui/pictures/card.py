@@ -16,7 +16,8 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
-from amp_studio.pictures import FilePicture, Scene, scene_in_words
+from amp_studio.drawing import Scene, scene_in_words
+from amp_studio.pictures import FilePicture
 from amp_studio.ui.base.theme import GAP2, GAP3, HEAD, colour, font, icon, scheme
 from amp_studio.ui.base.translated import worded
 from amp_studio.ui.base.workspace import Workspace

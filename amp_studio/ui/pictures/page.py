@@ -8,8 +8,9 @@ from PySide6.QtCore import QSize, Qt, QTimer, Signal
 from PySide6.QtGui import QFocusEvent, QResizeEvent
 from PySide6.QtWidgets import QGridLayout, QLabel, QVBoxLayout, QWidget
 
+from amp_studio.drawing import Handle
 from amp_studio.files import RangeError
-from amp_studio.pictures import Handle, drawn_in, pictures_of
+from amp_studio.pictures import drawn_in, pictures_of
 from amp_studio.schema import (
     Address,
     InvalidValueError,

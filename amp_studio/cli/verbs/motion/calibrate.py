@@ -143,8 +143,8 @@ def _check_picture(options: Options) -> None:
 
 def _draw(options: Options, file: ParameterFile, proposal: Proposal) -> None:
     from amp_studio.cli.motion.calibration_picture import proposal_scene
+    from amp_studio.drawing import scene_svg
     from amp_studio.files import write_atomic
-    from amp_studio.pictures import scene_svg
     from amp_studio.schema import axis_name
 
     letter = axis_name(file.evaluation, proposal.axis) or proposal.axis

@@ -12,8 +12,8 @@ from amp_studio.cli.output import check_replaced
 from amp_studio.cli.verb import Options, Verb, VerbArgument
 
 if TYPE_CHECKING:
+    from amp_studio.drawing import Scene
     from amp_studio.files import ParameterFile
-    from amp_studio.pictures import Scene
 
 VERB = Verb(
     __doc__,
@@ -32,8 +32,9 @@ VERB = Verb(
 
 def run(options: Options) -> int:
     """List the pictures of a file, or draw one."""
+    from amp_studio.drawing import scene_json, scene_svg
     from amp_studio.files import write_atomic
-    from amp_studio.pictures import draw, scene_json, scene_svg
+    from amp_studio.pictures import draw
 
     if options.output:
         check_replaced(options.output, options.path)

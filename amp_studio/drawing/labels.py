@@ -13,7 +13,7 @@ from typing import Literal
 from amp_studio.schema import Address
 
 from .frame import Placement
-from .scene import Point, Scene, ShapeSort, Text
+from .scene import Curve, Point, Scene, ShapeSort, Text
 
 Measure = Callable[[str, bool], float]
 """Text, whether it is strong -> width in points."""
@@ -37,6 +37,10 @@ _LED = 16.0
 """Distance in points from which a line leads from a point to its text."""
 _LEAST_ROW = 30.0
 """Height of a row that has room for figures at its points; in lower ones only the first has them."""
+SAMPLE = 22.0
+"""Length of the sample of a curve before its name."""
+_BETWEEN = 6.0
+"""Between a sample and its name; two of them between names."""
 _HALF = 6.0
 """Half the side of a handle or of a sign, and a bit."""
 
@@ -79,6 +83,8 @@ class Label:
     """The parameter it names."""
     leader: tuple[Point, Point] | None = None
     """From its point to it, where it is far away."""
+    over: bool = False
+    """Whether it lies on curves: on a light background."""
 
 
 @dataclass(frozen=True)
@@ -94,14 +100,52 @@ def labels_of(frame: Placement, width: float, height: float, measure: Measure, l
     """Return where the texts of a scene are on a sheet of a width and a height, in lines of a height."""
     placing = _Placing(frame, width, height, measure, line)
     placing.scales()
+    placing.levels()
+    placing.marks()
     placing.texts()
     return Labels(tuple(placing.shown), tuple(placing.left_out))
 
 
 def axis_text(scene: Scene, axis: str) -> str:
-    """Return what is measured along an axis: ``X, mm``."""
+    """Return what is measured along an axis: ``X, mm``; a panel has what is up its own in its heading."""
     scale = scene.x if axis == "x" else scene.y
-    return ", ".join(part for part in (scale.label, scale.unit) if part) if not scale.rows else ""
+    if scale.rows or not scale.is_written or (axis == "y" and scene.look == "panel"):
+        return ""
+    return ", ".join(part for part in (scale.label, scale.unit) if part)
+
+
+@dataclass(frozen=True)
+class Heading:
+    """A piece of the heading of a panel: words, behind the sample of a curve where they are its name."""
+
+    x: float
+    line: int
+    """Lines below the first one."""
+    text: str
+    strong: bool = False
+    curve: Curve | None = None
+
+
+def heading_of(panel: Scene, left: float, right: float, measure: Measure) -> list[Heading]:
+    """Return what a panel shows, and its curves by name where it has several, from left to right: no name is left out."""
+    title = f"{panel.title} ({panel.y.unit})" if panel.y.unit else panel.title
+    pieces = [Heading(left, 0, title, strong=True)]
+    x, line = left + measure(title, True) + 2.0 * _BETWEEN, 0
+    if panel.subtitle:
+        pieces.append(Heading(x, 0, panel.subtitle))
+        x += measure(panel.subtitle, False) + 2.0 * _BETWEEN
+    named = [curve for curve in panel.curves if curve.name and len(curve.x)]
+    if len(named) < 2:
+        return pieces
+    widths = [SAMPLE + _BETWEEN + measure(curve.name, False) + 2.0 * _BETWEEN for curve in named]
+    if x + sum(widths) <= right:
+        x = right - sum(widths)
+    for curve, width in zip(named, widths, strict=True):
+        if x + width > right + 1.0 and x > left:
+            x, line = left, line + 1
+        pieces.append(Heading(x, line, curve.name, curve=curve))
+        x += width
+    return pieces
 
 
 class _Placing:
@@ -147,9 +191,9 @@ class _Placing:
         else:
             self._figure(8.0, frame.top - 12.0, upright, "start")
         self._figure(right, bottom + 29.0, axis_text(scene, "x"), "end")
-        for level, text in frame.ticks("y"):
+        for level, text in frame.ticks("y") if scene.y.is_written else ():
             self._figure(frame.left - 8.0, level + base, text, "end")
-        for x, text in frame.ticks("x"):
+        for x, text in frame.ticks("x") if scene.x.is_written else ():
             self._figure(x, bottom + 15.0, text, "middle")
         for at_row, _, unit in scene.y.rows:
             self._figure(right + 8.0, frame.at((scene.x.low, at_row))[1] + base, unit, "start")
@@ -158,6 +202,40 @@ class _Placing:
         box = self._kept_inside(self._box(x, base, Text((x, base), text), "", align))
         if text and self._is_free(box):
             self.shown.append(Label(box, text))
+
+    # -- lines across ------------------------------------------------------------------
+
+    def levels(self) -> None:
+        """Name levels at the right end of their lines; those that would overlap share one text."""
+        frame = self._frame
+        x, found = frame.left + frame.width - 6.0, list[tuple[float, str]]()
+        for mark in sorted(frame.scene.levels, key=lambda each: each.at):
+            y, name = frame.at((0.0, mark.at))[1], mark.name
+            if not name or not frame.top <= y <= frame.top + frame.height:
+                continue
+            if found and found[-1][0] - y < self._line:
+                y, name = found[-1][0], f"{found.pop()[1]}, {name}"
+            found.append((y, name))
+        for y, name in found:
+            base = y + 0.9 * self._line if y - frame.top < self._line + 4.0 else y - 4.0
+            self.shown.append(Label(self._box(x, base, Text((x, y), name), "", "end"), name, over=True))
+
+    def marks(self) -> None:
+        """Name marks beside their lines, near the bottom, in turns of two heights."""
+        frame = self._frame
+        for n, mark in enumerate(sorted(frame.scene.marks, key=lambda each: each.at)):
+            x = frame.at((mark.at, 0.0))[0]
+            if mark.name and frame.left <= x <= frame.left + frame.width:
+                base = frame.top + frame.height - 8.0 - self._line * (n % 2)
+                at_left = x - self._measure(mark.name, False) - 4.0 > frame.left
+                box = self._box(
+                    x - 4.0 if at_left else x + 4.0,
+                    base,
+                    Text((x, base), mark.name),
+                    "",
+                    "end" if at_left else "start",
+                )
+                self.shown.append(Label(box, mark.name, over=True))
 
     # -- texts at points -------------------------------------------------------------
 

@@ -5,9 +5,8 @@ from __future__ import annotations
 import math
 from typing import Any
 
+from amp_studio.drawing.scene import Drag, Handle, Scale, Scene
 from amp_studio.schema import Address
-
-from .scene import Drag, Handle, Scale, Scene
 
 
 def scene_json(scene: Scene) -> dict[str, Any]:

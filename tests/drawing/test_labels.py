@@ -8,12 +8,13 @@ from pathlib import Path
 
 import pytest
 
+from amp_studio.drawing import scene_svg
+from amp_studio.drawing.frame import Placement
+from amp_studio.drawing.labels import Box, labels_of
+from amp_studio.drawing.scene import Scale, Scene, Text
+from amp_studio.drawing.svg import LINE, measured
 from amp_studio.files import open_file
-from amp_studio.pictures import pictures_of, scene_svg
-from amp_studio.pictures.frame import Placement
-from amp_studio.pictures.labels import Box, labels_of
-from amp_studio.pictures.scene import Scale, Scene, Text
-from amp_studio.pictures.svg import LINE, measured
+from amp_studio.pictures import pictures_of
 
 EXAMPLES = sorted((Path(__file__).parents[2] / "examples").glob("*/*.amp"))
 SIZES = ((240.0, 110.0), (424.0, 190.0), (720.0, 480.0))

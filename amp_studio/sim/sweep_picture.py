@@ -6,12 +6,11 @@ import math
 
 import numpy as np
 
+from amp_studio.drawing import Curve, NamedPlace, Picture, Point, Scene, ShapeSort, map_scene, panel_of
 from amp_studio.sim.rounding import shown
 from amp_studio.sim.series import Series
 from amp_studio.sim.trace import Trace
 from amp_studio.sim.variations.text import best_row
-
-from .panels import Curve, Field, Panel, Picture
 
 WIDEST = 200
 """Values of each side of a map at most; a sweep of more is drawn as samples."""
@@ -39,35 +38,39 @@ def _map(trace: Trace, x: Series, y: Series) -> Picture:
     safe = (trace.columns["safe"] == 1.0).reshape(shape).T
     at = [trace.limits[name][0] for name in trace.over]
     row = best_row(trace)
-    field = Field(
-        _words(trace.figure), trace.units[trace.figure], _axis(trace, one), _axis(trace, two), x, y, values, safe,
-        None if at[0] is None or at[1] is None else (at[0], at[1]),
-        None if row is None else (float(trace.columns[one][row]), float(trace.columns[two][row])),
+    points: list[tuple[str, Point, ShapeSort]] = []
+    if at[0] is not None and at[1] is not None:
+        points.append(("present", (at[0], at[1]), "error"))
+    if row is not None:
+        points.append(("best", (float(trace.columns[one][row]), float(trace.columns[two][row])), "outside"))
+    above = map_scene(
+        _words(trace.figure), trace.units[trace.figure], (*_axis(trace, one), x), (*_axis(trace, two), y), values, safe, points
     )  # fmt: skip
     nearest = int(np.argmin(np.abs(y - (y[len(y) // 2] if at[1] is None else at[1]))))
     cut = f"{_words(trace.figure)} at {_words(two)} {shown(float(y[nearest]), trace.units[two])}"
-    panel = _panel(trace, cut, x, values[nearest], safe[nearest], at[0])
-    return Picture("", (), _axis(trace, one), (panel,), field=field)
+    panel = _panel(trace, cut, one, x, values[nearest], safe[nearest], at[0])
+    return Picture("", (), (panel,), above)
 
 
-def _axis(trace: Trace, name: str) -> str:
-    unit = trace.units[name]
-    return f"{_words(name)} ({unit})" if unit else _words(name)
+def _axis(trace: Trace, name: str) -> tuple[str, str]:
+    return _words(name), trace.units[name]
 
 
 def _line(trace: Trace, x: Series) -> Picture:
     values, safe = trace.columns[trace.figure], trace.columns["safe"] == 1.0
-    panel = _panel(trace, _words(trace.figure), x, values, safe, trace.limits[trace.over[0]][0])
-    return Picture("", (), _axis(trace, trace.over[0]), (panel,))
+    one = trace.over[0]
+    return Picture("", (), (_panel(trace, _words(trace.figure), one, x, values, safe, trace.limits[one][0]),))
 
 
-def _panel(trace: Trace, label: str, x: Series, values: Series, safe: Series, at: float | None) -> Panel:
+def _panel(
+    trace: Trace, title: str, over: str, x: Series, values: Series, safe: Series, at: float | None
+) -> Scene:
     known = np.isfinite(values)
-    curves = [Curve(_words(trace.figure), x[known], values[known], "actual")]
+    curves = [Curve(_words(trace.figure), x[known], values[known], "now")]
     if (known & safe).any():
-        curves.append(Curve("safe", x[known & safe], values[known & safe], "other", dots=True))
-    marks = () if at is None else (("present", at),)
-    return Panel(label, trace.units[trace.figure], tuple(curves), marks=marks, height=1.4)
+        curves.append(Curve("safe", x[known & safe], values[known & safe], "outside", dots=True))
+    marks = () if at is None else (NamedPlace("present", at),)
+    return panel_of(title, curves, _axis(trace, over), trace.units[trace.figure], marks=marks, share=1.4)
 
 
 def _distribution(trace: Trace) -> Picture:
@@ -76,8 +79,7 @@ def _distribution(trace: Trace) -> Picture:
     if not values.size:
         values = np.zeros(1)
     share = 100.0 * (np.arange(len(values)) + 0.5) / len(values)
-    marks = tuple((f"{part} %", float(np.percentile(values, part))) for part in (5, 50, 95))
-    panel = Panel(
-        "variations below", "%", (Curve("share", values, share, "actual"),), marks=marks, height=2.0
-    )
-    return Picture("", (), _axis(trace, trace.figure), (panel,))
+    marks = tuple(NamedPlace(f"{part} %", float(np.percentile(values, part))) for part in (5, 50, 95))
+    curve = Curve("share", values, share)
+    panel = panel_of("variations below", (curve,), _axis(trace, trace.figure), "%", marks=marks, share=2.0)
+    return Picture("", (), (panel,))

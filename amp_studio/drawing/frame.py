@@ -5,8 +5,8 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
-from .figures import multiple, nice
 from .scene import Point, Scale, Scene
+from .ticks import decades, figure_text, ticks
 
 LEFT, RIGHT, TOP, BOTTOM = 64.0, 20.0, 28.0, 34.0
 """Room for figures and texts around a drawing, in points."""
@@ -53,9 +53,22 @@ class Placement:
         if scale.rows:
             marks = [(at, name) for at, name, _ in scale.rows]
         else:
-            room = (self.width if horizontal else self.height) / (72.0 if horizontal else 40.0)
-            marks = [(value, figure_text(value)) for value in _values(scale, room)]
+            gap = _gap(self.scene, horizontal)
+            room = (self.width if horizontal else self.height) / gap
+            found = (
+                decades(scale.low, scale.high, room)
+                if scale.log
+                else ticks(scale.low, scale.high, room, scale.step)
+            )
+            marks = [(value, figure_text(value)) for value in found]
         return [(self.at((v, v))[0 if horizontal else 1], text) for v, text in marks]
+
+
+def _gap(scene: Scene, horizontal: bool) -> float:
+    """Return the least distance of two figures in points: panels are low, and a logarithmic scale has its figures unevenly."""
+    if scene.look == "panel":
+        return 44.0 if horizontal and scene.x.log else 72.0 if horizontal else 30.0
+    return 72.0 if horizontal else 40.0
 
 
 def _share(scale: Scale, value: float) -> float:
@@ -72,29 +85,3 @@ def _of_share(scale: Scale, share: float) -> float:
     if scale.log:
         return float(scale.low * (scale.high / scale.low) ** share)
     return scale.low + share * (scale.high - scale.low)
-
-
-def _values(scale: Scale, about: float) -> list[float]:
-    """Return round numbers along a scale."""
-    if scale.log:
-        exponents = range(math.floor(math.log10(scale.low)), math.ceil(math.log10(scale.high)) + 1)
-        steps = (
-            (1.0,) if len(exponents) > about else (1.0, 2.0, 5.0) if 2 * len(exponents) < about else (1.0,)
-        )
-        every = [n * 10.0**e for e in exponents for n in steps]
-        return [multiple(v, 10.0 ** math.floor(math.log10(v))) for v in every if scale.low <= v <= scale.high]
-    step = nice((scale.high - scale.low) / max(about, 2.0))
-    first, last = math.ceil(scale.low / step - 1e-9), math.floor(scale.high / step + 1e-9)
-    return [multiple(n * step, step) for n in range(first, last + 1)]
-
-
-def figure_text(value: float) -> str:
-    """Write a number beside an axis: grouped by narrow spaces from five digits on, with a real minus."""
-    text = f"{value:.10g}"
-    if "e-" in text:
-        text = f"{value:.12f}".rstrip("0").rstrip(".")
-    sign, digits = ("−", text[1:]) if text.startswith("-") else ("", text)
-    whole, point, decimals = digits.partition(".")
-    if len(whole) > 4 and whole.isdigit():
-        whole = f"{int(whole):,}".replace(",", "\u202f")
-    return sign + whole + point + decimals

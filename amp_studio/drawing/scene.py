@@ -8,9 +8,16 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass, field
-from typing import Literal
+from typing import TYPE_CHECKING, Literal, NamedTuple
 
 from amp_studio.schema import Address, Value
+
+if TYPE_CHECKING:
+    import numpy as np
+    from numpy.typing import NDArray
+
+    Series = NDArray[np.float64]
+    """Values of a curve, (n,)."""
 
 Point = tuple[float, float]
 ShapeSort = Literal[
@@ -26,6 +33,8 @@ ShapeSort = Literal[
     "travel",
     "rail",
     "overlap",
+    "output",
+    "before",
 ]
 """What a shape means; the colour follows from it."""
 DotKind = Literal["point", "home", "switch", "marker", "left", "right", "up", "down", "end", "tick"]
@@ -43,6 +52,53 @@ class Polyline:
     points: tuple[Point, ...]
     sort: ShapeSort = "ink"
     dashed: bool = False
+
+
+@dataclass(frozen=True, eq=False)
+class Curve:
+    """A course of any number of values: how many of its points are drawn depends on the room for them."""
+
+    name: str
+    x: Series
+    y: Series
+    sort: ShapeSort = "now"
+    dashed: bool = False
+    dots: bool = False
+    """Single measured values, each a ring."""
+    held: bool = False
+    """Whether a value is constant between two samples of the control."""
+    dense: bool = False
+    """Whether it ripples between samples: where it is too dense it is drawn as its mean in the band it fills."""
+
+    @property
+    def is_before(self) -> bool:
+        """Whether it shows what was before a change."""
+        return self.sort == "before"
+
+
+@dataclass(frozen=True, eq=False)
+class CellMap:
+    """A figure over two values: a cell for each pair of them, pale where it is not safe."""
+
+    unit: str
+    x: Series
+    """Edges of the columns, (n + 1,)."""
+    y: Series
+    """Edges of the rows, (m + 1,)."""
+    values: NDArray[np.float64]
+    """(m, n); nan where there is none."""
+    safe: NDArray[np.bool_]
+    """(m, n)"""
+    ends: tuple[float, float]
+    """The values at both ends of the scale of colours."""
+
+
+class NamedPlace(NamedTuple):
+    """A named value of a scale, drawn as a line across the whole drawing."""
+
+    name: str
+    at: float
+    sort: ShapeSort = "dim"
 
 
 @dataclass(frozen=True)
@@ -146,6 +202,10 @@ class Scale:
     low: float
     high: float
     log: bool = False
+    step: float = 0.0
+    """Distance of the figures where round decimal numbers are wrong (degrees); 0 for those."""
+    is_written: bool = True
+    """Whether there are figures; a panel leaves those along x to the last one below it."""
     rows: tuple[tuple[float, str, str], ...] = ()
     """In place of figures: where, name at the left and at the right end."""
 
@@ -183,5 +243,39 @@ class Scene:
     """Every parameter that was read."""
     with_point: Callable[[Point], tuple[Address, Value] | None] | None = field(default=None, compare=False)
     """What is set to put a point into a table; None where nothing can be put in."""
+    curves: tuple[Curve, ...] = ()
+    cells: CellMap | None = None
+    levels: tuple[NamedPlace, ...] = ()
+    """Values of y."""
+    marks: tuple[NamedPlace, ...] = ()
+    """Places of x."""
+    look: Literal["picture", "panel", "rings"] = "picture"
+    """A ``panel`` of several has a frame and above it what it shows and its curves by name; ``rings`` have no scales."""
+    share: float = 1.0
+    """Share of a panel in the height of its picture."""
     fixed: float | None = None
     """What stays the same while a handle is dragged: the length of a move."""
+
+
+class Ring(NamedTuple):
+    """A closed path around a circle: the radius deviation over the angle in rad."""
+
+    angle: Series
+    deviation: Series
+    sort: ShapeSort
+
+
+@dataclass(frozen=True)
+class Picture:
+    """Panels below each other over one horizontal axis."""
+
+    title: str
+    facts: tuple[str, ...]
+    """Figures in words, the most important first."""
+    panels: tuple[Scene, ...]
+    above: Scene | None = None
+    """A drawing above the panels, over other axes: a path around a circle, a map."""
+    close: Scene | None = None
+    """A close look at the end, over a separate axis."""
+    has_alarm: bool = False
+    assumed: tuple[str, ...] = ()

@@ -1,4 +1,4 @@
-"""What a picture of a trace shows: panels with curves, limits and marks; `svg` and the program draw it.
+"""What a picture of a trace shows: panels with curves, limits and marks, as the room `drawing` draws them.
 
 A time picture has linked axes and a close look at the settling; a frequency picture is a Bode plot, a circle a ball-bar picture.
 """
@@ -6,17 +6,28 @@ A time picture has linked axes and a close look at the settling; a frequency pic
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import replace
 
 import numpy as np
 
-from amp_studio.sim.rounding import shown
-from amp_studio.sim.series import Series
-from amp_studio.sim.trace import Trace
+from amp_studio.drawing import (
+    Curve,
+    NamedPlace,
+    Picture,
+    Ring,
+    Scene,
+    ShapeSort,
+    linked,
+    panel_of,
+    picture_svg,
+    ring_scene,
+)
 
-from .panels import Curve, Panel, Picture, Ring, Role
+from .rounding import shown
+from .series import Series
 from .sweep_picture import sweep_picture
+from .trace import Trace
 
 CLOSE = 10.0
 """Inposition bands around the end of a move that a close look at the settling begins with."""
@@ -44,48 +55,9 @@ def picture_of(trace: Trace, before: Trace | None = None) -> Picture:
         picture,
         title=_title(trace),
         facts=_facts(trace),
+        has_alarm=bool(trace.alarms),
         assumed=tuple(a.removeprefix("ASSUMED: ") for a in trace.assumptions if a.startswith("ASSUMED")),
     )
-
-
-def thinned(x: Series, y: Series, columns: int) -> tuple[Series, Series]:
-    """Return first, least, greatest and last point of each of ``columns`` stretches: the line as it is drawn.
-
-    No peak is lost and no edge moves (U. Jugel et al., M4, Proceedings of the VLDB Endowment 7, 2014).
-    """
-    if len(x) <= 4 * columns:
-        return x, y
-    edges = np.linspace(0, len(x), columns + 1).astype(np.int64)
-    starts, ends = edges[:-1], edges[1:]
-    least = [int(s + np.argmin(y[s:e])) for s, e in zip(starts, ends, strict=True)]
-    most = [int(s + np.argmax(y[s:e])) for s, e in zip(starts, ends, strict=True)]
-    index = np.unique(np.concatenate([starts, least, most, ends - 1]))
-    return x[index], y[index]
-
-
-def unheld(x: Series, y: Series) -> tuple[Series, Series]:
-    """Return a value that is constant between samples as the line through its samples, without the stairs.
-
-    A sample that stays much longer than the others keeps its end, so that a pause stays level.
-    """
-    changes = np.flatnonzero(np.diff(y)) + 1
-    if len(changes) < 2:
-        return x, y
-    hold = float(np.median(np.diff(changes)))
-    gaps = np.diff(np.concatenate([[0], changes]))
-    ends = changes[gaps > 1.5 * hold] - 1
-    index = np.unique(np.concatenate([[0], ends, changes, [len(x) - 1]]))
-    return x[index], y[index]
-
-
-def banded(x: Series, y: Series, columns: int) -> tuple[Series, Series, Series, Series]:
-    """Return (x, mean, least, greatest) of each of ``columns`` stretches, for a value that jumps at every sample."""
-    edges = np.linspace(0, len(x), min(columns, len(x)) + 1).astype(np.int64)
-    starts = edges[:-1]
-    counts = np.diff(edges)
-    middle = x[starts + counts // 2]
-    mean = np.add.reduceat(y, starts) / counts
-    return middle, mean, np.minimum.reduceat(y, starts), np.maximum.reduceat(y, starts)
 
 
 def _title(trace: Trace) -> str:
@@ -134,19 +106,20 @@ def _shown(trace: Trace, name: str) -> str:
 # -- over time ---------------------------------------------------------------
 
 
+_TIME = ("time", "s")
+
+
 def _motion(trace: Trace, before: Trace | None) -> Picture:
+    alarms = tuple(NamedPlace("", alarm.time_s, "error") for alarm in trace.alarms)
     panels = [
-        _panel(trace, before, "position", ("command_position", "position"), 0.9),
-        _error(trace, before),
-        _panel(trace, before, "axis less spindle", ("tapping_error",), 1.0),
-        _panel(trace, before, "velocity", ("command_velocity", "expected_speed", "velocity"), 1.0),
-        _panel(trace, before, "torque", ("torque_percent", "torque"), 0.8),
-        _panel(trace, before, "output", ("output",), 0.8) if _has_own_output(trace) else None,
+        _panel(trace, before, alarms, "position", ("command_position", "position"), 0.9),
+        _error(trace, before, alarms),
+        _panel(trace, before, alarms, "axis less spindle", ("tapping_error",), 1.0),
+        _panel(trace, before, alarms, "velocity", ("command_velocity", "expected_speed", "velocity"), 1.0),
+        _panel(trace, before, alarms, "torque", ("torque_percent", "torque"), 0.8),
+        _panel(trace, before, alarms, "output", ("output",), 0.8) if _has_own_output(trace) else None,
     ]
-    return Picture(
-        "", (), "time (s)", tuple(p for p in panels if p is not None), close=_settling(trace, before),
-        alarms=tuple((a.code, a.time_s) for a in trace.alarms),
-    )  # fmt: skip
+    return Picture("", (), linked([p for p in panels if p is not None]), close=_settling(trace, before))
 
 
 def _has_own_output(trace: Trace) -> bool:
@@ -154,12 +127,12 @@ def _has_own_output(trace: Trace) -> bool:
     return trace.units.get("output", "") != trace.units.get("torque", "")
 
 
-_WORDS = {
-    "command_position": ("command", "command"),
-    "position": ("actual", "actual"),
-    "command_velocity": ("command", "command"),
-    "velocity": ("actual", "actual"),
-    "following_error": ("following error", "actual"),
+_WORDS: dict[str, tuple[str, ShapeSort]] = {
+    "command_position": ("command", "dim"),
+    "position": ("actual", "now"),
+    "command_velocity": ("command", "dim"),
+    "velocity": ("actual", "now"),
+    "following_error": ("following error", "now"),
     "torque_percent": ("torque", "output"),
     "torque": ("torque", "output"),
     "output": ("output", "output"),
@@ -167,19 +140,23 @@ _WORDS = {
 
 
 def _panel(
-    trace: Trace, before: Trace | None, label: str, names: Iterable[str], height: float
-) -> Panel | None:
+    trace: Trace, before: Trace | None, alarms: Sequence[NamedPlace], title: str, names: Iterable[str], share: float,
+    levels: Sequence[NamedPlace] = (), subtitle: str = "",
+) -> Scene | None:  # fmt: skip
     present = [name for name in names if name in trace.columns]
     if not present:
         return None
     curves = [*_before(before, present[-1]), *(_curve(trace, name) for name in present)]
-    return Panel(label, trace.units.get(present[-1], ""), tuple(curves), height=height)
+    unit = trace.units.get(present[-1], "")
+    return panel_of(title, curves, _TIME, unit, levels=levels, marks=alarms, share=share, subtitle=subtitle)
 
 
 def _curve(trace: Trace, name: str) -> Curve:
-    words, role = _WORDS.get(name, (name.replace("_", " "), "other"))
-    held, dense = name == "command_velocity", role == "output" or name == "following_error"
-    return Curve(words, trace.columns["time_s"], trace.columns[name], role, held=held, dense=dense)  # type: ignore[arg-type]  # the role is one of the words above
+    words, sort = _WORDS.get(name, (name.replace("_", " "), "outside"))
+    return Curve(
+        words, trace.columns["time_s"], trace.columns[name], sort, dashed=sort == "dim", held=name == "command_velocity",
+        dense=sort == "output" or name == "following_error",
+    )  # fmt: skip
 
 
 def _before(before: Trace | None, name: str) -> list[Curve]:
@@ -188,16 +165,21 @@ def _before(before: Trace | None, name: str) -> list[Curve]:
     return [Curve("before", before.columns["time_s"], before.columns[name], "before")]
 
 
-def _error(trace: Trace, before: Trace | None) -> Panel | None:
-    panel = _panel(trace, before, "following error", ("following_error",), 1.3)
-    if panel is None:
+def _error(trace: Trace, before: Trace | None, alarms: Sequence[NamedPlace]) -> Scene | None:
+    """Return the following error with the limits that are near it as lines, and those that are not in words."""
+    error = trace.columns.get("following_error")
+    if error is None:
         return None
-    error = trace.columns["following_error"]
     low, high = float(error.min(initial=0.0)), float(error.max(initial=0.0))
-    peak, sign = max(-low, high), (-1.0 if -low > high else 1.0)
-    levels = [(name, level) for name, (level, _) in trace.limits.items() if level is not None]
-    near = tuple((name, sign * level) for name, level in levels if level <= FAR * peak)
-    return replace(panel, levels=near)
+    peak, sign, unit = max(-low, high), (-1.0 if -low > high else 1.0), trace.units.get("following_error", "")
+    near = [
+        NamedPlace(f"{name} {shown(level, unit)}", sign * level)
+        for name, (level, _) in trace.limits.items()
+        if level is not None and level <= FAR * peak
+    ]
+    far = ", ".join(f"{name} {level}" for name, level in limits_outside(trace).items()).replace("_", " ")
+    above = f"above the plot: {far}" if far else ""
+    return _panel(trace, before, alarms, "following error", ("following_error",), 1.3, near, above)
 
 
 def settling_span(trace: Trace) -> tuple[float, float] | None:
@@ -228,23 +210,30 @@ def settling_span(trace: Trace) -> tuple[float, float] | None:
     return max(0.0, start - 0.05 * (close - start)), min(last, close)
 
 
-def _settling(trace: Trace, before: Trace | None) -> Panel | None:
+def _settling(trace: Trace, before: Trace | None) -> Scene | None:
     """Return a close look at the end of the move: distance from the end, with the band around it."""
     span = settling_span(trace)
     if span is None:
         return None
     curves = []
-    for each, name, role in ((before, "before", "before"), (trace, "distance from the end", "actual")):
+    pairs: tuple[tuple[Trace | None, str, ShapeSort], ...] = (
+        (before, "before", "before"),
+        (trace, "distance from the end", "now"),
+    )
+    for each, name, sort in pairs:
         if each is None or "position" not in each.columns:
             continue
         inside = (each.columns["time_s"] >= span[0]) & (each.columns["time_s"] <= span[1])
         if inside.sum() > 1:
             off = each.columns["position"][inside] - trace.columns["command_position"][-1]
-            curves.append(Curve(name, each.columns["time_s"][inside], off, role))  # type: ignore[arg-type]  # the role is one of the words above
+            curves.append(Curve(name, each.columns["time_s"][inside], off, sort))
     band = trace.limits.get("inposition band", (None, ""))[0]
-    levels = () if band is None else ((f"inposition band ±{shown(band)}", band), ("", -band))
+    levels = (
+        () if band is None else (NamedPlace(f"inposition band ±{shown(band)}", band), NamedPlace("", -band))
+    )
+    along = ("time, the end of the move", "s")
     return (
-        Panel("settling", trace.units.get("position", ""), tuple(curves), levels, height=1.0)
+        panel_of("settling", curves, along, trace.units.get("position", ""), levels=levels)
         if curves
         else None
     )
@@ -255,14 +244,14 @@ def _fit(trace: Trace) -> Picture:
     names = {"torque": "measured", "predicted_torque": "predicted", "residual": "", "velocity": ""}
     time, unit = trace.columns["time_s"], trace.units["torque"]
     measured, predicted, rest, speed = (
-        Curve(words, time, np.nan_to_num(trace.columns[name]), "output" if words == "measured" else "actual")
+        Curve(words, time, np.nan_to_num(trace.columns[name]), "output" if words == "measured" else "now")
         for name, words in names.items()
     )
-    return Picture("", (), "time (s)", (
-        Panel("torque", unit, (measured, predicted), height=2.0),
-        Panel("measured less predicted, where used", unit, (rest,), height=0.8),
-        Panel("velocity", trace.units["velocity"], (speed,), height=0.9),
-    ))  # fmt: skip
+    return Picture("", (), linked([
+        panel_of("torque", (measured, predicted), _TIME, unit, share=2.0),
+        panel_of("measured less predicted, where used", (rest,), _TIME, unit, share=0.8),
+        panel_of("velocity", (speed,), _TIME, trace.units["velocity"], share=0.9),
+    ]))  # fmt: skip
 
 
 def _plan(trace: Trace) -> Picture:
@@ -270,50 +259,58 @@ def _plan(trace: Trace) -> Picture:
     names = [name for name in trace.columns if name.startswith("position_")][:2]
     letters = [name.removeprefix("position_") for name in names]
     unit = trace.units[names[0]]
-    boxes = [
+    curves = [
         Curve(
             area.name,
             np.array([area.x[0], area.x[1], area.x[1], area.x[0], area.x[0]]),
             np.array([area.y[0], area.y[0], area.y[1], area.y[1], area.y[0]]),
-            "other",
+            "outside",
         )
         for area in trace.areas
     ]
-    ways: list[Curve] = []
-    for what, role in (("command", "command"), ("position", "actual")):
+    ways: tuple[tuple[str, str, ShapeSort], ...] = (
+        ("command", "command", "dim"),
+        ("actual", "position", "now"),
+    )
+    for words, what, sort in ways:
         x, y = (trace.columns[f"{what}_{letter}"] for letter in letters)
-        ways.append(Curve(role, x, y, role))  # type: ignore[arg-type]  # the role is one of both
-    return Picture(
-        "", (), f"{letters[0]} ({unit})", (Panel(letters[1], unit, (*boxes, *ways), height=3.0),)
-    )  # fmt: skip
+        curves.append(Curve(words, x, y, sort, dashed=sort == "dim"))
+    return Picture("", (), (panel_of(letters[1], curves, (letters[0], unit), unit, share=3.0),))
 
 
 # -- over frequency ------------------------------------------------------------
 
-_LOOPS: tuple[tuple[str, str, Role], ...] = (
-    ("closed", "closed loop", "actual"),
+_LOOPS: tuple[tuple[str, str, ShapeSort], ...] = (
+    ("closed", "closed loop", "now"),
     ("open", "open loop", "output"),
 )
 
 
 def _bode(trace: Trace, before: Trace | None) -> Picture:
-    gain = Panel("gain", "dB", tuple(_frequency_curves(trace, before, "gain_db")), (("−3 dB", -3.0103), ("", 0.0)),
-                 _frequency_marks(trace, ("bandwidth", "phase_margin_frequency")), 1.5)  # fmt: skip
-    phase = Panel("phase", "deg", tuple(_frequency_curves(trace, before, "phase_deg")), (("−180 deg", -180.0),),
-                  _frequency_marks(trace, ("gain_margin_frequency",)), 1.5, step=90.0)  # fmt: skip
-    return Picture("", (), "frequency (Hz)", (gain, phase), x_log=True)
+    along = ("frequency", "Hz")
+    gain = panel_of(
+        "gain", tuple(_frequency_curves(trace, before, "gain_db")), along, "dB", log=True, share=1.5,
+        levels=(NamedPlace("−3 dB", -3.0103), NamedPlace("", 0.0)),
+        marks=_frequency_marks(trace, ("bandwidth", "phase_margin_frequency")),
+    )  # fmt: skip
+    phase = panel_of(
+        "phase", tuple(_frequency_curves(trace, before, "phase_deg")), along, "deg", log=True, share=1.5, step=(0.0, 90.0),
+        levels=(NamedPlace("−180 deg", -180.0),), marks=_frequency_marks(trace, ("gain_margin_frequency",)),
+        without_zero=True,
+    )  # fmt: skip
+    return Picture("", (), linked((gain, phase)))
 
 
 def _frequency_curves(trace: Trace, before: Trace | None, what: str) -> Iterable[Curve]:
-    for loop, words, role in _LOOPS:
+    for loop, words, sort in _LOOPS:
         old = f"{loop}_{what}"
         if before is not None and old in before.columns:
             yield Curve(f"{words} before", *_known(before, old), "before")
         model = f"{loop}_{what}_model"
         if model in trace.columns:
-            yield Curve(f"{words}, model", *_known(trace, model), role)
+            yield Curve(f"{words}, model", *_known(trace, model), sort)
         if old in trace.columns:
-            yield Curve(f"{words}, swept", *_known(trace, old), role, dots=True)
+            yield Curve(f"{words}, swept", *_known(trace, old), sort, dots=True)
 
 
 def _known(trace: Trace, name: str) -> tuple[Series, Series]:
@@ -329,9 +326,11 @@ _MARKS = {
 }
 
 
-def _frequency_marks(trace: Trace, names: Iterable[str]) -> tuple[tuple[str, float], ...]:
+def _frequency_marks(trace: Trace, names: Iterable[str]) -> tuple[NamedPlace, ...]:
     found = ((name, trace.result.get(name, (None, ""))[0]) for name in names)
-    return tuple((f"{_MARKS[name]} {shown(at, 'Hz', 3)}", at) for name, at in found if at is not None)
+    return tuple(
+        NamedPlace(f"{_MARKS[name]} {shown(at, 'Hz', 3)}", at) for name, at in found if at is not None
+    )
 
 
 # -- around a circle -----------------------------------------------------------
@@ -339,21 +338,34 @@ def _frequency_marks(trace: Trace, names: Iterable[str]) -> tuple[tuple[str, flo
 
 def _ballbar(trace: Trace, before: Trace | None) -> Picture:
     rings, curves = [], []
-    for each, name, role in ((before, "before", "before"), (trace, "simulated", "actual")):
+    sides: tuple[tuple[Trace | None, str, ShapeSort], ...] = (
+        (before, "before", "before"),
+        (trace, "simulated", "now"),
+    )
+    for each, name, sort in sides:
         if each is None:
             continue
         angle, off = each.columns["angle_deg"], each.columns["radius_deviation"]
-        rings.append(Ring(name, np.radians(angle), off, role))  # type: ignore[arg-type]  # the role is one of the words above
-        curves.append(Curve(name, angle, off, role))  # type: ignore[arg-type]  # the role is one of the words above
+        rings.append(Ring(np.radians(angle), off, sort))
+        curves.append(Curve(name, angle, off, sort))
     unit = trace.units["radius_deviation"]
-    levels: list[tuple[str, float]] = [("", 0.0)]
+    levels = []
     # A radius error above 0 is a circle that is too small, a deviation below 0.
     predicted = trace.result.get("predicted_radius_error", (None, ""))[0]
     if predicted is not None and math.isfinite(predicted):
-        levels.append((f"predicted {shown(-predicted, unit)}".replace("-", "−"), -predicted))
-    marks = tuple((f"{turn} deg", float(turn)) for turn in (90, 180, 270))
-    panel = Panel("radius deviation", unit, tuple(curves), tuple(levels), marks, 1.2)
-    return Picture("", (), "angle (deg)", (panel,), rings=tuple(rings), ring_unit=unit)
+        levels.append(NamedPlace(f"predicted {shown(-predicted, unit)}".replace("-", "−"), -predicted))
+    marks = tuple(NamedPlace("", float(turn)) for turn in (90, 180, 270))
+    panel = panel_of(
+        "radius deviation",
+        curves,
+        ("angle", "deg"),
+        unit,
+        levels=levels,
+        marks=marks,
+        share=1.2,
+        step=(45.0, 0.0),
+    )
+    return Picture("", (), (panel,), ring_scene(rings, unit))
 
 
 def limits_outside(trace: Trace) -> Mapping[str, str]:
@@ -367,3 +379,10 @@ def limits_outside(trace: Trace) -> Mapping[str, str]:
         for name, (level, unit) in trace.limits.items()
         if level is not None and level > FAR * peak
     }
+
+
+def plot_svg(
+    trace: Trace, before: Trace | None = None, *, width: int = 960, unit: int = 132, small_print: bool = True
+) -> str:
+    """Return the SVG text of a trace, with the trace before a change under it; the rest as ``picture_svg`` takes it."""
+    return picture_svg(picture_of(trace, before), width=width, unit=unit, small_print=small_print)

@@ -1,0 +1,43 @@
+"""Drawings: a scene of shapes in world units with scales, labels and handles, and its one SVG writer.
+
+Pictures of a machine's values and plots of a simulated motion are the same thing: scenes, one alone or several below each
+other. What is drawn is decided above (`pictures`, `sim`); where it lies (`frame`, `labels`, `strokes`) and how it looks
+(`svg`, the painter of the window) is decided here, once.
+"""
+
+from typing import TYPE_CHECKING
+
+from amp_studio.front_pages import front_page
+
+if TYPE_CHECKING:
+    from .frame import Placement
+    from .labels import SAMPLE, Heading, Label, Labels, heading_of, labels_of
+    from .panels import linked, map_scene, panel_of, ring_scene, zoomed
+    from .record import scene_json
+    from .scene import (
+        LEAST,
+        MOST,
+        CellMap,
+        Curve,
+        Dot,
+        Drag,
+        FilledArea,
+        Handle,
+        NamedPlace,
+        Picture,
+        PictureNote,
+        Point,
+        Polyline,
+        Ring,
+        Scale,
+        Scene,
+        Series,
+        ShapeSort,
+        Text,
+    )
+    from .strokes import cell_boxes, strokes_of
+    from .svg import ARROWS, BAR, BAR_ROOM, BAR_STEPS, PALE, bar_figures, picture_svg, scene_svg
+    from .ticks import figure_text, multiple, round_step
+    from .words import scene_in_words
+else:
+    __getattr__ = front_page(__name__)

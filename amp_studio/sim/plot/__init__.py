@@ -1,1 +1,0 @@
-"""Pictures of a trace: panels, curves and marks, and their SVG."""

@@ -1,0 +1,333 @@
+"""A plot on the screen: panels over one axis with two cursors through all of them, a Bode or a ball-bar plot."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from dataclasses import replace
+
+import numpy as np
+from PySide6.QtCore import QPointF, QRectF, QSize, QSizeF, Qt, Signal
+from PySide6.QtGui import (
+    QFontMetricsF,
+    QKeyEvent,
+    QMouseEvent,
+    QPainter,
+    QPaintEvent,
+    QPen,
+    QPixmap,
+    QResizeEvent,
+    QWheelEvent,
+)
+from PySide6.QtWidgets import QSizePolicy, QWidget
+
+from amp_studio.drawing import (
+    BAR_ROOM,
+    Picture,
+    Placement,
+    Scene,
+    figure_text,
+    linked,
+    scene_in_words,
+    zoomed,
+)
+
+from .scene_painter import ScenePainter, caption_fonts, paint_heading, panel_heading
+from .theme import colour, scheme
+from .translated import worded
+
+LEFT, RIGHT, GAP = 70.0, 14.0, 6.0
+"""Room in logical pixels beside the panels, and above the heading of each."""
+GRIP = 6.0
+"""Distance within which a cursor is taken hold of."""
+LEAST_SPAN = 1e-6
+"""Of the whole axis what is shown at least: the numbers beside it would be equal."""
+WHEEL = 0.8
+"""What is visible after a step of the wheel, of what was."""
+
+
+class Plot(QWidget):
+    """One picture; the wheel zooms in around the pointer, dragging moves what is visible, a double click shows all of it."""
+
+    read = Signal(str)
+    """What the cursors read, as HTML; empty without a picture."""
+
+    def __init__(self, *, has_cursors: bool = True) -> None:
+        super().__init__()
+        self._has_cursors = has_cursors
+        self.picture: Picture | None = None
+        self.panels: tuple[Scene, ...] = ()
+        """What is visible of the panels of the picture, in the language of the window."""
+        self.cursors: tuple[float, float] = (0.0, 0.0)
+        """Places along the horizontal axis."""
+        self._frames: list[Placement] = []
+        self._painted: QPixmap | None = None
+        """All but the cursors; None where it is to be painted again."""
+        self._grip: int | tuple[float, tuple[float, float]] | None = None
+        """What is dragged: a cursor by its number, or the place that was pressed with what was visible then."""
+        self.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
+        self.setMouseTracking(True)
+        self.setAttribute(Qt.WidgetAttribute.WA_OpaquePaintEvent)
+        self.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Expanding)
+        scheme().changed.connect(self._paint_again)  # a method: a plot that is gone is not asked
+
+    def sizeHint(self) -> QSize:
+        return QSize(480, 360)
+
+    def minimumSizeHint(self) -> QSize:
+        return QSize(200, 120)
+
+    # -- what is shown -----------------------------------------------------------
+
+    def draw(self, picture: Picture) -> None:
+        """Show a picture; the cursors stay where the axis is the same and they are on it."""
+        same = self.picture is not None and self.picture.panels[0].x.label == picture.panels[0].x.label
+        self.picture = replace(
+            picture,
+            panels=linked([scene_in_words(panel, worded) for panel in picture.panels]),
+            above=picture.above and scene_in_words(picture.above, worded),
+        )
+        self.panels = self.picture.panels
+        low, high = self.span
+        if not same or not all(low <= place <= high for place in self.cursors):
+            self._spread_cursors()
+        self._paint_again()
+        self._emit_values()
+
+    def clear_picture(self) -> None:
+        """Show nothing."""
+        self.picture, self.panels = None, ()
+        self._paint_again()
+        self.read.emit("")
+
+    @property
+    def span(self) -> tuple[float, float]:
+        """What is visible of the horizontal axis."""
+        scale = self.panels[0].x
+        return scale.low, scale.high
+
+    def zoom(self, span: tuple[float, float] | None) -> None:
+        """Show a part of the horizontal axis with both cursors, or all of it; the vertical axes follow what is visible."""
+        if self.picture is None:
+            return
+        self._show(span)
+        self._spread_cursors()
+        self._emit_values()
+
+    def _show(self, span: tuple[float, float] | None) -> None:
+        if self.picture is None:
+            return
+        whole = self.picture.panels
+        self.panels = whole if span is None else tuple(zoomed(panel, span) for panel in whole)
+        self._paint_again()
+
+    def _spread_cursors(self) -> None:
+        self.cursors = self._at_share(0.25), self._at_share(0.75)
+
+    # -- painting ----------------------------------------------------------------
+
+    def _paint_again(self) -> None:
+        self._painted = None
+        self.update()
+
+    def resizeEvent(self, event: QResizeEvent) -> None:
+        super().resizeEvent(event)
+        self._paint_again()
+
+    def paintEvent(self, event: QPaintEvent) -> None:
+        if self._painted is None or self._painted.devicePixelRatio() != self.devicePixelRatioF():
+            ratio = self.devicePixelRatioF()
+            self._painted = QPixmap(self.size() * ratio)
+            self._painted.setDevicePixelRatio(ratio)
+            self._painted.fill(colour("base"))
+            with QPainter(self._painted) as painter:
+                self._paint_scenes(painter)
+        with QPainter(self) as painter:
+            painter.drawPixmap(0, 0, self._painted)
+            if self._frames and self._has_cursors:
+                self._paint_cursors(painter)
+
+    def _paint_scenes(self, painter: QPainter) -> None:
+        """Paint the panels below each other in the height that there is, each with its heading."""
+        self._frames = []
+        if self.picture is None:
+            return
+        scenes = [*filter(None, [self.picture.above]), *self.panels]
+        right, line = self.width() - RIGHT, QFontMetricsF(caption_fonts()[1]).height()
+        headings = [panel_heading(each, LEFT, right) if each.look == "panel" else [] for each in scenes]
+        heads = [
+            GAP + line * (1 + max((piece.line for piece in pieces), default=-1)) + 4.0 for pieces in headings
+        ]
+        # Rings are lower than in print, where they have the whole of a page.
+        shares = [min(scene.share, 2.0 * self.panels[0].share) for scene in scenes]
+        room = max(
+            self.height()
+            - sum(heads)
+            - (4.8 if self.picture.above and self.picture.above.cells else 2.4) * line,
+            10.0 * len(scenes),
+        )
+        top = 0.0
+        for scene, pieces, head, share in zip(scenes, headings, heads, shares, strict=True):
+            height = room * share / sum(shares)
+            frame = _place_of(scene, right, top + head, height)
+            painter.save()
+            ScenePainter(painter, frame, QSizeF(self.width(), self.height())).paint()
+            painter.restore()
+            paint_heading(painter, pieces, frame.top)
+            if scene in self.panels:
+                self._frames.append(frame)
+            top += head + height + (2.4 * line if scene is self.picture.above and scene.cells else 0.0)
+
+    def _paint_cursors(self, painter: QPainter) -> None:
+        painter.setFont(caption_fonts()[0])
+        for name, place in zip("AB", self.cursors, strict=True):
+            low, high = self.span
+            if not low <= place <= high:
+                continue
+            is_held = self._grip == "AB".index(name)
+            painter.setPen(QPen(colour("sel" if is_held else "dim"), 2 if is_held else 1))
+            for frame in self._frames:
+                x = frame.at((place, 0.0))[0]
+                painter.drawLine(QPointF(x, frame.top), QPointF(x, frame.top + frame.height))
+            first = self._frames[0]
+            box = QRectF(first.at((place, 0.0))[0] + 2.0, first.top + 2.0, 12.0, 14.0)
+            painter.fillRect(box, colour("base"))
+            painter.drawText(box, Qt.AlignmentFlag.AlignCenter, name)
+
+    # -- the mouse and the keys ----------------------------------------------------
+
+    def _share_of(self, x: float) -> float:
+        return (x - self._frames[0].left) / self._frames[0].width
+
+    def _at_share(self, share: float) -> float:
+        """Return the place at a share of what is visible, evenly as it is drawn."""
+        (low, high), log = self.span, self.panels[0].x.log
+        return float(low * (high / low) ** share) if log else low + share * (high - low)
+
+    def _cursor_at(self, x: float) -> int | None:
+        if not self._frames or not self._has_cursors:
+            return None
+        far = [abs(self._frames[0].at((place, 0.0))[0] - x) for place in self.cursors]
+        return far.index(min(far)) if min(far) <= GRIP else None
+
+    def mousePressEvent(self, event: QMouseEvent) -> None:
+        if event.button() == Qt.MouseButton.LeftButton and self._frames:
+            x = event.position().x()
+            cursor = self._cursor_at(x)
+            self._grip = cursor if cursor is not None else (x, self.span)
+            self.update()
+
+    def mouseMoveEvent(self, event: QMouseEvent) -> None:
+        x = event.position().x()
+        if isinstance(self._grip, int):
+            self.move_cursor(self._grip, self._at_share(min(max(self._share_of(x), 0.0), 1.0)))
+        elif self._grip is not None:
+            pressed, span = self._grip
+            self._show(self._within(*_shifted(span, (pressed - x) / self._frames[0].width, self._is_log)))
+        else:
+            over = self._cursor_at(x) is not None
+            self.setCursor(Qt.CursorShape.SplitHCursor if over else Qt.CursorShape.ArrowCursor)
+
+    def mouseReleaseEvent(self, event: QMouseEvent) -> None:
+        self._grip = None
+        self.update()
+
+    def mouseDoubleClickEvent(self, event: QMouseEvent) -> None:
+        self._show(None)
+
+    def wheelEvent(self, event: QWheelEvent) -> None:
+        """Show less or more around the pointer."""
+        if self._frames and event.angleDelta().y():
+            self._zoom_around(self._share_of(event.position().x()), WHEEL ** (event.angleDelta().y() / 120.0))
+
+    def _zoom_around(self, share: float, times: float) -> None:
+        share = min(max(share, 0.0), 1.0)
+        low, high = self._at_share(share - share * times), self._at_share(share + (1.0 - share) * times)
+        self._show(self._within(low, high))
+
+    @property
+    def _is_log(self) -> bool:
+        return self.panels[0].x.log
+
+    def _within(self, low: float, high: float) -> tuple[float, float] | None:
+        """Return a span within the picture, None for all of it; one that is too small is what is visible now."""
+        if self.picture is None:
+            return None
+        whole = self.picture.panels[0].x
+        if low <= whole.low and high >= whole.high:
+            return None
+        least = LEAST_SPAN * (whole.high - whole.low) if not whole.log else LEAST_SPAN * low
+        low, high = max(low, whole.low), min(high, whole.high)
+        return (low, high) if high - low > least else self.span
+
+    def keyPressEvent(self, event: QKeyEvent) -> None:
+        """Move cursor A with the arrow keys, cursor B with Shift, by a hundredth of what is visible; + and - zoom, Home shows all."""
+        key = Qt.Key(event.key())
+        way = {Qt.Key.Key_Left: -0.01, Qt.Key.Key_Right: 0.01}.get(key)
+        times = {Qt.Key.Key_Plus: WHEEL, Qt.Key.Key_Minus: 1.0 / WHEEL}.get(key)
+        way = way if self._has_cursors else None
+        if self.picture is None or (way is None and times is None and key != Qt.Key.Key_Home):
+            super().keyPressEvent(event)
+        elif way is not None:
+            number = 1 if event.modifiers() & Qt.KeyboardModifier.ShiftModifier else 0
+            self.move_cursor(number, _shifted((self.cursors[number],) * 2, way, self._is_log, self.span)[0])
+        elif times is not None:
+            self._zoom_around(0.5, times)
+        else:
+            self._show(None)
+
+    # -- cursors -----------------------------------------------------------------
+
+    def move_cursor(self, number: int, place: float) -> None:
+        """Move one cursor."""
+        a, b = self.cursors
+        self.cursors = (place, b) if number == 0 else (a, place)
+        self.update()
+        self._emit_values()
+
+    def _emit_values(self) -> None:
+        if self.picture is not None:
+            self.read.emit("".join(_reading(self.picture, *self.cursors)))
+
+
+def _place_of(scene: Scene, right: float, top: float, height: float) -> Placement:
+    width = max(right - LEFT - (BAR_ROOM if scene.cells else 0.0), 10.0)
+    if not scene.equal:
+        return Placement(scene, LEFT, top, width, height)
+    side = min(width, height)
+    return Placement(scene, LEFT + 0.5 * (width - side), top, side, side)
+
+
+def _shifted(
+    places: tuple[float, float], share: float, log: bool, span: tuple[float, float] | None = None
+) -> tuple[float, float]:
+    """Return places further along an axis by a share of a span (of themselves, by default)."""
+    low, high = span or places
+    if log:
+        times = (high / low) ** share
+        return places[0] * times, places[1] * times
+    by = share * (high - low)
+    return places[0] + by, places[1] + by
+
+
+def _reading(picture: Picture, one: float, two: float) -> Iterator[str]:
+    """Yield a table: a row for each curve with its value at both cursors and the difference."""
+    along = picture.panels[0].x
+    cell = "<td align=right>&nbsp;&nbsp;{}</td>"
+    yield "<table cellspacing=0 cellpadding=1><tr><td></td>"
+    yield "".join(cell.format(f"<b>{head}</b>") for head in ("A", "B", "B − A")) + "</tr>"
+    rows: list[tuple[str, str, float, float]] = [(along.label, along.unit, one, two)]
+    for panel in picture.panels:
+        alone = sum(bool(curve.name) and not curve.is_before for curve in panel.curves) < 2
+        for curve in panel.curves:
+            if len(curve.x) and not curve.is_before:
+                words = panel.title if alone else f"{panel.title}, {curve.name}"
+                at_one, at_two = (float(np.interp(at, curve.x, curve.y)) for at in (one, two))
+                rows.append((words, panel.y.unit, at_one, at_two))
+    for words, unit, a, b in rows:
+        values = "".join(
+            cell.format(figure_text(float(f"{value:.5g}")) if math.isfinite(value) else "–")
+            for value in (a, b, b - a)
+        )
+        yield f"<tr><td>{words}</td>{values}<td>&nbsp;{unit}</td></tr>"
+    yield "</table>"
