@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
-import control
+from types import ModuleType
+from typing import Any
+
 import numpy as np
 import pytest
 import scipy.linalg
@@ -56,7 +58,15 @@ def pid(kp: float, ki: float, kd: float):
     return jacobian(sample, np.zeros(8))
 
 
-def by_control(plant: Plant, kp: float, ki: float, kd: float) -> control.StateSpace:
+@pytest.fixture(scope="module")
+def control() -> ModuleType:
+    """python-control, imported here alone: it brings matplotlib, and every worker reads every module of tests."""
+    import control
+
+    return control
+
+
+def by_control(control: ModuleType, plant: Plant, kp: float, ki: float, kd: float) -> Any:
     """The same open loop by python-control."""
     body = control.sample_system(control.ss(plant.a, plant.b, plant.load, 0.0), PERIOD, "zoh")
     z = control.tf([1, 0], [1], PERIOD)
@@ -70,8 +80,8 @@ def model() -> LinearModel:
     return sampled(rigid(40.0, 3.0), pid(60.0, 200.0, 1.2), None, PLACES, PERIOD, PERIOD)
 
 
-def test_the_margins_are_those_of_python_control(model: LinearModel) -> None:
-    gain, phase, at_gain, at_phase = control.margin(by_control(rigid(40.0, 3.0), 60.0, 200.0, 1.2))
+def test_the_margins_are_those_of_python_control(control: ModuleType, model: LinearModel) -> None:
+    gain, phase, at_gain, at_phase = control.margin(by_control(control, rigid(40.0, 3.0), 60.0, 200.0, 1.2))
     found = model.margins()
     assert found.phase == pytest.approx(phase, rel=1e-3)
     assert found.phase_frequency == pytest.approx(at_phase / 2 / np.pi, rel=1e-3)
@@ -79,14 +89,14 @@ def test_the_margins_are_those_of_python_control(model: LinearModel) -> None:
     assert found.gain_frequency == pytest.approx(at_gain / 2 / np.pi, rel=1e-3)
 
 
-def test_the_poles_are_those_of_python_control(model: LinearModel) -> None:
-    wanted = control.feedback(by_control(rigid(40.0, 3.0), 60.0, 200.0, 1.2)).poles()
+def test_the_poles_are_those_of_python_control(control: ModuleType, model: LinearModel) -> None:
+    wanted = control.feedback(by_control(control, rigid(40.0, 3.0), 60.0, 200.0, 1.2)).poles()
     assert sorted(np.abs(model.poles())) == pytest.approx(sorted(np.abs(wanted)), abs=1e-6)
     assert model.is_stable()
 
 
-def test_the_bandwidth_is_that_of_python_control(model: LinearModel) -> None:
-    closed = control.feedback(by_control(rigid(40.0, 3.0), 60.0, 200.0, 1.2))
+def test_the_bandwidth_is_that_of_python_control(control: ModuleType, model: LinearModel) -> None:
+    closed = control.feedback(by_control(control, rigid(40.0, 3.0), 60.0, 200.0, 1.2))
     w = np.linspace(1.0, 2 * np.pi * 249.0, 20_001)
     response = closed(np.exp(1j * w * PERIOD))
     wanted = w[np.flatnonzero(np.abs(response) < np.sqrt(0.5))[0]] / 2 / np.pi
