@@ -48,6 +48,7 @@ class ImportedName:
     """Taken from a module inside the other room, not from its front page."""
 
 
+@cache
 def room_of(module: str, package: Path = PACKAGE) -> str:
     """Return the room of a module: the folder or single module directly below the package, or a folder in it that has a front page."""
     parts = module.split(".")[1:]
@@ -95,7 +96,8 @@ def _asked_for(node: ast.AST, folder: Sequence[str], root: Path) -> Iterator[tup
                 yield base, alias.name
 
 
-def names_given(page: Path) -> set[str]:
+@cache
+def names_given(page: Path) -> frozenset[str]:
     """Return the names that a front page gives: what it imports, also for type checkers alone, and what it makes."""
     given: set[str] = set()
     open_nodes: list[ast.stmt] = ast.parse(page.read_text("utf-8")).body
@@ -108,7 +110,7 @@ def names_given(page: Path) -> set[str]:
             given.add(node.name)
         elif isinstance(node, ast.Assign):
             given.update(target.id for target in node.targets if isinstance(target, ast.Name))
-    return {name for name in given if not name.startswith("_")}
+    return frozenset(name for name in given if not name.startswith("_"))
 
 
 def pages(package: Path = PACKAGE) -> list[Path]:

@@ -30,6 +30,8 @@ from amp_studio.schema import Parameter, Rule, family_ids, load_schema, program
 from amp_studio.schema.load import compile_family
 from amp_studio.schema.machine_schema import number_of
 
+from .source_trees import nodes_of, tree_of
+
 ROOMS = sorted(path.parent.name for path in Path(amp_studio.__file__).parent.glob("*/__init__.py"))
 CATCH_ALL_NAMES = {"utils", "util", "helpers", "helper", "common", "manager", "misc"}
 
@@ -55,43 +57,51 @@ def test_imports_between_the_rooms_point_one_way(checkout: Path) -> None:
     assert done.returncode == 0, done.stdout + done.stderr
 
 
-@pytest.mark.parametrize(
-    ("room", "line", "contract"),
-    [
-        ("schema", "import amp_studio.files", "Imports between the rooms point one way"),
-        ("files", "import amp_studio.validate", "Imports between the rooms point one way"),
-        ("validate", "import amp_studio.transfer", "Imports between the rooms point one way"),
-        ("formats", "import amp_studio.transfer", "Imports between the rooms point one way"),
-        ("validate", "import amp_studio.families.num", "Imports between the rooms point one way"),
-        ("ui", "import amp_studio.families.num", "A family is reached through its registration only"),
-        ("families/num", "import amp_studio.families.syntec", "Families do not see each other"),
-        (
-            "transfer/links",
-            "import amp_studio.transfer.house",
-            "The parts of transfer stand one above the other",
-        ),
-        ("sim", "import amp_studio.report", "Imports between the rooms point one way"),
-        ("report", "import amp_studio.ui", "Imports between the rooms point one way"),
-        ("files", "from PySide6.QtCore import QObject", "Qt is imported in ui only"),
-        ("transfer", "import numba", "numba is imported in sim only"),
-        ("sim", "import serial", "The serial port is opened in transfer only"),
-    ],
-)
-def test_an_import_against_the_plan_is_found(
-    checkout: Path, tmp_path: Path, room: str, line: str, contract: str
-) -> None:
+ASTRAY = [
+    ("schema", "import amp_studio.files", "Imports between the rooms point one way"),
+    ("files", "import amp_studio.validate", "Imports between the rooms point one way"),
+    ("validate", "import amp_studio.transfer", "Imports between the rooms point one way"),
+    ("formats", "import amp_studio.transfer", "Imports between the rooms point one way"),
+    ("validate", "import amp_studio.families.num", "Imports between the rooms point one way"),
+    ("ui", "import amp_studio.families.num", "A family is reached through its registration only"),
+    ("families/num", "import amp_studio.families.syntec", "Families do not see each other"),
+    (
+        "transfer/links",
+        "import amp_studio.transfer.house",
+        "The parts of transfer stand one above the other",
+    ),
+    ("sim", "import amp_studio.report", "Imports between the rooms point one way"),
+    ("report", "import amp_studio.ui", "Imports between the rooms point one way"),
+    ("files", "from PySide6.QtCore import QObject", "Qt is imported in ui only"),
+    ("transfer", "import numba", "numba is imported in sim only"),
+    ("sim", "import serial", "The serial port is opened in transfer only"),
+]
+"""Room, an import that it must not have, and the contract that it breaks."""
+
+
+@pytest.fixture(scope="module")
+def lint_of_astray_imports(checkout: Path, tmp_path_factory: pytest.TempPathFactory) -> str:
+    """Return what import-linter says of the package with every import of ``ASTRAY``, each in a module of its own."""
+    folder = tmp_path_factory.mktemp("astray")
     for module in (checkout / "amp_studio").rglob("*.py"):
-        empty = tmp_path / module.relative_to(checkout)
+        empty = folder / module.relative_to(checkout)
         empty.parent.mkdir(parents=True, exist_ok=True)
         empty.touch()
-    (tmp_path / "amp_studio" / room / "astray.py").write_text(f"{line}\n")
-    shutil.copy(checkout / "pyproject.toml", tmp_path)
-
-    done = check_contracts(tmp_path)
-
+    for n, (room, line, _) in enumerate(ASTRAY):
+        (folder / "amp_studio" / room / f"astray_{n}.py").write_text(f"{line}\n")
+    shutil.copy(checkout / "pyproject.toml", folder)
+    done = check_contracts(folder)
     assert done.returncode == 1, done.stdout + done.stderr
-    assert f"{contract} BROKEN" in done.stdout
-    assert f"amp_studio.{room}.astray".replace("/", ".") in done.stdout
+    return done.stdout
+
+
+@pytest.mark.parametrize("n", range(len(ASTRAY)), ids=[f"{room} {line}" for room, line, _ in ASTRAY])
+def test_an_import_against_the_plan_is_found(lint_of_astray_imports: str, n: int) -> None:
+    room, _, contract = ASTRAY[n]
+    assert f"{contract} BROKEN" in lint_of_astray_imports
+    told = lint_of_astray_imports.partition(f"\n{contract}\n---")[2]
+    told = re.split(r"\n[^\n]+\n-{4,}\n", told)[0]
+    assert re.search(rf"amp_studio\.{room}\.astray_{n}\b".replace("/", r"\."), told), told
 
 
 @pytest.mark.parametrize("room", ROOMS)
@@ -128,19 +138,22 @@ def test_no_folder_has_more_modules_than_a_reader_takes_in(checkout: Path) -> No
     assert {folder: count for folder, count in counts.items() if count > 30} == {}
 
 
-def imported_libraries(package: Path) -> Iterator[tuple[str, Path]]:
-    """Yield the top name of every absolute import of the package, wherever it is in a file, by a statement or by name."""
+@cache
+def imported_libraries(package: Path) -> list[tuple[str, Path]]:
+    """Return the top name of every absolute import of the package, wherever it is in a file, by a statement or by name."""
+    found: list[tuple[str, Path]] = []
     for path in sorted(package.rglob("*.py")):
-        for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
+        for node in nodes_of(path):
             if isinstance(node, ast.Import):
-                yield from ((alias.name.partition(".")[0], path) for alias in node.names)
+                found += ((alias.name.partition(".")[0], path) for alias in node.names)
             elif isinstance(node, ast.ImportFrom) and node.level == 0 and node.module:
-                yield node.module.partition(".")[0], path
+                found.append((node.module.partition(".")[0], path))
             elif isinstance(node, ast.Call) and re.search(
                 r"\b(import_module|find_spec)$", ast.unparse(node.func)
             ):
                 names = (each.value for each in node.args[:1] if isinstance(each, ast.Constant))
-                yield from ((name.partition(".")[0], path) for name in names if not name.startswith("."))
+                found += ((name.partition(".")[0], path) for name in names if not name.startswith("."))
+    return found
 
 
 def plain(name: str) -> str:
@@ -252,8 +265,7 @@ def test_every_function_of_a_walk_is_where_the_page_says(checkout: Path) -> None
     assert len(steps) >= 30
     lost = []
     for module, name in steps:
-        tree = ast.parse((checkout / "amp_studio" / module).read_text(encoding="utf-8"))
-        here: list[ast.stmt] = tree.body
+        here: list[ast.stmt] = tree_of(checkout / "amp_studio" / module).body
         for part in name.split("."):
             kinds = (ast.FunctionDef, ast.ClassDef)
             found = next((n for n in here if isinstance(n, kinds) and n.name == part), None)
@@ -270,9 +282,9 @@ ORDINARY_WORDS = {"NT", "basic", "num", "patch", "registers"}
 """Parts of such names that are words of the language too."""
 
 
-def texts_of_program(tree: ast.Module) -> Iterator[tuple[int, str]]:
+def texts_of_program(path: Path) -> Iterator[tuple[int, str]]:
     """Yield line and text of every string of a module that is no docstring."""
-    nodes = [*ast.walk(tree)]
+    nodes = nodes_of(path)
     prose = {
         id(node.value)
         for node in nodes
@@ -299,7 +311,7 @@ def test_nothing_generic_names_a_family_or_its_formats(checkout: Path) -> None:
         for path in sorted(package.rglob("*.py"))
         if path.relative_to(package).parts[0] != "families"
         and path.relative_to(package).as_posix() not in EXAMPLES_OF_FAMILIES
-        for line, text in texts_of_program(ast.parse(path.read_text("utf-8")))
+        for line, text in texts_of_program(path)
         if named.search(text) and not text.startswith("amp-studio ")
     ] == []
 
@@ -308,7 +320,7 @@ def test_a_class_or_alias_has_a_name_that_no_other_has(checkout: Path) -> None:
     """A reader who finds ``State`` knows which one it is; names with an underscore are of one module."""
     places: dict[str, list[str]] = {}
     for path in sorted((checkout / "amp_studio").rglob("*.py")):
-        for node in ast.parse(path.read_text("utf-8")).body:
+        for node in tree_of(path).body:
             if isinstance(node, ast.ClassDef):
                 name = node.name
             elif isinstance(node, ast.Assign) and isinstance(node.value, ast.Subscript):
@@ -353,7 +365,7 @@ def asked_for(node: ast.Import | ast.ImportFrom, name: str, modules: dict[str, P
 @cache
 def given_by(page: Path) -> tuple[tuple[str, str], ...]:
     """Return name and module of what a page takes from its modules, without modules that keep their name."""
-    nodes = ast.parse(page.read_text("utf-8")).body if page.name == "__init__.py" else []
+    nodes = [*tree_of(page).body] if page.name == "__init__.py" else []
     nodes += [inner for node in nodes if isinstance(node, ast.If) for inner in node.body]
     return tuple(
         (alias.asname or alias.name, node.module)
@@ -366,7 +378,7 @@ def given_by(page: Path) -> tuple[tuple[str, str], ...]:
 def imports_of(path: Path, *, at_loading: bool) -> list[ast.Import | ast.ImportFrom]:
     """Return the imports of a file, those for types alone left out; ``at_loading`` leaves out those in functions too."""
     found: list[ast.Import | ast.ImportFrom] = []
-    open_nodes: list[ast.AST] = [ast.parse(path.read_text("utf-8"))]
+    open_nodes: list[ast.AST] = [tree_of(path)]
     while open_nodes:
         node = open_nodes.pop()
         if isinstance(node, (ast.Import, ast.ImportFrom)):
@@ -426,15 +438,21 @@ def test_no_modules_import_each_other_when_they_are_loaded(checkout: Path) -> No
     assert circles(checkout / "amp_studio") == []
 
 
+@cache
+def names_between_rooms() -> tuple[measure_house.ImportedName, ...]:
+    """Return every name that a room takes from another."""
+    return tuple(measure_house.imported_names())
+
+
 def test_no_room_takes_a_name_past_a_front_page() -> None:
-    past = [name for name in measure_house.imported_names() if name.is_past]
+    past = [name for name in names_between_rooms() if name.is_past]
     assert [f"{name.where}: {name.module} {name.name}" for name in past] == []
 
 
 def test_a_front_page_gives_what_another_room_takes_and_no_more(checkout: Path) -> None:
     """What no other room asks for is private to its room, and a test takes it from its module."""
     taken: dict[str, set[str]] = {}
-    for name in measure_house.imported_names():
+    for name in names_between_rooms():
         taken.setdefault(name.given_by, set()).add(name.name)
     pages = {
         ".".join(page.relative_to(checkout / "amp_studio").parts[:-1]): page
@@ -495,7 +513,7 @@ LOOPS = {"amp_studio.ui.base.modal": {"dialog.exec"}, "amp_studio.ui.base.task":
 def test_an_event_loop_runs_inside_another_one_in_two_places_alone(checkout: Path) -> None:
     found: dict[str, set[str]] = {}
     for name, path in modules_below(checkout / "amp_studio").items():
-        for node in ast.walk(ast.parse(path.read_text("utf-8"))):
+        for node in nodes_of(path):
             if isinstance(node, ast.Attribute) and node.attr in {"exec", "exec_", "processEvents"}:
                 found.setdefault(name, set()).add(ast.unparse(node))
     assert {
@@ -517,7 +535,7 @@ def test_the_window_loads_the_simulator_by_its_loader_alone(checkout: Path) -> N
     for name, path in modules.items():
         if not name.startswith("amp_studio.ui.") or name in brings:
             continue
-        for function in ast.walk(ast.parse(path.read_text("utf-8"))):
+        for function in nodes_of(path):
             if not isinstance(function, ast.FunctionDef):
                 continue
             loaded = [
@@ -541,7 +559,7 @@ def test_no_test_is_longer_than_a_screen(checkout: Path) -> None:
     long = [
         f"{path.relative_to(checkout)}:{node.lineno} {node.name}: {lines} lines"
         for path in sorted((checkout / "tests").rglob("*.py"))
-        for node in ast.walk(ast.parse(path.read_text(encoding="utf-8")))
+        for node in nodes_of(path)
         if isinstance(node, ast.FunctionDef) and node.name.startswith("test")
         if (lines := node.end_lineno - node.lineno + 1) > 40
     ]

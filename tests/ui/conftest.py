@@ -11,6 +11,7 @@ from pathlib import Path
 import pytest
 from PySide6.QtCore import QEvent, QSettings, Qt, QTimer
 from PySide6.QtGui import QAction
+from PySide6.QtTest import QTest
 from PySide6.QtWidgets import (
     QAbstractButton,
     QApplication,
@@ -166,6 +167,30 @@ def path(tmp_path: Path, example: bytes) -> Path:
     return path
 
 
+def new_window(path: Path | None = None) -> MainWindow:
+    """Open a window on a file, or none, and wait until it has the keyboard."""
+    window = MainWindow()
+    # the least in which every panel has its own place; a smaller one is painted sooner
+    window.resize(1200, 640)
+    window.show()
+    if path is not None:
+        window.open_first(path)
+    # After the file: where opening takes its time a progress dialog comes, and no window manager gives the keyboard back.
+    window.activateWindow()
+    assert QTest.qWaitForWindowActive(window, WAIT_MS)
+    return window
+
+
+def close_windows(windows: list[MainWindow]) -> None:
+    """Close windows, and throw unsaved work away."""
+    for window in windows:
+        window.may_leave = lambda *_: True
+        window.close()
+        window.deleteLater()
+    QApplication.sendPostedEvents(None, QEvent.Type.DeferredDelete)
+    assert not Task.running
+
+
 @pytest.fixture
 def open_window(qtbot: QtBot, person: Person) -> Iterator[Callable[..., MainWindow]]:
     """Return what opens a window on a file, or none; it is closed at the end, unsaved work thrown away."""
@@ -173,26 +198,27 @@ def open_window(qtbot: QtBot, person: Person) -> Iterator[Callable[..., MainWind
     QSettings("AMP Studio", "AMP Studio").clear()
 
     def show(path: Path | None = None) -> MainWindow:
-        window = MainWindow()
-        windows.append(window)
-        window.resize(
-            1200, 640
-        )  # the least in which every panel has its own place; a smaller one is painted sooner
-        window.show()
-        if path is not None:
-            window.open_first(path)
-        # After the file: where opening takes its time a progress dialog comes, and no window manager gives the keyboard back.
-        with qtbot.waitActive(window, timeout=WAIT_MS):
-            window.activateWindow()
-        return window
+        windows.append(new_window(path))
+        return windows[-1]
 
     yield show
-    for window in windows:
-        window.may_leave = lambda *_: True
-        window.close()
-        window.deleteLater()
-    QApplication.sendPostedEvents(None, QEvent.Type.DeferredDelete)
-    assert not Task.running
+    close_windows(windows)
+
+
+@pytest.fixture(scope="module")
+def window_to_read(
+    qapp: QApplication, tmp_path_factory: pytest.TempPathFactory, example: bytes
+) -> Iterator[MainWindow]:
+    """Return a window with the example mill, the same one in each test of a module: nothing of it may be changed."""
+    QSettings("AMP Studio", "AMP Studio").clear()
+    path = tmp_path_factory.mktemp("read") / "mill.amp"
+    path.write_bytes(example)
+    window = new_window(path)
+    assert window.workspace is not None
+    values = dict(window.workspace.file.values)
+    yield window
+    assert window.workspace.file.values == values, "a test that shares its window has changed the file"
+    close_windows([window])
 
 
 @pytest.fixture

@@ -17,6 +17,7 @@ from PySide6.QtWidgets import QDialog, QMenu
 import amp_studio.ui
 from amp_studio.files import Project, ProjectInfo, compare, new_file
 from amp_studio.ui.main_window import MainWindow
+from tests.source_trees import nodes_of
 
 from .alt_letters import doubled, texts_of
 
@@ -32,10 +33,10 @@ def menus_of(menu: QMenu) -> Iterator[QMenu]:
 # -- the window ------------------------------------------------------------------------------------------------------
 
 
-def test_every_menu_has_each_letter_once(window: MainWindow) -> None:
-    top = [a.text() for a in window.menuBar().actions() if a.isVisible()]
-    assert doubled(top) == {}
-    for action in window.menuBar().actions():
+def test_every_menu_has_each_letter_once(window_to_read: MainWindow) -> None:
+    bar = window_to_read.menuBar()
+    assert doubled([a.text() for a in bar.actions() if a.isVisible()]) == {}
+    for action in bar.actions():
         for menu in menus_of(action.menu()):
             shown = [a.text() for a in menu.actions() if a.isVisible()]
             assert (menu.title(), doubled(shown)) == (menu.title(), {})
@@ -95,8 +96,10 @@ def given(window: MainWindow, tmp_path: Path) -> dict[str, Any]:
 
 
 @pytest.mark.parametrize("kind", dialogs(), ids=lambda kind: kind.__name__)
-def test_every_dialog_has_each_letter_once(window: MainWindow, tmp_path: Path, kind: type[QDialog]) -> None:
-    known = given(window, tmp_path)
+def test_every_dialog_has_each_letter_once(
+    window_to_read: MainWindow, tmp_path: Path, kind: type[QDialog]
+) -> None:
+    known = given(window_to_read, tmp_path)
     wanted = [
         p
         for p in list(inspect.signature(kind.__init__).parameters.values())[1:]
@@ -109,8 +112,10 @@ def test_every_dialog_has_each_letter_once(window: MainWindow, tmp_path: Path, k
     except (TypeError, AttributeError, KeyError, ValueError) as error:
         pytest.skip(f"it is made of more than its parameters: {error}")
     dialog.ensurePolished()
-    assert doubled(texts_of(dialog)) == {}
-    dialog.deleteLater()
+    try:
+        assert doubled(texts_of(dialog)) == {}
+    finally:
+        dialog.deleteLater()
 
 
 # -- questions and menus that are made when they are asked for ---------------------------------------------------------
@@ -131,7 +136,7 @@ def called(node: ast.Call) -> str:
 def sources(checkout: Path) -> Iterator[tuple[str, ast.FunctionDef]]:
     """Yield every function of the window's room."""
     for path in sorted((checkout / "amp_studio" / "ui").rglob("*.py")):
-        for node in ast.walk(ast.parse(path.read_text("utf-8"))):
+        for node in nodes_of(path):
             if isinstance(node, ast.FunctionDef):
                 yield f"{path.name}: {node.name}", node
 

@@ -23,6 +23,7 @@ from amp_studio.ui.base.style_sheet import style_sheet
 from amp_studio.ui.base.theme import COLOURS, Token, scheme
 from amp_studio.ui.forms.mask_list import MaskList
 from amp_studio.ui.table.cell_editor import Refusal, RefusalFrame
+from tests.source_trees import nodes_of
 
 GROUNDS: tuple[Token, ...] = ("window", "panel", "base", "raised", "hover", "selbg", "selidle")
 READ: list[tuple[Token, Token]] = [
@@ -133,7 +134,7 @@ def test_every_icon_the_window_names_is_in_the_set(checkout: Path) -> None:
     named = {
         node.value
         for file in (checkout / "amp_studio" / "ui").rglob("*.py")
-        for call in ast.walk(ast.parse(file.read_text(encoding="utf-8")))
+        for call in nodes_of(file)
         if isinstance(call, ast.Call) and getattr(call.func, "id", getattr(call.func, "attr", "")) in {"icon", "paint_icon"}
         for node in call.args
         if isinstance(node, ast.Constant) and isinstance(node.value, str) and node.value.islower() and "-" in node.value
@@ -160,7 +161,7 @@ def test_only_the_theme_names_a_colour(checkout: Path) -> None:
         f"{file.name}:{node.lineno}"
         for file in (checkout / "amp_studio" / "ui").rglob("*.py")
         if file.name not in own
-        for node in ast.walk(ast.parse(file.read_text(encoding="utf-8")))
+        for node in nodes_of(file)
         if isinstance(node, ast.Constant) and isinstance(node.value, str)
         and len(node.value) in (4, 7) and node.value.startswith("#") and all(c in "0123456789abcdefABCDEF" for c in node.value[1:])
     ]  # fmt: skip
