@@ -9,7 +9,7 @@ from pathlib import Path
 
 @cache
 def tree_of(path: Path) -> ast.Module:
-    """Return the syntax tree of a file, to be looked at only."""
+    """Return the syntax tree of a file, which no test may change."""
     return ast.parse(path.read_text(encoding="utf-8"))
 
 

@@ -81,7 +81,7 @@ ASTRAY = [
 
 @pytest.fixture(scope="module")
 def lint_of_astray_imports(checkout: Path, tmp_path_factory: pytest.TempPathFactory) -> str:
-    """Return what import-linter says of the package with every import of ``ASTRAY``, each in a module of its own."""
+    """Return the output of import-linter for the package with every import of ``ASTRAY``, each in a separate module."""
     folder = tmp_path_factory.mktemp("astray")
     for module in (checkout / "amp_studio").rglob("*.py"):
         empty = folder / module.relative_to(checkout)
