@@ -1,103 +1,89 @@
-"""Bring the translations of the window up to date: new texts are added as unfinished, texts that are gone are dropped.
+"""Bring the texts of the window up to date: code's new texts get an id in ``en.toml`` and a place in the others; what is gone goes.
 
-Runs lupdate of PySide6 over the window's modules. ``--check`` changes nothing, and fails where a file is not up to date or a
-text has no translation.
+``--check`` changes nothing, and fails where something is new, gone or has no translation.
 """
 
 from __future__ import annotations
 
 import ast
-import shutil
-import subprocess
+import json
+import re
 import sys
-import tempfile
-import xml.etree.ElementTree as ET
+from collections.abc import Iterable, Iterator
 from pathlib import Path
+
+from amp_studio.languages.catalogue import language_codes, texts_of
 
 ROOT = Path(__file__).parents[1]
 UI = ROOT / "amp_studio" / "ui"
-FILES = sorted((UI / "translations").glob("*.ts"))
+FOLDER = ROOT / "amp_studio" / "languages"
+Text = str | list[str]
 
 
-def updated(path: Path) -> bytes:
-    """Return a translation file with the texts that the window has now."""
-    with tempfile.TemporaryDirectory() as folder:
-        copy = Path(shutil.copy(path, folder))
-        tool = Path(sys.executable).with_name("pyside6-lupdate")
-        modules = sorted(str(module) for module in UI.rglob("*.py"))
-        unseen = Path(folder) / "in_f_strings.py"
-        unseen.write_text("".join(f"{call}\n" for call in calls_in_f_strings()), encoding="utf-8")
-        modules.append(str(unseen))
-        options = ["-no-obsolete", "-locations", "none", "-silent"]
-        if path.stem.endswith("_en"):  # the texts are English: only the forms of numbers are missing
-            options.append("-pluralonly")
-        subprocess.run([tool, *options, *modules, "-ts", copy], check=True, capture_output=True)
-        return with_known(copy.read_bytes(), path.read_bytes())
+def texts_in_code() -> dict[str, bool]:
+    """Return each text that the window translates, and whether it has a number in it."""
+    found: dict[str, bool] = {}
+    for module in sorted(UI.rglob("*.py")):
+        for text, has_number in calls(ast.parse(module.read_text("utf-8"))):
+            found[text] = found.get(text, False) or has_number
+    return found
 
 
-def calls_in_f_strings() -> list[str]:
-    """Return the calls of ``tr`` within f-strings, where lupdate does not look, as calls of their own."""
-    found = set()
-    for module in UI.rglob("*.py"):
-        for node in ast.walk(ast.parse(module.read_text("utf-8"))):
-            if isinstance(node, ast.JoinedStr):
-                for call in ast.walk(node):
-                    if isinstance(call, ast.Call) and ast.unparse(call.func) in ("tr", "self.tr"):
-                        several = ', "", 1' if len(call.args) > 2 else ""
-                        found.add(f"tr({ast.unparse(call.args[0])}{several})")
-    return sorted(found)
+def calls(tree: ast.AST) -> Iterator[tuple[str, bool]]:
+    """Yield the text of each call of ``tr``, and whether it is given a number."""
+    for node in ast.walk(tree):
+        if isinstance(node, ast.Call) and node.args:
+            name = node.func.attr if isinstance(node.func, ast.Attribute) else getattr(node.func, "id", "")
+            text = node.args[0]
+            if name == "tr" and isinstance(text, ast.Constant) and isinstance(text.value, str):
+                yield text.value, len(node.args) > 2
 
 
-def with_known(content: bytes, before: bytes) -> bytes:
-    """Return a file in which a text that only moved to another class keeps its translation: a word has one, wherever it is."""
-    known = {
-        (m.findtext("source"), m.get("numerus")): m.find("translation")
-        for m in ET.fromstring(before).iter("message")  # noqa: S314  # a file of the program itself
-        if is_finished(m)
-    }
-    root = ET.fromstring(content)  # noqa: S314  # a file of the program itself
-    for message in root.iter("message"):
-        old = known.get((message.findtext("source"), message.get("numerus")))
-        if not is_finished(message) and old is not None:
-            place = message.find("translation")
-            if place is not None:
-                message.remove(place)
-            message.append(old)
-    ET.indent(root, "    ")
-    text: str = ET.tostring(root, encoding="unicode")
-    return f'<?xml version="1.0" encoding="utf-8"?>\n<!DOCTYPE TS>\n{text}\n'.encode()
+def source_of(text: Text) -> str:
+    """Return what code writes for a text: of several forms the one for several."""
+    return text if isinstance(text, str) else text[-1]
 
 
-def is_finished(message: ET.Element) -> bool:
-    """Return whether a text has a translation."""
-    translation = message.find("translation")
-    return (
-        translation is not None
-        and translation.get("type") is None
-        and bool("".join(translation.itertext()).strip())
-    )
+def new_id(text: str, taken: Iterable[str]) -> str:
+    """Return an id for a text: its first words, more of them or a number where another text has these."""
+    words = re.findall(r"[a-z0-9]+", re.sub(r"\{[^}]*\}|%n", " ", text).replace("&", "").lower()) or ["sign"]
+    taken = set(taken)
+    tries = ["_".join(words[:most]) for most in (6, 10, len(words))]
+    tries += [f"{tries[0]}_{number}" for number in range(2, len(taken) + 3)]
+    return next(each for each in tries if each not in taken)
 
 
-def unfinished(content: bytes) -> list[str]:
-    """Return the texts without a translation."""
-    messages = ET.fromstring(content).iter("message")  # noqa: S314  # a file of the program itself
-    return [m.findtext("source") or "" for m in messages if not is_finished(m)]
+def updated(code: str, english: dict[str, Text], kept: dict[str, Text]) -> str:
+    """Return the file of a language with the texts of the window that there are now."""
+    content = (FOLDER / f"{code}.toml").read_text("utf-8")
+    head, _, rest = content.partition("[window]\n")
+    _, gap, after = rest.partition("\n\n")
+    own = {key: kept.get(key, text if code == "en" else "") for key, text in english.items()}
+    lines = [f"{key} = {json.dumps(own[key], ensure_ascii=False)}" for key in sorted(own)]
+    return f"{head}[window]\n" + "\n".join(lines) + gap + after
 
 
 def main(arguments: list[str]) -> int:
     """Update the files, or check them."""
-    code = 0
-    for path in FILES:
-        content = updated(path)
-        missing = unfinished(content)
+    is_check, code = "--check" in arguments, 0
+    in_code = texts_in_code()
+    known = {source_of(text): key for key, text in texts_of("en", "window").items()}
+    english: dict[str, Text] = {k: t for k, t in texts_of("en", "window").items() if source_of(t) in in_code}
+    for source, has_number in in_code.items():
+        if source not in known:
+            english[new_id(source, english)] = [source, source] if has_number else source
+    for language in language_codes():
+        kept = {**texts_of(language, "window")}
+        content, path = updated(language, english, kept), FOLDER / f"{language}.toml"
+        is_fresh = content == path.read_text("utf-8")
+        missing = [] if language == "en" else [text for key, text in english.items() if not kept.get(key)]
         for text in missing:
-            print(f"{path.name}: no translation of {text!r}")
-        if "--check" in arguments:
-            is_fresh = content == path.read_bytes()
+            print(f"{path.name}: no translation of {source_of(text)!r}")
+        if is_check:
             print(f"{path.name}: {'up to date' if is_fresh else 'not up to date, run make translations'}")
             code |= not is_fresh or bool(missing)
         else:
-            path.write_bytes(content)
+            path.write_text(content, "utf-8")
             print(f"{path.name}: {len(missing)} without a translation")
     return code
 

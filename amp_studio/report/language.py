@@ -1,6 +1,6 @@
 """The languages of documents, and in the window of what is made below it: the words of the program's own frame.
 
-Names, choices, help and findings stay as they are.
+The texts are in ``amp_studio/languages``, each under its id; what is made in English is found by the English text of its id. Names, choices, help and findings stay as they are.
 """
 
 from __future__ import annotations
@@ -9,12 +9,12 @@ import re
 from dataclasses import dataclass, field
 from functools import cache
 from html import escape, unescape
-from pathlib import Path
+
+from amp_studio.languages import TextSection, name_of_language, own_texts
 
 from .wording import counted
 
 _WORDS = re.compile(r"(>\s*)([^<>]*?[^<>\s])(\s*<)")
-_FOLDER = Path(__file__).parent / "languages"
 
 
 @dataclass(frozen=True)
@@ -89,33 +89,28 @@ class Language:
 ENGLISH = Language("en", "English")
 
 
-def language_codes() -> tuple[str, ...]:
-    """Return the codes of the languages, English first."""
-    return ("en", *sorted(path.stem for path in _FOLDER.glob("*.yaml")))
-
-
 @cache
 def language_of(code: str) -> Language:
     """Return a language by its code; raises ValueError for another one."""
     if code == "en":
         return ENGLISH
-    path = _FOLDER / f"{code}.yaml"
-    if code not in language_codes():
-        raise ValueError(f"Unknown language '{code}'. Known: {', '.join(language_codes())}")
-    from amp_studio.schema import read_yaml
-
-    data = read_yaml(path.read_text("utf-8")).data
+    name = name_of_language(code)
     return Language(
         code,
-        data["name"],
-        data["phrases"],
-        _compiled(data["patterns"]),
-        {noun: (one, several) for noun, (one, several) in data["nouns"].items()},
-        data["titles"],
-        _compiled(data["title_patterns"]),
-        data["messages"],
-        _compiled(data["message_patterns"]),
+        name,
+        _own(code, "phrases"),
+        _compiled(_own(code, "patterns")),
+        {noun: (forms[0], forms[-1]) for noun, forms in own_texts(code, "nouns").items()},
+        _own(code, "titles"),
+        _compiled(_own(code, "title_patterns")),
+        _own(code, "messages"),
+        _compiled(_own(code, "message_patterns")),
     )
+
+
+def _own(code: str, section: TextSection) -> dict[str, str]:
+    """Return English text -> own text of a section in which no text has several forms."""
+    return {english: str(own) for english, own in own_texts(code, section).items()}
 
 
 def _compiled(patterns: dict[str, str]) -> tuple[tuple[re.Pattern[str], str], ...]:

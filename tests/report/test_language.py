@@ -14,11 +14,12 @@ from amp_studio.files import ParameterFile, ProjectInfo, compare, new_file, open
 from amp_studio.files.example_files import examples_folder
 from amp_studio.files.notes import set_value_note
 from amp_studio.guide import steps_of
+from amp_studio.languages import language_codes
 from amp_studio.report import SORTS, UNIT_CHOICES, Contents, print_report
 from amp_studio.report.build import build_report
 from amp_studio.report.contents import Sort
 from amp_studio.report.drawings import drawings
-from amp_studio.report.language import language_codes, language_of
+from amp_studio.report.language import language_of
 from amp_studio.report.model import MARKS
 from amp_studio.report.papers.differences import differences_paper, machines_paper
 from amp_studio.report.papers.form import form_paper

@@ -3,16 +3,16 @@
 from __future__ import annotations
 
 import re
-import xml.etree.ElementTree as ET
 from collections.abc import Iterator
 from dataclasses import replace
 
 import pytest
 from PySide6.QtWidgets import QApplication
 
+from amp_studio.languages import own_texts
 from amp_studio.schema import Value
 from amp_studio.ui.base.figures import sentence, written
-from amp_studio.ui.base.translated import FOLDER, speak
+from amp_studio.ui.base.translated import speak
 from amp_studio.ui.table.value_delegate import allowed_text
 
 
@@ -24,13 +24,12 @@ def german(qapp: QApplication) -> Iterator[None]:
 
 
 def translations() -> list[tuple[str, str]]:
-    """Return every English text of the window with its German one."""
-    found = []
-    for message in ET.parse(FOLDER / "amp_studio_de.ts").iter("message"):
-        translation = message.find("translation")
-        assert translation is not None
-        found.append((message.findtext("source") or "", "".join(translation.itertext())))
-    return found
+    """Return every English text of the window with its German one, each form of those with a number."""
+    return [
+        (english, form)
+        for english, own in own_texts("de", "window").items()
+        for form in ([own] if isinstance(own, str) else own)
+    ]
 
 
 def test_loading_is_no_word_for_what_replaces_the_parameters_of_a_control() -> None:

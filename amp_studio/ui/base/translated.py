@@ -1,24 +1,21 @@
 """Texts in the language of the window.
 
-The words are in ``translations/amp_studio_LANGUAGE.ts``, which Qt Linguist edits and ``make translations`` keeps up to date;
-the English file has the forms of numbers alone. What is made below the window has its words in the languages of reports.
-The file is read as it is: nothing has to be compiled, and one word has one translation wherever it is written.
+Code has the English text; ``amp_studio/languages`` has it under an id, with its words in the other languages under the same id.
+``make translations`` takes up new texts and lists what has no translation. What is made below the window has its words there too.
 """
 
 from __future__ import annotations
 
 from functools import lru_cache
-from pathlib import Path
 from typing import Final
-from xml.etree import ElementTree as ET
 
 from PySide6.QtCore import QCoreApplication, QLibraryInfo, QLocale, QTranslator
 
+from amp_studio.languages import language_codes, name_of_language, own_texts
 from amp_studio.report import counted as english_count
 from amp_studio.report import language_of
 
-FOLDER = Path(__file__).parents[1] / "translations"
-LANGUAGES: Final = {"en": "English", "de": "Deutsch"}
+LANGUAGES: Final = {code: name_of_language(code) for code in language_codes()}
 """Code -> name in the language itself."""
 
 
@@ -67,21 +64,18 @@ class Translated:
         return tr(text, disambiguation, n)
 
 
-class FileTranslator(QTranslator):
-    """Translates by one file of Qt's format, whatever the context."""
+class CatalogueTranslator(QTranslator):
+    """Translates by the texts of one language, whatever the context."""
 
-    def __init__(self, path: Path) -> None:
+    def __init__(self, code: str) -> None:
         super().__init__()
         self.words: dict[str, str] = {}
-        self.plurals: dict[str, tuple[str, ...]] = {}
-        for message in ET.parse(path).iter("message"):  # noqa: S314  # a file of the program itself
-            source, translation = message.findtext("source") or "", message.find("translation")
-            if translation is None or translation.get("type") is not None:
-                continue
-            if message.get("numerus") == "yes":
-                self.plurals[source] = tuple(form.text or "" for form in translation.findall("numerusform"))
-            elif translation.text:
-                self.words[source] = translation.text
+        self.plurals: dict[str, list[str]] = {}
+        for english, own in own_texts(code, "window").items():
+            if isinstance(own, list):
+                self.plurals[english] = own
+            elif code != "en":  # the texts are English: only the forms of numbers are missing
+                self.words[english] = own
 
     def isEmpty(self) -> bool:
         """Return whether it has no words and no forms."""
@@ -124,7 +118,7 @@ def speak(choice: str) -> str:
     folder = QLibraryInfo.path(QLibraryInfo.LibraryPath.TranslationsPath)
     if code != "en" and own_of_qt.load(f"qtbase_{code}", folder):
         _installed.append(own_of_qt)
-    _installed.append(FileTranslator(FOLDER / f"amp_studio_{code}.ts"))
+    _installed.append(CatalogueTranslator(code))
     for translator in _installed:
         application.installTranslator(translator)
     return code

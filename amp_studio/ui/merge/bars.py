@@ -174,15 +174,15 @@ class ResultBar(QFrame):
 
     def show_counts(self, left: int, changes: int) -> None:
         """Show how many conflicts are left and how many values change."""
-        texts = [f"<b>{self.tr('Conflicts left: %n', '', left)}</b>"] if left else []
-        texts.append(self.tr("Changes so far: %n", "", changes))
+        texts = [f"<b>{self.tr('%n conflicts left', '', left)}</b>"] if left else []
+        texts.append(self.tr("%n changes so far", "", changes))
         self.summary.setText("&nbsp; ".join(texts))
         self.mark.setPixmap((severity_icon("warning") if left else icon("check")).pixmap(ICON, ICON))
 
     def show_findings(self, new: Sequence[Finding] | None) -> None:
         """Show what would be found about the result that is not found now; None while it is being checked."""
         counts = [sum(f.severity == severity for f in new or ()) for severity in ("error", "warning")]
-        names = (self.tr("New errors: %n", "", counts[0]), self.tr("New warnings: %n", "", counts[1]))
+        names = (self.tr("%n new errors", "", counts[0]), self.tr("%n new warnings", "", counts[1]))
         text = ", ".join(name for name, count in zip(names, counts, strict=True) if count)
         self.found.setText(text or (self.tr("Checking …") if new is None else self.tr("No new finding")))
         self.found.setEnabled(bool(new))

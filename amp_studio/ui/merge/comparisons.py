@@ -139,7 +139,7 @@ class Comparisons(QObject):
     # -- what becomes of it ------------------------------------------------------------
 
     def _merged(self, page: FilePage, other: str, changed: int) -> None:
-        text = self.tr("Merged with {source}. Values changed: %n.", "", changed).format(source=other)
+        text = self.tr("Merged with {source}. %n values changed.", "", changed).format(source=other)
         undo = (self.tr("&Undo"), page.workspace.undo_stack.undo)
         page.bar.say(text, "information", undo)
 

@@ -359,7 +359,7 @@ class MergeModel(QAbstractItemModel):
         title = own.get(group.title, group.title)
         text = self.tr("%n differ", "", differ)
         if group.conflicts:
-            text += ", " + self.tr("conflicts: %n", "", group.conflicts)
+            text += ", " + self.tr("%n conflicts", "", group.conflicts)
         return f"{title}  {text}"
 
     def _spoken(self, row: Row, column: int) -> str:

@@ -87,7 +87,7 @@ class MergeSources(QObject):
     def now(self) -> MergeSource:
         """Return the file as it is, with what is not saved."""
         changes = len(self._workspace.document.unsaved_changes())
-        note = self.tr("this file, unsaved changes: %n", "", changes) if changes else self.tr("this file")
+        note = self.tr("this file, %n unsaved changes", "", changes) if changes else self.tr("this file")
         return MergeSource(self._name, note, self._file.copy(), is_now=True)
 
     def as_saved(self) -> MergeSource:

@@ -287,7 +287,7 @@ class MergeWindow(QDialog):
         errors = sum(f.severity == "error" for f in self.check.new())
         self._warned = self._warned and bool(errors)
         if self._warned:
-            self.outcome.merge.setText(self.tr("&Merge Anyway (New Errors: %n)", "", errors))
+            self.outcome.merge.setText(self.tr("&Merge Anyway (%n New Errors)", "", errors))
         else:
             name = self.workspace.path.stem.replace("&", "&&")
             self.outcome.merge.setText(self.tr("&Merge into {file}").format(file=name))

@@ -245,7 +245,7 @@ class MeasuredDialog(QDialog):
         used = measurement.answers
         if measurement.is_circle:
             return [
-                self.tr("Circles of a ball-bar: %n", "", len(measurement.runs)),
+                self.tr("%n circles of a ball-bar", "", len(measurement.runs)),
                 self.tr("Read as {error_unit}, {sign}").format(
                     error_unit=shown(used.error_unit), sign=used.sign
                 ),

@@ -210,11 +210,13 @@ class TuningWindow(QWidget):
             text = self.tr("It is not known what the control contains.")
         elif control.live.is_live:
             text = self.tr(
-                "Each change goes into the control at once. Changed: %n. The file stays.", "", changed
+                "Each change goes into the control at once. %n values changed. The file stays.", "", changed
             )
         else:
             text = self.tr(
-                "This control takes all values together, in E-stop. Changed: %n. The file stays.", "", changed
+                "This control takes all values together, in E-stop. %n values changed. The file stays.",
+                "",
+                changed,
             )
         self.state.setText(text)
 
@@ -310,7 +312,7 @@ class TuningWindow(QWidget):
         known = self.file_target.file.schema.parameters
         values = {d.address: d.b for d in changes if d.address[0] in known}
         self._workspace.edit(self.tr("Take from control"), values)
-        self.message.say(self.tr("Values taken into the file, which is not saved yet: %n.", "", len(values)))
+        self.message.say(self.tr("%n values taken into the file, which is not saved yet.", "", len(values)))
 
     def _escape(self) -> None:
         if self.message.isVisible():
@@ -343,9 +345,9 @@ class TuningWindow(QWidget):
         changed, waiting = control.differences(), control.waiting
         if not changed and not waiting:
             return True
-        kept = self.tr("Values of the control that differ from when it was connected: %n. The file has them only if you took them.",
+        kept = self.tr("%n values of the control differ from when it was connected. The file has them only if you took them.",
                        "", changed)  # fmt: skip
-        lost = self.tr("Values that were not downloaded and will be forgotten: %n.", "", waiting)
+        lost = self.tr("%n values were not downloaded and will be forgotten.", "", waiting)
         text = "\n".join(part for part, count in ((kept, changed), (lost, waiting)) if count)
         back, keep = self.tr("Put the Old Values &Back"), self.tr("&Keep Them in the Control")
         if not changed:

@@ -327,7 +327,7 @@ class MotionView(QWidget):
             button.setEnabled(True)
         self.settling.setEnabled(settling_span(trace) is not None)
         assumed = sum(text.startswith("ASSUMED") for text in trace.assumptions)
-        text = self.tr("Figures of the machine that are assumed: <b>%n</b>, see Assumed.", "", assumed)
+        text = self.tr("<b>%n figures of the machine are assumed</b>, see Assumed.", "", assumed)
         self.summary.setText(f"{html.escape(trace.model)}. {text if assumed else ''}")
         self.recommendations.show_all(self._workspace.file.schema, trace.recommendations, self._may_apply)
         count = len(trace.recommendations)

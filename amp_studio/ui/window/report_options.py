@@ -7,6 +7,7 @@ from collections.abc import Mapping
 from PySide6.QtCore import QObject, Signal
 from PySide6.QtWidgets import QCheckBox, QComboBox, QFormLayout, QLabel, QVBoxLayout, QWidget
 
+from amp_studio.languages import language_codes, name_of_language
 from amp_studio.report import (
     CHAPTERS,
     PAPER_SIZES,
@@ -14,8 +15,6 @@ from amp_studio.report import (
     UNIT_CHOICES,
     Chapter,
     Contents,
-    language_codes,
-    language_of,
 )
 from amp_studio.ui.base.theme import GAP
 from amp_studio.ui.base.translated import language_in_use
@@ -81,7 +80,7 @@ class ReportOptions(QWidget):
             "inch": self.tr("Inch"),
             "both": self.tr("Both, the other system's below"),
         })  # fmt: skip
-        self.language = _box({code: language_of(code).name for code in language_codes()})
+        self.language = _box({code: name_of_language(code) for code in language_codes()})
         self.paper = _box({"a4": "A4", "letter": self.tr("US Letter")})
         self.changed = QCheckBox(self.tr("Only values that &differ from the default"))
         self.inactive = QCheckBox(self.tr("Also what the control &ignores on this machine"))
