@@ -5,7 +5,8 @@ What an expression came to for equal values is remembered: most machines have mo
 
 from __future__ import annotations
 
-from collections.abc import Callable, Hashable, Iterable, Mapping, Sequence
+import inspect
+from collections.abc import Callable, Collection, Hashable, Iterable, Mapping, Sequence
 from functools import lru_cache
 from operator import attrgetter
 from typing import Any
@@ -143,7 +144,16 @@ class Expression:
 
 
 class Decision(Expression):
-    """An expression that is true or not."""
+    """An expression that is true or not; of lists that are ``counted`` it asks nothing but what functions count in them."""
+
+    def __init__(
+        self,
+        compiled: Program,
+        functions: Mapping[str, Callable[..., Any]],
+        counted: Collection[str] = (),
+    ) -> None:
+        super().__init__(compiled, functions)
+        self._counted = counted
 
     @property
     def asks_instance(self) -> bool:
@@ -165,9 +175,25 @@ class Decision(Expression):
         """Return what it comes to for the values of its names, true or false or anything else."""
 
         def context() -> Context:
-            return context_of(self.functions, self.always, names, map(value_of, keys), circumstances)
+            values = dict(zip(names, map(value_of, keys), strict=True))
+            lists = {name.encode(): values[name] for name in self._counted}
+            functions = {name: _counting(function, lists) for name, function in self.functions.items()}
+            values.update((name.decode(), name) for name in lists)
+            return context_of(functions, self.always, values, values.values(), circumstances)
 
         return self.result(keys, circumstances, context)
+
+
+def _counting(function: Callable[..., Any], lists: Mapping[bytes, Any]) -> Callable[..., Any]:
+    """Return a function that gets ``lists`` by their names: CEL would copy thousands of points in, and out again for each call."""
+    if not lists:
+        return function
+    bare = inspect.unwrap(function)  # what is in a list are doubles already
+
+    def called(first: Any, *others: Any) -> Any:
+        return bare(lists[first], *others) if first.__class__ is bytes else function(first, *others)
+
+    return called
 
 
 def context_of(

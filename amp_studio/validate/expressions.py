@@ -47,6 +47,7 @@ TYPES = {
     "duration",
 }
 _OVER_A_LIST = re.compile(r"\.(?:all|exists|exists_one|filter|map)\(\s*([a-zA-Z_]\w*)\s*,")
+_COUNTED = re.compile(r"\bcount_(?:set|below|above)\(\s*([a-zA-Z_]\w*)\s*[,)]")
 
 
 class RuleError(AmpStudioError, ValueError):
@@ -147,7 +148,7 @@ class Expressions:
         lists = _OVER_A_LIST.findall(text)
         known = {*rule.reads, *ALWAYS_THERE, *TYPES, *lists}
         try:
-            decision = Decision(_compiled(rule, "check", text), self._functions)
+            decision = Decision(_compiled(rule, "check", text), self._functions, _counted(rule, text))
         except KeyError:  # a function that there is not
             decision = None
         if decision is None or not known.issuperset(decision.named):
@@ -159,6 +160,16 @@ class Expressions:
     def finding(self) -> FindingExpressions:
         """Its message and fixes where it is broken."""
         return self._finding or check_rule(self._rule, self._functions)
+
+
+def _counted(rule: Rule, text: str) -> list[str]:
+    """Return the lists of which an expression asks nothing but what the functions count in them."""
+    counted = _COUNTED.findall(text)
+    return [
+        name
+        for name in dict.fromkeys(counted)
+        if is_list(rule.reads.get(name, "")) and len(re.findall(rf"\b{name}\b", text)) == counted.count(name)
+    ]
 
 
 def check_rule(rule: Rule, functions: Mapping[str, Callable[..., Any]]) -> FindingExpressions:

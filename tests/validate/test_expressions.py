@@ -6,9 +6,12 @@ from itertools import product
 
 import pytest
 
-from amp_studio.schema import Rule, program
+from amp_studio.files import open_file
+from amp_studio.files.example_files import examples_folder
+from amp_studio.schema import Rule, Value, expression, program
 from amp_studio.schema.cel_engine import Context
 from amp_studio.schema.expression import Circumstances, Key
+from amp_studio.validate import Validator
 from amp_studio.validate.expressions import Expressions, RuleError
 
 WHENS = (
@@ -71,3 +74,24 @@ def test_the_check_of_a_rule_that_does_not_apply_is_not_looked_at() -> None:
     assert expressions.verdict((3.0, 1.0), Circumstances("mill", "", "1")) is False
     with pytest.raises(RuleError, match="names 'it', which it does not read"):
         expressions.verdict((5.0, 1.0), Circumstances("mill", "", "1"))
+
+
+def test_a_list_that_is_only_counted_is_never_copied_into_the_engine(monkeypatch: pytest.MonkeyPatch) -> None:
+    """A cam has thousands of points, and CEL would copy each of them with every edit."""
+    seen: list[object] = []
+
+    def context(values: dict[str, object]) -> object:
+        seen.extend(values.values())
+        return Context(values)
+
+    monkeypatch.setattr(expression, "Context", context)
+    file = open_file(examples_folder() / "57c422b-label-press" / "LABEL_PRESS.amp").file
+    validator = Validator(file)
+    validator.run()
+    for number in (300001.0, 20.0):  # above and within what the encoder inputs take
+        seen.clear()
+        file.set_many({("cam.time_points", "Y.3"): Value(number, "counts")}, force="a slip")
+        found = validator.update([("cam.time_points", "Y.3")])
+        assert ("57c422b.cam.speed-encoder" in {f.rule for f in found}) is (number > 1e5)
+    assert any(isinstance(value, bytes) for value in seen)
+    assert sum(isinstance(value, list) for value in seen) <= 1, "one rule asks for points by their places"
