@@ -32,5 +32,6 @@ def origin_of(file: ParameterFile, path: Path) -> Path | None:
 
 def origin_named(content: bytes, path: Path) -> Path | None:
     """Return the same of the text of a file, without reading all of it."""
-    found = _NAMED.search(content)
+    # The expression looks at each line; few files have one with the word.
+    found = _NAMED.search(content) if b"made_from:" in content else None
     return path.parent / os.fsdecode(found[2]) if found else None

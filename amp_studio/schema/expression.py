@@ -178,8 +178,8 @@ class Decision(Expression):
             values = dict(zip(names, map(value_of, keys), strict=True))
             lists = {name.encode(): values[name] for name in self._counted}
             functions = {name: _counting(function, lists) for name, function in self.functions.items()}
-            values.update((name.decode(), name) for name in lists)
-            return context_of(functions, self.always, values, values.values(), circumstances)
+            given: dict[str, Any] = {**values, **{name.decode(): name for name in lists}}
+            return context_of(functions, self.always, given, given.values(), circumstances)
 
         return self.result(keys, circumstances, context)
 

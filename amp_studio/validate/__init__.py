@@ -9,7 +9,14 @@ from amp_studio.front_pages import front_page
 
 if TYPE_CHECKING:
     from .arguments import finite, not_negative, percent_of, positive, whole
-    from .beside import axes_by_letter, companions_of, earlier_beside, rules_beside
+    from .beside import (
+        axes_by_letter,
+        companion_names,
+        companions_of,
+        earlier_beside,
+        machines_of,
+        rules_beside,
+    )
     from .builder_rules import NO_RULES, RULES_FILE, BuilderRules, Suppressed
     from .calculator import calculate, calculators, shown_result
     from .cell_expression import Entered, enter, read_plain

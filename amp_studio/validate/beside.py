@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import contextlib
 import json
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from functools import lru_cache
 from pathlib import Path
 
@@ -80,10 +80,19 @@ def companions_of(path: Path) -> list[Path]:
     return [backup_path(real), history_path(real), real.with_name(RECORD), *fleet_of(real)]
 
 
+def companion_names(name: str, machines: Iterable[str]) -> list[str]:
+    """Return the names of the same, of a file that is no link, where ``machines`` are those of its folder."""
+    return [f"{name}.bak", f"{name}.history", EXCHANGES, *(other for other in machines if other != name)]
+
+
+def machines_of(folder: Path) -> tuple[str, ...]:
+    """Return the names of the parameter files of a folder; none where there are too few or too many. Raises OSError."""
+    return _machines_in(folder, folder.stat().st_mtime_ns)
+
+
 def fleet_of(path: Path) -> list[Path]:
     """Return the other parameter files in the folder of a file; none where there are too few or too many. Raises OSError."""
-    names = _machines_in(path.parent, path.parent.stat().st_mtime_ns)
-    return [path.with_name(name) for name in names if name != path.name]
+    return [path.with_name(name) for name in machines_of(path.parent) if name != path.name]
 
 
 @lru_cache(maxsize=16)

@@ -303,3 +303,20 @@ def test_a_check_reads_nothing_that_is_not_in_its_key(amp, machines: Path, opene
         "what is read more belongs into the key (cli/checks/cache.py)"
     )
     assert {"0.amp", "1.amp", "rules.yaml", "0.amp.bak"} <= read
+
+
+def test_a_folder_is_looked_at_once_for_all_of_its_files(
+    amp, cache: Path, machines: Path, checked: list[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """The way to each of thousands of files, and what lies beside it, took half the time of a run with all results kept."""
+    first = amp("validate", machines)
+    real, followed = check_cache.real_path, list[Path]()
+
+    def watched(path: Path) -> Path:
+        followed.append(path)
+        return real(path)
+
+    monkeypatch.setattr(check_cache, "real_path", watched)
+    checked.clear()
+    assert amp("validate", machines).out == first.out
+    assert (set(followed), checked) == ({machines}, [])

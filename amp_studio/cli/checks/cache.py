@@ -17,12 +17,13 @@ import sys
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from importlib.util import find_spec
 from pathlib import Path
+from typing import NamedTuple
 
 from amp_studio.cli.verb import Options
 from amp_studio.family_places import installed_places
 from amp_studio.files import is_there, origin_named, real_path
 from amp_studio.schema import added_facts, cache_folder, database_folder, read_file
-from amp_studio.validate import RULES_FILE, companions_of
+from amp_studio.validate import RULES_FILE, companion_names, companions_of, machines_of
 
 from .formats import CHECK_FORMATS, CheckResult
 
@@ -32,8 +33,20 @@ _MOST_BYTES = 256 * 2**20
 """Of a database, after which only the results of the present run stay in it."""
 _AT_ONCE = 500
 """Results that are asked for in one query."""
+_LONG_NAME = 60
+"""Characters of a name from which those of the files beside it may be too long."""
 _PATIENCE_S = 5.0
 """Seconds for another run that writes."""
+
+
+class _Folder(NamedTuple):
+    """What a folder of files contained when it was looked at."""
+
+    real: str
+    links: Mapping[str, bool]
+    """Name -> whether it is a link."""
+    machines: tuple[str, ...]
+    """The parameter files that are compared with each other."""
 
 
 class CheckCache:
@@ -44,40 +57,64 @@ class CheckCache:
         here = str(Path.cwd()) if CHECK_FORMATS[options.format].from_here else ""
         self._asked = json.dumps([given, here], sort_keys=True).encode()
         self._rules: Path | None = options.rules
-        self._companions: dict[Path, bytes] = {}
+        self._companions: dict[str, bytes] = {}
+        self._folders: dict[str, _Folder] = {}
         self._known_rules: dict[str, bytes] = {}
-        """Folder, or file of rules -> what its rules add to a key; a folder of machines has one for all."""
+        """File of rules -> what its rules add to a key; a folder of machines has one for all."""
         self._path = cache_folder() / f"checks-{_program_digest()}.sqlite"
 
     def keys(self, paths: Iterable[Path]) -> list[bytes | None]:
         """Return what the result of each file is found by now; None for a file that cannot be read."""
         self._known_rules.clear()
         self._companions.clear()
+        self._folders.clear()
         return [self._key(path) for path in paths]
 
     def _key(self, path: Path) -> bytes | None:
         text = os.fspath(path)
         try:
             content = read_file(path)
-            # A link leads to the rules of another folder.
-            folder = text if path.is_symlink() else os.fspath(path.parent)
-            rules = self._known_rules.get(folder)
-            if rules is None:
-                rules = self._known_rules[folder] = _rules_part(
-                    self._rules or real_path(path).parent / RULES_FILE
-                )
-            origin = origin_named(content, real_path(path))
-            compared = [*companions_of(path), *([origin] if origin else [])]
-            beside = [self._companion(other) for other in compared]
+            folder, name = self._folder(os.fspath(path.parent)), path.name
+            if folder.links.get(name, True) or len(name) > _LONG_NAME:
+                # A link leads to another folder; a name that is not listed may be another spelling of one that is.
+                real = real_path(path)
+                beside = [self._companion(os.fspath(other)) for other in companions_of(path)]
+            else:
+                real = Path(folder.real, name)
+                beside = [
+                    self._companion(f"{folder.real}{os.sep}{other}") if other in folder.links else b""
+                    for other in companion_names(name, folder.machines)
+                ]
+            rules = self._rules_part(os.fspath(self._rules or real.parent / RULES_FILE))
+            if (origin := origin_named(content, real)) is not None:
+                beside.append(self._companion(os.fspath(origin)))
         except OSError:
             return None
         return _digest(self._asked, os.fsencode(text), rules, content, *beside)
 
-    def _companion(self, path: Path) -> bytes:
+    def _folder(self, folder: str) -> _Folder:
+        """Return what a folder contains, looked at once for all of its files; raises OSError."""
+        known = self._folders.get(folder)
+        if known is None:
+            real = real_path(Path(folder))
+            with os.scandir(real) as entries:
+                links = {entry.name: entry.is_symlink() for entry in entries}
+            known = self._folders[folder] = _Folder(os.fspath(real), links, machines_of(real))
+        return known
+
+    def _companion(self, path: str) -> bytes:
         """Return what a file that another one is compared with adds to its key."""
         if path not in self._companions:
-            self._companions[path] = _digest(read_file(path)) if is_there(path) else b""
+            other = Path(path)
+            self._companions[path] = _digest(read_file(other)) if is_there(other) else b""
         return self._companions[path]
+
+    def _rules_part(self, rules: str) -> bytes:
+        """Return what rules add to a key: their place, which findings name, and their content; raises OSError."""
+        if rules not in self._known_rules:
+            path = Path(rules)
+            self._known_rules[rules] = _digest(os.fsencode(rules), read_file(path)) if is_there(path) else b""
+        return self._known_rules[rules]
 
     def read(self, keys: Sequence[bytes | None], paths: Sequence[Path]) -> dict[Path, CheckResult]:
         """Return the results that are kept."""
@@ -144,11 +181,6 @@ def _shrink(database: sqlite3.Connection, stay: set[bytes | None]) -> None:
     with database:
         database.executemany("DELETE FROM result WHERE key = ?", [(key,) for key in keys if key not in stay])
     database.execute("VACUUM")
-
-
-def _rules_part(rules: Path) -> bytes:
-    """Return what rules add to a key: their place, which findings name, and their content; raises OSError."""
-    return _digest(os.fsencode(rules), read_file(rules)) if is_there(rules) else b""
 
 
 def _kept(one: CheckResult) -> bytes:

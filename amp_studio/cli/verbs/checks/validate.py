@@ -166,7 +166,8 @@ def _files(paths: Sequence[Path]) -> tuple[list[Path], list[CheckResult]]:
             continue
         before = len(unread)
         names = ((folder, name) for folder, _, names in os.walk(path, onerror=skip) for name in names)
-        inside = sorted(Path(folder, name) for folder, name in names if name.endswith(ENDING))
+        inside = [Path(folder, name) for folder, name in names if name.endswith(ENDING)]
+        inside.sort(key=lambda file: file.parts)
         if not inside and before == len(unread):
             unread.append(CheckResult(path, fault=f"{path}: contains no {ENDING} files"))
         found += inside
