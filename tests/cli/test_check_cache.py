@@ -305,7 +305,7 @@ def test_a_check_reads_nothing_that_is_not_in_its_key(amp, machines: Path, opene
     assert {"0.amp", "1.amp", "rules.yaml", "0.amp.bak"} <= read
 
 
-def test_a_folder_is_looked_at_once_for_all_of_its_files(
+def test_a_folder_is_listed_once_for_all_of_its_files(
     amp, cache: Path, machines: Path, checked: list[str], monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """The way to each of thousands of files, and what lies beside it, took half the time of a run with all results kept."""

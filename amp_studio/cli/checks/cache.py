@@ -40,7 +40,7 @@ _PATIENCE_S = 5.0
 
 
 class _Folder(NamedTuple):
-    """What a folder of files contained when it was looked at."""
+    """What a folder of files contained when it was listed."""
 
     real: str
     links: Mapping[str, bool]
@@ -93,7 +93,7 @@ class CheckCache:
         return _digest(self._asked, os.fsencode(text), rules, content, *beside)
 
     def _folder(self, folder: str) -> _Folder:
-        """Return what a folder contains, looked at once for all of its files; raises OSError."""
+        """Return what a folder contains, listed once for all of its files; raises OSError."""
         known = self._folders.get(folder)
         if known is None:
             real = real_path(Path(folder))
