@@ -82,7 +82,7 @@ def companions_of(path: Path) -> list[Path]:
 
 def companion_names(name: str, machines: Iterable[str]) -> list[str]:
     """Return the names of the same, of a file that is no link, where ``machines`` are those of its folder."""
-    return [f"{name}.bak", f"{name}.history", EXCHANGES, *(other for other in machines if other != name)]
+    return [f"{name}.bak", f"{name}.history", RECORD, *(other for other in machines if other != name)]
 
 
 def machines_of(folder: Path) -> tuple[str, ...]:
