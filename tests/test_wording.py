@@ -92,6 +92,7 @@ DOCUMENTS = (
     "docs/protocols/grblhal.md",
     "Makefile",
     *sorted(p.relative_to(ROOT).as_posix() for p in ROOT.glob("examples/*/README.md")),
+    *sorted(p.relative_to(ROOT).as_posix() for p in ROOT.glob("docs/simulation/*.md")),
     *sorted(p.relative_to(ROOT).as_posix() for p in ROOT.glob("docs/decisions/*.md")),
 )
 

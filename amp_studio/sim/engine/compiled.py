@@ -24,7 +24,7 @@ Run = Callable[..., int]
 """`kernel.run`."""
 
 PLAIN_STEPS = 100_000
-"""Physics steps that plain Python computes in about the time of loading numba and its cache (docs/simulation.md)."""
+"""Physics steps that plain Python computes in about the time of loading numba and its cache (docs/simulation/inside.md)."""
 
 OPTIONS: dict[str, Any] = {"fastmath": False, "error_model": "numpy", "_nrt": False}
 """Sums are computed in the written order; a division does not look whether it is by 0; arrays are not counted (``_nrt``), as
