@@ -80,10 +80,14 @@ def figures(measurement: Measurement) -> AxisFigures:
     )
     targets = tuple(
         TargetFigures(
-            float(at), _mean(rising.get(at)), _mean(falling.get(at)), _spread(rising.get(at)), _spread(falling.get(at))
+            float(at),
+            _mean(rising.get(at)),
+            _mean(falling.get(at)),
+            _spread(rising.get(at)),
+            _spread(falling.get(at)),
         )
         for at in measurement.targets
-    )  # fmt: skip
+    )
     reversals = [t.reversal for t in targets if t.reversal is not None]
     up = [(t.mean_rising, t.spread_rising) for t in targets if t.mean_rising is not None]
     down = [(t.mean_falling, t.spread_falling) for t in targets if t.mean_falling is not None]

@@ -11,9 +11,21 @@ HeadKind = Literal["position", "angle", "measured", "error", "correction", "mean
 _BRACKETED = re.compile(r"[\[(/_]\s*(mm|um|µm|μm|microns?|in|inch|inches|deg|degrees?|°|arcsec)\s*[\])]?\s*$")
 _SPACED = re.compile(r"\s(mm|um|µm|μm|microns?|inch|inches|deg|degrees?|°|arcsec)\s*$")
 _UNITS = {
-    "mm": "mm", "um": "um", "µm": "um", "μm": "um", "micron": "um", "microns": "um", "in": "in", "inch": "in",
-    "inches": "in", "deg": "deg", "degree": "deg", "degrees": "deg", "°": "deg", "arcsec": "arcsec",
-}  # fmt: skip
+    "mm": "mm",
+    "um": "um",
+    "µm": "um",
+    "μm": "um",
+    "micron": "um",
+    "microns": "um",
+    "in": "in",
+    "inch": "in",
+    "inches": "in",
+    "deg": "deg",
+    "degree": "deg",
+    "degrees": "deg",
+    "°": "deg",
+    "arcsec": "arcsec",
+}
 _KINDS: tuple[tuple[HeadKind, str], ...] = (
     ("", r".*\b(std|stdev|standard|sigma|repeatability|range|max\.?|min\.?|maximum|minimum|limit)\b.*"),
     ("mean", r".*\b(mean|average|avg\.?|mittelwert|mittel)\b.*"),
@@ -26,7 +38,7 @@ _KINDS: tuple[tuple[HeadKind, str], ...] = (
     ("correction", r".*\b(correction|compensation|comp\.?|korrektur)\b.*"),
     ("measured", r".*\b(measured|measurement|measure|actual|laser|ist|istposition|istwert|gemessen)\b.*"),
     ("error", r".*\b(error|err\.?|deviation|dev\.?|difference|diff\.?|abweichung|fehler)\b.*"),
-)  # fmt: skip
+)
 _RISING = re.compile(r"(?<![a-z])(up|fwd|forwards?|pos|positive|rising|f)(?![a-z])|[↑→]|^\+|\+\)?$")
 _FALLING = re.compile(
     r"(?<![a-z])(down|rev|reverse|back|backwards?|neg|negative|falling|r|b)(?![a-z])|[↓←]|^-|[-\u2212]\)?$"

@@ -32,9 +32,13 @@ from .raw import RawRun, RawTable
 MOST_RUNS = 1_000
 MOST_TARGETS = 10_000
 _SIZES = {
-    "mm": Fraction(1), "in": Fraction("25.4"), "um": Fraction(1, 1000), "deg": Fraction(1),
-    "arcsec": Fraction(1, 3600), "counts": Fraction(1),
-}  # fmt: skip
+    "mm": Fraction(1),
+    "in": Fraction("25.4"),
+    "um": Fraction(1, 1000),
+    "deg": Fraction(1),
+    "arcsec": Fraction(1, 3600),
+    "counts": Fraction(1),
+}
 _BASE = {"mm": "mm", "in": "mm", "um": "mm", "deg": "deg", "arcsec": "deg", "counts": "counts"}
 
 
@@ -159,8 +163,15 @@ def _heads(
             read = (read_head(cell, column) for column, cell in enumerate(cells))
             heads = [replace(head, unit=head.unit or unit) for head, unit in zip(read, units, strict=True)]
             titles.pop()
-    notes = (f"{len(titles)} lines before the columns were not read" if len(titles) != 1 else
-             "1 line before the columns was not read",) if titles else ()  # fmt: skip
+    notes = (
+        (
+            f"{len(titles)} lines before the columns were not read"
+            if len(titles) != 1
+            else "1 line before the columns was not read",
+        )
+        if titles
+        else ()
+    )
     return heads, notes
 
 
@@ -223,8 +234,12 @@ def _table(
         runs = parted(figures[0])
     ignored = sum(kind == "" or (kind == "mean" and n not in values) for n, kind in enumerate(kinds))
     if ignored:
-        notes = (*notes, f"{ignored} columns that are neither position nor error were not read" if ignored > 1
-                 else "1 column that is neither position nor error was not read")  # fmt: skip
+        notes = (
+            *notes,
+            f"{ignored} columns that are neither position nor error were not read"
+            if ignored > 1
+            else "1 column that is neither position nor error was not read",
+        )
     is_circle = kinds[at] == "angle"
     if is_circle and kinds[values[0]] == "measured":
         raise MeasurementError("a circle needs the error of its radius, not the radius: angle, deviation")

@@ -49,10 +49,18 @@ def panel_of(
         low, high = min(0.0, low), max(0.0, high)
     room = MARGIN * (high - low)
     return Scene(
-        title, "", title, subtitle,
-        Scale(*x, first, last, log, step[0]), Scale("", unit, low - room, high + room, step=step[1]),
-        curves=tuple(curves), levels=tuple(levels), marks=tuple(marks), look="panel", share=share,
-    )  # fmt: skip
+        title,
+        "",
+        title,
+        subtitle,
+        Scale(*x, first, last, log, step[0]),
+        Scale("", unit, low - room, high + room, step=step[1]),
+        curves=tuple(curves),
+        levels=tuple(levels),
+        marks=tuple(marks),
+        look="panel",
+        share=share,
+    )
 
 
 def linked(panels: Sequence[Scene]) -> tuple[Scene, ...]:
@@ -115,12 +123,19 @@ def map_scene(
     heading = f"{title} ({unit})" if unit else title
     up = f"{y[0]} ({y[1]})" if y[1] else y[0]
     return Scene(
-        "map", "", heading, f"upwards: {up}; pale cells are not safe",
-        Scale(x[0], x[1], float(cells.x[0]), float(cells.x[-1]), logs[0]), Scale("", "", float(cells.y[0]), float(cells.y[-1]), logs[1]),
-        cells=cells, lines=tuple(_safe_edge(cells)), look="panel", share=2.7,
+        "map",
+        "",
+        heading,
+        f"upwards: {up}; pale cells are not safe",
+        Scale(x[0], x[1], float(cells.x[0]), float(cells.x[-1]), logs[0]),
+        Scale("", "", float(cells.y[0]), float(cells.y[-1]), logs[1]),
+        cells=cells,
+        lines=tuple(_safe_edge(cells)),
+        look="panel",
+        share=2.7,
         dots=tuple(Dot(at, "point", sort) for _, at, sort in points),
         texts=tuple(Text(at, name, anchor="left", sort=sort) for name, at, sort in points),
-    )  # fmt: skip
+    )
 
 
 def _is_geometric(values: Series) -> bool:
@@ -185,9 +200,19 @@ def ring_scene(rings: Sequence[Ring], unit: str) -> Scene:
         curves.append(Curve("", radius * np.cos(ring.angle), radius * np.sin(ring.angle), ring.sort))
     across = Scale("", "", -edge, edge, is_written=False)
     return Scene(
-        "rings", "", "", "", across, across, equal=True, lines=tuple(lines), curves=tuple(curves), texts=tuple(names),
-        look="rings", share=4.4,
-    )  # fmt: skip
+        "rings",
+        "",
+        "",
+        "",
+        across,
+        across,
+        equal=True,
+        lines=tuple(lines),
+        curves=tuple(curves),
+        texts=tuple(names),
+        look="rings",
+        share=4.4,
+    )
 
 
 def _points(places: np.ndarray) -> tuple[Point, ...]:

@@ -16,10 +16,21 @@ WIDTH, HEIGHT = 720.0, 480.0
 HEAD, NOTE = 34.0, 15.0
 """Height of the title and of a line of notes, in points."""
 INKS: dict[ShapeSort, str] = {
-    "ink": "#1a1e23", "dim": "#58606b", "limit": "#58606b", "now": "#1d5bcb", "second": "#7f8792", "error": "#b3261e",
-    "forbidden": "#7f8792", "either": "#1d5bcb", "outside": "#0a6a72", "travel": "#1a1e23", "rail": "#7f8792", "overlap": "#c5cad2",
-    "output": "#b25a00", "before": "#a3a9b3",
-}  # fmt: skip
+    "ink": "#1a1e23",
+    "dim": "#58606b",
+    "limit": "#58606b",
+    "now": "#1d5bcb",
+    "second": "#7f8792",
+    "error": "#b3261e",
+    "forbidden": "#7f8792",
+    "either": "#1d5bcb",
+    "outside": "#0a6a72",
+    "travel": "#1a1e23",
+    "rail": "#7f8792",
+    "overlap": "#c5cad2",
+    "output": "#b25a00",
+    "before": "#a3a9b3",
+}
 """Colours that colour-blind readers can distinguish; a command is dashed as well."""
 _DASH = ' stroke-dasharray="6 4"'
 GRID, BASE, TEXT, DIM = "#e8eaee", "#ffffff", "#1a1e23", "#58606b"

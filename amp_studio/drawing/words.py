@@ -20,8 +20,14 @@ def scene_in_words(scene: Scene, words: PhraseWords) -> Scene:
     texts = tuple(replace(t, text=words(t.text), value=words(t.value)) for t in scene.texts)
     notes = tuple(replace(note, text=words(note.text)) for note in scene.notes)
     return replace(
-        scene, title=words(scene.title), subtitle=words(scene.subtitle), x=scale(scene.x), y=scale(scene.y), texts=texts,
-        notes=notes, curves=tuple(replace(curve, name=words(curve.name)) for curve in scene.curves),
+        scene,
+        title=words(scene.title),
+        subtitle=words(scene.subtitle),
+        x=scale(scene.x),
+        y=scale(scene.y),
+        texts=texts,
+        notes=notes,
+        curves=tuple(replace(curve, name=words(curve.name)) for curve in scene.curves),
         levels=tuple(mark._replace(name=words(mark.name)) for mark in scene.levels),
         marks=tuple(mark._replace(name=words(mark.name)) for mark in scene.marks),
-    )  # fmt: skip
+    )

@@ -72,9 +72,14 @@ def check_output(path: Path, *inputs: Path) -> None:
 
 
 def write_atomic(
-    path: Path, content: bytes | Callable[[bytes | None], bytes], expected: str | None = "", keep_backup: bool = True,
-    *, companion_of: Path | None = None, notify: Notify = lambda _message: None,
-) -> str:  # fmt: skip
+    path: Path,
+    content: bytes | Callable[[bytes | None], bytes],
+    expected: str | None = "",
+    keep_backup: bool = True,
+    *,
+    companion_of: Path | None = None,
+    notify: Notify = lambda _message: None,
+) -> str:
     """Replace a file by new content, all or nothing.
 
     ``content`` may be worked out from the previous content, None where there is no file. ``expected`` is the digest the

@@ -209,10 +209,19 @@ class Document:
         if not changes:
             return
         lines = "".join(
-            json.dumps([now(), user(), how, written(c.address), self._journal_text(c.address, c.old),
-                        self._journal_text(c.address, c.new)]) + "\n"
+            json.dumps(
+                [
+                    now(),
+                    user(),
+                    how,
+                    written(c.address),
+                    self._journal_text(c.address, c.old),
+                    self._journal_text(c.address, c.new),
+                ]
+            )
+            + "\n"
             for c in changes
-        )  # fmt: skip
+        )
         try:
             append_line(self.history_path, lines.encode(), like=self.path)
         except OSError as error:

@@ -13,13 +13,28 @@ from .words import parts_of, words_of
 HitKind = Literal["parameter", "value", "choice", "message", "group", "note", "command"]
 Where = Literal["number", "name", "choice", "value", "code", "text", "group", "id", "help", "meaning", "note"]
 WORTH: dict[Where, float] = {
-    "number": 10.0, "code": 10.0, "name": 8.0, "text": 8.0, "choice": 6.0, "note": 6.0, "value": 6.0, "group": 4.0,
-    "id": 4.0, "meaning": 2.0, "help": 1.5,
-}  # fmt: skip
+    "number": 10.0,
+    "code": 10.0,
+    "name": 8.0,
+    "text": 8.0,
+    "choice": 6.0,
+    "note": 6.0,
+    "value": 6.0,
+    "group": 4.0,
+    "id": 4.0,
+    "meaning": 2.0,
+    "help": 1.5,
+}
 """What a word is worth by where it is found."""
 KINDS: dict[HitKind, float] = {
-    "parameter": 1.0, "message": 1.0, "value": 0.95, "note": 0.95, "command": 0.9, "choice": 0.8, "group": 0.7,
-}  # fmt: skip
+    "parameter": 1.0,
+    "message": 1.0,
+    "value": 0.95,
+    "note": 0.95,
+    "command": 0.9,
+    "choice": 0.8,
+    "group": 0.7,
+}
 """What a kind is worth among others whose words match as well: the parameter before its choice, that before its group."""
 
 

@@ -15,9 +15,17 @@ from amp_studio.schema import Address, Value, read_address, same_value
 from amp_studio.validate import NOT_SET, Finding, not_set
 
 Mark = Literal[
-    "not-set", "changed", "findings", "axes-differ", "unsaved", "since-download", "restart", "recent", "bookmarked",
+    "not-set",
+    "changed",
+    "findings",
+    "axes-differ",
+    "unsaved",
+    "since-download",
+    "restart",
+    "recent",
+    "bookmarked",
     "noted",
-]  # fmt: skip
+]
 MARKS: tuple[Mark, ...] = get_args(Mark)
 _RESTART = ("restart", "reset")
 

@@ -15,10 +15,47 @@ from collections.abc import Iterable
 _WORD = re.compile(r"\d+(?:\.\d+)+|[^\W_]+")
 _PARTS = re.compile(r"\d+|[^\W\d]+")
 _COMMON = frozenset(
-    ("a", "an", "and", "are", "as", "at", "be", "by", "come", "comes", "do", "does", "for", "from", "goes", "how", "i",
-     "in", "into", "is", "it", "my", "of", "on", "or", "per", "shows", "that", "the", "there", "this", "to", "what", "when",
-     "where", "which", "why", "with")
-)  # fmt: skip
+    (
+        "a",
+        "an",
+        "and",
+        "are",
+        "as",
+        "at",
+        "be",
+        "by",
+        "come",
+        "comes",
+        "do",
+        "does",
+        "for",
+        "from",
+        "goes",
+        "how",
+        "i",
+        "in",
+        "into",
+        "is",
+        "it",
+        "my",
+        "of",
+        "on",
+        "or",
+        "per",
+        "shows",
+        "that",
+        "the",
+        "there",
+        "this",
+        "to",
+        "what",
+        "when",
+        "where",
+        "which",
+        "why",
+        "with",
+    )
+)
 """Words that decide nothing in a question; they count where they are all that is asked."""
 _SHORTEST = 4
 """Letters from which a word is taken to be mistyped."""

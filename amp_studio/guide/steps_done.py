@@ -146,12 +146,17 @@ def progress(validator: Validator, findings: Sequence[Finding] | None = None) ->
             about.setdefault(place, []).append(finding)
     each = tuple(
         StepProgress(
-            step, total[step.number], _in_order(step, open_of.get(step.number, ())), active[step.number],
-            own[step.number], tuple(about.get(step.number, ())),
-            errors_about[step.number], file.header.done.get(step.id, ""),
+            step,
+            total[step.number],
+            _in_order(step, open_of.get(step.number, ())),
+            active[step.number],
+            own[step.number],
+            tuple(about.get(step.number, ())),
+            errors_about[step.number],
+            file.header.done.get(step.id, ""),
         )
         for step in steps
-    )  # fmt: skip
+    )
     return GuideProgress(
         each,
         each[reached - 1] if reached <= len(steps) else None,

@@ -67,10 +67,18 @@ def draw_gain(file: ParameterFile, roles: ErrorRoles, axis: str, like: Scene | N
     if at is not None and at in drawn:
         _say_order(figures, at, drawn)
     return Scene(
-        "error", axis, "Error limits", f"{figures.axis(axis)}, gain over following error", x, y,
-        lines=tuple(lines), texts=tuple(texts), handles=tuple(handles),
-        notes=tuple(figures.notes.values()), drawn_from=tuple(figures.read),
-    )  # fmt: skip
+        "error",
+        axis,
+        "Error limits",
+        f"{figures.axis(axis)}, gain over following error",
+        x,
+        y,
+        lines=tuple(lines),
+        texts=tuple(texts),
+        handles=tuple(handles),
+        notes=tuple(figures.notes.values()),
+        drawn_from=tuple(figures.read),
+    )
 
 
 def _on_scale(figures: ValueReader, each: DrawnValue) -> bool:
@@ -83,9 +91,14 @@ def _on_scale(figures: ValueReader, each: DrawnValue) -> bool:
 
 
 def _draw_gain(
-    figures: ValueReader, gain: DrawnValue, at: DrawnValue | None, ratio: DrawnValue | None, scales: tuple[Scale, Scale],
-    lines: list[Polyline], handles: list[Handle],
-) -> None:  # fmt: skip
+    figures: ValueReader,
+    gain: DrawnValue,
+    at: DrawnValue | None,
+    ratio: DrawnValue | None,
+    scales: tuple[Scale, Scale],
+    lines: list[Polyline],
+    handles: list[Handle],
+) -> None:
     """Draw the gain up to the break, and the reduced gain beyond it."""
     x, y = scales
     level, place = gain.number or 0.0, (at.number if at else None)

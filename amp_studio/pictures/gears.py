@@ -70,10 +70,19 @@ def draw_gears(file: ParameterFile, roles: GearRoles, spindle: str, like: Scene 
         )
         handles += _handles(figures, roles, gear, x.high, y.high)
     return Scene(
-        "gears", spindle, "Spindle gears", f"{f'spindle {spindle}, ' if spindle else ''}{'volts' if roles.unit == 'V' else roles.unit} over speed", x, y,
-        areas=tuple(areas), lines=tuple(lines), texts=tuple(texts), handles=tuple(handles),
-        notes=tuple(figures.notes.values()), drawn_from=tuple(figures.read),
-    )  # fmt: skip
+        "gears",
+        spindle,
+        "Spindle gears",
+        f"{f'spindle {spindle}, ' if spindle else ''}{'volts' if roles.unit == 'V' else roles.unit} over speed",
+        x,
+        y,
+        areas=tuple(areas),
+        lines=tuple(lines),
+        texts=tuple(texts),
+        handles=tuple(handles),
+        notes=tuple(figures.notes.values()),
+        drawn_from=tuple(figures.read),
+    )
 
 
 def _gears(figures: ValueReader, roles: GearRoles, spindle: str) -> list[str]:

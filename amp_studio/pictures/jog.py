@@ -31,9 +31,16 @@ def draw_jog(
         if each.number is not None and each.number > 0.0
     ]
     x = like.x if like else _decades(drawn)
-    y = Scale("", "", -len(axes) + 0.4, 0.6, rows=tuple(
-        (-float(n), figures.axis(axis), next((each.unit for each in (*rows[n], *limits[n])), "")) for n, axis in enumerate(axes)
-    ))  # fmt: skip
+    y = Scale(
+        "",
+        "",
+        -len(axes) + 0.4,
+        0.6,
+        rows=tuple(
+            (-float(n), figures.axis(axis), next((each.unit for each in (*rows[n], *limits[n])), ""))
+            for n, axis in enumerate(axes)
+        ),
+    )
     lines: list[Polyline] = []
     dots: list[Dot] = []
     texts: list[Text] = []
@@ -77,10 +84,19 @@ def draw_jog(
                 texts.append(Text((each.number, level), _plain(each), "", "below", each.address, "dim"))
     what = ", ".join(dict.fromkeys(b.label.rpartition(", ")[0] or b.label for row in limits for b in row))
     return Scene(
-        name, "", TITLES[name], f"bars: {file.schema.parameters[bounds[0]].name}" if what else "", x, y,
-        lines=tuple(lines), dots=tuple(dots), texts=tuple(texts), handles=tuple(handles),
-        notes=tuple(figures.notes.values()), drawn_from=tuple(figures.read),
-    )  # fmt: skip
+        name,
+        "",
+        TITLES[name],
+        f"bars: {file.schema.parameters[bounds[0]].name}" if what else "",
+        x,
+        y,
+        lines=tuple(lines),
+        dots=tuple(dots),
+        texts=tuple(texts),
+        handles=tuple(handles),
+        notes=tuple(figures.notes.values()),
+        drawn_from=tuple(figures.read),
+    )
 
 
 def _drawable(figures: ValueReader, each: DrawnValue) -> bool:

@@ -126,15 +126,31 @@ def _bounds(figures: ValueReader, roles: RampRoles, feed: DrawnValue, axis: str)
 
 
 def _scene(
-    figures: ValueReader, axis: str, x: Scale, y: Scale, lines: Sequence[Polyline] = (), texts: Sequence[Text] = (),
-    handles: Sequence[Handle] = (), distance: float | None = None, base: str = "",
-) -> Scene:  # fmt: skip
+    figures: ValueReader,
+    axis: str,
+    x: Scale,
+    y: Scale,
+    lines: Sequence[Polyline] = (),
+    texts: Sequence[Text] = (),
+    handles: Sequence[Handle] = (),
+    distance: float | None = None,
+    base: str = "",
+) -> Scene:
     way = f", speed over time, {figure_text(distance)} {base}" if distance else ""
     return Scene(
-        "ramps", axis, "Ramps", f"{figures.axis(axis)}{way}", x, y,
-        lines=tuple(lines), texts=tuple(texts), handles=tuple(handles), notes=tuple(figures.notes.values()),
-        drawn_from=tuple(figures.read), fixed=distance,
-    )  # fmt: skip
+        "ramps",
+        axis,
+        "Ramps",
+        f"{figures.axis(axis)}{way}",
+        x,
+        y,
+        lines=tuple(lines),
+        texts=tuple(texts),
+        handles=tuple(handles),
+        notes=tuple(figures.notes.values()),
+        drawn_from=tuple(figures.read),
+        fixed=distance,
+    )
 
 
 # -- the ramps ---------------------------------------------------------------------

@@ -91,10 +91,19 @@ def draw_table(file: ParameterFile, roles: TableRoles, axis: str, like: Scene | 
         return address, Value(form.write(letter, more, str(value.value) if value else "", unit))
 
     return Scene(
-        "calibration", axis, roles.name, f"{letter}, {len(points)} points", x, y,
-        lines=tuple(lines), texts=(Text((x.low, y.high), label, "", "left", address, "dim"),), handles=tuple(handles),
-        notes=tuple(figures.notes.values()), drawn_from=tuple(figures.read), with_point=with_point,
-    )  # fmt: skip
+        "calibration",
+        axis,
+        roles.name,
+        f"{letter}, {len(points)} points",
+        x,
+        y,
+        lines=tuple(lines),
+        texts=(Text((x.low, y.high), label, "", "left", address, "dim"),),
+        handles=tuple(handles),
+        notes=tuple(figures.notes.values()),
+        drawn_from=tuple(figures.read),
+        with_point=with_point,
+    )
 
 
 def _span(points: Points) -> float:

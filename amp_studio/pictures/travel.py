@@ -91,11 +91,21 @@ def _drawn(file: ParameterFile, roles: TravelRoles, axes: tuple[str, ...], like:
     draw_home(figures, drawing, homes, views)
     count = len(figures.read)
     return Scene(
-        "travel", "+".join(axes), "Travel and zones", f"{part_name(figures, axes)}, drawn from {count} parameters",
-        scales[0], scales[1], equal,
-        tuple(drawing.areas), tuple(drawing.lines), tuple(drawing.dots), tuple(drawing.texts), tuple(drawing.handles),
-        tuple(figures.notes.values()), tuple(figures.read),
-    )  # fmt: skip
+        "travel",
+        "+".join(axes),
+        "Travel and zones",
+        f"{part_name(figures, axes)}, drawn from {count} parameters",
+        scales[0],
+        scales[1],
+        equal,
+        tuple(drawing.areas),
+        tuple(drawing.lines),
+        tuple(drawing.dots),
+        tuple(drawing.texts),
+        tuple(drawing.handles),
+        tuple(figures.notes.values()),
+        tuple(figures.read),
+    )
 
 
 def _unit(figures: ValueReader, roles: TravelRoles, axis: str) -> str:

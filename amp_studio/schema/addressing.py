@@ -69,8 +69,10 @@ class Meant(NamedTuple):
 
         count = {2: "two", 3: "three"}.get(len(self.others) + 1, str(len(self.others) + 1))
         rest = " and ".join(map(named, self.others))
-        return (f"{self.number} is printed for {count} parameters: taken is {named(self.address)}; "
-                f"the other{'s are' if len(self.others) > 1 else ' is'} {rest}")  # fmt: skip
+        return (
+            f"{self.number} is printed for {count} parameters: taken is {named(self.address)}; "
+            f"the other{'s are' if len(self.others) > 1 else ' is'} {rest}"
+        )
 
 
 def meant(evaluation: FileState, text: str) -> Meant:

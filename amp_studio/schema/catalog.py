@@ -190,8 +190,20 @@ class Schema:
                 del storage["single"]
             if storage and "command" in storage:
                 storage["command"] = storage["command"].replace("{k}", "{n}")  # as the place was written once
-            lines.append([parameter.id, parameter.name, parameter.type, parameter.quantity, parameter.unit,
-                          instances, numbers, choices, bits, storage])  # fmt: skip
+            lines.append(
+                [
+                    parameter.id,
+                    parameter.name,
+                    parameter.type,
+                    parameter.quantity,
+                    parameter.unit,
+                    instances,
+                    numbers,
+                    choices,
+                    bits,
+                    storage,
+                ]
+            )
         text = json.dumps([self.family.family, lines], sort_keys=True, separators=(",", ":"))
         return hashlib.sha256(text.encode()).hexdigest()
 
@@ -201,9 +213,16 @@ def _codes(choices: tuple[Choice, ...] | None) -> list[tuple[str, str, int | Non
 
 
 _PLAIN_UNITS = {
-    "angle": "deg", "time": "ms", "percent": "%", "voltage": "V", "current": "A", "frequency": "Hz",
-    "rotation": "rpm", "counts": "counts", "power": "W",
-}  # fmt: skip
+    "angle": "deg",
+    "time": "ms",
+    "percent": "%",
+    "voltage": "V",
+    "current": "A",
+    "frequency": "Hz",
+    "rotation": "rpm",
+    "counts": "counts",
+    "power": "W",
+}
 
 
 @cache

@@ -53,9 +53,23 @@ def _reports_a_fault(record: logging.LogRecord) -> bool:
 logging.getLogger("cel").addFilter(_reports_a_fault)
 
 LANGUAGE_FUNCTIONS = frozenset(
-    {"size", "contains", "startsWith", "endsWith", "matches", "int", "uint", "double", "string", "bytes", "type",
-     "dyn", "timestamp", "duration"}
-)  # fmt: skip
+    {
+        "size",
+        "contains",
+        "startsWith",
+        "endsWith",
+        "matches",
+        "int",
+        "uint",
+        "double",
+        "string",
+        "bytes",
+        "type",
+        "dyn",
+        "timestamp",
+        "duration",
+    }
+)
 """Functions of the language itself; those of dates are left out, no parameter is one."""
 
 

@@ -37,10 +37,21 @@ from .model.compiled_json import record_text
 ABSENT = "not_here"
 """The condition by which a known parameter is hidden that the control does not list."""
 _QUANTITIES = {
-    "mm": "length", "mm/min": "velocity", "mm/s2": "acceleration", "mm/s3": "jerk", "steps/mm": "counts-per-length",
-    "ms": "time", "us": "time", "s": "time", "%": "percent", "rpm": "rotation", "Hz": "frequency", "V": "voltage",
-    "A": "current", "deg": "angle",
-}  # fmt: skip
+    "mm": "length",
+    "mm/min": "velocity",
+    "mm/s2": "acceleration",
+    "mm/s3": "jerk",
+    "steps/mm": "counts-per-length",
+    "ms": "time",
+    "us": "time",
+    "s": "time",
+    "%": "percent",
+    "rpm": "rotation",
+    "Hz": "frequency",
+    "V": "voltage",
+    "A": "current",
+    "deg": "angle",
+}
 _TURNING = ("mm", "mm/min", "mm/s2", "mm/s3", "steps/mm")
 """Units that are degrees where the axis turns."""
 

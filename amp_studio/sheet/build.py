@@ -32,9 +32,14 @@ class _Line:
 
 
 def make_sheet(
-    wanted: ParameterFile, present: ParameterFile, *, of: str = "", against: str = "",
-    own: BuilderRules = NO_RULES, secrets: bool = False,
-) -> Sheet:  # fmt: skip
+    wanted: ParameterFile,
+    present: ParameterFile,
+    *,
+    of: str = "",
+    against: str = "",
+    own: BuilderRules = NO_RULES,
+    secrets: bool = False,
+) -> Sheet:
     """Return what has to be keyed in at a control that contains ``present`` so that it contains ``wanted``.
 
     Values that ``wanted`` does not set stay as they are. ``of`` and ``against`` name the two sides; ``own`` are a builder's
@@ -60,8 +65,20 @@ def make_sheet(
     warnings = _warnings(lines, present, own)
     entries = tuple(_entry(line, wanted, secrets) for line in lines)
     name = wanted.header.name or present.header.name
-    return Sheet(keying.title, wanted.schema.family.name, name, against, of, entries, tuple(left_out), keying.stages,
-                 keying.before, keying.after, warnings, same)  # fmt: skip
+    return Sheet(
+        keying.title,
+        wanted.schema.family.name,
+        name,
+        against,
+        of,
+        entries,
+        tuple(left_out),
+        keying.stages,
+        keying.before,
+        keying.after,
+        warnings,
+        same,
+    )
 
 
 def _check_sides(wanted: ParameterFile, present: ParameterFile) -> None:
@@ -133,10 +150,12 @@ def _meant_the_same(
             return lines, otherwise
         lines = [line for line in lines if line not in wrong]
         otherwise += [
-            LeftOut(*_number_and_name(wanted, line.step.address),
-                    "the control is configured otherwise than the file, so that it would mean something else there")
+            LeftOut(
+                *_number_and_name(wanted, line.step.address),
+                "the control is configured otherwise than the file, so that it would mean something else there",
+            )
             for line in wrong
-        ]  # fmt: skip
+        ]
 
 
 def _final(lines: Iterable[_Line], present: ParameterFile) -> ParameterFile:
@@ -169,9 +188,13 @@ def _broken_after(
 
 
 def _explain(
-    order: Sequence[_Line], wished: Sequence[_Line], wanted: ParameterFile, present: ParameterFile, own: BuilderRules,
+    order: Sequence[_Line],
+    wished: Sequence[_Line],
+    wanted: ParameterFile,
+    present: ParameterFile,
+    own: BuilderRules,
     allowed: dict[Hashable, Finding],
-) -> None:  # fmt: skip
+) -> None:
     """Walk the order once more: this is the proof, and it shows why a line waits and what is broken on the way."""
     interim = Interim(present, own)
     wish = {line.step: n for n, line in enumerate(wished)}

@@ -79,10 +79,16 @@ class Ticks:
 
     def _save(self) -> None:
         kept = [
-            {"number": e.number, "old": e.old, "new": e.new, "shown": self.shown.get(e.number, ""),
-             "ticked": e.number in self._ticked}
-            for e in self._entries.values() if e.number in self._ticked or e.number in self.shown
-        ]  # fmt: skip
+            {
+                "number": e.number,
+                "old": e.old,
+                "new": e.new,
+                "shown": self.shown.get(e.number, ""),
+                "ticked": e.number in self._ticked,
+            }
+            for e in self._entries.values()
+            if e.number in self._ticked or e.number in self.shown
+        ]
         write_atomic(self.path, (json.dumps({"ticks": kept}, indent=1) + "\n").encode(), keep_backup=False)
 
 

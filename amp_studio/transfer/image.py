@@ -82,19 +82,29 @@ def encode_image(file: ParameterFile) -> bytes:
 def head_of(file: ParameterFile) -> list[str]:
     """Return the lines of a file's image before the first record."""
     header = file.header
-    return [MAGIC, f"family {file.schema.family.family}", f"signature {file.schema.signature}",
-            f"machine {file.machine}", f"application {_escaped(header.application)}",
-            f"revision {_escaped(header.revision)}"]  # fmt: skip
+    return [
+        MAGIC,
+        f"family {file.schema.family.family}",
+        f"signature {file.schema.signature}",
+        f"machine {file.machine}",
+        f"application {_escaped(header.application)}",
+        f"revision {_escaped(header.revision)}",
+    ]
 
 
 def decode_image(image: bytes) -> ParameterFile:
     """Return the file of an image, whose image is exactly this one; raises ImageError."""
     head, records = _split(image)
     schema = _schema(head)
-    file = ParameterFile(schema, Header(application=_unescaped(head["application"]),
-                                        revision=_unescaped(head["revision"]),
-                                        machine="" if schema.family.machine_parameter else head["machine"],
-                                        signature=schema.signature))  # fmt: skip
+    file = ParameterFile(
+        schema,
+        Header(
+            application=_unescaped(head["application"]),
+            revision=_unescaped(head["revision"]),
+            machine="" if schema.family.machine_parameter else head["machine"],
+            signature=schema.signature,
+        ),
+    )
     values: dict[Address, Value] = {}
     for entry, field in records:
         address = read_address(entry)
@@ -155,8 +165,10 @@ def _schema(head: dict[str, str]) -> Schema:
     if head["signature"] != schema.signature:
         raise ImageError("the control's parameters are numbered by another schema than this program's")
     if head["machine"] not in schema.machines:
-        raise ImageError(f"the control image is for the machine type '{_short(head['machine'])}', "
-                         f"which {schema.family.name} does not have")  # fmt: skip
+        raise ImageError(
+            f"the control image is for the machine type '{_short(head['machine'])}', "
+            f"which {schema.family.name} does not have"
+        )
     return schema
 
 
@@ -165,8 +177,10 @@ def _check_form(file: ParameterFile, image: bytes) -> None:
     known = set(file.addresses())
     for address in file.values:
         if address not in known:
-            raise ImageError(f"the control image contains {_short(written(address))}, "
-                             f"which does not exist on the machine type {file.machine}")  # fmt: skip
+            raise ImageError(
+                f"the control image contains {_short(written(address))}, "
+                f"which does not exist on the machine type {file.machine}"
+            )
     right = encode_image(file)
     if right == image:
         return

@@ -96,10 +96,17 @@ def run_house(listen: Endpoint, options: EmulatedOptions, panel: OperatorPanel |
             family=options.family, signature=file.schema.signature, name="CNC_1", revision="emulated"
         )
         folder = memory_folder(options, stack)
-        control = Control(folder, identity, encode_image(file), estop=options.estop, autostart=options.autostart,
-                          accept=decode_image)  # fmt: skip
-        return serve(listen, control, patch=patch_image, panel=panel, faults=read_faults(options.faults),
-                     stop=stop)  # fmt: skip
+        control = Control(
+            folder,
+            identity,
+            encode_image(file),
+            estop=options.estop,
+            autostart=options.autostart,
+            accept=decode_image,
+        )
+        return serve(
+            listen, control, patch=patch_image, panel=panel, faults=read_faults(options.faults), stop=stop
+        )
 
 
 def memory_folder(options: EmulatedOptions, stack: contextlib.ExitStack) -> Path:

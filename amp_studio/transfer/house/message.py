@@ -220,10 +220,23 @@ class Refused(Message):
 MESSAGES: dict[int, type[Message]] = {
     kind.TYPE: kind
     for kind in (
-        Hello, OpenDownload, Data, Commit, OpenUpload, Read, Abort,
-        Welcome, Ready, Ack, Gap, Committed, UploadReady, Aborted, Refused,
+        Hello,
+        OpenDownload,
+        Data,
+        Commit,
+        OpenUpload,
+        Read,
+        Abort,
+        Welcome,
+        Ready,
+        Ack,
+        Gap,
+        Committed,
+        UploadReady,
+        Aborted,
+        Refused,
     )
-}  # fmt: skip
+}
 
 AnyMessage = TypeVar("AnyMessage", bound=Message)
 
