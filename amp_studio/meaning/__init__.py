@@ -5,6 +5,7 @@ from typing import TYPE_CHECKING
 from amp_studio.front_pages import front_page
 
 if TYPE_CHECKING:
+    from .comparison import compare_meanings
     from .description import AxisMeaning, MachineMeaning, MigrationQuestion
     from .folder import read_answers, write_migration
     from .migration import TargetError, migrate, migration_json, migration_lines

@@ -11,8 +11,8 @@ from dataclasses import dataclass, field
 
 from amp_studio.schema import Address
 
-Meant = float | str | bool | None
-"""A number, the key of a closed choice, or None: the control has such a thing, and here it is none."""
+Meant = float | str | bool | list[float | None] | None
+"""A number, the key of a closed choice, a number for each gear, or None: the control has such a thing, and here it is none."""
 
 CHOICES: dict[str, tuple[str, ...]] = {
     "kind": ("linear", "rotary"),

@@ -14,5 +14,6 @@ REGISTRATION = Registration(
     recognised="amp_studio.families.grblhal.line:RECOGNISED",
     compensation="amp_studio.families.grblhal.compensation:COMPENSATION",
     law="amp_studio.families.grblhal.law:LAW",
+    migrate="amp_studio.families.grblhal.migration:migrate",
     describe="amp_studio.families.grblhal.described:schema_of",
 )

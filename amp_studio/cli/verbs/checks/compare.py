@@ -2,11 +2,16 @@
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 from amp_studio.cli.arguments import BY_LETTER, JSON, LANGUAGE, OUTPUT, PATHS, TEXT
 from amp_studio.cli.console import note, print_json
 from amp_studio.cli.errors import UsageError
 from amp_studio.cli.opened import opened
 from amp_studio.cli.verb import Options, Verb, VerbArgument
+
+if TYPE_CHECKING:
+    from amp_studio.files import ParameterFile
 
 VERB = Verb(
     __doc__,
@@ -42,6 +47,8 @@ def run(options: Options) -> int:
     from amp_studio.schema import MASKED, show_value, write_value
 
     files = [opened(path, options) for path in options.paths]
+    if len({file.schema.family.family for file in files}) > 1:
+        return _by_meaning(options, files)
     if options.by_letter:
         files = [files[0], *(matched_by_letter_noted(file, files[0]) for file in files[1:])]
     names = machine_names([path.stem for path in options.paths])
@@ -95,3 +102,36 @@ def run(options: Options) -> int:
             print(f"{first.machine_schema.named(address):52} {'  |  '.join(shown)}")
         print(f"{len(rows)} listed, {same} are the same on all {len(files)}")
     return int(any(map(any, alike)))
+
+
+def _by_meaning(options: Options, files: list[ParameterFile]) -> int:
+    """Print what differs between machines of several families, by what their parameters mean; 1 where anything does."""
+    from amp_studio.meaning import MeaningError, compare_meanings
+
+    if options.output:
+        raise UsageError(
+            "machines of several families are compared by meaning: print them, or --json; there is no paper of it"
+        )
+    try:
+        rows = compare_meanings(files)
+    except MeaningError as error:
+        raise UsageError(str(error)) from None
+    shown = rows if options.everything else [row for row in rows if not row.is_same]
+    same = sum(row.is_same for row in rows)
+    if options.json:
+        print_json(
+            {
+                "machines": [str(path) for path in options.paths],
+                "same": same,
+                "groups": [],
+                "rows": [
+                    {"concept": row.concept, "axis": row.axis, "unit": row.unit, "values": list(row.values)}
+                    for row in shown
+                ],
+            }
+        )
+    else:
+        for row in shown:
+            print(f"{f'{row.axis} {row.concept}'.strip():24} {' | '.join(row.texts())}")
+        print(f"{same} of {len(rows)} the same")
+    return int(any(not row.is_same for row in rows))

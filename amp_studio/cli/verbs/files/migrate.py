@@ -19,7 +19,7 @@ VERB = Verb(
         "-o",
         "--output",
         type=Path,
-        help="folder that is made, with the new configuration and the report in it",
+        help="new folder for the configuration and the report, or a new file for the configuration alone",
     ),
     VerbArgument("--answers", type=Path, help="file of answers to the questions: one line each, id: answer"),
     VerbArgument(

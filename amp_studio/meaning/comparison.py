@@ -1,0 +1,88 @@
+"""Machines of different families side by side: by what their parameters mean, axis by axis."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from amp_studio.files import ParameterFile
+
+from .description import OF_AXIS, OF_MACHINE, Meant
+from .reading import read_meaning
+
+_SAME = 1e-6
+"""Part by which two figures may differ and count as the same: what rounding inwards has taken away."""
+_UNITS = {
+    "travel.low": "", "travel.high": "", "rollover": "", "error.limit": "", "backlash": "", "home.coordinate": "", "home.offset": "",
+    "home.second": "", "rapid": "/min", "feed.ceiling": "/min", "jog": "/min", "home.search": "/min", "home.leave": "/min",
+    "acceleration": "/s2", "jerk": "/s3",
+}  # fmt: skip
+"""Concepts in mm or degrees, and what of time is behind it."""
+
+
+@dataclass(frozen=True)
+class MeaningRow:
+    """One concept of one axis ("" for the machine) on each machine; None where a machine has none or it is not known."""
+
+    concept: str
+    axis: str
+    values: tuple[Meant, ...]
+    unit: str
+
+    @property
+    def is_same(self) -> bool:
+        """Whether all machines have the same."""
+        first = self.values[0]
+        return all(_is_same(first, other) for other in self.values[1:])
+
+    def texts(self) -> list[str]:
+        """Return the values as a person reads them."""
+        return [_text(value, self.unit) for value in self.values]
+
+
+def compare_meanings(files: Sequence[ParameterFile]) -> list[MeaningRow]:
+    """Return every concept that one of the machines has; raises MeaningError."""
+    machines = [read_meaning(file) for file in files]
+    letters = list(dict.fromkeys(axis.letter for machine in machines for axis in machine.axes))
+    rows = []
+    for letter in letters:
+        axes = [next((a for a in machine.axes if a.letter == letter), None) for machine in machines]
+        turns = any(axis is not None and axis.turns for axis in axes)
+        for concept in OF_AXIS:
+            values = tuple(
+                axis.figures[concept].value if axis and concept in axis.figures else None for axis in axes
+            )
+            if any(value is not None for value in values):
+                rows.append(MeaningRow(concept, letter, values, _unit(concept, turns=turns)))
+    for concept in OF_MACHINE:
+        values = tuple(
+            _whole(concept, m.figures[concept].value) if concept in m.figures else None for m in machines
+        )
+        if any(value is not None for value in values):
+            rows.append(MeaningRow(concept, "", values, "rpm" if concept.startswith("spindle") else ""))
+    return rows
+
+
+def _whole(concept: str, value: object) -> Meant:
+    """Return one figure of a list: the speeds of the gears together."""
+    if not isinstance(value, list):
+        return value if isinstance(value, (float, str, bool)) else None
+    speeds = [float(v) for v in value if isinstance(v, (int, float))]
+    return (max if concept.endswith("greatest") else min)(speeds) if speeds else None
+
+
+def _unit(concept: str, *, turns: bool) -> str:
+    return f"{'deg' if turns else 'mm'}{_UNITS[concept]}" if concept in _UNITS else ""
+
+
+def _is_same(first: Meant, other: Meant) -> bool:
+    if isinstance(first, float) and isinstance(other, float):
+        return math.isclose(first, other, rel_tol=_SAME, abs_tol=_SAME)
+    return first == other
+
+
+def _text(value: Meant, unit: str) -> str:
+    if value is None:
+        return "-"
+    return f"{value:.9g} {unit}".strip() if isinstance(value, float) else str(value)
