@@ -48,6 +48,8 @@ monkey: setup ## type and click at random in the window of one family: MONKEY="g
 
 peers: ## build other ends that nobody here wrote into build/peers, from their sources: make peers AMP_STUDIO_PEERS=FOLDER
 	@test -d "$(AMP_STUDIO_PEERS)" || { echo "AMP_STUDIO_PEERS=FOLDER says where the sources are"; exit 1; }
+	@! command -v apt-get >/dev/null || command -v linuxcnc >/dev/null || apt-get install -y --no-install-recommends linuxcnc-uspace
+	@! command -v linuxcnc >/dev/null || id cnc >/dev/null 2>&1 || useradd -m cnc  # LinuxCNC refuses root
 	@"$(AMP_STUDIO_PEERS)/grblhal/build.sh" build/peers/grblhal
 	@GRBLHAL_FLAGS="-DN_AXIS=5 -DENABLE_BACKLASH_COMPENSATION=1" "$(AMP_STUDIO_PEERS)/grblhal/build.sh" build/peers/grblhal5
 

@@ -8,7 +8,7 @@ if TYPE_CHECKING:
     from .comparison import compare_meanings
     from .description import AxisMeaning, MachineMeaning, MigrationQuestion
     from .folder import read_answers, write_migration
-    from .migration import TargetError, migrate, migration_json, migration_lines
+    from .migration import Migration, TargetError, less_safe, migrate, migration_json, migration_lines
     from .reading import MeaningError
     from .writing import Graded, GradeKind, WrittenMachine, inwards_high, inwards_low, not_above
 else:

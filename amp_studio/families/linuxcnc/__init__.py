@@ -8,5 +8,6 @@ REGISTRATION = Registration(
     family="linuxcnc",
     formulas="amp_studio.families.linuxcnc.formulas:FORMULAS",
     formats=("amp_studio.families.linuxcnc.formats.ini:FORMAT",),
+    law="amp_studio.families.linuxcnc.law:LAW",
     migrate="amp_studio.families.linuxcnc.migration:migrate",
 )

@@ -65,6 +65,11 @@ def run(options: Options) -> int:
         written = write_migration(migration, options.output)
     except OSError as error:
         raise UsageError(f"{options.output}: {error.strerror or error}; nothing was written") from None
+    if options.output.is_dir():
+        from amp_studio.report import migration_paper, write_paper
+
+        write_paper(migration_paper(migration), options.output / "migration.pdf", notify=note)
+        written.append("migration.pdf")
     note(f"{options.output}: {', '.join(written)}")
     return 0
 

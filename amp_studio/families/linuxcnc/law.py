@@ -1,0 +1,206 @@
+"""An axis of LinuxCNC with plain kinematics: its joint's loop and following error, homing, limits. Lines are of 2.9.8 (family.yaml)."""
+
+from __future__ import annotations
+
+import math
+from functools import partial
+
+from amp_studio.files import ParameterFile, fitted_axes
+from amp_studio.sim import (
+    AlarmText,
+    AxisLaw,
+    AxisParameters,
+    Homing,
+    Jogging,
+    Law,
+    Machine,
+    Prediction,
+    Ramp,
+    SimulationError,
+    Source,
+    Travel,
+)
+
+from . import law_sample as loop
+from .kinematics import joint_letters
+
+GAIN, FORWARD, BANDWIDTH, MARKERS = 100.0, 1.0, 100.0, 10.0
+"""1/s, a ratio, Hz, u: what is assumed where the file has nothing."""
+
+DRIVE = {
+    "velocity_bandwidth": "ASSUMED: a velocity drive of 100 Hz; what the drive is the file does not show."
+}
+NO_LOOP = "ASSUMED: the file has no P for the joint, so its HAL closes the loop elsewhere: a loop of 100 1/s with full feed-forward."
+RAMP = "The ramp is that of G61, jogs and homing; with G64 a path has half of it (measured on 2.9.0~pre1)."
+HOMED = (
+    "Search, back or on at the latch speed to the switch or marker, which gets Position of the Switch, and the final move to Home (H796 to H1330).",
+    "ASSUMED: markers 10 mm or deg apart, unless move.turn gives another distance.",
+)
+LIMITED = (
+    "A block beyond a limit is refused before it begins; a jog ends at it (CM218). Both ends may be reached."
+)
+
+
+def axes(file: ParameterFile) -> tuple[str, ...]:
+    """Return the axes that have a joint of plain kinematics."""
+    kinematics, joints = file.get(("kins.kinematics", "")), file.get(("kins.joints", ""))
+    letters = joint_letters(
+        str(kinematics.value) if kinematics else None, _count(joints.value if joints else 0)
+    )
+    return tuple(axis for axis in fitted_axes(file) if axis in letters)
+
+
+def _count(value: object) -> int:
+    return int(value) if isinstance(value, (int, float)) else 0
+
+
+class _Joint:
+    """The values of the joint of an axis; the first one where it has several."""
+
+    def __init__(self, read: AxisParameters) -> None:
+        kinematics = read.value("kins.kinematics", everywhere=True)
+        letters = joint_letters(
+            str(kinematics or ""), int(read.optional("kins.joints", everywhere=True) or 0.0)
+        )
+        if read.axis not in letters:
+            raise SimulationError(
+                f"Axis {read.axis} has no joint of its own in Kinematics ({kinematics}): only trivkins is simulated",
+                "kins.kinematics",
+            )
+        self.read, self.instance = read, str(letters.index(read.axis))
+
+    def optional(self, parameter: str) -> float | None:
+        """Return a number, None where it is not set."""
+        return self.read.optional(f"joint.{parameter}", at=self.instance)
+
+    def number(self, parameter: str, otherwise: float) -> float:
+        """Return a number, or what LinuxCNC takes where there is none."""
+        found = self.optional(parameter)
+        return otherwise if found is None else found
+
+    def value(self, parameter: str) -> object:
+        """Return any value."""
+        return self.read.value(f"joint.{parameter}", at=self.instance)
+
+
+def bind(read: AxisParameters) -> AxisLaw:
+    """Return one axis; raises SimulationError naming what is missing or impossible."""
+    joint = _Joint(read)
+    top, ramp = _above(read, "axis.max_velocity") / 60.0, _above(read, "axis.max_acceleration")
+    fastest = joint.number("max_velocity", 60.0) / 60.0
+    if not fastest > 0.0:
+        raise SimulationError(
+            f"joint.max_velocity of axis {read.axis} is {fastest:g}; it must be above 0", "joint.max_velocity"
+        )
+    unit = "deg" if joint.value("type") == "angular" or read.axis in "ABC" else "mm"
+    gain, forward = joint.optional("pid_p"), joint.optional("pid_ff1")
+    notes = [RAMP] + ([] if gain else [NO_LOOP])
+    ferror = joint.number("ferror", 1.0)
+    least = joint.number("min_ferror", ferror)
+    rate = gain or GAIN
+    share = (forward or 0.0) if gain else FORWARD
+    limit = f"joint {joint.instance} following error"
+    return AxisLaw(
+        axis=read.axis,
+        unit=unit,
+        title="LinuxCNC: PID loop with feed-forward of speed, velocity drive, straight ramps",
+        position_sample=loop.position_sample,
+        velocity_sample=None,
+        parameters=[rate, share, ferror, least, fastest],
+        state_size=1,
+        servo_period=(read.optional("emcmot.servo_period", everywhere=True) or 1.0) / 1000.0,
+        velocity_period=(read.optional("emcmot.servo_period", everywhere=True) or 1.0) / 1000.0,
+        machine=Machine(acceleration_per_output=1e4, velocity_per_output=1.0, velocity_bandwidth=BANDWIDTH),
+        output_unit=f"{unit}/s",
+        position_rate=rate,
+        feedrate=top,
+        inposition_band=max(least / 10.0, 1e-6),
+        ramps={"linear": Ramp("linear", acceleration=ramp), "none": Ramp()},
+        monitors=(("following_error_limit", unit),),
+        alarms={
+            1: AlarmText(
+                limit,
+                f"the following error passes its limit, {least:g} {unit} at standstill and {max(ferror, least):g} {unit} at full speed",
+            )
+        },
+        predict=lambda speed: {
+            "steady_following_error": Prediction(abs(speed) * (1.0 - share) / rate, unit, "D1169")
+        },
+        limits={"ferror": ferror, "min_ferror": least},
+        sources={
+            "feedrate": Source("axis.max_velocity", 1.0),
+            "acceleration": Source("axis.max_acceleration"),
+        },
+        gains=(),
+        assumptions=tuple(notes),
+        assumed=DRIVE,
+        homing=partial(homing, joint),
+        jogging=partial(jogging, read, top),
+        travel=partial(travel, read),
+    )
+
+
+def _above(read: AxisParameters, name: str) -> float:
+    value = read.number(name)
+    if not 0.0 < value < 1e9:
+        raise SimulationError(f"{name} of axis {read.axis} is {value:g}; it must be above 0", name)
+    return value
+
+
+def homing(joint: _Joint) -> Homing:
+    """Return the sequence of one joint; raises SimulationError for one that LinuxCNC refuses, or that is not simulated."""
+    search, latch = (
+        joint.number(name, 0.0) / 60.0 for name in ("home_search_velocity", "home_latch_velocity")
+    )
+    has_index = joint.value("home_use_index") in (True, "yes")
+    if ((search != 0.0) and latch == 0.0) or (search == 0.0 and latch != 0.0 and not has_index):
+        raise SimulationError(
+            "A search needs a latch, and a latch a search or a marker (H817, H828): the joint cannot be homed",
+            "joint.home_latch_velocity",
+        )
+    if search * latch > 0.0:
+        raise SimulationError(
+            "Search and latch of one sign, with a second approach, are not simulated",
+            "joint.home_latch_velocity",
+        )
+    home, offset = joint.number("home", 0.0), joint.number("home_offset", 0.0)
+    final = joint.number("home_final_velocity", -60.0) / 60.0
+    fastest = joint.number("max_velocity", 60.0) / 60.0
+    return Homing(
+        approach=search,
+        leave=latch,
+        marker="next" if has_index else "none",
+        turn=MARKERS,
+        coordinate=home,
+        final=final if final > 0.0 else fastest,
+        offset=home - offset,
+        page="H796",
+        notes=HOMED,
+    )
+
+
+def jogging(read: AxisParameters, top: float) -> Jogging:
+    """Return the speeds of a jog: those of the screen, at most that of the axis."""
+    speeds = {"greatest": top}
+    for name, parameter in (("first", "display.jog_default"), ("screen", "display.jog_greatest")):
+        speed = read.optional(parameter, everywhere=True)
+        if speed:
+            speeds[name] = min(speed / 60.0, top)
+    return Jogging(
+        speeds, page="X122", notes=("An operator chooses the speed of a jog; at most that of the axis.",)
+    )
+
+
+def travel(read: AxisParameters) -> Travel:
+    """Return the limits of a homed axis; none where there is no key."""
+    low, high = read.optional("axis.min_limit"), read.optional("axis.max_limit")
+    edges = (-math.inf if low is None else low, math.inf if high is None else high)
+    return Travel({"the limit of the axis": edges}, "exceed limit", "CM218", (LIMITED,), refuses=True)
+
+
+LAW = Law(
+    bind,
+    axes,
+    "No axis has a joint: set Kinematics to trivkins with coordinates=, and Joints",
+    scenarios=("step", "circle", "home", "jog", "travel"),
+)

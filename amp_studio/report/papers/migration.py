@@ -1,0 +1,48 @@
+"""The paper of a migration: first what is less safe, then the questions, then every parameter once."""
+
+from __future__ import annotations
+
+from datetime import datetime
+
+from amp_studio.meaning import Migration, less_safe
+from amp_studio.report.wording import counted
+
+from .paper import Paper, PaperTable
+
+_HEADS = {
+    "exact": ("Taken over exactly", ("Number", "Before", "Key", "Value", "Formula"), ("raw", "key", "value", "formula")),
+    "approximate": ("Approximated", ("Number", "Before", "Key", "Value", "Then", "Now", "Safe"), ("raw", "key", "value", "old", "new", "safe_side")),
+    "not_possible": ("Not possible", ("Number", "Before", "What is lost", "What to do"), ("raw", "loses", "do")),
+    "asked": ("Asked", ("Number", "Before", "Question", "Answer"), ("old", "id", "answer")),
+    "old_hardware": ("Of the old hardware", ("Number", "Before"), ("raw",)),
+}  # fmt: skip
+
+
+def migration_paper(migration: Migration, date: datetime | None = None) -> Paper:
+    """Return the paper; HAL is a template on it, and nothing is claimed of the wiring."""
+    written = migration.written
+    tables = [
+        PaperTable("Less safe than before", ("",), tuple((text,) for text in less_safe(migration))),
+        PaperTable(
+            "Open questions: their keys are left out",
+            ("Question", ""),
+            tuple((q.id, q.question) for q in written.open),
+            (1.0, 4.0),
+        ),
+        PaperTable("To be measured at the machine", ("",), tuple((text,) for text in written.measure)),
+    ]
+    for outcome, (title, heads, keys) in _HEADS.items():
+        rows = tuple((e.param, *(str(e.facts.get(key) or "") for key in keys)) for e in migration.of(outcome))
+        tables.append(PaperTable(title, heads, rows))
+    facts = (
+        ("From", migration.machine.family), ("To", migration.target), ("Active parameters", str(len(migration.entries))),
+        *((title, counted(len(migration.of(outcome)), "parameter")) for outcome, (title, _, _) in _HEADS.items()),
+        ("HAL", "a template: it moves nothing, and nothing of the old wiring is in it"),
+    )  # fmt: skip
+    return Paper(
+        "Migration",
+        migration.machine.name,
+        facts,
+        tuple(t for t in tables if t.rows),
+        date or datetime.now().astimezone(),
+    )
