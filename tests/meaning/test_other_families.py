@@ -79,7 +79,10 @@ def test_a_machine_of_each_family_is_described(name: str, letters: str, figures:
 def test_each_of_them_can_be_migrated(name: str) -> None:
     found = migrate(example(name), "linuxcnc")
     assert len(found.entries) == len({entry.param for entry in found.entries}) > 0
-    assert found.written.texts["machine.hal"]
+    has_gain = "[JOINT_0]P\n" in found.written.texts["machine.hal"]
+    assert has_gain == (
+        "\nP = " in next(iter(found.written.texts.values()))
+    )  # HAL refuses a value that is not there
 
 
 def test_a_machine_and_what_it_was_migrated_to_have_the_same_meaning(

@@ -77,7 +77,7 @@ class _Migration:
         self._startup()
         texts = self.out.texts
         texts[f"{self.name}.ini"] = self.ini.text(self.machine.name or self.name)
-        texts["machine.hal"] = hal_template(len(self.ordered))
+        texts["machine.hal"] = hal_template([bool(axis.number("gain")) for axis in self.ordered])
         texts[f"{self.name}.var"] = self._offsets()
         texts["tool.tbl"] = ""
         return self.out
@@ -325,6 +325,10 @@ class _Migration:
                 f"a {kind} ramp",
                 now,
                 "the old one where it is smoother",
+            )
+        else:
+            self.out.measure.append(
+                f"{axis.letter}: acceleration; none is known, and LinuxCNC takes 1 unit/s2 until MAX_ACCELERATION is there"
             )
         if axis.number("jerk"):
             self._grade(

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 _HEAD = """\
 # A template. Nothing of the old wiring is in it: each loop is closed in the computer, and no output of a card is set.
 # Homing waits for a switch and a marker until they are connected to joint.N.home-sw-in and joint.N.index-enable.
@@ -14,7 +16,7 @@ net tool-prep iocontrol.0.tool-prepare => iocontrol.0.tool-prepared
 net tool-change iocontrol.0.tool-change => iocontrol.0.tool-changed
 """
 _JOINT = """\
-setp pid.{n}.Pgain [JOINT_{n}]P
+setp pid.{n}.Pgain {gain}
 setp pid.{n}.FF1 [JOINT_{n}]FF1
 net enable.{n} joint.{n}.amp-enable-out => pid.{n}.enable
 net command.{n} joint.{n}.motor-pos-cmd => pid.{n}.command
@@ -23,9 +25,10 @@ net feedback.{n} table.{n}.out => joint.{n}.motor-pos-fb pid.{n}.feedback
 """
 
 
-def hal_template(joints: int) -> str:
-    """Return the template for so many joints."""
-    names = range(joints)
+def hal_template(has_gain: Sequence[bool]) -> str:
+    """Return the template for so many joints; one without a gain in the configuration gets that of the loop in the computer."""
+    names = range(len(has_gain))
+    gains = [f"[JOINT_{n}]P" if has else "50" for n, has in enumerate(has_gain)]
     loads = [
         f"loadrt pid names={','.join(f'pid.{n}' for n in names)}",
         f"loadrt integ names={','.join(f'table.{n}' for n in names)}",
@@ -33,4 +36,11 @@ def hal_template(joints: int) -> str:
         "addf motion-controller servo-thread",
         *(f"addf pid.{n}.do-pid-calcs servo-thread\naddf table.{n} servo-thread" for n in names),
     ]
-    return "\n".join((_HEAD + "\n".join(loads), "", *(_JOINT.format(n=n) for n in names), _TAIL))
+    return "\n".join(
+        (
+            _HEAD + "\n".join(loads),
+            "",
+            *(_JOINT.format(n=n, gain=gain) for n, gain in enumerate(gains)),
+            _TAIL,
+        )
+    )
