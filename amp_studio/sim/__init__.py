@@ -44,6 +44,7 @@ if TYPE_CHECKING:
     )
     from .errors import SimulationError
     from .identification.identify import figure_text, identified_text, identify, machine_settings
+    from .identification.identify_response import identify_response
     from .identification.machine_file import machine_for, read_machine, write_machine
     from .law import (
         USUAL_SCENARIOS,
@@ -73,7 +74,7 @@ if TYPE_CHECKING:
     from .tuning.linear import linear_model
     from .tuning.trial import address_of, named_parameter
     from .variations.scenario import Way as SweepWay
-    from .write import trace_summary, trace_text, write_trace
+    from .write import trace_summary, trace_text, with_uncertainty, write_trace
     from .zones import Zone
 else:
     __getattr__ = front_page(__name__)

@@ -281,6 +281,7 @@ def _plan(trace: Trace) -> Picture:
 # -- over frequency ------------------------------------------------------------
 
 _LOOPS: tuple[tuple[str, str, ShapeSort], ...] = (
+    ("plant", "plant", "now"),
     ("closed", "closed loop", "now"),
     ("open", "open loop", "output"),
 )
@@ -310,7 +311,8 @@ def _frequency_curves(trace: Trace, before: Trace | None, what: str) -> Iterable
         if model in trace.columns:
             yield Curve(f"{words}, model", *_known(trace, model), sort)
         if old in trace.columns:
-            yield Curve(f"{words}, swept", *_known(trace, old), sort, dots=True)
+            measured = "measured" if loop == "plant" else "swept"
+            yield Curve(f"{words}, {measured}", *_known(trace, old), sort, dots=True)
 
 
 def _known(trace: Trace, name: str) -> tuple[Series, Series]:

@@ -107,6 +107,16 @@ def write_trace(
     write_atomic(path, content, keep_backup=False, notify=notify)
 
 
+def with_uncertainty(summary: dict[str, Any]) -> dict[str, Any]:
+    """Return what `trace_summary` gives of `identify` with the standard error of a figure in it too, as its ``uncertainty``."""
+    result = summary["result"]
+    for name, figure in result.items():
+        error = result.get(f"{name}_standard_error")
+        if error is not None:
+            figure["uncertainty"] = error["value"]
+    return summary
+
+
 def trace_summary(trace: Trace, named: Callable[[str], str] = str) -> dict[str, Any]:
     """Return the result without the curves, in the form of ``simulate --json``; ``named`` names a parameter by its id."""
     return {

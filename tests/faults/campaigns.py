@@ -270,6 +270,8 @@ CAMPAIGNS = (
     Campaign("damaged answers of a migration", partial(_damaged_in, answers.fuzz_answers), MANY, 100, 5_000),
     Campaign("damaged points of a laser", partial(_damaged, measured_points.fuzz_points), MANY, 150, 5_000),
     Campaign("damaged records of a drive", partial(_damaged, records.fuzz_records), MANY, 300, 5_000),
+    Campaign("damaged frequency responses", partial(_damaged, records.fuzz_responses), MANY, 300, 5_000),
+    Campaign("damaged parts of a sweep", partial(_damaged_in, records.fuzz_sweep_parts), MANY, 200, 3_000),
     Campaign("damaged machines of an axis", partial(_damaged_in, records.fuzz_machines), MANY, 60, 2_000),
     Campaign("damaged ticks of a sheet", partial(_damaged_in, sheets.fuzz_ticks), MANY, 100, 5_000),
     Campaign("pasted blocks of cells", partial(_damaged, editor.fuzz_blocks), MANY, 200, 5_000),

@@ -12,6 +12,9 @@ from amp_studio.files import ParameterFile, ParameterFileError, open_file
 from amp_studio.sim import SimulationError, machine_for, read_machine, simulate
 from amp_studio.sim.identification.drive_record import drive_record_of, speed_factor
 from amp_studio.sim.identification.friction import fit_friction
+from amp_studio.sim.identification.response import response_of_text
+from amp_studio.sim.variations.job import SweepJob
+from amp_studio.sim.variations.running import Kept
 
 from .texts import REPOSITORY, mutants, violations
 
@@ -57,6 +60,44 @@ def fuzz_records(seed: int, count: int) -> list[str]:
         assert math.isfinite(fit.r_squared)
 
     return violations(mutants(RECORDS, seed, count), look, (SimulationError,))
+
+
+RESPONSES = (
+    "frequency_hz,gain_db,phase_deg,coherence\n"
+    + "".join(f"{n},{-20.0 - n},{-90.0 - n},0.9\n" for n in range(1, 40)),
+    "Frequenz [Hz];Gain [dB];Phase [deg]\n" + "".join(f"{n},5;{-n},25;-90\n" for n in range(1, 30)),
+)
+
+
+def fuzz_responses(seed: int, count: int) -> list[str]:
+    """Damage frequency responses; one that is taken has finite numbers only."""
+
+    def look(text: str) -> None:
+        found = response_of_text(text)
+        assert np.isfinite(found.frequency).all()
+        assert np.isfinite(found.response).all()
+        assert np.isfinite(found.weights).all()
+
+    return violations(mutants(RESPONSES, seed, count), look, (SimulationError,))
+
+
+def fuzz_sweep_parts(folder: Path, seed: int, count: int) -> list[str]:
+    """Damage what is kept of a stopped sweep: a part is used as it was written, or not at all."""
+    job, points = SweepJob(b"", "1", (), (), (), motion=False, loops=True), np.zeros((4, 1))
+    output, whole = folder / "map.csv", np.arange(14.0).reshape(2, 7)
+    kept = Kept.beside(output, job, points)
+    kept.add(0, whole)
+    kept.add(2, whole)
+    path = output.with_name("map.csv.part")
+    texts = (path.read_text(),)
+
+    def look(text: str) -> None:
+        path.write_bytes(text.encode("utf-8", "surrogatepass"))
+        for start, part in Kept.beside(output, job, points).done.items():
+            assert start in (0, 2), start
+            assert np.array_equal(part, whole)
+
+    return violations(mutants(texts, seed, count), look, ())
 
 
 @cache

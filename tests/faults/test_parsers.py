@@ -97,6 +97,9 @@ READERS = {
     "sheet/ticks.py": "damaged ticks of a sheet",
     "sim/identification/machine_file.py": "damaged machines of an axis",
     "sim/identification/drive_record.py": "damaged records of a drive",
+    "sim/identification/response.py": "damaged frequency responses",
+    "sim/variations/job.py": "",  # the file that is open already, written by the program
+    "sim/variations/running.py": "damaged parts of a sweep",
     "sim/one_thread.py": "",  # sets a variable that is not there, reads none
     "sim/engine/compiled.py": "",  # one switch of numba, compared with "0"
     "schema/units.py": "",  # a file of the program itself

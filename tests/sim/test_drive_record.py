@@ -86,7 +86,6 @@ def test_a_length_is_no_angle() -> None:
         ("time (s),velocity (mm/s)\n0,1\n", "No line names the columns"),
         ("time (s),velocity (mm/s),torque\n0,1,2\n", "column torque has no unit"),
         ("time,velocity (mm/s),torque (%)\n0,1,2\n", "column time has no unit"),
-        ("time (s),speed (rpm),torque (%)\n0,1,2\n", "rpm, which is no unit of a velocity of the axis: multiply it by the travel for a turn"),
         ("time (s),position (mm/s),torque (%)\n0,1,2\n", "no unit of a position"),
         ("time (mm),velocity (mm/s),torque (%)\n0,1,2\n", "no unit of a time"),
         ("time (s),velocity (mm/s),torque (Hz)\n0,1,2\n", "torque is in Hz; known are"),

@@ -207,3 +207,23 @@ def test_the_response_by_modes_is_that_of_the_matrices(delay: float) -> None:
 def test_a_delay_beyond_any_loop_is_one_sentence() -> None:
     with pytest.raises(SimulationError, match="at most 100 are simulated"):
         sampled(rigid(40.0, 3.0, 0.5), pid(20.0, 40.0, 0.6), None, PLACES, PERIOD, PERIOD)
+
+
+@pytest.mark.parametrize("seed", range(5))
+def test_the_loop_of_a_random_axis_is_that_of_python_control_to_nine_digits(seed: int) -> None:
+    """Open loop, closed loop and largest sensitivity at the same frequencies, and the slowest poles of the closed loop."""
+    import control
+
+    dice = np.random.default_rng(seed)
+    plant = rigid(float(dice.uniform(10.0, 80.0)), float(dice.uniform(0.5, 6.0)))
+    gains = dice.uniform(20.0, 80.0), dice.uniform(50.0, 300.0), dice.uniform(0.5, 1.5)
+    found, peer = sampled(plant, pid(*gains), None, PLACES, PERIOD, PERIOD), by_control(control, plant, *gains)
+    frequencies = np.geomspace(0.5, 240.0, 60)
+    loop = peer(np.exp(2j * np.pi * frequencies * PERIOD))
+    assert found.loop(frequencies) == pytest.approx(loop, rel=1e-9)
+    assert found.feedback(frequencies) == pytest.approx(loop / (1.0 + loop), rel=1e-9)
+    poles = control.feedback(peer).poles()
+    assert sorted(np.abs(found.poles()))[-3:] == pytest.approx(sorted(np.abs(poles))[-3:], rel=1e-9)
+    largest, at = found.sensitivity()
+    there = peer(np.exp(2j * np.pi * at * PERIOD))
+    assert largest == pytest.approx(abs(1.0 / (1.0 + there)), rel=1e-9)

@@ -14,7 +14,7 @@ from pathlib import Path
 import numpy as np
 
 from amp_studio.files import text_of_name
-from amp_studio.schema import UnitError, canonical, dimension, read_table_text, unit_named
+from amp_studio.schema import UnitError, canonical, dimension, read_number, read_table_text, unit_named
 from amp_studio.sim.errors import SimulationError
 from amp_studio.sim.series import Series
 
@@ -191,10 +191,11 @@ def _unit(head: tuple[str, str], kind: str) -> tuple[str, float]:
         "velocity": ("velocity", "angular velocity", "count rate"),
         "position": ("length", "angle", "counts"),
     }[kind]
+    if unit_name == "rpm" and kind == "velocity":
+        return unit_name, 1.0
     if dimension(unit_name) not in wanted or (kind == "time" and unit_name not in _TIMES):
-        hint = ": multiply it by the travel for a turn" if unit_name == "rpm" else ""
         raise SimulationError(
-            f"The column {name} is in {text[:20]}, which is no unit of a {kind} of the axis{hint}"
+            f"The column {name} is in {text[:20]}, which is no unit of a {kind} of the axis"
         )
     return unit_name, 1.0
 
@@ -214,6 +215,21 @@ def torque_figure(text: str) -> tuple[float, str]:
 
 
 # -- numbers -----------------------------------------------------------------------------------------
+
+
+def read_number_table(text: str, used: Sequence[int]) -> list[Series]:
+    """Return the columns at the places ``used`` of a text, below its first line that has no number; raises SimulationError naming the line."""
+    lines = [
+        (n, line) for n, line in enumerate(text.splitlines(), 1) if line.strip() and line.lstrip()[0] != "#"
+    ]
+    if len(lines) > MOST_ROWS:
+        raise SimulationError(f"{len(lines)} lines are too many: {MOST_ROWS} at most")
+    for place, (n, line) in enumerate(lines):
+        separator = next((sign for sign in ";\t," if sign in line), ",")
+        cells = _cells(line, separator, n)
+        if len(cells) > max(used) and not _NUMBER.fullmatch(cells[used[0]].replace(",", ".")):
+            return _columns(lines[place + 1 :], used, len(cells), separator)
+    return [np.empty(0) for _ in used]
 
 
 def _cells(line: str, separator: str, number: int) -> list[str]:
@@ -262,12 +278,32 @@ def _columns(lines: _Lines, used: Sequence[int], width: int, separator: str) -> 
     return [np.array(column) for column in columns]
 
 
-def speed_factor(record: DriveRecord, unit: str) -> float:
+def travel_per_turn(text: str, unit: str) -> float:
+    """Read the travel for a turn of the motor, in the ``unit`` of the axis; raises SimulationError."""
+    try:
+        number, rest = read_number(text)
+        own = unit_named(rest)
+    except ValueError as error:
+        raise SimulationError(f"The travel for a turn: {error}; give it as '10 mm'") from None
+    if dimension(own) != {"mm": "length", "deg": "angle"}.get(unit) or not number > 0.0:
+        raise SimulationError(
+            f"The travel for a turn is '{text[:40]}': give it above 0 and in {unit}, the unit of the axis"
+        )
+    return canonical(number, own)
+
+
+def speed_factor(record: DriveRecord, unit: str, turn: str | None = None) -> float:
     """Return how many u/s (or u of a position) of an axis in ``unit`` one of the record's motion is.
 
     Raises SimulationError where an axis in that unit does not move so.
     """
     own = record.motion_unit
+    if own == "rpm":
+        if turn is None:
+            raise SimulationError(
+                "The record is in rpm: give the travel for a turn of the motor, as --turn '10 mm'"
+            )
+        return travel_per_turn(turn, unit) / 60.0
     wanted = {
         "mm": ("length", "velocity"),
         "deg": ("angle", "angular velocity"),

@@ -68,7 +68,7 @@ def fit_friction(
     assert moved is not None
     if len(time) < LEAST_ROWS:
         raise SimulationError(f"The record has {len(time)} rows; at least {LEAST_ROWS} are needed")
-    time, (moved, torque) = _even(time, moved, torque)
+    time, (moved, torque) = even_record(time, moved, torque)
     _refuse_limit(torque, moved if velocity is not None else np.gradient(moved))
     period = float(time[1] - time[0])
     inner, slope, bend = time[1:-1], (moved[2:] - moved[:-2]) / (2.0 * period), np.diff(moved, 2) / period**2
@@ -154,7 +154,7 @@ def _refuse_motion(velocity: Series, acceleration: Series) -> None:
 # -- filters -----------------------------------------------------------------------------------------
 
 
-def _even(time: Series, moved: Series, torque: Series) -> tuple[Series, tuple[Series, Series]]:
+def even_record(time: Series, moved: Series, torque: Series) -> tuple[Series, tuple[Series, Series]]:
     """Return the record at even times; raises SimulationError for times that do not rise or leave a gap."""
     steps = np.diff(time)
     back = np.flatnonzero(steps < 0.0)

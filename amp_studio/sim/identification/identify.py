@@ -15,9 +15,11 @@ from amp_studio.sim.errors import SimulationError
 from amp_studio.sim.law import AxisLaw, law_of
 from amp_studio.sim.model import AT_SPEED, torque_unit
 from amp_studio.sim.rounding import rounded, shown
+from amp_studio.sim.series import Series
 from amp_studio.sim.trace import Figure, Trace
 from amp_studio.sim.unit_system import in_unit, length_unit
 
+from .beyond_friction import is_shifted, residual_doubts, static_friction, time_shift
 from .drive_record import DriveRecord, read_drive_record, speed_factor, torque_figure
 from .friction import FrictionFit, fit_friction
 
@@ -38,11 +40,12 @@ def identify(
     axis: str | None = None,
     scale: str | None = None,
     system: str | None = None,
+    turn: str | None = None,
 ) -> Trace:
     """Return the figures of an axis' machine, measured and predicted torque over the time.
 
     ``scale`` is the torque of the record for 1 of the simulator's unit (``0.056 A``), needed where they have other units;
-    ``system`` as in `simulate`. Raises SimulationError for what the record cannot show, OSError where it cannot be read.
+    ``system`` as in `simulate`; ``turn`` is the travel for a turn of the motor (``10 mm``), for a record in rpm. Raises SimulationError for what the record cannot show, OSError where it cannot be read.
     """
     law = law_of(file.schema.family.family)
     if "velocity" not in law.scenarios:
@@ -50,30 +53,54 @@ def identify(
         raise SimulationError(f"{name} has stepper motors without a servo loop: it has no torque to identify")
     bound = bind_axis(file, law, axis)
     record = read_drive_record(path)
-    torque = record.torque / _scale(record, bound, scale)
-    factor = speed_factor(record, bound.unit)
-    if record.velocity is not None:
-        fit = fit_friction(record.time, torque, velocity=record.velocity * factor)
-    else:
-        assert record.position is not None
-        moved = record.position * factor
-        if bound.unit == "deg":  # a rotary axis may begin again after a turn
-            moved = np.unwrap(moved, period=360.0)
-        fit = fit_friction(record.time, torque, position=moved)
+    torque = record.torque / record_scale(record, bound, scale)
+    factor = speed_factor(record, bound.unit, turn)
+    fit = _fit(record, bound, record.time, torque, factor)
+    shift, notes = time_shift(fit), [_EQUAL]
+    if is_shifted(fit, shift):
+        later = np.interp(record.time - shift.value, record.time, torque)
+        fit = _fit(record, bound, record.time, later, factor)
+        notes.append(
+            f"The motion is {shown(1e3 * shift.value, 'ms', 3)} later than the torque in this record, and was shifted so. Whether the axis or"
+            " the recording delays it, one record does not show."
+        )
     result = _figures(fit, bound)
+    result |= {
+        "time_shift": (1e3 * shift.value, "ms"),
+        "time_shift_standard_error": (1e3 * shift.error, "ms"),
+    }
+    static = static_friction(fit, result["coulomb_friction"][0] or 0.0)
+    if static is not None:
+        unit = result["coulomb_friction"][1]
+        result |= {
+            "static_friction": (static.static.value, unit), "static_friction_standard_error": (static.static.error, unit),
+            "stribeck_speed": (60.0 * static.speed.value, f"{bound.unit}/min"),
+            "stribeck_speed_standard_error": (60.0 * static.speed.error, f"{bound.unit}/min"),
+        }  # fmt: skip
     return in_unit(
         Trace(
             scenario=IDENTIFY, axis=bound.axis, letter=axis_name(file.evaluation, bound.axis),
             model=f"{path.name}: {fit.used} of {fit.rows} rows, by {', '.join(record.columns)}; "
             f"a filter of {shown(1e3 * fit.window, 'ms', 3)}",
             columns=_columns(fit), units=_units(bound), result=result, alarms=(), recommendations=(),
-            assumptions=(_EQUAL,), limits={}, doubts=tuple(_doubts(result)),
+            assumptions=tuple(notes), limits={},
+            doubts=(*_doubts(result), *residual_doubts(fit, torque_unit(bound))),
         ),
         length_unit(file, system),
     )  # fmt: skip
 
 
-def _scale(record: DriveRecord, bound: AxisLaw, scale: str | None) -> float:
+def _fit(record: DriveRecord, bound: AxisLaw, time: Series, torque: Series, factor: float) -> FrictionFit:
+    if record.velocity is not None:
+        return fit_friction(time, torque, velocity=record.velocity * factor)
+    assert record.position is not None
+    moved = record.position * factor
+    if bound.unit == "deg":  # a rotary axis may begin again after a turn
+        moved = np.unwrap(moved, period=360.0)
+    return fit_friction(time, torque, position=moved)
+
+
+def record_scale(record: DriveRecord, bound: AxisLaw, scale: str | None) -> float:
     """Return the record's torque for 1 of the simulator's; raises SimulationError where the units do not fit."""
     own, wanted = record.torque_unit, torque_unit(bound)
     if scale is None:
@@ -181,43 +208,68 @@ def figure_text(result: dict[str, Figure], name: str) -> str:
     return f"{shown(value, '', digits)} ± {shown(error, '', 2)} {unit}".rstrip()
 
 
+_WORDS = {
+    "acceleration_per_output": "acceleration per output", "inertia_ratio": "inertia of load / motor",
+    "viscous_friction": "viscous friction", "coulomb_friction": "Coulomb friction", "static_friction": "static friction",
+    "backlash": "backlash", "resonance": "resonance", "damping": "its damping ratio", "delay": "delay", "gravity": "gravity",
+    "stribeck_speed": "Stribeck speed", "time_shift": "time shift, torque to motion", "torque_forward": "dry friction and gravity, +",
+    "torque_backward": "dry friction and gravity, -",
+}  # fmt: skip
+MACHINE = (*list(_WORDS)[:10],)
+"""Figures that are settings of the machine, in the order in which they are written."""
+
+
 def identified_text(trace: Trace) -> str:
     """Return the result for the terminal."""
-    result, torque = dict(trace.result), trace.units["torque"]
-    rows = (
-        ("acceleration per output", f"{figure_text(result, 'acceleration_per_output')} for 1 {torque}"),
-        (
-            "viscous friction",
-            f"{figure_text(result, 'viscous_friction')} at 1000 {trace.units['velocity'].replace('in/', 'mm/')}",
-        ),
-        ("Coulomb friction", figure_text(result, "coulomb_friction")),
-        ("gravity", f"{figure_text(result, 'gravity')}, above 0 the axis falls to -"),
-        ("dry friction and gravity, +", figure_text(result, "torque_forward")),
-        ("dry friction and gravity, -", figure_text(result, "torque_backward")),
-        ("r²", shown(trace.result["r_squared"][0] or 0.0, digits=5)),
-        ("top speed", shown(*_known(trace.result["top_speed"]))),
-    )
+    result, torque = dict(trace.result), trace.result["viscous_friction"][1]
+    length = result["acceleration_per_output"][1].partition("/")[0]
+    also = {
+        "acceleration_per_output": f" for 1 {torque}",
+        "viscous_friction": f" at 1000 {'mm' if length == 'in' else length}/min",
+        "gravity": ", above 0 the axis falls to -",
+    }
+    rows = [
+        (words, f"{figure_text(result, name)}{also.get(name, '')}")
+        for name, words in _WORDS.items()
+        if name in result
+    ]
+    rows += [
+        (words, shown(value, unit, 5))
+        for name, (value, unit) in result.items()
+        if name not in _WORDS
+        and not name.endswith("_standard_error")
+        and name not in _COUNTED
+        and value is not None
+        for words in [_FITS.get(name, name.replace("_", " "))]
+    ]
     width = max(len(name) for name, _ in rows)
+    advice = [
+        f"{each.parameter} at {shown(each.value, each.unit)}: {each.why} {each.price}"
+        for each in trace.recommendations
+    ]
     return "\n".join([
         f"identify, axis {trace.axis_title}: {trace.model}",
         *(f"DOUBTFUL: {doubt}" for doubt in trace.doubts),
         *(f"  {name.ljust(width)}  {text}" for name, text in rows),
+        *(["Recommendations"] if advice else []), *(f"  {text}" for text in advice),
         "Assumptions", *(f"  {text}" for text in trace.assumptions),
     ])  # fmt: skip
 
 
-def _known(figure: Figure) -> tuple[float, str]:
-    value, unit = figure
-    assert value is not None
-    return value, unit
+_FITS = {"r_squared": "r²"}
+_COUNTED = ("rows", "rows_used", "record_time")
 
 
 def machine_settings(trace: Trace) -> dict[str, str]:
     """Return the machine in a trace of `identify`, as ``--set`` takes it: ``model.*`` -> value."""
     found = {}
-    for name in FIGURES:
-        value, unit = _known(trace.result[name])
-        found[f"model.{name}"] = shown(
-            rounded(value, DIGITS), unit if name == FIGURES[0] and unit != "counts/s2" else "", DIGITS
-        )
+    for name in MACHINE:
+        value, unit = trace.result.get(name, (None, ""))
+        if value is not None:
+            named = unit if name in _WITH_UNIT and unit != "counts/s2" else ""
+            found[f"model.{name}"] = shown(rounded(value, DIGITS), named, DIGITS)
     return found
+
+
+_WITH_UNIT = ("acceleration_per_output", "backlash", "resonance", "delay")
+"""Figures that are written with their unit; a torque has that of the axis."""

@@ -25,7 +25,7 @@ from amp_studio.sim.model import torque_unit
 from amp_studio.sim.rounding import shown
 from amp_studio.sim.trace import Trace
 
-from .identify import FIGURES, figure_text, machine_settings
+from .identify import figure_text, machine_settings
 
 ENDINGS = (".yaml", ".yml")
 _KEYS = ("family", "axis", "torque", "model", "identified")
@@ -93,13 +93,12 @@ def machine_for(file: ParameterFile, machine: MachineFile, axis: str | None) -> 
 
 def machine_text(trace: Trace, family: str) -> str:
     """Return what `identify` found as the text of a file."""
-    axis, torque = trace.letter or trace.axis, trace.units["torque"]
-    figures = [(name, machine_settings(trace)[f"model.{name}"]) for name in FIGURES]
+    axis, torque = trace.letter or trace.axis, trace.result["viscous_friction"][1]
+    figures = [(name.removeprefix("model."), text) for name, text in machine_settings(trace).items()]
     result = dict(trace.result)
     found = [
-        ("record", trace.model), *((name, figure_text(result, name)) for name in FIGURES),
-        ("torque_forward", figure_text(result, "torque_forward")), ("torque_backward", figure_text(result, "torque_backward")),
-        ("r_squared", shown(result["r_squared"][0] or 0.0, digits=5)),
+        ("record", trace.model), *((name, figure_text(result, name)) for name in result if f"{name}_standard_error" in result),
+        *((name, shown(result[name][0] or 0.0, digits=5)) for name in ("r_squared", "misfit") if name in result),
     ]  # fmt: skip
     return "\n".join([
         f"# The machine of axis {axis}, as the record of its drive shows it. To simulate with it: --machine and this file.",

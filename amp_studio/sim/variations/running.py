@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import base64
 import gc
+import hashlib
 import json
 import os
 import signal
@@ -62,9 +63,12 @@ class Kept:
             return
         for line in lines:
             entry = json.loads(line)
-            chunk = np.frombuffer(base64.b64decode(entry["figures"], validate=True)).reshape(-1, width)
-            if 0 <= entry["start"] <= count - len(chunk):
-                self.done[int(entry["start"])] = chunk
+            figures = base64.b64decode(entry["figures"], validate=True)
+            if entry["sha256"] != _seal(entry["start"], figures):
+                return  # cut off, or altered: what follows is computed again
+            chunk = np.frombuffer(figures).reshape(-1, width)
+            if isinstance(entry["start"], int) and 0 <= entry["start"] <= count - len(chunk):
+                self.done[entry["start"]] = chunk
 
     def add(self, start: int, figures: Matrix) -> None:
         """Keep a chunk."""
@@ -72,9 +76,11 @@ class Kept:
         if self.path is None:
             return
         head = "" if len(self.done) > 1 else json.dumps({"sweep": self.digest}) + "\n"
+        content = np.ascontiguousarray(figures).tobytes()
         entry = {
             "start": start,
-            "figures": base64.b64encode(np.ascontiguousarray(figures).tobytes()).decode(),
+            "figures": base64.b64encode(content).decode(),
+            "sha256": _seal(start, content),
         }
         try:
             with self.path.open("w" if head else "a", encoding="ascii") as file:
@@ -86,6 +92,10 @@ class Kept:
         """Remove the file: all is done."""
         if self.path is not None:
             self.path.unlink(missing_ok=True)
+
+
+def _seal(start: object, figures: bytes) -> str:
+    return hashlib.sha256(repr(start).encode() + figures).hexdigest()
 
 
 def run_job(

@@ -92,6 +92,24 @@ VERB = Verb(
         help="identify: torque of the record for 1 % (or 1 V) of the axis, as '0.056 A'",
     ),
     VerbArgument(
+        "--frf",
+        dest="response",
+        type=path_of,
+        metavar="FILE.csv",
+        help="identify: a frequency response (frequency_hz, gain_db, phase_deg, coherence), or the record of a chirp",
+    ),
+    VerbArgument(
+        "--turn",
+        metavar="TRAVEL",
+        help="identify: travel for a turn of the motor, '10 mm', for a record in rpm",
+    ),
+    VerbArgument(
+        "--response",
+        dest="quantity",
+        metavar="MOTION",
+        help="identify --frf: position, velocity or acceleration (default: as slope and phase show)",
+    ),
+    VerbArgument(
         "--units", metavar="SYSTEM", help="metric or inch, for settings and result (default: as the file)"
     ),
     OUTPUT.but(required=False, help="file to write: .csv, .svg, .png; of identify also .yaml, the machine"),
@@ -239,29 +257,38 @@ def _identify(options: Options, file: ParameterFile) -> int:
     from amp_studio.sim import (
         identified_text,
         identify,
+        identify_response,
         machine_settings,
         named_parameter,
         trace_summary,
+        with_uncertainty,
         write_machine,
         write_trace,
     )
 
-    if options.record is None:
+    if options.record is None and options.response is None:
         raise UsageError(
             f"Name the record: amp-studio simulate {options.path} {IDENTIFY} RECORD.csv --axis X"
         )
     if options.assignments or options.machine_file:
         raise UsageError(f"{IDENTIFY} takes neither --set nor --machine: it finds the machine")
-    trace = identify(file, options.record, _axis(options, file), options.scale, options.units)
+    axis = _axis(options, file)
+    if options.response:
+        if options.record:
+            raise UsageError(f"{IDENTIFY} takes a record or --frf, not both")
+        trace = identify_response(
+            file, options.response, axis, options.scale, options.units, options.quantity, options.turn
+        )
+    else:
+        trace = identify(file, options.record, axis, options.scale, options.units, options.turn)
     if options.output and options.output.suffix.lower() in (".yaml", ".yml"):
         write_machine(trace, file.schema.family.family, options.output, note)
     elif options.output:
         write_trace(trace, options.output, note)
     if options.json:
         machine = {"machine": machine_settings(trace)}
-        print_json(
-            trace_summary(trace, lambda parameter: named_parameter(file, parameter, trace.axis)) | machine
-        )
+        summary = trace_summary(trace, lambda parameter: named_parameter(file, parameter, trace.axis))
+        print_json(with_uncertainty(summary) | machine)
     else:
         print(identified_text(trace))
     return 0

@@ -1,0 +1,143 @@
+"""What a record shows beside inertia and friction: a time shift between its channels, static friction, and what the fit leaves.
+
+Everything is computed on the filtered rows of the fit (`friction.py`): a filter takes the same part of torque and motion.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+import numpy as np
+
+from amp_studio.sim.rounding import shown
+from amp_studio.sim.series import Series
+
+from .friction import FrictionFit
+
+FURTHEST_SHIFT = 0.02
+"""s: a longer shift is not sought."""
+LEAST_ROWS = 3
+"""Rows to both sides that a shift is sought in at least."""
+SURE = 4.0
+"""Standard deviations from which a shift or a static friction is there."""
+LEAST_SHIFT = 0.2
+"""Of a row's period: a shorter shift changes nothing."""
+SLOWEST, STRIBECK = 0.003, np.geomspace(0.004, 0.2, 30)
+"""Shares of the top speed: below it an axis is at rest; Stribeck speeds that are tried."""
+LEAST_GAIN = 0.02
+"""Share by which the squares have to become fewer for a static friction."""
+BINS = 16
+DEPENDS, WORTH = 0.35, 0.02
+"""Share of the residual that its means by speed (or position) explain, and of the torque that they are, for a doubt."""
+
+
+@dataclass(frozen=True)
+class Found:
+    """A figure and its standard error."""
+
+    value: float
+    error: float
+
+
+def _left(fit: FrictionFit, torque: Series) -> tuple[float, int]:
+    """Return the sum of squares that inertia and friction leave of a torque, and the number of rows."""
+    used = fit.is_used
+    acceleration = np.gradient(fit.velocity, fit.period)
+    forward = fit.velocity > 0.0
+    table = np.column_stack([acceleration, fit.velocity, forward, ~forward]).astype(float)[used]
+    table /= np.sqrt((table**2).sum(axis=0)) + 1e-300
+    rest = torque[used] - table @ np.linalg.lstsq(table, torque[used], rcond=None)[0]
+    return float(rest @ rest), int(used.sum())
+
+
+def time_shift(fit: FrictionFit) -> Found:
+    """Return by how many s the motion is later than its torque in the record: where the fit is best."""
+    most = max(LEAST_ROWS, math.ceil(FURTHEST_SHIFT / fit.period))
+    shifts = fit.period * np.arange(
+        -most, most + 1
+    )  # whole rows: between two of them noise would be less, and look like a better fit
+    left = np.array([_left(fit, np.interp(fit.time - shift, fit.time, fit.torque))[0] for shift in shifts])
+    best = min(max(int(np.argmin(left)), 1), len(shifts) - 2)
+    low, middle, high = left[best - 1 : best + 2]
+    bend = low - 2.0 * middle + high
+    if bend <= 0.0:
+        return Found(0.0, math.inf)
+    step = shifts[1] - shifts[0]
+    rows = (
+        _left(fit, fit.torque)[1] * fit.period / max(fit.window, fit.period)
+    )  # rows of one filter are not independent
+    spread = middle / max(1.0, rows - 5.0)
+    return Found(
+        float(shifts[best] + 0.5 * step * (low - high) / bend),
+        float(step * math.sqrt(2.0 * spread / bend * max(1.0, fit.period / fit.window))),
+    )
+
+
+def is_shifted(fit: FrictionFit, shift: Found) -> bool:
+    """Return whether a shift is there and matters."""
+    inside = abs(shift.value) < max(FURTHEST_SHIFT, LEAST_ROWS * fit.period) * 0.98
+    return inside and abs(shift.value) > SURE * shift.error and abs(shift.value) > LEAST_SHIFT * fit.period
+
+
+@dataclass(frozen=True)
+class StaticFriction:
+    """Friction at the start of a motion, and the speed (u/s) over which it falls to the Coulomb friction."""
+
+    static: Found
+    speed: Found
+
+
+def static_friction(fit: FrictionFit, coulomb: float) -> StaticFriction | None:
+    """Return the static friction by R. Stribeck's curve, coulomb + (static - coulomb) exp(-(v/v_s)²); None where the record shows none.
+
+    Rows of low speed that the fit left out are used, where the axis keeps its direction.
+    """
+    top = float(np.abs(fit.velocity).max())
+    moves = np.abs(fit.velocity) > SLOWEST * top
+    acceleration, speed, sign = np.gradient(fit.velocity, fit.period), fit.velocity, np.sign(fit.velocity)
+    table = np.column_stack([acceleration, speed, speed > 0.0, speed < 0.0]).astype(float)[moves]
+    given = fit.torque[moves]
+    plain = float(((given - table @ np.linalg.lstsq(table, given, rcond=None)[0]) ** 2).sum())
+    best: tuple[float, float, np.ndarray, np.ndarray] | None = None
+    for share in STRIBECK:
+        column = (sign * np.exp(-((speed / (share * top)) ** 2)))[moves]
+        if (np.abs(column) > 0.3).sum() < 8:
+            continue
+        joined = np.column_stack([table, column])
+        coefficients = np.linalg.lstsq(joined, given, rcond=None)[0]
+        left = float(((given - joined @ coefficients) ** 2).sum())
+        if best is None or left < best[0]:
+            best = left, float(share), coefficients, joined
+    if best is None or best[0] > (1.0 - LEAST_GAIN) * plain:
+        return None
+    left, share, coefficients, joined = best
+    rows = max(1.0, len(given) * fit.period / max(fit.window, fit.period) - 6.0)
+    error = math.sqrt(float(np.linalg.pinv(joined.T @ joined)[4, 4]) * left / rows)
+    more = float(coefficients[4])
+    if more < SURE * error or more < 0.05 * max(coulomb, 1e-12):
+        return None
+    step = float(STRIBECK[1] / STRIBECK[0]) - 1.0
+    return StaticFriction(Found(coulomb + more, error), Found(share * top, step * share * top))
+
+
+def residual_doubts(fit: FrictionFit, unit: str) -> Iterator[str]:
+    """Yield what the fit leaves that depends on the speed or on the position: friction that is no line, a screw, a cable, a bent rail."""
+    used = fit.is_used
+    rest = (fit.torque - fit.predicted)[used]
+    size = float(np.sqrt(np.mean(fit.torque[used] ** 2)))
+    way = np.cumsum(fit.velocity)[used] * fit.period
+    for name, by in (("speed", fit.velocity[used]), ("position", way)):
+        edges = np.linspace(float(by.min()), float(by.max()) + 1e-12, BINS + 1)
+        places = np.clip(np.digitize(by, edges) - 1, 0, BINS - 1)
+        counts = np.bincount(places, minlength=BINS)
+        means = np.bincount(places, weights=rest, minlength=BINS) / np.maximum(counts, 1)
+        explained = float((counts * means**2).sum() / max(float((rest**2).sum()), 1e-300))
+        largest = float(np.abs(means[counts > len(rest) // (8 * BINS)]).max(initial=0.0))
+        if explained > DEPENDS and largest > WORTH * size:
+            at = float(edges[int(np.argmax(np.abs(means)))])
+            yield (
+                f"What inertia and friction leave depends on the {name}: up to {shown(largest, unit, 2)}, most near"
+                f" {shown(at * (60.0 if name == 'speed' else 1.0), '', 3)}; the friction of this axis is not the same everywhere"
+            )

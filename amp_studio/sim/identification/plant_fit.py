@@ -1,0 +1,223 @@
+"""The machine in a frequency response: acceleration, viscous friction, pairs of antiresonance and resonance, delay.
+
+The velocity for one unit of torque is A / (s + A b) times exp(-s T) times, for each pair at the motor, (s²/z² + 2 d s/z + 1) / (s²/p² +
+2 e s/p + 1), or at the load 1 over the same (a load that swings behind its motor has no antiresonance); a position has 1/s more, an acceleration s.
+The logarithm of measured by modelled response is made small: gain in Np and phase in rad weigh equally, a decade above like a decade
+below (R. Pintelon, J. Schoukens, *System Identification*, 2012, 9.11). A pair is added where the information criterion of
+G. Schwarz (Annals of Statistics 6, 1978) becomes smaller by it.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from amp_studio.sim.errors import SimulationError
+from amp_studio.sim.series import Response, Series
+
+from .least_squares import LeastSquares, fit
+from .response import FrequencyResponse
+
+QUANTITIES = {"position": 1, "velocity": 0, "acceleration": -1}
+"""What moves -> how often the velocity is integrated."""
+MOST_PAIRS = 3
+PLACES, RATIOS, DAMPING = 36, (0.25, 1.0, 3.0), 0.04
+"""Frequencies at which a pair is tried first, ratios of load and motor, damping of the first try."""
+STARTS = 3
+WORSE = 1.5
+"""Of the mean square residual: another quantity or side that is so much worse is another one."""
+MOST_CORNER = 0.3
+"""Share of the highest frequency: an axis whose friction decides up to there is another quantity."""
+LOWEST_PAIR = 1.5
+"""Times the lowest frequency above which a resonance is one."""
+LEAST_FIT = 0.35
+"""Root mean square residual (Np and rad) from which a model does not describe a response."""
+
+
+@dataclass(frozen=True)
+class Pair:
+    """Resonance and, at the motor, antiresonance before it, in Hz, with the damping ratio of the resonance."""
+
+    resonance: float
+    damping: float
+    antiresonance: float | None
+
+
+@dataclass(frozen=True, eq=False)
+class PlantFit:
+    """The machine, in the unit of the response's motion, s and Hz; each figure with its standard deviation."""
+
+    quantity: str
+    at_load: bool
+    figures: dict[str, tuple[float, float]]
+    """acceleration_per_output (u/s²), viscous_friction (torque for 1 u/s), delay (s), and of the first pair resonance (Hz),
+    damping, inertia_ratio."""
+    pairs: tuple[Pair, ...]
+    model: Response
+    misfit: float
+    """Root mean square of what is left, in Np and rad."""
+    sure: bool
+    """Whether no other quantity fits about as well."""
+
+
+@dataclass(frozen=True)
+class _Shape:
+    quantity: str
+    at_load: bool
+    pairs: int
+
+    def response(self, parameters: Series, s: Response) -> Response:
+        """Return the model over s = j omega."""
+        size, friction, delay = math.exp(min(parameters[0], 300.0)), parameters[1] ** 2, parameters[2] * 1e-3
+        found = size / (s + size * friction) * np.exp(-s * delay) / s ** QUANTITIES[self.quantity]
+        for n in range(self.pairs):
+            rate, ratio, damping, before_damping = np.exp(
+                np.clip(parameters[3 + 4 * n : 7 + 4 * n], -40.0, 40.0)
+            )
+            under = s**2 / rate**2 + 2.0 * damping * s / rate + 1.0
+            if self.at_load and n == 0:
+                found = found * (1.0 + 2.0 * damping * s / rate) / under
+            else:
+                before = rate / math.sqrt(1.0 + ratio)
+                found = found * (s**2 / before**2 + 2.0 * before_damping * s / before + 1.0) / under
+        return np.asarray(found)
+
+
+def fit_plant(found: FrequencyResponse, quantity: str | None = None) -> PlantFit:
+    """Return the machine of a response; ``quantity`` None finds out which of QUANTITIES it is of.
+
+    Raises SimulationError for a response that such a machine does not have.
+    """
+    fits = [
+        (shape, fitted)
+        for name in QUANTITIES
+        if quantity in (None, name)
+        for shape, fitted in _fits(found, name)
+        if _is_inside(shape, fitted, float(found.frequency[0]))
+        if quantity is not None or _corner(fitted) < MOST_CORNER * found.frequency[-1]
+    ]
+    count = 2 * len(found.frequency)
+    if not fits:
+        raise SimulationError(
+            "The response has no frequencies at which inertia decides: measure up to higher ones"
+        )
+    fits.sort(key=lambda each: _criterion(each[1], count))
+    shape, fitted = fits[0]
+    weights = float(np.mean(found.weights**2))
+    misfit = math.sqrt(fitted.cost / count / weights)
+    if misfit > LEAST_FIT:
+        raise SimulationError(
+            f"The response is not that of inertia, friction, resonances and a delay: on average {misfit:.2g} Np or rad are left"
+        )
+    others = [other.cost for each, other in fits if each.quantity != shape.quantity]
+    sure = all(cost > WORSE * fitted.cost + 1e-9 for cost in others)
+    s = _rates(found)
+    return PlantFit(
+        shape.quantity, shape.at_load, _figures(shape, fitted), tuple(_pairs(shape, fitted)),
+        shape.response(fitted.parameters, s), misfit, sure,
+    )  # fmt: skip
+
+
+def _corner(fitted: LeastSquares) -> float:
+    """Return the frequency in Hz from which inertia and not friction decides."""
+    return (
+        math.exp(min(float(fitted.parameters[0]), 300.0)) * float(fitted.parameters[1]) ** 2 / (2.0 * math.pi)
+    )
+
+
+def _rates(found: FrequencyResponse) -> Response:
+    return np.asarray(2j * np.pi * found.frequency, dtype=np.complex128)
+
+
+def _is_inside(shape: _Shape, fitted: LeastSquares, lowest: float) -> bool:
+    """Return whether every resonance is among the frequencies: one below them looks like another quantity."""
+    return all(pair.resonance > LOWEST_PAIR * lowest for pair in _pairs(shape, fitted))
+
+
+def _criterion(fitted: LeastSquares, count: int) -> float:
+    return count * math.log(fitted.cost + 1e-20) + len(fitted.parameters) * math.log(count)
+
+
+def _fits(found: FrequencyResponse, quantity: str) -> Iterator[tuple[_Shape, LeastSquares]]:
+    """Yield fits of one quantity with more and more pairs, on both sides of the machine."""
+    s, count = _rates(found), 2 * len(found.frequency)
+    rigid = _Shape(quantity, False, 0)
+    first = _best(found, s, rigid, [_start(found, s, rigid, ())])
+    yield rigid, first
+    for at_load in (False, True):
+        shape, best = rigid, first
+        for pairs in range(1, MOST_PAIRS + 1):
+            if count < 4 * (3 + 4 * pairs):
+                break
+            more = _Shape(quantity, at_load, pairs)
+            fitted = _best(found, s, more, _starts(found, s, more, best.parameters))
+            if _criterion(fitted, count) >= _criterion(best, count):
+                break
+            shape, best = more, fitted
+        if shape is not rigid:
+            yield shape, best
+
+
+def _residual(found: FrequencyResponse, s: Response, shape: _Shape, parameters: Series) -> Series:
+    with np.errstate(all="ignore"):
+        rest = np.log(found.response / shape.response(parameters, s))
+    rest = np.where(np.isfinite(rest), rest, 1e3)
+    return np.concatenate([found.weights * rest.real, found.weights * rest.imag])
+
+
+def _best(found: FrequencyResponse, s: Response, shape: _Shape, starts: Sequence[Series]) -> LeastSquares:
+    fits = [fit(lambda p: _residual(found, s, shape, p), start) for start in starts]
+    return min(fits, key=lambda each: each.cost)
+
+
+def _start(found: FrequencyResponse, s: Response, shape: _Shape, pairs: Sequence[float]) -> Series:
+    """Return parameters whose size and delay fit best to the pairs: both are linear in the logarithm."""
+    there = np.array([0.0, 1e-3, 0.0, *pairs])
+    ratio = found.response / shape.response(there, s)
+    size = float(np.average(np.log(np.abs(ratio)), weights=found.weights**2))
+    phase, omega, weights = np.unwrap(np.angle(ratio)), s.imag, found.weights**2
+    phase -= 2.0 * np.pi * np.round(phase[0] / (2.0 * np.pi))
+    there[0], there[2] = (
+        size,
+        max(0.0, -1e3 * float((weights * omega * phase).sum() / (weights * omega**2).sum())),
+    )
+    return there
+
+
+def _starts(found: FrequencyResponse, s: Response, shape: _Shape, known: Series) -> list[Series]:
+    """Return the starts with one pair more that fit best as they are."""
+    tried = []
+    for rate in np.geomspace(s.imag[1], s.imag[-1] * 1.2, PLACES):
+        for ratio in RATIOS:
+            pairs = [*known[3:], math.log(rate), math.log(ratio), math.log(DAMPING), math.log(DAMPING)]
+            start = _start(found, s, shape, pairs)
+            rest = _residual(found, s, shape, start)
+            tried.append((float(rest @ rest), start))
+    return [start for _, start in sorted(tried, key=lambda each: each[0])[:STARTS]]
+
+
+def _figures(shape: _Shape, fitted: LeastSquares) -> dict[str, tuple[float, float]]:
+    parameters, errors = fitted.parameters, np.sqrt(np.maximum(np.diag(fitted.covariance), 0.0))
+    size, root = math.exp(parameters[0]), abs(float(parameters[1]))
+    found = {
+        "acceleration_per_output": (size, size * float(errors[0])),
+        "viscous_friction": (root**2, 2.0 * root * float(errors[1]) + float(errors[1]) ** 2),
+        "delay": (float(parameters[2]) * 1e-3, float(errors[2]) * 1e-3),
+    }
+    if shape.pairs:
+        rate, ratio, damping = (math.exp(each) for each in parameters[3:6])
+        found["resonance"] = rate / (2.0 * math.pi), rate / (2.0 * math.pi) * float(errors[3])
+        found["damping"] = damping, damping * float(errors[5])
+        if not shape.at_load:
+            found["inertia_ratio"] = ratio, ratio * float(errors[4])
+    return found
+
+
+def _pairs(shape: _Shape, fitted: LeastSquares) -> Iterator[Pair]:
+    for n in range(shape.pairs):
+        rate, ratio, damping, _ = (math.exp(each) for each in fitted.parameters[3 + 4 * n : 7 + 4 * n])
+        before = None if shape.at_load and n == 0 else rate / math.sqrt(1.0 + ratio) / (2.0 * math.pi)
+        yield Pair(rate / (2.0 * math.pi), damping, before)

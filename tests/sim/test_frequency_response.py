@@ -1,0 +1,151 @@
+"""The machine in a frequency response: plants that scipy made, not the simulator, and what is refused."""
+
+from __future__ import annotations
+
+import json
+import math
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from amp_studio import cli
+from amp_studio.files import open_file
+from amp_studio.sim import SimulationError, identify_response, machine_settings, simulate
+from amp_studio.sim.identification.machine_file import machine_for, machine_text, read_machine, write_machine
+from amp_studio.sim.identification.plant_fit import fit_plant
+from amp_studio.sim.identification.response import coherent, response_of_text
+
+MILL = Path(__file__).parents[2] / "examples" / "mill-1394" / "MILL_1394.amp"
+FREQUENCIES = np.geomspace(2.0, 400.0, 100)
+TOLERANCE = 0.03
+
+
+def hidden_plant(seed: int) -> tuple[dict[str, float], np.ndarray, str]:
+    """Return the figures of a machine and its response, by scipy's state space of two masses (or one) and a delay."""
+    from scipy import signal
+
+    dice = np.random.default_rng(seed)
+    size, delay = math.exp(dice.uniform(1.5, 8.0)), dice.uniform(0.5e-3, 4e-3)
+    friction = dice.uniform(2.0, 6.0) * 2.0 * math.pi / size
+    figures = {"acceleration_per_output": size, "viscous_friction": friction, "delay": delay}
+    a, b = np.array([[-size * friction]]), np.array([[size]])
+    if seed % 3:
+        ratio, resonance, damping = dice.uniform(0.4, 3.0), dice.uniform(40.0, 150.0), dice.uniform(0.01, 0.1)
+        figures |= {"resonance": resonance, "inertia_ratio": ratio}
+        motor, load = size * (1.0 + ratio), size * (1.0 + ratio) / ratio
+        stiffness = (2.0 * math.pi * resonance) ** 2 / (motor + load)
+        slip = 2.0 * damping * 2.0 * math.pi * resonance / (motor + load)
+        a = np.array([
+            [-motor * (slip + friction / (1.0 + ratio)), motor * slip, -motor * stiffness],
+            [load * slip, -load * (slip + friction * ratio / (1.0 + ratio)), load * stiffness],
+            [1.0, -1.0, 0.0],
+        ])  # fmt: skip
+        b = np.array([[motor], [0.0], [0.0]])
+    quantity = ("position", "velocity")[seed % 2]
+    c, omega = np.eye(len(a))[:1], 2.0 * math.pi * FREQUENCIES
+    _, response = signal.StateSpace(a, b, c, [[0.0]]).freqresp(omega)
+    noise = 0.01 * (dice.standard_normal(len(omega)) + 1j * dice.standard_normal(len(omega)))
+    response = response * np.exp(-1j * omega * delay + noise)
+    return figures, response / (1j * omega) if quantity == "position" else response, quantity
+
+
+@pytest.mark.parametrize("seed", range(4))
+def test_a_hidden_plant_is_found_within_three_percent(seed: int) -> None:
+    figures, response, quantity = hidden_plant(seed)
+    found = fit_plant(coherent(FREQUENCIES, response, None))
+    assert found.quantity == quantity
+    for name, value in figures.items():
+        there, error = found.figures[name]
+        allowed = 4.0 * error / value if name == "viscous_friction" else 0.0
+        assert there == pytest.approx(value, rel=max(TOLERANCE, allowed)), name
+
+
+def table(frequency: np.ndarray, response: np.ndarray, coherence: float | None = None) -> str:
+    head = "frequency_hz,gain_db,phase_deg" + (",coherence" if coherence is not None else "")
+    gain, phase = 20.0 * np.log10(np.abs(response)), np.degrees(np.angle(response))
+    last = "" if coherence is None else f",{coherence}"
+    rows = [
+        f"{f!r},{g!r},{p!r}{last}"
+        for f, g, p in zip(*map(np.ndarray.tolist, (frequency, gain, phase)), strict=True)
+    ]
+    return "\n".join([head, *rows]) + "\n"
+
+
+def test_a_response_becomes_the_machine_that_everything_runs_on(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    figures, response, _ = hidden_plant(4)
+    record, machine = tmp_path / "frf.csv", tmp_path / "machine.yaml"
+    record.write_text(table(FREQUENCIES, response, 0.97))
+    wanted = ["--frf", record, "--axis", "X", "--json"]
+    assert cli.run(["simulate", str(MILL), "identify", *map(str, wanted)]) == 0
+    result = json.loads(capsys.readouterr().out)["result"]
+    write_machine(identify_response(open_file(MILL).file, record, "1"), "9pc", machine)
+    assert result["acceleration_per_output"]["value"] == pytest.approx(
+        figures["acceleration_per_output"], rel=TOLERANCE
+    )
+    assert result["resonance"]["value"] == pytest.approx(figures["resonance"], rel=TOLERANCE)
+    assert result["delay"]["value"] == pytest.approx(1e3 * figures["delay"], rel=TOLERANCE)
+    assert 0.0 < result["delay"]["uncertainty"] < 0.1
+    file = open_file(MILL).file
+    axis, settings = machine_for(file, read_machine(machine), None)
+    assert {"model.resonance", "model.inertia_ratio", "model.delay", "model.damping"} <= settings.keys()
+    assert simulate(file, "frequency", axis, {**settings, "move.points": 2}).result["Ms"]
+
+
+def test_a_resonance_has_its_notch_and_the_picture_both_curves(tmp_path: Path) -> None:
+    figures, response, _ = hidden_plant(2)
+    record = tmp_path / "frf.csv"
+    record.write_text(table(FREQUENCIES, response))
+    trace = identify_response(open_file(MILL).file, record, "1")
+    (notch,) = trace.recommendations
+    assert notch.value == pytest.approx(figures["resonance"], rel=TOLERANCE)
+    assert "model.delay: " in machine_text(trace, "9pc").replace("  delay", "model.delay")
+    assert machine_settings(trace)["model.resonance"].endswith("Hz")
+
+
+def test_a_chirp_is_answered_by_h1_within_three_percent(tmp_path: Path) -> None:
+    from scipy import signal
+
+    period, size, ratio, resonance = 0.5e-3, 90.0, 1.5, 70.0
+    time = np.arange(0.0, 20.0, period)
+    torque = 20.0 * signal.chirp(time, 2.0, 20.0, 300.0, method="logarithmic")
+    motor, load = size * (1.0 + ratio), size * (1.0 + ratio) / ratio
+    stiffness = (2.0 * math.pi * resonance) ** 2 / (motor + load)
+    slip = 0.06 * 2.0 * math.pi * resonance / (motor + load)
+    a = [
+        [-motor * slip, motor * slip, -motor * stiffness],
+        [load * slip, -load * slip, load * stiffness],
+        [1.0, -1.0, 0.0],
+    ]
+    _, velocity, _ = signal.lsim(
+        signal.StateSpace(a, [[motor], [0.0], [0.0]], [[1.0, 0.0, 0.0]], [[0.0]]), torque, time
+    )
+    noise = np.random.default_rng(3).standard_normal(len(time)) * 0.02
+    record = tmp_path / "chirp.csv"
+    rows = [
+        f"{t!r},{v!r},{u!r}"
+        for t, v, u in zip(time.tolist(), (velocity + noise).tolist(), torque.tolist(), strict=True)
+    ]
+    record.write_text("\n".join(["time (s),velocity (mm/s),torque (%)", *rows]))
+    result = identify_response(open_file(MILL).file, record, "1").result
+    assert result["acceleration_per_output"][0] == pytest.approx(size, rel=TOLERANCE)
+    assert result["resonance"][0] == pytest.approx(resonance, rel=TOLERANCE)
+    assert result["inertia_ratio"][0] == pytest.approx(ratio, rel=TOLERANCE)
+
+
+@pytest.mark.parametrize(
+    ("text", "said"),
+    [
+        ("a,b,c\n1,2,3\n", "No line has the heads"),
+        ("frequency_hz,gain_db,phase_deg\n1,2,3\n", "too few"),
+        ("frequency_hz,gain_db,phase_deg\n0,2,3\n", "above 0 Hz"),
+        ("frequency_hz,gain_db,phase_deg\n1,x,3\n", "is no number"),
+        (table(FREQUENCIES, 1.0 / FREQUENCIES + 0j, 0.7), "coherence is below 0.8"),
+        (table(FREQUENCIES, 1.0 / FREQUENCIES + 0j, 1.7), "between 0 and 1"),
+    ],
+)
+def test_what_is_no_response_is_one_sentence(text: str, said: str) -> None:
+    with pytest.raises(SimulationError, match=said):
+        response_of_text(text)
