@@ -210,14 +210,17 @@ def test_a_delay_beyond_any_loop_is_one_sentence() -> None:
 
 
 @pytest.mark.parametrize("seed", range(5))
-def test_the_loop_of_a_random_axis_is_that_of_python_control_to_nine_digits(seed: int) -> None:
+def test_the_loop_of_a_random_axis_is_that_of_python_control_to_nine_digits(
+    control: ModuleType, seed: int
+) -> None:
     """Open loop, closed loop and largest sensitivity at the same frequencies, and the slowest poles of the closed loop."""
-    import control
-
     dice = np.random.default_rng(seed)
     plant = rigid(float(dice.uniform(10.0, 80.0)), float(dice.uniform(0.5, 6.0)))
     gains = dice.uniform(20.0, 80.0), dice.uniform(50.0, 300.0), dice.uniform(0.5, 1.5)
-    found, peer = sampled(plant, pid(*gains), None, PLACES, PERIOD, PERIOD), by_control(control, plant, *gains)
+    found, peer = (
+        sampled(plant, pid(*gains), None, PLACES, PERIOD, PERIOD),
+        by_control(control, plant, *gains),
+    )
     frequencies = np.geomspace(0.5, 240.0, 60)
     loop = peer(np.exp(2j * np.pi * frequencies * PERIOD))
     assert found.loop(frequencies) == pytest.approx(loop, rel=1e-9)
