@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import pytest
 from PySide6.QtCore import Qt, QUrl
+from PySide6.QtGui import QGuiApplication
 from PySide6.QtTest import QTest
 
 from amp_studio.schema import Value
@@ -112,7 +113,11 @@ def test_the_list_closes_when_the_cursor_goes_elsewhere(window: MainWindow, box:
 def test_nothing_found_offers_the_nearest_and_enter_takes_it(window: MainWindow, box: FindBox) -> None:
     typed(box, "excccesss")
     nothing, nearest, *ways_on = box.model.rows
-    assert ways_on[-1].text == "Show all parameters in the table"
+    assert [row.text for row in ways_on[-2:]] == [
+        "Show all parameters in the table", "Copy this question, to report the word"]  # fmt: skip
+    box.chosen.emit(ways_on[-1])
+    assert "9pc: find 'excccesss' has no answer" in QGuiApplication.clipboard().text()
+    typed(box, "excccesss")
     assert (nothing.text, nearest.instead) == ("Nothing found", "excess")
     QTest.keyClick(box, Qt.Key.Key_Return)
     assert (box.text(), box.is_open) == ("excess", True)

@@ -6,7 +6,7 @@ from dataclasses import replace
 from functools import partial
 
 from PySide6.QtCore import QTimer
-from PySide6.QtGui import QAction
+from PySide6.QtGui import QAction, QGuiApplication
 from PySide6.QtWidgets import QMessageBox
 
 from amp_studio.find import Entry, Finder, Hit, Index, elsewhere, index_of, prepare_synonyms
@@ -22,6 +22,7 @@ from amp_studio.ui.page.message_page import MessageWindow
 from amp_studio.ui.table.cell_look import prepare_labels
 from amp_studio.ui.window.studio_window import StudioWindow
 from amp_studio.validate import Validator
+from amp_studio.version import __version__
 
 from .find_box import COMMANDS, FindBox
 from .find_rows import FindRow, rows_of
@@ -210,10 +211,18 @@ class FindSearch(Translated):
         if self.window.page is not None:
             every = tuple(self.window.page.workspace.file.schema.parameters)
             rows.append(FindRow(self.box.tr("Show all parameters in the table"), icon="table", every=every))
-        ask = next((a for a in self._commands.values() if a.objectName() == "report-problem"), None)
-        if ask is not None:
-            rows.append(FindRow(self.box.tr("Report a word that is missing"), icon="info", action=ask))
+        ask = QAction(self.window)
+        ask.triggered.connect(partial(self._copy_question, query, own))
+        rows.append(
+            FindRow(self.box.tr("Copy this question, to report the word"), icon="note-pencil", action=ask)
+        )
         return rows
+
+    def _copy_question(self, query: str, family: str, *_: object) -> None:
+        """Put what is needed to report a word that is missing onto the clipboard."""
+        text = f"AMP Studio {__version__}, {family or 'no file'}: find {query!r} has no answer"
+        QGuiApplication.clipboard().setText(text)
+        self.window.show_status(self.box.tr("Copied: {text}").format(text=text))
 
     # -- going there -----------------------------------------------------------------------
 
