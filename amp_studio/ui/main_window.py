@@ -93,6 +93,7 @@ class MainWindow(PartsWindow):
     def show_workspace(self, workspace: Workspace, instead: FilePage | None = None) -> FilePage:
         """Show a file in a new tab, or in the place of another one, which is closed."""
         page = FilePage(workspace, self.edits.commit_to, self.menus.of_a_cell())
+        page.front_wanted.connect(self.leave_control)
         page.front_wanted.connect(self.tabs.bring)
         page.selected.connect(self._show_value)
         page.noted.connect(self.show_status)
@@ -137,6 +138,12 @@ class MainWindow(PartsWindow):
             self._show_value()
         self.docks.show_page(page)
         self.enable()
+
+    def leave_control(self, *_: object) -> bool:
+        """Show the values where the page at the control is in front; returns whether it was."""
+        was_there = self.control.is_shown
+        self.control.leave()
+        return was_there
 
     def show_values(self) -> None:
         """Show the file in front, or the welcome page, in the place of the page at the control."""
@@ -206,7 +213,7 @@ class MainWindow(PartsWindow):
     def _show_control(self) -> None:
         """Show the state of the control of the file in front in the status line."""
         workspace = self.workspace
-        self.status.show_control(" ".join(self.control.state_of(workspace)[:2]) if workspace else "")
+        self.status.show_control(": ".join(self.control.state_of(workspace)[:2]) if workspace else "")
 
     def resizeEvent(self, event: QResizeEvent) -> None:
         super().resizeEvent(event)

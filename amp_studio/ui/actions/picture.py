@@ -85,7 +85,10 @@ class Pictures(QObject):
 
     def toggle(self) -> None:
         """Show the pictures of the file in front, or its table alone."""
-        page = self.window.page_in_front
+        page, was_away = self.window.page_in_front, self.window.leave_control()
+        if page.shows_pictures and was_away:
+            self.check(page)  # they are there again
+            return
         if page.shows_pictures:
             self._close(page)
             return

@@ -7,8 +7,8 @@ from pathlib import Path
 from PySide6.QtCore import Qt, Signal
 from PySide6.QtWidgets import (
     QHeaderView,
-    QLabel,
     QPushButton,
+    QSizePolicy,
     QTreeWidget,
     QTreeWidgetItem,
     QVBoxLayout,
@@ -18,6 +18,7 @@ from PySide6.QtWidgets import (
 from amp_studio.files import day_and_time, real_path, text_of_name
 from amp_studio.ui.base.translated import counted, worded
 from amp_studio.ui.base.workspace import Workspace
+from amp_studio.ui.forms.elided_label import ElidedLabel
 
 from .rows import FOOT, side_by_side
 
@@ -42,8 +43,8 @@ class ExchangeHistory(QWidget):
         for column in range(6):
             self.tree.header().setSectionResizeMode(column, QHeaderView.ResizeMode.ResizeToContents)
         self.tree.currentItemChanged.connect(self._follow)
-        self.text = QLabel()
-        self.text.setWordWrap(True)
+        self.text = ElidedLabel()
+        self.text.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Preferred)
         self.restore = QPushButton(self.tr("Restore What It Replaced…"))
         self.restore.setAutoDefault(False)
         self.restore.clicked.connect(self._restore)
@@ -51,7 +52,7 @@ class ExchangeHistory(QWidget):
         column_of_parts.setContentsMargins(0, 0, 0, 0)
         column_of_parts.setSpacing(0)
         column_of_parts.addWidget(self.tree, 1)
-        column_of_parts.addWidget(side_by_side(FOOT, self.text, None, self.restore))
+        column_of_parts.addWidget(side_by_side(FOOT, self.text, self.restore))
         self.setFocusProxy(self.tree)
 
     def show_file(self, workspace: Workspace) -> None:

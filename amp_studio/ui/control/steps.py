@@ -53,6 +53,7 @@ class ExchangeSteps(QWidget):
         self.list.setIconSize(QSize(SMALL_ICON, SMALL_ICON))
         self.list.itemClicked.connect(lambda item: self.chosen.emit(item.data(Qt.ItemDataRole.UserRole)))
         column.addWidget(self.list, 1)
+        column.addStretch(0)
         self._at = -1
 
     def show_plan(
@@ -110,7 +111,10 @@ def _texts(count: int, whole: bool) -> list[tuple[str, str]]:
     return [
         (tr("Identify"), tr("same machine, same options")),
         (tr("Back up what it contains"), tr("as a file beside this one")),
-        (tr("Write %n values", "", count), tr("only what was shown may be replaced")),
+        (
+            tr("Write %n values", "", count) if count else tr("Write the values"),
+            tr("only what was shown may be replaced"),
+        ),
         (tr("Read everything back"), tr("compared exactly")),
         last,
     ]

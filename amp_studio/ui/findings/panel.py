@@ -23,7 +23,7 @@ from PySide6.QtWidgets import (
 
 from amp_studio.report import delivered_text, finding_axes
 from amp_studio.ui.base.modal import pop_up
-from amp_studio.ui.base.theme import FINDING_ROW, GAP2, colour, font, icon, paint_icon, severity_icon
+from amp_studio.ui.base.theme import FINDING_ROW, GAP2, colour, font, icon, paint_icon, scheme, severity_icon
 from amp_studio.ui.base.translated import counted, worded
 from amp_studio.ui.base.workspace import Workspace
 from amp_studio.ui.forms.segment import Segment, chip
@@ -150,6 +150,7 @@ class FindingsPanel(QWidget):
         self.summary = QLabel()
         self.summary.setFont(font("small"))
         self.summary.linkActivated.connect(self._follow)
+        scheme().changed.connect(self._sum_up)
         self.chips: dict[str, QToolButton] = {}
         for severity in SEVERITIES:
             self.chips[severity] = made = chip("0")
@@ -202,7 +203,7 @@ class FindingsPanel(QWidget):
         self.several.setVisible(not is_folded)
         self._sum_up()
 
-    def _sum_up(self) -> None:
+    def _sum_up(self, *_: object) -> None:
         """Say in one line what there is where nothing is found."""
         dim, link = colour("dim").name(), colour("sel").name()
         text = f'<span style="color:{dim}">{self.tr("none in this file")}'

@@ -329,6 +329,9 @@ class Docks(Translated):
             if title == "Parameter":
                 self._move_parameter(None, None)
             dock.show()
+            if title == "Parameter" and not self.preview.isHidden() and not self.preview.isFloating():
+                widths = [self._width_of(title), self._preview_width]  # else Qt leaves it a strip
+                self._window.resizeDocks([dock, self.preview], widths, Qt.Orientation.Horizontal)
 
     def _move_parameter(self, into: QStackedWidget | None, heads: QStackedWidget | None) -> None:
         """Put the panel of the parameter beside the findings, or back into its own dock."""

@@ -10,6 +10,7 @@ from amp_studio.report import severity_name
 from amp_studio.ui.base.theme import GAP2, GAP3, SMALL_ICON, STATUS, font, icon, severity_icon
 from amp_studio.ui.base.translated import worded
 from amp_studio.ui.base.workspace import Workspace
+from amp_studio.ui.forms.elided_label import ElidedLabel
 from amp_studio.validate import SEVERITIES, not_set
 
 
@@ -26,7 +27,7 @@ class StatusLine(QObject):
         bar.setMinimumHeight(STATUS)
         bar.setSizeGripEnabled(False)
         bar.setContentsMargins(GAP3, 0, GAP3, 0)
-        self.value, self.file, self.changes, self.control = QLabel(), QLabel(), QLabel(), QLabel()
+        self.value, self.file, self.changes, self.control = QLabel(), ElidedLabel(), QLabel(), QLabel()
         self.value.setAccessibleName(self.tr("Selected values"))
         self.file.setAccessibleName(self.tr("File"))
         self.changes.setAccessibleName(self.tr("Unsaved changes"))

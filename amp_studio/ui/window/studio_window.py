@@ -163,6 +163,10 @@ class StudioWindow(QMainWindow):
         """Show a panel that may be closed, and give it the keyboard focus."""
         self.docks.show(title)
 
+    def leave_control(self) -> bool:
+        """Show the values where the page at the control is in front; returns whether it was. The window with that page does it."""
+        return False
+
     # -- selection -------------------------------------------------------------
 
     def selected(self) -> Address | None:

@@ -1,0 +1,187 @@
+"""Every page on real screens, in both languages and colours: no text is cut, nothing overlaps, and ink can be read on its ground."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+
+import numpy as np
+import pytest
+from PySide6.QtCore import QPoint, QRect, Qt
+from PySide6.QtGui import QImage, QPixmap
+from PySide6.QtWidgets import (
+    QAbstractButton,
+    QApplication,
+    QBoxLayout,
+    QComboBox,
+    QGridLayout,
+    QLabel,
+    QToolButton,
+    QWidget,
+)
+
+from amp_studio.schema import Value
+from amp_studio.ui.base.theme import scheme
+from amp_studio.ui.base.translated import speak
+from amp_studio.ui.forms.elided_label import ElidedLabel
+from amp_studio.ui.forms.list_title import ListTitle
+from amp_studio.ui.main_window import MainWindow
+
+SCREENS = ((1024, 700), (1366, 768), (2560, 1440), (960, 540))
+"""The last is a screen of 1920 x 1080 at 200 %."""
+
+
+def findings(window: MainWindow) -> None:
+    window.workspace.edit("error", {("servo.excess_error", "1"): Value(0.001, "mm")})
+    window.show_panel("Findings")
+
+
+PAGES: dict[str, Callable[[MainWindow], object]] = {
+    "pictures": lambda window: window.menus["view.pictures"].trigger(),
+    "values": lambda window: window.menus["view.pictures"].trigger(),
+    "steps": lambda window: window.page.left.show_side("steps"),
+    "project": lambda window: window.page.left.show_side("project"),
+    "findings": findings,
+    "preview": lambda window: window.menus["view.preview"].trigger(),
+    "send": lambda window: window.control.show("send"),
+    "several controls": lambda window: window.control.several(),
+    "by hand": lambda window: window.control.show("hand"),
+    "exchanges": lambda window: window.control.recorded(),
+}
+
+
+@pytest.fixture(params=("en", "de"))
+def language(request: pytest.FixtureRequest, qapp: QApplication) -> Iterator[str]:
+    speak(request.param)
+    yield request.param
+    speak("en")
+    scheme().choose("light")
+
+
+def settled() -> None:
+    """Let the layouts of panels that were shown or hidden come to their end."""
+    for _ in range(4):
+        QApplication.processEvents()
+
+
+def texts(window: MainWindow) -> Iterator[tuple[QWidget, str]]:
+    """Yield what is seen and has a text that is to be read whole."""
+    for widget in window.findChildren(QWidget):
+        if (
+            not widget.isVisible()
+            or widget.visibleRegion().isEmpty()
+            or isinstance(widget, (ElidedLabel, ListTitle))
+        ):
+            continue
+        if isinstance(widget, QComboBox):
+            yield widget, widget.currentText()
+        elif (
+            isinstance(widget, QToolButton)
+            and widget.toolButtonStyle() == Qt.ToolButtonStyle.ToolButtonIconOnly
+        ):
+            continue
+        elif isinstance(widget, (QLabel, QAbstractButton)) and widget.text():
+            yield widget, widget.text()
+
+
+def is_cut(widget: QWidget) -> bool:
+    if isinstance(widget, QLabel) and widget.wordWrap():
+        return widget.heightForWidth(widget.width()) > widget.height() + 1
+    return widget.sizeHint().width() > widget.width() + 1
+
+
+def overlaps(window: MainWindow) -> Iterator[tuple[str, str, str]]:
+    for parent in window.findChildren(QWidget):
+        layout = parent.layout()
+        if not isinstance(
+            layout, (QBoxLayout, QGridLayout)
+        ):  # those of Qt's own windows overlap as they like
+            continue
+        below = (
+            child for child in parent.children() if isinstance(child, QWidget) and layout.indexOf(child) >= 0
+        )
+        there = [w for w in below if w.isVisible() and not w.visibleRegion().isEmpty()]
+        for n, one in enumerate(there):
+            for other in there[n + 1 :]:
+                both = one.geometry() & other.geometry()
+                if both.width() > 1 and both.height() > 1:
+                    yield type(parent).__name__, type(one).__name__, type(other).__name__
+
+
+@pytest.mark.usefixtures("language")
+def test_no_text_of_a_page_is_cut_and_nothing_overlaps_on_any_screen(window: MainWindow) -> None:
+    found = []
+    for name, show in PAGES.items():
+        window.resize(1366, 768)
+        show(window)
+        for screen in SCREENS:
+            window.resize(*screen)
+            settled()
+            cut = [(type(w).__name__, text) for w, text in texts(window) if is_cut(w)]
+            found += [(name, screen, each) for each in (*cut, *overlaps(window))]
+    assert found == [], "\n".join(map(str, found))
+
+
+def luminance(window: MainWindow) -> np.ndarray:
+    """Return the relative luminance (WCAG) of each pixel of a window, painted in twice its size so that thin strokes have their ink."""
+    drawn = QPixmap(window.size() * 2)
+    drawn.setDevicePixelRatio(2)
+    window.render(drawn)
+    image = drawn.toImage().convertToFormat(QImage.Format.Format_RGB32)
+    bits = np.frombuffer(image.constBits(), np.uint8).reshape(image.height(), -1, 4)[
+        :, : image.width(), 2::-1
+    ]
+    one = np.arange(256) / 255
+    linear = np.where(one <= 0.04045, one / 12.92, ((one + 0.055) / 1.055) ** 2.4)
+    return linear[bits] @ np.array((0.2126, 0.7152, 0.0722))
+
+
+def contrast(light: np.ndarray) -> float:
+    """Return the contrast of a ground and the ink that is farthest from it."""
+    values, counts = np.unique(light.round(4), return_counts=True)
+    ground = float(values[counts.argmax()])
+    return max(float((max(x, ground) + 0.05) / (min(x, ground) + 0.05)) for x in (values[0], values[-1]))
+
+
+@pytest.mark.parametrize("colours", ["light", "dark"])
+def test_ink_can_be_read_on_its_ground_on_every_page(window: MainWindow, colours: str) -> None:
+    scheme().choose(colours)
+    try:
+        poor = {}
+        for name, show in PAGES.items():
+            show(window)
+            settled()
+            light = luminance(window)
+            for widget, text in texts(window):
+                place = QRect(widget.mapTo(window, QPoint(0, 0)), widget.size())
+                part = light[2 * place.top() : 2 * place.bottom(), 2 * place.left() : 2 * place.right()]
+                if widget.isEnabled() and (found := contrast(part)) < 4.5:
+                    poor[name, text] = round(found, 1)
+        assert poor == {}
+    finally:
+        scheme().choose("light")
+
+
+def test_the_parameter_is_as_wide_as_ever_when_the_window_grows_beside_the_preview(
+    window: MainWindow,
+) -> None:
+    window.resize(1024, 700)
+    window.menus["view.preview"].trigger()
+    QApplication.processEvents()
+    window.resize(2560, 1440)
+    QApplication.processEvents()
+    assert window.docks._dock("Parameter").width() >= 240
+
+
+def test_pictures_and_what_is_found_come_to_the_front_from_the_page_at_the_control(
+    window: MainWindow,
+) -> None:
+    window.control.show("compare")
+    window.menus["view.pictures"].trigger()
+    assert not window.control.is_shown
+    assert window.page.shows_pictures
+    window.control.show("compare")
+    window.menus["view.pictures"].trigger()
+    assert window.page.shows_pictures, "they were behind the page, and are there again"
+    window.control.show("compare")
+    window.go_to(("servo.excess_error", "1"))
+    assert not window.control.is_shown
