@@ -129,9 +129,9 @@ def _call(arguments: Sequence[str], replaced: list[Target]) -> int:
 def _sentence(error: BaseException) -> str:
     """Return the one line a person sees; what nobody has foreseen is named, with where its details are."""
     from amp_studio.schema import DatabaseError, UnknownParameterError
+    from amp_studio.trouble import keep_details
 
     from .errors import UsageError
-    from .trouble import keep_details
 
     if isinstance(error, OSError) and error.strerror:
         return f"{error.filename or 'the results cannot be written'}: {error.strerror}"

@@ -66,7 +66,7 @@ def main(arguments: Sequence[str] | None = None, emulate: bool = False) -> int:
 
 
 def _hook(window: QWidget):  # type: ignore[no-untyped-def]  # the type of sys.excepthook has no name
-    """Return the hook that shows an internal error as a message; the traceback goes to the terminal.
+    """Return the hook that shows an internal error as a message; the traceback goes to the terminal and into the log folder.
 
     One error is reported once: what fails while the window is painted fails again at once. Its message waits for the event loop,
     because a box that is opened while Qt paints ends the process.
@@ -78,6 +78,8 @@ def _hook(window: QWidget):  # type: ignore[no-untyped-def]  # the type of sys.e
     def show_internal_error(
         kind: type[BaseException], error: BaseException, trace: TracebackType | None
     ) -> None:
+        from amp_studio.trouble import keep_details
+
         from .base.modal import AskerGoneError
         from .base.questions import show_message
 
@@ -89,6 +91,7 @@ def _hook(window: QWidget):  # type: ignore[no-untyped-def]  # the type of sys.e
             return
         reported.add(where)
         traceback.print_exception(kind, error, trace)
+        keep_details(error)  # for Help > Report a Problem
         text = (
             f"AMP Studio has an internal error: {kind.__name__}: {error}\n\n"
             "Your work is still open. Save it under a new name."

@@ -14,6 +14,7 @@ from amp_studio.ui.base.translated import tr
 from amp_studio.ui.window.action import Action, ChoiceMenu, FilledMenu, Menu
 
 from . import axis, document, filters, guide, project, view
+from . import help as help_menu
 from .edit import show_redo, show_undo
 from .find_box import COMMANDS
 from .parts import PartsWindow
@@ -223,5 +224,9 @@ def _project() -> Menu[PartsWindow]:
 def _help() -> Menu[PartsWindow]:
     return Menu("help", tr("&Help"), (
         Action("help.commands", tr("&Commands…"), lambda w: w.finder.box.begin(COMMANDS), "Ctrl+Shift+P", ""),
+        Action("help.keys", tr("&Keys…"), help_menu.show_keys, needs=""),
+        Action("help.log", tr("Open &Log Folder"), help_menu.open_log_folder, needs=""),
+        Action("help.report", tr("&Report a Problem…"), help_menu.report_problem, needs=""),
+        None,
         Action("help.about", tr("&About AMP Studio"), document.show_about, needs=""),
     ))  # fmt: skip

@@ -16,8 +16,8 @@ from amp_studio.cli.arguments import TEXT, count, path_of
 from amp_studio.cli.console import note, progress
 from amp_studio.cli.errors import UsageError
 from amp_studio.cli.opened import opened
-from amp_studio.cli.trouble import keep_details
 from amp_studio.cli.verb import Options, Verb, VerbArgument
+from amp_studio.trouble import keep_details
 
 if TYPE_CHECKING:
     from amp_studio.cli.checks.formats import CheckFormat, CheckResult, FileFindings

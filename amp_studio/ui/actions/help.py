@@ -1,0 +1,98 @@
+"""What the help menu does: the keys, the folder of the log, and a text to report a problem with."""
+
+from __future__ import annotations
+
+import platform
+from collections.abc import Mapping
+from html import escape
+from pathlib import Path
+
+from PySide6.QtCore import QUrl, qVersion
+from PySide6.QtGui import QAction, QDesktopServices, QKeySequence
+from PySide6.QtWidgets import QDialog, QFileDialog, QTextBrowser, QVBoxLayout
+
+from amp_studio.files import write_atomic
+from amp_studio.trouble import last_details, log_folder
+from amp_studio.ui.base.menu_commands import commands
+from amp_studio.ui.base.questions import ask
+from amp_studio.ui.base.translated import tr
+from amp_studio.ui.window.studio_window import StudioWindow
+from amp_studio.version import __version__
+
+
+def show_keys(window: StudioWindow) -> None:
+    """List the keys of all actions, by the menus that they are in."""
+    dialog, page = QDialog(window), QTextBrowser()
+    dialog.setWindowTitle(tr("Keys"))
+    dialog.resize(560, 640)
+    page.setAccessibleName(tr("Keys"))
+    page.setHtml(keys_page(dict(commands(window.menuBar()))))
+    QVBoxLayout(dialog).addWidget(page)
+    dialog.show()
+
+
+def keys_page(actions: Mapping[str, QAction]) -> str:
+    """Return the page of keys: ``Menu › Name`` -> its action, of those that have keys."""
+    rows, head = [], ""
+    for path, action in actions.items():
+        keys = ", ".join(k.toString(QKeySequence.SequenceFormat.NativeText) for k in action.shortcuts())
+        menu, _, name = path.rpartition(" › ")
+        if keys:
+            rows += [f"<tr><td colspan=2><h3>{escape(menu)}</h3></td></tr>"] if menu != head else []
+            rows.append(f"<tr><td>{escape(name)}&nbsp;&nbsp;</td><td><b>{escape(keys)}</b></td></tr>")
+            head = menu
+    return f"<table>{''.join(rows)}</table>"
+
+
+def open_log_folder(_: StudioWindow) -> None:
+    """Open the folder in which the details of faults are kept; raises OSError where it cannot be made."""
+    log_folder().mkdir(parents=True, exist_ok=True)
+    QDesktopServices.openUrl(QUrl.fromLocalFile(str(log_folder())))
+
+
+def report_problem(window: StudioWindow) -> None:
+    """Write a text file for a report; what is of the machine is in it only where the person says yes."""
+    with_machine = False
+    if window.workspace is not None or last_details():
+        question = tr(
+            "May the report name the family and the findings of the open file, and the message of the last fault?\n\n"
+            "They can contain names and values of your machine. Without them it has versions and settings alone."
+        )
+        yes, no = tr("&With Them"), tr("With&out Them")
+        answer = ask(window, tr("Report a Problem"), question, yes, no, tr("Cancel"), default=1)
+        if answer not in (yes, no):
+            return
+        with_machine = answer == yes
+    near = str(Path.home() / "amp-studio-problem.txt")
+    text, _ = QFileDialog.getSaveFileName(window, tr("Report a Problem"), near, "Text (*.txt)")
+    if text:
+        write_atomic(Path(text), problem_text(window, with_machine).encode(), keep_backup=False)
+        window.show_status(tr("{path} written").format(path=text))
+
+
+def problem_text(window: StudioWindow, with_machine: bool) -> str:
+    """Return the text of a report: versions, settings, the last fault; ``with_machine`` adds what may be of the machine."""
+    size, settings = window.size(), window.settings
+    lines = [
+        "What happened, and what did you expect?", "", "",
+        f"AMP Studio {__version__}, Python {platform.python_version()}, Qt {qVersion()}",
+        f"{platform.system()} {platform.release()} {platform.machine()}",
+        f"Language {settings.language()}, theme {settings.theme()}",
+        f"Window {size.width()} x {size.height()}, scale {window.devicePixelRatio():g}",
+    ]  # fmt: skip
+    details = last_details().splitlines()
+    frames = [line for line in details if line.startswith('  File "')]
+    if details:
+        lines += ["", "The last fault:", *(details if with_machine else map(_own_place, frames))]
+    if with_machine and window.workspace is not None:
+        workspace = window.workspace
+        lines += ["", f"Family {workspace.file.schema.family.family}, machine type {workspace.file.machine}"]
+        lines += [f"{finding.severity}: {finding.message}" for finding in workspace.findings]
+    return "\n".join(lines) + "\n"
+
+
+def _own_place(line: str) -> str:
+    """Return a line of a traceback without the folders, which name the person."""
+    head, _, rest = line.partition('"')
+    path, _, end = rest.partition('"')
+    return f"{head}{Path(path.replace(chr(92), '/')).name}{end}"
