@@ -4,13 +4,16 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from datetime import datetime
+from functools import cache
 from pathlib import Path
 
 import pytest
 
 from amp_studio.files import Header, ParameterFile, SaveError, new_file
 from amp_studio.report import SORTS, Contents, print_report
+from amp_studio.report.build import build_report
 from amp_studio.report.contents import Sort
+from amp_studio.report.model import Report
 from amp_studio.report.write import FORMATS
 from amp_studio.schema import Value, family_ids, load_schema
 
@@ -27,15 +30,36 @@ STARTS = {
 }
 
 
+@cache
+def new_machine(family: str, machine: str | None = None, *axes: str) -> ParameterFile:
+    """Return a new file, the same one at each call: to be printed only."""
+    return new_file(family, machine, axes)
+
+
+@pytest.fixture
+def built_once(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Let a report that another format has had too be the same one: the formats differ, not what is in them."""
+    monkeypatch.setattr("amp_studio.report.write.build_report", _report_of)
+
+
+_built: dict[tuple[ParameterFile, Contents], Report] = {}
+
+
+def _report_of(file: ParameterFile, contents: Contents, **options: object) -> Report:
+    if (file, contents) not in _built:
+        _built[file, contents] = build_report(file, contents, **options)
+    return _built[file, contents]
+
+
+@pytest.mark.usefixtures("built_once")
 @pytest.mark.parametrize("sort", SORTS)
-@pytest.mark.parametrize("ending", FORMATS)
 @pytest.mark.parametrize("changed_only", [False, True])
+@pytest.mark.parametrize("ending", FORMATS)
 def test_a_new_file_is_printed_in_every_format_and_order(
     tmp_path: Path, ending: str, sort: Sort, changed_only: bool
 ) -> None:
     path = tmp_path / f"report{ending}"
-    file = new_file("9pc", "mill", ["X", "Y", "Z", "B", "S"])
-    print_report(file, path, Contents(sort, changed_only))
+    print_report(new_machine("9pc", "mill", *"XYZBS"), path, Contents(sort, changed_only))
     assert path.read_bytes().startswith(STARTS[ending])
     assert list(tmp_path.iterdir()) == [path], "nothing else may be left in the folder, not even a backup"
 
@@ -43,16 +67,17 @@ def test_a_new_file_is_printed_in_every_format_and_order(
 EVERY_FAMILY = [
     (family, ending, sort)
     for n, family in enumerate(family_ids())
-    for ending in FORMATS
     for at, sort in enumerate(SORTS)
+    for ending in FORMATS
     if ending != ".pdf" or at == n % len(SORTS)  # which is set from the same rows as the others
 ]
 
 
+@pytest.mark.usefixtures("built_once")
 @pytest.mark.parametrize(("family", "ending", "sort"), EVERY_FAMILY)
 def test_every_family_is_printed(tmp_path: Path, family: str, ending: str, sort: Sort) -> None:
     path = tmp_path / f"report{ending}"
-    print_report(new_file(family), path, Contents(sort))
+    print_report(new_machine(family), path, Contents(sort))
     assert path.read_bytes().startswith(STARTS[ending])
 
 
