@@ -114,6 +114,38 @@ def test_a_slip_of_the_printed_default_is_asked_about_where_it_has_digits_enough
     assert "that is ten times the printed default" in finding.message
 
 
+@pytest.mark.parametrize(
+    ("instance", "value", "words"),
+    [
+        ("1", Value(8.46666, "mm/s"), "twice"),
+        ("4", Value(42.3333, "deg/s"), "ten times"),  # the manual prints one number, 37-3
+        ("1", Value(0.42333, "mm/s"), "a tenth of"),  # the last digit went
+    ],
+)
+def test_a_default_of_many_digits_is_known_doubled_rounded_and_on_a_rotary_axis(
+    instance: str, value: Value, words: str
+) -> None:
+    findings = found(example("mill-1394"), ("accdec.velocity_step", instance), value)
+    assert any(f"{words} the printed default" in f.message for f in findings)
+
+
+@pytest.mark.parametrize(
+    ("name", "address", "value"),
+    [
+        ("mill-1394", ("macro.m_code", "9001"), Value(1)),
+        ("num-1060-mill", ("comm.dnc1_character", "STX"), Value(0x20, "")),
+        ("syntec-mill", ("axis.port", "3"), Value(76)),
+        ("acromill-router", ("axes.soft_limit_minus", "X"), Value(-711.2, "in")),
+        ("linuxcnc-mill", ("joint.max_velocity", "0"), Value(4216.4, "mm/s")),
+    ],
+)
+def test_what_no_manual_bounds_has_a_range_of_experience(name: str, address: Address, value: Value) -> None:
+    file = example(name)
+    unit = file.values[address].unit
+    findings = found(file, address, Value(value.value, unit))
+    assert any(f.rule == "plausible.usual" for f in findings)
+
+
 def test_a_point_of_a_cam_that_jumps_out_is_asked_about_and_a_corner_is_not() -> None:
     file = example("57c422b-label-press")
     (finding,) = found(file, ("cam.time_points", "Y.5"), Value(141, "counts"))

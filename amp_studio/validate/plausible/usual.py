@@ -22,7 +22,7 @@ from amp_studio.schema import (
 )
 from amp_studio.validate.finding import Finding
 
-from .slip import significant_digits, slip_of_default
+from .slip import ODD, significant_digits, slip_of_default
 
 USUAL = "plausible.usual"
 REASON = "ours, not the manual's: what the parameter usually is, or can mean"
@@ -143,8 +143,11 @@ def _doubt(facts: _Known, value: Value) -> str:
         ) <= span[1]:
             unit, (low, high) = next((u, b) for u, b in usual.between.items() if dimension(u) == measures)
             return f"usual is {write_figure(low)} to {write_figure(high)} {shown(unit)}".rstrip()
-    if facts.default is not None and measures == facts.default_measures:
-        words = slip_of_default(canonical(number, value.unit), facts.default, facts.default_digits)
+    unit = value.unit
+    if measures != facts.default_measures and facts.default_digits >= ODD:
+        unit = unit.replace("deg", "mm")  # the manual prints one number for linear and rotary axes
+    if facts.default is not None and dimension(unit) == facts.default_measures:
+        words = slip_of_default(canonical(number, unit), facts.default, facts.default_digits)
         if words:
             return f"that is {words} the printed default"
     if number < 0 and not facts.signed and measures in _NEVER_NEGATIVE:
