@@ -23,8 +23,8 @@ from amp_studio.schema import (
     field_at,
     field_value,
     labels_of_word,
-    meant,
     real_value,
+    resolve_address,
     show_value,
     stored_number,
     with_field,
@@ -120,7 +120,7 @@ class MachineParameters:
 
         Raises UnknownParameterError.
         """
-        found = meant(self.file.evaluation, address)
+        found = resolve_address(self.file.evaluation, address)
         if found.bit is not None:
             row = bit_row(self.file, found.address, found.bit)
             shown = "not set" if row["value"] is None else str(row["value"])
@@ -300,7 +300,7 @@ def read_assignments(
     slips: list[str] = []
     for param, text in wanted:
         try:
-            found_here = meant(trial.evaluation, param)
+            found_here = resolve_address(trial.evaluation, param)
             address, bit = found_here.address, found_here.bit
             if isinstance(text, Value):
                 found[address] = text

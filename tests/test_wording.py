@@ -1,8 +1,8 @@
 """The words of messages, help, docstrings, comments and documents: the terms of the field, no private idiom.
 
 Every room of the program is checked, every document listed here, the docstrings and comments of the tests, and the
-texts of ``parameter_db``. Code identifiers, names in backquotes and the values in braces of a message are not checked,
-and neither is a text of a single word (a key).
+texts of ``parameter_db``. Names in backquotes and the values in braces of a message are not checked, and neither is a text of
+a single word (a key); of identifiers those that were mended are.
 """
 
 from __future__ import annotations
@@ -137,6 +137,50 @@ def test_a_room_uses_the_words_of_the_field(room: str) -> None:
         if (path.relative_to(ROOT).as_posix(), word) not in ALLOWED
     ]
     assert not found, "\n".join(found)
+
+
+MENDED_NAMES = {"meant", "answer_once", "no_more"}
+"""Names, and parts of names between underscores, that said nothing to a stranger and are gone: none comes back."""
+_NAME_PART = re.compile(rf"(?<![A-Za-z0-9])_*(?:[a-z0-9_]+_)?(?:{'|'.join(MENDED_NAMES)})(?:_[a-z0-9_]+)?\b")
+
+
+def names_of(source: str) -> set[str]:
+    """Return the identifiers of a module."""
+    tokens = tokenize.generate_tokens(io.StringIO(source).readline)
+    return {token.string for token in tokens if token.type == tokenize.NAME}
+
+
+def mended_names_in(source: str) -> set[str]:
+    """Return the identifiers of a module that are one of the mended names, or have one as a part."""
+    if not _NAME_PART.search(source):
+        return set()
+    return {
+        name
+        for name in names_of(source)
+        if name in MENDED_NAMES or not MENDED_NAMES.isdisjoint(name.split("_"))
+    }
+
+
+def test_an_identifier_that_was_mended_does_not_come_back() -> None:
+    found = {
+        path.relative_to(ROOT).as_posix(): names
+        for path in sorted((ROOT / "amp_studio").rglob("*.py"))
+        if (names := mended_names_in(path.read_text("utf-8")))
+    }
+    assert found == {}
+
+
+@pytest.mark.parametrize(
+    ("source", "found"),
+    [
+        ("axis_meant = 1", {"axis_meant"}),
+        ("def meant(): ...", {"meant"}),
+        ("no_more()", {"no_more"}),
+        ("why_no_more = 'what is meant'", set()),
+    ],
+)
+def test_a_planted_name_is_found(source: str, found: set[str]) -> None:
+    assert mended_names_in(source) == found
 
 
 @pytest.mark.parametrize("document", DOCUMENTS)

@@ -12,7 +12,7 @@ from amp_studio.version import __version__
 
 from .exit_codes import AT_CONTROL, CHANGED, FAULT
 from .screen import end_results, flush_results, open_streams, print_notice
-from .stopping import answer_once, no_more, was_asked
+from .stopping import ignore_interrupts, raise_on_interrupt, was_asked
 
 if TYPE_CHECKING:
     from .outcome import Target
@@ -26,12 +26,12 @@ _PARAMETER_FILE = ".amp"
 def start(arguments: Sequence[str] | None) -> NoReturn:
     """Be the program: run one verb on the standard streams and exit with its code."""
     try:
-        answer_once()
+        raise_on_interrupt()
         open_streams()
         code = run_verb(sys.argv[1:] if arguments is None else arguments)
     except KeyboardInterrupt:  # before the verb had begun
         code = FAULT
-    no_more()
+    ignore_interrupts()
     end_results()
     if was_asked():
         # Run by ``python -m`` CPython would end itself by the signal where it interrupted a text given to exec(), a

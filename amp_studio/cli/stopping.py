@@ -19,13 +19,13 @@ if TYPE_CHECKING:
 _asked: list[int] = []
 
 
-def answer_once() -> None:
+def raise_on_interrupt() -> None:
     """Begin to answer Ctrl-C."""
     signal.signal(signal.SIGINT, _stop)
     sys.unraisablehook = _unraised
 
 
-def no_more() -> None:
+def ignore_interrupts() -> None:
     """Answer no more: nothing is left that could be stopped."""
     signal.signal(signal.SIGINT, signal.SIG_IGN)
 
@@ -50,7 +50,7 @@ def asked_politely() -> Iterator[Stop]:
 
 
 def _stop(number: int, _frame: object) -> NoReturn:
-    no_more()
+    ignore_interrupts()
     _asked.append(number)
     raise KeyboardInterrupt
 

@@ -12,8 +12,8 @@ from amp_studio.schema import (
     Address,
     Schema,
     UnknownParameterError,
-    axis_meant,
-    meant,
+    resolve_address,
+    resolve_axis,
     show_value,
 )
 
@@ -26,7 +26,7 @@ from .words import words_of
 
 _EXACT, _VALUE, _DEFAULT = 100.0, 11.0, 7.0
 """Scores of what is no matter of words: a whole number, a value, a value that is the printed default."""
-_MEANT, _LESS_LIKELY = 0.95, 0.85
+_SYNONYM_WORTH, _LESS_LIKELY = 0.95, 0.85
 """What a hit is worth that has what the question means, and each further meaning against the one before it."""
 _TAIL = 0.2
 """Part of the best score below which a hit only buries the others."""
@@ -90,7 +90,7 @@ class Finder:
             found = index.search(query, most)
             # A choice of which only the parameter was named is no more than that parameter.
             hits += [self._hit(m) for m in found if m.entry.kind != "choice" or "choice" in m.where]
-        hits += self._meant(query, most)
+        hits += self._found_by_synonym(query, most)
         best: dict[tuple[str, str, str], Hit] = {}
         for hit in sorted(hits, key=lambda hit: -hit.score):
             best.setdefault((hit.kind, hit.key, hit.title if hit.kind in ("choice", "note") else ""), hit)
@@ -111,7 +111,7 @@ class Finder:
             return query, ""
         axes = self.schema.family.scopes.get("axis")
         try:
-            return head, axis_meant(self.file.evaluation, axes.instances, last) if axes else ""
+            return head, resolve_axis(self.file.evaluation, axes.instances, last) if axes else ""
         except UnknownParameterError:
             return query, ""
 
@@ -133,7 +133,7 @@ class Finder:
         if self.file is None or " " in query or not {"@", "."} & set(query):
             return []
         try:
-            return [self._of_number(meant(self.file.evaluation, query).address, _EXACT)]
+            return [self._of_number(resolve_address(self.file.evaluation, query).address, _EXACT)]
         except UnknownParameterError:
             return []
 
@@ -179,11 +179,11 @@ class Finder:
 
     # -- what the words mean -----------------------------------------------------------
 
-    def _meant(self, query: str, most: int) -> list[Hit]:
+    def _found_by_synonym(self, query: str, most: int) -> list[Hit]:
         """Return what is found for the words that the manuals have for those of a question."""
         index, hits = index_of(self.schema, self.machine), []
         for meaning in meanings(query):
-            worth = _MEANT * _LESS_LIKELY**meaning.place
+            worth = _SYNONYM_WORTH * _LESS_LIKELY**meaning.place
             why = f"'{meaning.said}' as '{meaning.means}'"
             all_words = len(index.asked(meaning.means))
             hits += [

@@ -189,7 +189,7 @@ class _TableReader(HTMLParser):
         for n in range(columns):
             if rows > 1:
                 self._blocked[len(self.rows[-1])] = rows - 1
-            self.rows[-1].append("" if n else _meant(text, self._number))
+            self.rows[-1].append("" if n else _cell_text(text, self._number))
         self._cell = None
 
 
@@ -199,7 +199,7 @@ def _span(text: str | None) -> int:
     )
 
 
-def _meant(shown: str, number: str | None) -> str:
+def _cell_text(shown: str, number: str | None) -> str:
     """Return what a cell means that shows a text and has a number too: the number, with the unit that is shown.
 
     A date, a time, a percentage or a truth value is a number too, but not the one that is seen: it stays a text.

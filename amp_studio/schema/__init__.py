@@ -11,14 +11,14 @@ from amp_studio.front_pages import front_page
 if TYPE_CHECKING:
     from .address import Address, UnknownParameterError, read_address, whole_of, written
     from .addressing import (
-        Meant,
-        addresses_meant,
-        all_meant,
+        ResolvedAddress,
         axis_group,
-        axis_meant,
         axis_name,
         is_fitted,
-        meant,
+        resolve_address,
+        resolve_addresses,
+        resolve_all,
+        resolve_axis,
         unknown,
     )
     from .bit_fields import field_at, field_value, labels_of_word, with_field

@@ -48,7 +48,7 @@ class FileState(Protocol):
     def least_hidden(self, claims: list[Address]) -> list[Address]: ...
 
 
-class Meant(NamedTuple):
+class ResolvedAddress(NamedTuple):
     """What a text addresses."""
 
     address: Address
@@ -75,7 +75,7 @@ class Meant(NamedTuple):
         )
 
 
-def meant(evaluation: FileState, text: str) -> Meant:
+def resolve_address(evaluation: FileState, text: str) -> ResolvedAddress:
     """Return the one instance, or the bit of it, that a text addresses; raises UnknownParameterError with one sentence."""
     try:
         return _whole(evaluation, text)
@@ -86,17 +86,17 @@ def meant(evaluation: FileState, text: str) -> Meant:
         with contextlib.suppress(UnknownParameterError):
             word = _whole(evaluation, head)
             if evaluation.schema.parameters[word.address[0]].type == "bits":
-                return Meant(word.address, int(bit), word.number, word.others)
+                return ResolvedAddress(word.address, int(bit), word.number, word.others)
         raise
 
 
-def all_meant(evaluation: FileState, text: str) -> list[Meant]:
+def resolve_all(evaluation: FileState, text: str) -> list[ResolvedAddress]:
     """Return every instance that a text addresses: all words of ``P21``; raises UnknownParameterError."""
     words = _words(evaluation, text)
-    return [Meant(address) for address in words] if words else [meant(evaluation, text)]
+    return [ResolvedAddress(address) for address in words] if words else [resolve_address(evaluation, text)]
 
 
-def addresses_meant(evaluation: FileState, text: str) -> list[Address]:
+def resolve_addresses(evaluation: FileState, text: str) -> list[Address]:
     """Return the values that a text means where several are welcome: an id alone means all its instances, a bit its word.
 
     Raises UnknownParameterError.
@@ -104,22 +104,22 @@ def addresses_meant(evaluation: FileState, text: str) -> list[Address]:
     parameter = evaluation.schema.parameters.get(text.strip().casefold())
     if parameter is not None:
         return [(parameter.id, instance) for instance in evaluation.machine_schema.instances(parameter)]
-    return [found.address for found in all_meant(evaluation, text)]
+    return [found.address for found in resolve_all(evaluation, text)]
 
 
-def _whole(evaluation: FileState, text: str) -> Meant:
+def _whole(evaluation: FileState, text: str) -> ResolvedAddress:
     schema, text = evaluation.schema, text.strip()
     name, _, instance = text.partition("@")
     parameter = schema.parameters.get(name.casefold())
     if parameter is not None:
-        return Meant((parameter.id, _instance(evaluation, parameter, instance, text)))
+        return ResolvedAddress((parameter.id, _instance(evaluation, parameter, instance, text)))
     existing = _claims(evaluation, text)
     if existing:
         others = [a for a in evaluation.machine_schema.claims(text) if a != existing[0]]
-        return Meant(existing[0], None, text, tuple(others))
+        return ResolvedAddress(existing[0], None, text, tuple(others))
     words = _words(evaluation, text)
     if len(words) == 1:
-        return Meant(words[0], None, text)
+        return ResolvedAddress(words[0], None, text)
     if words:
         first, last = (evaluation.machine_schema.number(a) for a in (words[0], words[-1]))
         raise UnknownParameterError(
@@ -127,7 +127,7 @@ def _whole(evaluation: FileState, text: str) -> Meant:
         )
     if instance and (same := _words(evaluation, name) or _claims(evaluation, name)):
         parameter = schema.parameters[same[0][0]]
-        return Meant((parameter.id, _instance(evaluation, parameter, instance, text)), None, name)
+        return ResolvedAddress((parameter.id, _instance(evaluation, parameter, instance, text)), None, name)
     raise UnknownParameterError(*unknown(schema, text))
 
 
@@ -175,7 +175,7 @@ def _letters(evaluation: FileState, parameter: Parameter) -> str:
     return f", or an axis by its letter: {', '.join(letters)}" if letters else ""
 
 
-def axis_meant(evaluation: FileState, instances: tuple[str, ...], text: str) -> str:
+def resolve_axis(evaluation: FileState, instances: tuple[str, ...], text: str) -> str:
     """Return the axis that is named by itself or by its letter; raises UnknownParameterError."""
     found = [i for i in instances if i.casefold() == text.casefold()] or _axes_named(evaluation, text)
     if len(found) == 1:

@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Callable, Hashable, Iterable, Mapping
 
 from .address import Address, UnknownParameterError
-from .addressing import meant
+from .addressing import resolve_address
 from .catalog import Schema
 from .conditions import Answers, Asked, Conditions, Reference, StateGroups, StateInfo, conditions_of
 from .expression import Canonical, Circumstances, Key, Keys, canonical_value, value_of
@@ -204,7 +204,7 @@ class Evaluation:
 
     def find(self, text: str) -> Address:
         """Return the instance that a text means (see ``addressing``); raises UnknownParameterError with one clear sentence."""
-        found = meant(self, text)
+        found = resolve_address(self, text)
         if found.bit is not None:
             raise UnknownParameterError(f"{quoted(text.strip())} is a bit, and the whole word is wanted")
         return found.address
@@ -214,7 +214,7 @@ class Evaluation:
 
         Raises UnknownParameterError.
         """
-        found = meant(self, text)
+        found = resolve_address(self, text)
         return found.address, found.bit
 
     def least_hidden(self, claims: list[Address]) -> list[Address]:

@@ -37,19 +37,21 @@ def _slips(error: ValidationError, data: object, model: type[Model]) -> list[Sli
         if each["type"] == "missing":
             missing.setdefault(each["loc"][:-1], []).append(str(each["loc"][-1]))
     found: dict[KeyPath, str] = {}
-    meant: set[KeyPath] = set()
+    supposed: set[KeyPath] = set()
     for each in wrong:
         place = each["loc"]
         if each["type"] == "unexpected_keyword_argument":
             record, key = place[:-1], str(place[-1])
             lacking = missing.get(record, [])
-            meant |= {(*record, name) for name in lacking if did_you_mean(key, [name])}
+            supposed |= {(*record, name) for name in lacking if did_you_mean(key, [name])}
             known = lacking if did_you_mean(key, lacking) else list(_keys_at(model, record))
             found.setdefault(place, f"there is no such key{did_you_mean(key, known)}")
         elif each["type"] != "missing":
             found.setdefault(_in_data(place, data), _sentence(each))
     found |= {
-        each["loc"]: "is missing" for each in wrong if each["type"] == "missing" and each["loc"] not in meant
+        each["loc"]: "is missing"
+        for each in wrong
+        if each["type"] == "missing" and each["loc"] not in supposed
     }
     return [(place, " ".join(what.split())[:_LONGEST]) for place, what in found.items()]
 

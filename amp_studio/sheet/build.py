@@ -59,7 +59,7 @@ def make_sheet(
             left_out.append(made)
         else:
             same += 1
-    lines, otherwise = _meant_the_same(keying, lines, wanted, present)
+    lines, otherwise = _same_in_control(keying, lines, wanted, present)
     left_out += otherwise
     lines = _in_order(lines, wanted, present, own)
     warnings = _warnings(lines, present, own)
@@ -128,7 +128,7 @@ def _line(
     return _Line(NewValue(address, value), old, new, stage)
 
 
-def _meant_the_same(
+def _same_in_control(
     keying: Keying, lines: list[_Line], wanted: ParameterFile, present: ParameterFile
 ) -> tuple[list[_Line], list[LeftOut]]:
     """Part the lines into those that mean in the control what they mean in the file, and the others.

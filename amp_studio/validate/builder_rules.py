@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import NamedTuple
 
-from amp_studio.schema import Address, Evaluation, Rule, Suppression, addresses_meant
+from amp_studio.schema import Address, Evaluation, Rule, Suppression, resolve_addresses
 
 from .finding import Finding
 
@@ -45,8 +45,8 @@ def sort_out(
     """Return the findings that stay, those that are suppressed, and the suppressions that meet nothing any more."""
     by_rule: dict[str, list[tuple[Suppression, list[set[Address]]]]] = {}
     for s in suppressions:
-        meant = [_meant(evaluation, text) for text in s.params]
-        by_rule.setdefault(s.rule, []).append((s, meant))
+        addresses = [_addresses_of(evaluation, text) for text in s.params]
+        by_rule.setdefault(s.rule, []).append((s, addresses))
     stay: list[Finding] = []
     left: list[Suppressed] = []
     for finding in findings:
@@ -66,9 +66,9 @@ def sort_out(
     return tuple(stay), tuple(left), tuple(s for s in suppressions if id(s) not in used)
 
 
-def _meant(evaluation: Evaluation, text: str) -> set[Address]:
+def _addresses_of(evaluation: Evaluation, text: str) -> set[Address]:
     """Return what a suppression means by a number or an id; nothing where this machine does not have it."""
     try:
-        return set(addresses_meant(evaluation, text))
+        return set(resolve_addresses(evaluation, text))
     except LookupError:
         return set()

@@ -24,13 +24,13 @@ from amp_studio.schema import (
     UnitError,
     UnknownParameterError,
     Value,
-    axis_meant,
     dimension,
-    meant,
     quoted,
     read_exact,
     read_real,
     read_value,
+    resolve_address,
+    resolve_axis,
     shown,
     unit_named,
     write_number,
@@ -234,7 +234,7 @@ class _Reader:
     def _ask_about(self, digits: str) -> None:
         """Refuse a bare whole number that is the number of a parameter; raises InvalidValueError with both ways to write it."""
         try:
-            address = meant(self._file.evaluation, digits).address
+            address = resolve_address(self._file.evaluation, digits).address
         except UnknownParameterError:
             return
         label = self._file.machine_schema.label(address)
@@ -270,7 +270,9 @@ class _Reader:
             return axis
         try:
             if instance or name.casefold() not in self._file.schema.parameters:
-                return meant(self._file.evaluation, f"{name}@{instance}" if instance else name).address
+                return resolve_address(
+                    self._file.evaluation, f"{name}@{instance}" if instance else name
+                ).address
         except UnknownParameterError as error:
             if name.casefold() in self._file.schema.parameters:
                 raise InvalidValueError(str(error)) from None
@@ -283,7 +285,7 @@ class _Reader:
             return None
         instances = self._file.machine_schema.instances(self._file.schema.parameters[self._here[0]])
         try:
-            axis = axis_meant(self._file.evaluation, tuple(i.partition(".")[0] for i in instances), letter)
+            axis = resolve_axis(self._file.evaluation, tuple(i.partition(".")[0] for i in instances), letter)
         except UnknownParameterError:
             return None
         instance = f"{axis}.{part}" if part else axis
@@ -317,7 +319,7 @@ class _Reader:
         instances = self._file.machine_schema.instances(self._file.schema.parameters[parameter_id])
         if instance:
             try:
-                return meant(self._file.evaluation, f"{parameter_id}@{instance}").address
+                return resolve_address(self._file.evaluation, f"{parameter_id}@{instance}").address
             except UnknownParameterError as error:
                 raise InvalidValueError(str(error)) from None
         whole = self._here[1].partition(".")[0]

@@ -289,7 +289,7 @@ class ExpressionCheck:
         hint = ": compare it with true or false" if "yes/no" in kinds and "text" in kinds else ""
         choice = next((worth.choices for worth in (left, right) if worth.choices), None)
         if choice and hint:
-            hint = f": {meant(one.text if left.kind == 'yes/no' else other.text, choice)}"
+            hint = f": {nearest_choice(one.text if left.kind == 'yes/no' else other.text, choice)}"
         self._slip(
             f"{shown(one.text)} is {_CALLED[left.kind]} and {how} {there}{shown(other.text)}, {_CALLED[right.kind]}{hint}"
         )
@@ -298,7 +298,9 @@ class ExpressionCheck:
         """See that what a choice is compared with are keys of it."""
         for text in literals if worth.choices and worth.is_closed else ():
             if worth.choices and not worth.choices.contains(text) and text not in worth.literals:
-                self._slip(f"{shown(node.text)} is never {shown(text)}: {meant(text, worth.choices)}")
+                self._slip(
+                    f"{shown(node.text)} is never {shown(text)}: {nearest_choice(text, worth.choices)}"
+                )
 
     def _compare_choices(self, node: Node, left: Worth, right: Worth) -> None:
         if (
@@ -311,7 +313,7 @@ class ExpressionCheck:
             self._slip(f"{shown(one.text)} and {shown(other.text)} have no choice in common")
 
 
-def meant(text: str, choices: KnownChoices) -> str:
+def nearest_choice(text: str, choices: KnownChoices) -> str:
     """Return which key was meant by a text that is none, in words."""
     same = [
         key

@@ -92,7 +92,7 @@ _TOKEN = re.compile(
     re.VERBOSE,
 )
 _ESCAPED = {"a": "\a", "b": "\b", "f": "\f", "n": "\n", "r": "\r", "t": "\t", "v": "\v"}
-_MEANT = {"=": "'=='", "&": "'&&'", "|": "'||'", "and": "'&&'", "or": "'||'"}
+_OPERATORS = {"=": "'=='", "&": "'&&'", "|": "'||'", "and": "'&&'", "or": "'||'"}
 """What people write, and what it is here."""
 
 
@@ -117,8 +117,8 @@ def _tokens(text: str) -> list[_Token]:
 
 def _unreadable(text: str, at: int) -> str:
     sign = text[at]
-    if sign in _MEANT:
-        return f"'{sign}' is no operator: write {_MEANT[sign]}"
+    if sign in _OPERATORS:
+        return f"'{sign}' is no operator: write {_OPERATORS[sign]}"
     if sign in "'\"":
         return f"the text that begins with {shown(text[at : at + 20])} has no end in its line, or a \\ that means nothing"
     return f"{shown(sign)} has no place in an expression"
@@ -173,10 +173,10 @@ class _ExpressionParser:
         node = self._expression()
         token = self._next
         if token.kind != "end":
-            meant = _MEANT.get(token.text)
+            operator = _OPERATORS.get(token.text)
             raise ExpressionError(
-                f"{shown(token.text)} is no operator: write {meant}"
-                if meant
+                f"{shown(token.text)} is no operator: write {operator}"
+                if operator
                 else f"{shown(token.text)} behind {shown(node.text)} makes no sense"
             )
         return node

@@ -20,7 +20,7 @@ from amp_studio.schema import (
     read_address,
 )
 
-from .expression_check import ExpressionCheck, meant
+from .expression_check import ExpressionCheck, nearest_choice
 from .expression_tree import RESERVED, ExpressionError, read_expression, shown
 from .expression_worth import (
     ANY,
@@ -250,7 +250,7 @@ def _unfit(worth: Worth, wanted: Parameter | bool | None) -> str:
         choices = choice_worth(wanted).choices
         for text in worth.literals:
             if choices and not choices.contains(text):
-                return f"{wanted.name} is never {shown(text)}: {meant(text, choices)}"
+                return f"{wanted.name} is never {shown(text)}: {nearest_choice(text, choices)}"
     return ""
 
 

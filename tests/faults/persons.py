@@ -11,7 +11,7 @@ from unittest import mock
 from amp_studio.cli.completion import answer
 from amp_studio.families.ninepc.emulated.panel import NinePcPanel
 from amp_studio.files import new_file
-from amp_studio.schema import UnknownParameterError, addresses_meant, family_ids
+from amp_studio.schema import UnknownParameterError, family_ids, resolve_addresses
 from amp_studio.schema.visible_text import visible
 from amp_studio.transfer.client.drivers import open_driver
 from amp_studio.transfer.client.parameters import read_digest
@@ -86,7 +86,7 @@ def fuzz_names(seed: int, count: int) -> list[str]:
 
         def look(text: str, file: object = file) -> None:
             file.evaluation.find_bit(text)
-            addresses_meant(file.evaluation, text)
+            resolve_addresses(file.evaluation, text)
 
         found += violations(iter([text]), look, (UnknownParameterError,))
     return found

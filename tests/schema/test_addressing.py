@@ -8,11 +8,11 @@ from amp_studio.files import ParameterFile, new_file
 from amp_studio.schema import (
     UnknownParameterError,
     Value,
-    all_meant,
-    axis_meant,
     family_ids,
     load_schema,
-    meant,
+    resolve_address,
+    resolve_all,
+    resolve_axis,
 )
 
 
@@ -58,7 +58,7 @@ def test_every_instance_is_found_by_its_address_and_every_number_means_one(famil
             assert file.find(schema.on(machine.key).short(address)) == address
             number = schema.on(machine.key).number(address)
             if number is not None:
-                found = meant(file.evaluation, number)
+                found = resolve_address(file.evaluation, number)
                 assert address in (found.address, *found.others)
                 assert bool(found.others) == bool(found.remark(schema))
 
@@ -68,13 +68,13 @@ def test_every_instance_is_found_by_its_address_and_every_number_means_one(famil
 
 def test_a_number_that_is_printed_twice_means_one_and_says_so(mill: ParameterFile) -> None:
     """1020 (pages 6-10 and 7-46)."""
-    found = meant(mill.evaluation, "1020")
+    found = resolve_address(mill.evaluation, "1020")
     assert found.address == ("zone.overtravel_used", "1")
     assert found.remark(mill.schema) == (
         "1020 is printed for two parameters: taken is Software Overtravel Used (zone.overtravel_used@1); "
         "the other is Velocity Loop Feedback Port (servo.velocity_port@1)"
     )
-    assert meant(mill.evaluation, "1300").remark(mill.schema) == ""
+    assert resolve_address(mill.evaluation, "1300").remark(mill.schema) == ""
 
 
 def test_the_other_is_reached_by_id_and_by_the_letter_of_its_axis(mill: ParameterFile) -> None:
@@ -93,7 +93,7 @@ def test_the_type_of_the_axis_decides_for_1013(mill: ParameterFile) -> None:
 
 def test_of_several_that_exist_the_first_is_taken() -> None:
     module = new_file("57c422b")
-    found = meant(module.evaluation, "R132")
+    found = resolve_address(module.evaluation, "R132")
     assert found.address == ("cam.time_points", "X.0")
     assert found.remark(module.schema).startswith("R132 is printed for three parameters: taken is ")
     assert found.others == (("cam.byte_points", "X.0"), ("cam.position_points", "X.0"))
@@ -103,7 +103,7 @@ def test_of_several_that_exist_the_first_is_taken() -> None:
 
 
 def test_a_number_of_several_words_means_all_of_them(num: ParameterFile) -> None:
-    found = [m.address for m in all_meant(num.evaluation, "P21")]
+    found = [m.address for m in resolve_all(num.evaluation, "P21")]
     assert found == [("servo.loop_gain", str(n)) for n in range(32)]
     with pytest.raises(UnknownParameterError, match="'P21' has 32 words, P21N0 to P21N31: name one of them"):
         num.find("P21")
@@ -111,7 +111,7 @@ def test_a_number_of_several_words_means_all_of_them(num: ParameterFile) -> None
 
 @pytest.mark.parametrize("text", ["P3N0.5", "p3n0.5", "P3.5", "axes.servoed.5"])
 def test_a_bit_is_named_behind_its_word(num: ParameterFile, text: str) -> None:
-    found = meant(num.evaluation, text)
+    found = resolve_address(num.evaluation, text)
     assert (found.address, found.bit) == (("axes.servoed", ""), 5)
     with pytest.raises(UnknownParameterError, match="is a bit"):
         num.find(text)
@@ -143,7 +143,7 @@ def test_two_axes_of_one_letter_are_both_told(mill: ParameterFile) -> None:
         "'home.calibration@X': the axes 1 and 3 are all named X: write home.calibration@1 or home.calibration@3"
     )
     with pytest.raises(UnknownParameterError, match="the axes 1 and 3 are all named X"):
-        axis_meant(file.evaluation, ("1", "2", "3"), "X")
+        resolve_axis(file.evaluation, ("1", "2", "3"), "X")
 
 
 def test_a_letter_of_an_axis_that_is_not_there_gives_way_to_one_that_is(mill: ParameterFile) -> None:

@@ -15,8 +15,8 @@ from amp_studio.schema import (
     clip,
     fault,
     limits,
-    meant,
     read_value,
+    resolve_address,
     show_value,
     write_value,
 )
@@ -95,7 +95,7 @@ def test_of_a_number_that_nothing_tells_apart_the_first_is_taken_and_both_are_to
         "states: [{state: hidden, unless: spindle_axis}]", ""
     )
     here = machine(facts.schema(text))
-    found = meant(here.evaluation, "1013")
+    found = resolve_address(here.evaluation, "1013")
     assert (found.address, found.others) == (("servo.motor_teeth", "1"), (("spindle.motor_teeth", "1"),))
     assert "(servo.motor_teeth@1); the other is " in found.remark(here.schema)
 

@@ -38,8 +38,8 @@ def test_the_letter_of_a_choice_counts_unless_it_is_another_choice_s_label(ninep
         labels = {choice.label.casefold(): choice for choice in parameter.choices or ()}
         for choice in parameter.choices or ():
             if choice.code is not None:
-                meant = labels.get(choice.code.casefold(), choice)
-                expected = Value(meant.key == "yes" if parameter.type == "boolean" else meant.key)
+                wanted = labels.get(choice.code.casefold(), choice)
+                expected = Value(wanted.key == "yes" if parameter.type == "boolean" else wanted.key)
                 assert expected == read_value(parameter, choice.code, ""), parameter.id
 
 

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 from amp_studio.cli.verb import Options
 from amp_studio.files import ParameterFile
-from amp_studio.schema import Meant
+from amp_studio.schema import ResolvedAddress
 
 if TYPE_CHECKING:  # most verbs about files ask for no mark, and start without what finds them
     from amp_studio.find import Mark
@@ -28,7 +28,9 @@ def marks_asked(options: Options) -> list[Mark]:
     return [mark for option, mark in _OPTIONS.items() if getattr(options, option)]
 
 
-def with_marks(file: ParameterFile, path: Path, found: Sequence[Meant], wanted: list[Mark]) -> list[Meant]:
+def with_marks(
+    file: ParameterFile, path: Path, found: Sequence[ResolvedAddress], wanted: list[Mark]
+) -> list[ResolvedAddress]:
     """Return those of the values that have every mark; raises NoDownloadError where no download is known."""
     from amp_studio.find import ValueMarks, noted, rows_of_file
 
@@ -46,8 +48,8 @@ def with_marks(file: ParameterFile, path: Path, found: Sequence[Meant], wanted: 
     row_of = {address: row for row in rows_of_file(file) for address in row}
     alone = [mark for mark in wanted if mark != "axes-differ"]
     return [
-        meant
-        for meant in found
-        if all(marks.has(mark, meant.address) for mark in alone)
-        and ("axes-differ" not in wanted or marks.differs(row_of.get(meant.address, ())))
+        resolved
+        for resolved in found
+        if all(marks.has(mark, resolved.address) for mark in alone)
+        and ("axes-differ" not in wanted or marks.differs(row_of.get(resolved.address, ())))
     ]

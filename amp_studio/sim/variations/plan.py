@@ -20,7 +20,7 @@ from statistics import NormalDist
 import numpy as np
 
 from amp_studio.files import ParameterFile
-from amp_studio.schema import Address, UnknownParameterError, Value, meant, read_number
+from amp_studio.schema import Address, UnknownParameterError, Value, read_number, resolve_address
 from amp_studio.sim.errors import SimulationError
 from amp_studio.sim.tuning.sampled import Matrix
 
@@ -118,7 +118,7 @@ def _placed(file: ParameterFile, axis: str, varied: Varied) -> Varied:
     """Return it with the address and unit of a parameter; raises SimulationError for one that is none, or has no number."""
     if varied.name.partition(".")[0] in SETTINGS:
         return varied
-    address = address_meant(file, varied.name, axis)
+    address = swept_address(file, varied.name, axis)
     value = file.get(address)
     if value is None or isinstance(value.value, (bool, str)):
         raise SimulationError(
@@ -136,13 +136,13 @@ def _placed(file: ParameterFile, axis: str, varied: Varied) -> Varied:
     )
 
 
-def address_meant(file: ParameterFile, name: str, axis: str) -> Address:
+def swept_address(file: ParameterFile, name: str, axis: str) -> Address:
     """Return the address of a parameter; one of an axis without its axis is that of the swept one. Raises SimulationError."""
     found = file.schema.parameters.get(name)
     if found is not None and axis in file.machine_schema.instances(found):
         return name, axis
     try:
-        return meant(file.evaluation, name).address
+        return resolve_address(file.evaluation, name).address
     except UnknownParameterError as error:
         raise SimulationError(str(error), name) from None
 

@@ -9,7 +9,7 @@ from PySide6.QtGui import QKeyEvent
 from PySide6.QtWidgets import QDialog, QFormLayout, QLabel, QLineEdit, QWidget
 
 from amp_studio.report import state_name
-from amp_studio.schema import Address, UnknownParameterError, meant
+from amp_studio.schema import Address, UnknownParameterError, resolve_address
 from amp_studio.ui.base.places import place_in_words
 from amp_studio.ui.base.translated import worded
 from amp_studio.ui.forms.choice_box import ChoiceBox
@@ -51,7 +51,7 @@ class QuickEdit(QDialog):
     def look_up(self) -> None:
         """Find the parameter with this number and show its value."""
         try:
-            found = meant(self._workspace.file.evaluation, self.number.text())
+            found = resolve_address(self._workspace.file.evaluation, self.number.text())
         except UnknownParameterError as error:
             self._offer(None)
             self.name.setText(f"{error}.")

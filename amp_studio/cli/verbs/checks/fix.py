@@ -66,13 +66,13 @@ def run(options: Options) -> int:
 
 def _wanted(validator: Validator, options: Options) -> Callable[[Finding], bool]:
     """Return the function that decides whether the fix of a finding is requested; raises UsageError for an unknown rule or parameter."""
-    from amp_studio.schema import addresses_meant, unknown_name
+    from amp_studio.schema import resolve_addresses, unknown_name
     from amp_studio.validate import GENERAL_RULES
 
     rules = {*GENERAL_RULES, *(rule.id for rule in (*validator.file.schema.rules, *validator.own.rules))}
     if options.rule is not None and options.rule not in rules:
         raise UsageError(unknown_name("rule", options.rule, sorted(rules)))
-    named = None if options.param is None else addresses_meant(validator.file.evaluation, options.param)
+    named = None if options.param is None else resolve_addresses(validator.file.evaluation, options.param)
 
     def wanted(finding: Finding) -> bool:
         return (

@@ -119,7 +119,7 @@ def _sources(options: Options) -> tuple[ParameterFile, ParameterFile, ParameterF
 
 def _settle(merge: Merge, texts: list[str]) -> None:
     """Take sides: ``theirs`` settles every conflict, ``1300=theirs`` one parameter; later ones count."""
-    from amp_studio.schema import field_at, meant, quoted
+    from amp_studio.schema import field_at, quoted, resolve_address
 
     for text in texts:
         param, sign, name = text.rpartition("=")
@@ -129,7 +129,7 @@ def _settle(merge: Merge, texts: list[str]) -> None:
         if not sign:
             merge.take(side, merge.conflicts)
             continue
-        found = meant(merge.a.evaluation, param.strip())
+        found = resolve_address(merge.a.evaluation, param.strip())
         if found.bit is not None:
             label = field_at(merge.a.schema.parameters[found.address[0]], found.bit).label
             raise UsageError(

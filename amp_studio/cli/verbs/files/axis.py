@@ -89,9 +89,9 @@ def _expected(least: int, most: int) -> str:
 def _axis(file: ParameterFile, text: str) -> str:
     """Return the axis that is named by itself or by its letter; raises UnknownParameterError."""
     from amp_studio.files import axis_instances
-    from amp_studio.schema import axis_meant
+    from amp_studio.schema import resolve_axis
 
-    return axis_meant(file.evaluation, axis_instances(file), text)
+    return resolve_axis(file.evaluation, axis_instances(file), text)
 
 
 def _change(file: ParameterFile, operation: str, arguments: Sequence[str]) -> list[Change]:

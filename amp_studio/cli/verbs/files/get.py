@@ -84,15 +84,15 @@ def run(options: Options) -> int:
     from amp_studio.cli.files.marked import marks_asked, with_marks
     from amp_studio.machine import bit_row, value_row
     from amp_studio.report import state_name
-    from amp_studio.schema import Meant, all_meant, real_value, show_value
+    from amp_studio.schema import ResolvedAddress, real_value, resolve_all, show_value
     from amp_studio.schema import shown as unit_shown
 
     file = opened(options.path, options)
     if options.params:
-        found = [m for p in options.params for m in all_meant(file.evaluation, p)]
+        found = [m for p in options.params for m in resolve_all(file.evaluation, p)]
     else:
         found = [
-            Meant(a)
+            ResolvedAddress(a)
             for a in file.addresses()
             if options.all or (a in file.values and file.evaluation.state(a).state != "hidden")
         ]

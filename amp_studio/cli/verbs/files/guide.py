@@ -210,9 +210,9 @@ def _next(options: Options, file: ParameterFile, come: GuideProgress, only: Setu
     """Print the next open value, of the file or of one step, and what is known about it."""
     from amp_studio.guide import next_open, step_of
     from amp_studio.report import open_value
-    from amp_studio.schema import addresses_meant
+    from amp_studio.schema import resolve_addresses
 
-    behind = addresses_meant(file.evaluation, options.after)[-1] if options.after else None
+    behind = resolve_addresses(file.evaluation, options.after)[-1] if options.after else None
     if only is not None:
         come = replace(come, steps=tuple(each for each in come.steps if each.step is only))
     found = next_open(come, behind)

@@ -96,7 +96,7 @@ def run(options: Options) -> int:
     """Show or change the calibration of one axis; all or nothing."""
     from amp_studio.calibration import CalibrationError, compensation_of
     from amp_studio.files import Document, RangeError
-    from amp_studio.schema import InvalidValueError, axis_meant
+    from amp_studio.schema import InvalidValueError, resolve_axis
 
     by_hand = bool(options.insert or options.replace or options.delete or options.clear)
     if by_hand and options.measured:
@@ -113,7 +113,7 @@ def run(options: Options) -> int:
             raise UsageError(
                 f"{file.schema.family.name} has neither a calibration table nor a reversal error"
             )
-        axis = axis_meant(file.evaluation, _instances(file, offered), options.axis)
+        axis = resolve_axis(file.evaluation, _instances(file, offered), options.axis)
         try:
             found = _wanted(options, file, offered, axis, by_hand)
             changes = file.set_many(found.settings)

@@ -33,7 +33,7 @@ PAPERS = (".pdf", ".html")
 def run(options: Options) -> int:
     """Check a file in motion: 1 where something is bad."""
     from amp_studio.files import axis_instances
-    from amp_studio.schema import axis_meant
+    from amp_studio.schema import resolve_axis
     from amp_studio.sim import check_motion, simulated_axes
 
     if options.output:
@@ -43,7 +43,7 @@ def run(options: Options) -> int:
     file = opened(options.path)
     axis = None
     if options.axis:
-        axis = axis_meant(file.evaluation, axis_instances(file) or simulated_axes(file), options.axis)
+        axis = resolve_axis(file.evaluation, axis_instances(file) or simulated_axes(file), options.axis)
     checks = tuple(check_motion(file, axis))
     if options.output:
         _write(options, file, checks)

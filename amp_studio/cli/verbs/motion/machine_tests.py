@@ -35,7 +35,7 @@ VERB = Verb(
 def run(options: Options) -> int:
     """List the tests of an axis, or write the program of one; 1 where one that was named is refused."""
     from amp_studio.files import axis_instances, write_atomic
-    from amp_studio.schema import axis_meant
+    from amp_studio.schema import resolve_axis
     from amp_studio.sim import machine_tests, simulated_axes
 
     if options.output:
@@ -43,7 +43,7 @@ def run(options: Options) -> int:
     file = opened(options.path)
     axis = None
     if options.axis:
-        axis = axis_meant(file.evaluation, axis_instances(file) or simulated_axes(file), options.axis)
+        axis = resolve_axis(file.evaluation, axis_instances(file) or simulated_axes(file), options.axis)
     tests = machine_tests(file, axis)
     if options.name:
         tests = tuple(test for test in tests if test.name == options.name)

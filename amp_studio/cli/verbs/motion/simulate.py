@@ -243,13 +243,13 @@ def _way(options: Options) -> SweepWay:
 def _axis(options: Options, file: ParameterFile) -> str | None:
     """Return the axis by itself, several as ``1,2``."""
     from amp_studio.files import axis_instances
-    from amp_studio.schema import axis_meant
+    from amp_studio.schema import resolve_axis
     from amp_studio.sim import simulated_axes
 
     if not options.axis:
         return None
     known = axis_instances(file) or simulated_axes(file)
-    return ",".join(axis_meant(file.evaluation, known, each.strip()) for each in options.axis.split(","))
+    return ",".join(resolve_axis(file.evaluation, known, each.strip()) for each in options.axis.split(","))
 
 
 def _identify(options: Options, file: ParameterFile) -> int:

@@ -23,7 +23,7 @@ from amp_studio.calibration import (
 )
 from amp_studio.families.ninepc.compensation import COMPENSATION
 from amp_studio.files import ParameterFile, RangeError, axis_instances
-from amp_studio.schema import Address, InvalidValueError, Value, axis_meant, read_exact, show_value
+from amp_studio.schema import Address, InvalidValueError, Value, read_exact, resolve_axis, show_value
 from amp_studio.transfer import decode_image, encode_image
 from amp_studio.transfer.emulated import Control
 
@@ -143,7 +143,7 @@ class OnlineAmp:
         )
 
     def _axis(self, file: ParameterFile, text: str) -> str:
-        return axis_meant(file.evaluation, axis_instances(file), text)
+        return resolve_axis(file.evaluation, axis_instances(file), text)
 
 
 def _sum(file: ParameterFile, address: Address, by: Fraction) -> Value:

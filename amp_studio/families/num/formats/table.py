@@ -24,7 +24,7 @@ from .words import (
     Spelling,
     Word,
     WordMeaning,
-    meant_by,
+    active_meaning,
     name_of,
     spelled_text,
     words_of,
@@ -163,7 +163,7 @@ class _Reader:
                 values[meanings[0].address] = self._value(file, word, meanings[0])
         file.take(values)
         for word in later:
-            meaning = meant_by(file, self.known.meanings[word])
+            meaning = active_meaning(file, self.known.meanings[word])
             file.set(meaning.address, self._value(file, word, meaning))
         self.found.values = file.values
 
@@ -260,7 +260,7 @@ def _write(file: ParameterFile) -> str:
     for word, meanings in known.meanings.items():
         there = tuple(meaning for meaning in meanings if meaning.address in file.values)
         if there:
-            cells[word] = _spelled(file, meant_by(file, there), known.form(word[0], heads))
+            cells[word] = _spelled(file, active_meaning(file, there), known.form(word[0], heads))
     for word, text in cells.items():
         if word[0] in layout.heads and word[1] >= layout.heads[word[0]][1]:
             message = (

@@ -187,7 +187,7 @@ class WordMeaning:
         return to_figure(self.parameter, Value(found, entered), stored)
 
 
-def meant_by(file: ParameterFile, meanings: tuple[WordMeaning, ...]) -> WordMeaning:
+def active_meaning(file: ParameterFile, meanings: tuple[WordMeaning, ...]) -> WordMeaning:
     """Return the value a word is: the first that this configuration has, where several share the word."""
     if len(meanings) > 1:
         for meaning in meanings:
