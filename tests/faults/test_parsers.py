@@ -102,6 +102,11 @@ READERS = {
     "sim/variations/running.py": "damaged parts of a sweep",
     "sim/one_thread.py": "",  # sets a variable that is not there, reads none
     "sim/engine/compiled.py": "",  # one switch of numba, compared with "0"
+    "families/num/emulated/manual_keys.py": "",  # what the emulated control itself has written
+    "families/ninepc/emulated/machine_keys.py": "odd commands at an emulated control",
+    "find/synonyms.py": "",  # a file of the program itself
+    "schema/expression.py": "",  # its own names
+    "ui/actions/find.py": "",  # writes to the clipboard
     "schema/units.py": "",  # a file of the program itself
     "transfer/client/kept.py": "damaged copies of a control",
     "transfer/client/live.py": "damaged control image",

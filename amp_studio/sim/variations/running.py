@@ -24,6 +24,7 @@ from typing import Any
 
 import numpy as np
 
+from amp_studio.schema import read_file
 from amp_studio.sim.errors import SimulationError
 from amp_studio.sim.tuning.sampled import Matrix
 
@@ -58,7 +59,7 @@ class Kept:
 
     def _read(self, width: int, count: int) -> None:
         assert self.path is not None
-        head, *lines = self.path.read_text("ascii").splitlines()
+        head, *lines = read_file(self.path, follow=False).decode("ascii").splitlines()
         if json.loads(head) != {"sweep": self.digest}:
             return
         for line in lines:
