@@ -46,6 +46,7 @@ if TYPE_CHECKING:
     from .identification.identify import figure_text, identified_text, identify, machine_settings
     from .identification.identify_response import identify_response
     from .identification.machine_file import machine_for, read_machine, write_machine
+    from .identification.overlay import laid_over
     from .law import (
         USUAL_SCENARIOS,
         AlarmText,

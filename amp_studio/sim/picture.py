@@ -112,11 +112,18 @@ _TIME = ("time", "s")
 def _motion(trace: Trace, before: Trace | None) -> Picture:
     alarms = tuple(NamedPlace("", alarm.time_s, "error") for alarm in trace.alarms)
     panels = [
-        _panel(trace, before, alarms, "position", ("command_position", "position"), 0.9),
+        _panel(trace, before, alarms, "position", ("recorded_position", "command_position", "position"), 0.9),
         _error(trace, before, alarms),
         _panel(trace, before, alarms, "axis less spindle", ("tapping_error",), 1.0),
-        _panel(trace, before, alarms, "velocity", ("command_velocity", "expected_speed", "velocity"), 1.0),
-        _panel(trace, before, alarms, "torque", ("torque_percent", "torque"), 0.8),
+        _panel(
+            trace,
+            before,
+            alarms,
+            "velocity",
+            ("recorded_velocity", "command_velocity", "expected_speed", "velocity"),
+            1.0,
+        ),
+        _panel(trace, before, alarms, "torque", ("recorded_torque", "torque_percent", "torque"), 0.8),
         _panel(trace, before, alarms, "output", ("output",), 0.8) if _has_own_output(trace) else None,
     ]
     return Picture("", (), linked([p for p in panels if p is not None]), close=_settling(trace, before))
@@ -179,7 +186,16 @@ def _error(trace: Trace, before: Trace | None, alarms: Sequence[NamedPlace]) -> 
     ]
     far = ", ".join(f"{name} {level}" for name, level in limits_outside(trace).items()).replace("_", " ")
     above = f"above the plot: {far}" if far else ""
-    return _panel(trace, before, alarms, "following error", ("following_error",), 1.3, near, above)
+    return _panel(
+        trace,
+        before,
+        alarms,
+        "following error",
+        ("recorded_following_error", "following_error"),
+        1.3,
+        near,
+        above,
+    )
 
 
 def settling_span(trace: Trace) -> tuple[float, float] | None:

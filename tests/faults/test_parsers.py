@@ -97,6 +97,7 @@ READERS = {
     "sheet/ticks.py": "damaged ticks of a sheet",
     "sim/identification/machine_file.py": "damaged machines of an axis",
     "sim/identification/drive_record.py": "damaged records of a drive",
+    "sim/identification/overlay.py": "damaged records of a drive",  # by the same reader of columns
     "sim/identification/response.py": "damaged frequency responses",
     "sim/variations/job.py": "",  # the file that is open already, written by the program
     "sim/variations/running.py": "damaged parts of a sweep",

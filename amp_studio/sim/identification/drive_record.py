@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import csv
 import re
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -128,6 +128,22 @@ def _heads(lines: _Lines) -> tuple[dict[str, int], list[tuple[str, str]], str, _
             rest = rest[1:]
         return found, names, separator, rest
     raise SimulationError(f"No line names the columns. Write it above the numbers, with units: {_EXAMPLE}")
+
+
+def named_columns(text: str, wanted: Mapping[str, str]) -> dict[str, tuple[int, str]]:
+    """Return place and unit of each wanted column (name -> pattern) in the first line of a text that names one; {} where none does."""
+    for n, line in enumerate(text.splitlines()[:_HEAD_WITHIN], 1):
+        separator = next((sign for sign in ";\t," if sign in line), ",")
+        heads = [_name_and_unit(cell) for cell in _cells(line, separator, n)]
+        found = {
+            name: (place, heads[place][1])
+            for name, pattern in wanted.items()
+            for place in [next((k for k, head in enumerate(heads) if re.fullmatch(pattern, head[0])), None)]
+            if place is not None
+        }
+        if found:
+            return found
+    return {}
 
 
 def _kinds(names: Sequence[str]) -> dict[str, int]:

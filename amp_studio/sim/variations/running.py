@@ -184,7 +184,7 @@ def _on_cluster(
         client: Any = Client(scheduler, timeout="10s", set_as_default=False)
     except (OSError, ValueError) as error:
         raise SimulationError(f"No scheduler answers at {scheduler}: {error}") from None
-    with client:
+    with client, client.as_current():
         shared = client.scatter(job, broadcast=True)
         futures = {
             client.submit(figures_of, shared, points[start : start + AT_ONCE], pure=False): start

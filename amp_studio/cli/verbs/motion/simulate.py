@@ -110,6 +110,12 @@ VERB = Verb(
         help="identify --frf: position, velocity or acceleration (default: as slope and phase show)",
     ),
     VerbArgument(
+        "--against",
+        type=path_of,
+        metavar="RECORD.csv",
+        help="lay the record of the machine over the move: lag, difference and its root mean square",
+    ),
+    VerbArgument(
         "--units", metavar="SYSTEM", help="metric or inch, for settings and result (default: as the file)"
     ),
     OUTPUT.but(required=False, help="file to write: .csv, .svg, .png; of identify also .yaml, the machine"),
@@ -145,6 +151,7 @@ def run(options: Options) -> int:
     """Move the machine; 1 where it raised an alarm."""
     from amp_studio.machine import read_assignments
     from amp_studio.sim import (
+        laid_over,
         machine_for,
         named_parameter,
         read_machine,
@@ -188,6 +195,8 @@ def run(options: Options) -> int:
         trace = sweep(file, axis, settings, system, way=_way(options))
     else:
         trace = simulate(file, options.scenario, axis, settings, system)
+    if options.against:
+        trace = laid_over(trace, options.against)
     for said in told:
         note(said)
     if options.output:

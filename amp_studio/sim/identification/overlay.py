@@ -1,0 +1,113 @@
+"""The record of a machine laid over a simulated move: shifted to where both agree best, with the difference and its root mean square.
+
+The lag is sought by the correlation of the first signal that both have (command, position, velocity, following error, torque), to a part of
+a row by a parabola (C. Knapp, G. Carter, IEEE Transactions on Acoustics, Speech, and Signal Processing 24, 1976).
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+
+from amp_studio.files import text_of_name
+from amp_studio.schema import UnitError, canonical, dimension, read_table_text, unit_named
+from amp_studio.sim.errors import SimulationError
+from amp_studio.sim.series import Series
+from amp_studio.sim.trace import Figure, Trace
+
+from .drive_record import named_columns, read_number_table
+
+SIGNALS = {
+    "command_position": "command( position)?|(position )?(command|setpoint)|commanded position|sollposition",
+    "position": "position|pos|(actual|measured|axis) (position|pos)|istposition",
+    "velocity": "velocity|speed|(actual|measured|axis) (velocity|speed)|istgeschwindigkeit",
+    "following_error": "following error|position error|error|schleppfehler",
+    "torque": "torque|current|(actual|measured|motor) (torque|current)|iq|istmoment",
+}
+"""Signal of a trace -> names of its column in a record."""
+_TIME = "time|t|zeit"
+LEAST_ROWS = 20
+MOST_ROWS = 20_000
+"""Rows in which the lag is sought; longer traces are thinned for it."""
+
+
+def read_channels(path: Path, trace: Trace) -> tuple[Series, dict[str, Series]]:
+    """Return time in s and the signals of a record that the trace has too, in its units; raises SimulationError, OSError."""
+    name, text = text_of_name(path.name), read_table_text(path)
+    places = named_columns(text, {"time": _TIME, **SIGNALS})
+    known = {signal: place for signal, place in places.items() if signal in trace.columns}
+    if "time" not in places or not known:
+        raise SimulationError(
+            f"{name}: it needs a column of time and one of {', '.join(each for each in SIGNALS if each in trace.columns)}, with their units"
+        )
+    columns = read_number_table(text, [place for place, _ in (places["time"], *known.values())])
+    if len(columns[0]) < LEAST_ROWS:
+        raise SimulationError(f"{name}: {len(columns[0])} rows are too few: at least {LEAST_ROWS}")
+    try:
+        time = columns[0] * canonical(1.0, unit_named(places["time"][1] or "s")) / canonical(1.0, "s")
+    except UnitError as error:
+        raise SimulationError(f"{name}: {error}") from None
+    if not (np.diff(time) > 0.0).all():
+        raise SimulationError(f"{name}: its time does not rise from row to row")
+    return time - time[0], {
+        signal: column * _factor(name, signal, unit, trace.units[signal])
+        for (signal, (_, unit)), column in zip(known.items(), columns[1:], strict=True)
+    }
+
+
+def _factor(name: str, signal: str, unit: str, wanted: str) -> float:
+    """Return how much of the trace's unit one of the record's is; a column without a unit is in that of the trace."""
+    if unit in ("", wanted):
+        return 1.0
+    try:
+        own, theirs = unit_named(unit), unit_named(wanted)
+        if dimension(own) == dimension(theirs):
+            return canonical(1.0, own) / canonical(1.0, theirs)
+    except UnitError:
+        pass
+    raise SimulationError(
+        f"{name}: {signal.replace('_', ' ')} is in {unit[:20]}, and the simulation has it in {wanted}"
+    )
+
+
+def laid_over(trace: Trace, path: Path) -> Trace:
+    """Return a trace with the signals of a record (``recorded_…``) and the differences (``difference_…``, record less simulation).
+
+    Raises SimulationError for a record that does not fit, OSError where it cannot be read.
+    """
+    time, signals = read_channels(path, trace)
+    here = trace.columns["time_s"]
+    first = next(iter(each for each in SIGNALS if each in signals))
+    lag = _lag(here, trace.columns[first], time, signals[first])
+    columns, units, result = dict(trace.columns), dict(trace.units), dict[str, Figure]()
+    for signal, values in signals.items():
+        laid = np.interp(here + lag, time, values, left=np.nan, right=np.nan)
+        off = laid - trace.columns[signal]
+        if not np.isfinite(off).any():
+            continue
+        columns[f"recorded_{signal}"], columns[f"difference_{signal}"] = laid, off
+        units[f"recorded_{signal}"] = units[f"difference_{signal}"] = unit = trace.units[signal]
+        result[f"difference_rms_{signal}"] = float(np.sqrt(np.nanmean(off**2))), unit
+        result[f"difference_peak_{signal}"] = float(np.nanmax(np.abs(off))), unit
+    if not result:
+        raise SimulationError(f"{text_of_name(path.name)}: the record and the simulated move do not overlap")
+    note = f"The record was laid over the simulation by its {first.replace('_', ' ')}: 0 s of the simulation is {lag:.6g} s of the record."
+    found = {**trace.result, "record_lag": (lag, "s"), **result}
+    return replace(trace, columns=columns, units=units, result=found, assumptions=(note, *trace.assumptions))
+
+
+def _lag(here: Series, simulated: Series, time: Series, recorded: Series) -> float:
+    """Return the time of the record at which the simulation begins."""
+    step = max(float(np.median(np.diff(time))), float(here[-1] + time[-1]) / MOST_ROWS)
+    one = np.interp(np.arange(0.0, here[-1] + step, step), here, simulated)
+    two = np.interp(np.arange(0.0, time[-1] + step, step), time, recorded)
+    one, two = np.diff(one), np.diff(two)  # changes: a different zero of the position is none
+    size = 1 << (len(one) + len(two)).bit_length()
+    product = np.fft.irfft(np.fft.rfft(two, size) * np.conj(np.fft.rfft(one, size)), size)
+    places = np.concatenate([np.arange(len(two)), np.arange(-len(one) + 1, 0)])
+    best = int(places[int(np.argmax(product[places]))])
+    low, middle, high = product[best - 1], product[best], product[(best + 1) % size]
+    bend = low - 2.0 * middle + high
+    return float(step * (best + (0.5 * (low - high) / bend if bend < 0.0 else 0.0)))
