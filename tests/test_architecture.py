@@ -628,9 +628,11 @@ FORMATTED = (
     "guide",
     "pictures",
     "programs",
+    "report",
     "schema",
     "sheet",
     "transfer",
+    "validate",
 )
 """Rooms in which the formatter alone decides; each that is added stays so."""
 

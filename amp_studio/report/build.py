@@ -271,8 +271,14 @@ def _axis(
     touching = [f for f in findings if any(a[1] == axis and scope_of(file, a) == "axis" for a in f.addresses)]
     severities = [counted(n, s) for s in ("error", "warning") if (n := _severity(touching, s))]
     settings = [_setting(file, (p, axis)) for p in asked] or [axis_kind(file, axis) or "–"]
-    return (axis, axis_letter(file, axis) or "–", *settings, str(len(own)), str(sum(r.is_changed for r in own)),
-            ", ".join(severities) or "–")  # fmt: skip
+    return (
+        axis,
+        axis_letter(file, axis) or "–",
+        *settings,
+        str(len(own)),
+        str(sum(r.is_changed for r in own)),
+        ", ".join(severities) or "–",
+    )
 
 
 def _setting(file: ParameterFile, address: Address) -> str:

@@ -25,7 +25,7 @@ from .base.garbage import collect_by_timer, set_apart
 from .base.program_icon import program_icon
 from .base.questions import ask
 from .base.task import Task
-from .base.theme import wear
+from .base.theme import apply_style
 from .base.workspace import Workspace
 from .page.file_page import FilePage
 from .page.left_panel import as_side
@@ -47,7 +47,7 @@ class MainWindow(PartsWindow):
     def __init__(self) -> None:
         collect_by_timer()
         super().__init__()
-        wear(self.settings.theme())
+        apply_style(self.settings.theme())
         self.setWindowIcon(program_icon())
         self.setAcceptDrops(True)
         room = self.screen().availableSize()

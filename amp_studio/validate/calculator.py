@@ -24,8 +24,11 @@ _YES_NO = {"yes": True, "true": True, "1": True, "no": False, "false": False, "0
 _CAPITALS = ("blu", "css", "dac", "dcm", "dda", "led", "num", "oem", "plc", "sercos", "ssi")
 _UNITS = {
     **{u: u for u in ("ms", "s", "mm", "deg", "amps", "volts", "rpm")},
-    "us": "µs", "hz": "Hz", "mhz": "MHz", "kbytes": "KB",
-}  # fmt: skip
+    "us": "µs",
+    "hz": "Hz",
+    "mhz": "MHz",
+    "kbytes": "KB",
+}
 """Last word of a name -> the unit that it is."""
 
 

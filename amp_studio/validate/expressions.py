@@ -104,8 +104,10 @@ class Expressions:
         finding: FindingExpressions | None = None,
     ) -> None:
         self._rule, self._functions, self._finding = rule, functions, finding
-        self._names = (*(n for n in rule.reads if not is_list(rule.reads[n])),
-                       *(n for n in rule.reads if is_list(rule.reads[n])))  # fmt: skip
+        self._names = (
+            *(n for n in rule.reads if not is_list(rule.reads[n])),
+            *(n for n in rule.reads if is_list(rule.reads[n])),
+        )
         self.remembered = Remembered()
         """Keys of the values of the rule -> whether it is broken, where that hangs on nothing else."""
 

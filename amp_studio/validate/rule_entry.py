@@ -10,9 +10,25 @@ from amp_studio.schema import Model, ModelError, Slip
 T = TypeVar("T", bound=Model)
 
 MOST = {
-    "id": 100, "title": 200, "message": 2000, "page": 200, "family": 50, "reads": 100, "optional": 100, "any_state": 100,
-    "values": 50, "units": 50, "fix": 20, "effective": 20, "blames": 100, "compares": 100, "rule": 100, "params": 1000, "reason": 2000, "by": 200,
-}  # fmt: skip
+    "id": 100,
+    "title": 200,
+    "message": 2000,
+    "page": 200,
+    "family": 50,
+    "reads": 100,
+    "optional": 100,
+    "any_state": 100,
+    "values": 50,
+    "units": 50,
+    "fix": 20,
+    "effective": 20,
+    "blames": 100,
+    "compares": 100,
+    "rule": 100,
+    "params": 1000,
+    "reason": 2000,
+    "by": 200,
+}
 """Characters of a text, items of a list."""
 _NEUTRAL = {"id": "a.a", "title": "", "severity": "error", "check": "true", "message": ""}
 """What is in the place of a key that cannot be used, while the others are checked."""

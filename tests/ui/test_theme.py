@@ -60,7 +60,7 @@ def light_again(qtbot: QtBot) -> Iterator[None]:
     """Leave the other tests the scheme they started with."""
     before = theme.scheme().choice
     yield
-    theme.wear(before)
+    theme.apply_style(before)
 
 
 def test_contrast_is_one_of_the_same_and_21_of_black_on_white() -> None:
@@ -122,7 +122,7 @@ def test_a_damaged_choice_of_theme_follows_the_system(kept: object) -> None:
 
 
 def test_a_disabled_icon_is_drawn_in_the_disabled_ink(qtbot: QtBot, light_again: None) -> None:
-    theme.wear("light")
+    theme.apply_style("light")
     image = theme.icon("x").pixmap(QSize(32, 32), QIcon.Mode.Disabled).toImage()
     assert {image.pixelColor(n, 16).name() for n in range(32) if image.pixelColor(n, 16).alpha() == 255} == {
         "#757d88"

@@ -17,7 +17,8 @@ def finding_json(file: ParameterFile, finding: Finding) -> dict[str, Any]:
     """Return a finding in the form of ``validate --json``."""
     here = file.machine_schema
     return {
-        "rule": finding.rule, "severity": finding.severity,
+        "rule": finding.rule,
+        "severity": finding.severity,
         "params": [here.short(a) for a in finding.addresses],
         "compared": [here.short(a) for a in finding.compared],
         "message": finding.message,
@@ -25,7 +26,7 @@ def finding_json(file: ParameterFile, finding: Finding) -> dict[str, Any]:
         **({"brings": finding.brings} if finding.brings else {}),
         "effective": [_setting_json(file, setting) for setting in finding.effective],
         "source": finding.page or finding.reason or None,
-    }  # fmt: skip
+    }
 
 
 def _setting_json(file: ParameterFile, setting: Setting) -> dict[str, Any]:

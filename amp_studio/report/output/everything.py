@@ -14,19 +14,38 @@ from .workbook import Cell, WorkbookSheet, workbook
 def render_json(report: Report) -> bytes:
     """Return the report as one JSON document; every value to its last digit, as text with its unit beside it."""
     document = {
-        "title": report.title, "family": report.family, "printed": report.date.isoformat(timespec="seconds"), "program": report.program,
-        "machine": dict(report.machine), "document": dict(report.facts), "counts": dict(report.counts), "notes": report.remarks, "noted": [{"about": about, "note": text} for about, text in report.remarked],
+        "title": report.title,
+        "family": report.family,
+        "printed": report.date.isoformat(timespec="seconds"),
+        "program": report.program,
+        "machine": dict(report.machine),
+        "document": dict(report.facts),
+        "counts": dict(report.counts),
+        "notes": report.remarks,
+        "noted": [{"about": about, "note": text} for about, text in report.remarked],
         "axes": [dict(zip(report.axis_heads, line, strict=True)) for line in report.axes],
-        "values": [dict(zip(HEADS, line_of(row), strict=True)) | {"place": row.place, "why": row.why} for row in report.rows()],
+        "values": [
+            dict(zip(HEADS, line_of(row), strict=True)) | {"place": row.place, "why": row.why}
+            for row in report.rows()
+        ],
         "findings": [
-            {"severity": note.severity, "count": note.count, "place": note.place, "about": [label for _, label in note.about],
-             "message": note.message, "fix": note.fix, "page": note.page}
+            {
+                "severity": note.severity,
+                "count": note.count,
+                "place": note.place,
+                "about": [label for _, label in note.about],
+                "message": note.message,
+                "fix": note.fix,
+                "page": note.page,
+            }
             for note in report.notes
         ],
-        "not_set": [{"number": number, "name": name, "place": place} for number, name, place in report.not_set],
+        "not_set": [
+            {"number": number, "name": name, "place": place} for number, name, place in report.not_set
+        ],
         "power_up": [{name: getattr(each, name) for name in each.__slots__} for each in report.power_up],
         "exchanges": [{name: getattr(each, name) for name in each.__slots__} for each in report.exchanges],
-    }  # fmt: skip
+    }
     return (json.dumps(document, ensure_ascii=False, indent=1) + "\n").encode("utf-8")
 
 

@@ -39,5 +39,18 @@ def render_csv(report: Report) -> bytes:
 
 def line_of(row: ReportRow) -> tuple[str, ...]:
     """Return the cells of a value, in the order of ``HEADS``."""
-    return (row.number, row.id, row.instance, row.name, row.group, row.value, row.unit, row.plain_default,
-            "yes" if row.is_changed else "no", row.state, row.forced, "no" if row.no_default else "yes", row.note)  # fmt: skip
+    return (
+        row.number,
+        row.id,
+        row.instance,
+        row.name,
+        row.group,
+        row.value,
+        row.unit,
+        row.plain_default,
+        "yes" if row.is_changed else "no",
+        row.state,
+        row.forced,
+        "no" if row.no_default else "yes",
+        row.note,
+    )

@@ -21,9 +21,15 @@ SIDE_BY_SIDE = 6
 
 
 def differences_paper(
-    file: ParameterFile, found: Comparison, names: tuple[str, str], facts: Sequence[tuple[str, str]] = (), date: datetime | None = None,
-    *, more: tuple[ParameterFile, Sequence[Difference]] | None = None, language: str = "en",
-) -> Paper:  # fmt: skip
+    file: ParameterFile,
+    found: Comparison,
+    names: tuple[str, str],
+    facts: Sequence[tuple[str, str]] = (),
+    date: datetime | None = None,
+    *,
+    more: tuple[ParameterFile, Sequence[Difference]] | None = None,
+    language: str = "en",
+) -> Paper:
     """Return what differs between a file and another side, group by group; secrets are masked.
 
     ``more`` are the other side and what only its schema has; ``language`` is a code of ``language_codes``.
@@ -33,13 +39,24 @@ def differences_paper(
         tables += _by_group(*more, language)
     count = len(found.differences) + (len(more[1]) if more else 0)
     counts = [
-        ("A", names[0]), ("B", names[1]), *facts,
-        ("Differ", str(count)), ("The same", str(found.same)),
-        ("Not set in A", str(found.not_set_in_a)), ("Not set in B", str(found.not_set_in_b)),
-    ]  # fmt: skip
+        ("A", names[0]),
+        ("B", names[1]),
+        *facts,
+        ("Differ", str(count)),
+        ("The same", str(found.same)),
+        ("Not set in A", str(found.not_set_in_a)),
+        ("Not set in B", str(found.not_set_in_b)),
+    ]
     title = file.header.name or names[0]
-    return Paper("Differences", title, tuple(counts), tuple(tables),
-                 date or datetime.now().astimezone(), "Nothing differs.", language=language)  # fmt: skip
+    return Paper(
+        "Differences",
+        title,
+        tuple(counts),
+        tuple(tables),
+        date or datetime.now().astimezone(),
+        "Nothing differs.",
+        language=language,
+    )
 
 
 def _by_group(file: ParameterFile, differences: Sequence[Difference], language: str) -> Iterator[PaperTable]:
@@ -70,15 +87,24 @@ def machines_paper(
     lines, same = machine_lines(files, everything=everything, language=language)
     differing = sum(line.differs for line in lines)
     facts = (
-        ("Control family", files[0].schema.family.name), ("Machines", str(len(files))),
-        ("Differ", counted(differing, "value")), ("The same", counted(same, "value")),
-    )  # fmt: skip
+        ("Control family", files[0].schema.family.name),
+        ("Machines", str(len(files))),
+        ("Differ", counted(differing, "value")),
+        ("The same", counted(same, "value")),
+    )
     if len(files) > SIDE_BY_SIDE:
         tables, title = tuple(_grouped(lines, names, language)), counted(len(files), "machine")
     else:
         tables, title = _side_by_side(lines, names), ", ".join(names)
-    return Paper("Machines compared", title, facts, tables if lines else (),
-                 date or datetime.now().astimezone(), "Nothing differs.", language=language)  # fmt: skip
+    return Paper(
+        "Machines compared",
+        title,
+        facts,
+        tables if lines else (),
+        date or datetime.now().astimezone(),
+        "Nothing differs.",
+        language=language,
+    )
 
 
 def _side_by_side(lines: Sequence[MachineLine], names: Sequence[str]) -> tuple[PaperTable, ...]:

@@ -34,9 +34,15 @@ def form_paper(
         ("Machine", ""),
         ("Serial number", ""),
     ]
-    return Paper("Form", file.header.name or family.name, tuple((k, v or "_" * 40) for k, v in facts),
-                 tuple(_tables(file, everything, language_of(language))), date or datetime.now().astimezone(),
-                 signed=True, language=language)  # fmt: skip
+    return Paper(
+        "Form",
+        file.header.name or family.name,
+        tuple((k, v or "_" * 40) for k, v in facts),
+        tuple(_tables(file, everything, language_of(language))),
+        date or datetime.now().astimezone(),
+        signed=True,
+        language=language,
+    )
 
 
 def _tables(file: ParameterFile, everything: bool, language: Language) -> Iterator[PaperTable]:

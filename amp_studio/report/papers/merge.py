@@ -21,9 +21,10 @@ def merge_paper(merge: Merge, names: Mapping[Side, str], date: datetime | None =
     left = len(merge.open_conflicts)
     facts = (
         *((LETTERS[side], name) for side, name in names.items()),
-        ("Differ", str(len(merge.differing))), ("The same", str(merge.same)),
+        ("Differ", str(len(merge.differing))),
+        ("The same", str(merge.same)),
         ("Conflicts", f"{len(merge.conflicts)}, {left} not settled"),
-    )  # fmt: skip
+    )
     result = merge.result()
     tables = tuple(_table(merge, group, tuple(names), result) for group in merge.grouped(merge.differing))
     title = merge.a.header.name or names["a"]

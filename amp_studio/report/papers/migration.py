@@ -10,12 +10,24 @@ from amp_studio.report.wording import counted
 from .paper import Paper, PaperTable
 
 _HEADS = {
-    "exact": ("Taken over exactly", ("Number", "Before", "Key", "Value", "Formula"), ("raw", "key", "value", "formula")),
-    "approximate": ("Approximated", ("Number", "Before", "Key", "Value", "Then", "Now", "Safe"), ("raw", "key", "value", "old", "new", "safe_side")),
-    "not_possible": ("Not possible", ("Number", "Before", "What is lost", "What to do"), ("raw", "loses", "do")),
+    "exact": (
+        "Taken over exactly",
+        ("Number", "Before", "Key", "Value", "Formula"),
+        ("raw", "key", "value", "formula"),
+    ),
+    "approximate": (
+        "Approximated",
+        ("Number", "Before", "Key", "Value", "Then", "Now", "Safe"),
+        ("raw", "key", "value", "old", "new", "safe_side"),
+    ),
+    "not_possible": (
+        "Not possible",
+        ("Number", "Before", "What is lost", "What to do"),
+        ("raw", "loses", "do"),
+    ),
     "asked": ("Asked", ("Number", "Before", "Question", "Answer"), ("old", "id", "answer")),
     "old_hardware": ("Of the old hardware", ("Number", "Before"), ("raw",)),
-}  # fmt: skip
+}
 
 
 def migration_paper(migration: Migration, date: datetime | None = None) -> Paper:
@@ -35,10 +47,15 @@ def migration_paper(migration: Migration, date: datetime | None = None) -> Paper
         rows = tuple((e.param, *(str(e.facts.get(key) or "") for key in keys)) for e in migration.of(outcome))
         tables.append(PaperTable(title, heads, rows))
     facts = (
-        ("From", migration.machine.family), ("To", migration.target), ("Active parameters", str(len(migration.entries))),
-        *((title, counted(len(migration.of(outcome)), "parameter")) for outcome, (title, _, _) in _HEADS.items()),
+        ("From", migration.machine.family),
+        ("To", migration.target),
+        ("Active parameters", str(len(migration.entries))),
+        *(
+            (title, counted(len(migration.of(outcome)), "parameter"))
+            for outcome, (title, _, _) in _HEADS.items()
+        ),
         ("HAL", "a template: it moves nothing, and nothing of the old wiring is in it"),
-    )  # fmt: skip
+    )
     return Paper(
         "Migration",
         migration.machine.name,

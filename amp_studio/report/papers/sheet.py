@@ -103,8 +103,12 @@ def text_lines(printed: PrintedSheet) -> Iterator[str]:
     yield "=" * WIDTH
     yield sheet.title.upper().ljust(WIDTH - len(printed.when)) + printed.when
     yield "=" * WIDTH
-    facts = (("Machine", sheet.machine), ("Control", sheet.family), ("Values of", sheet.wanted),
-             ("Compared with", sheet.present))  # fmt: skip
+    facts = (
+        ("Machine", sheet.machine),
+        ("Control", sheet.family),
+        ("Values of", sheet.wanted),
+        ("Compared with", sheet.present),
+    )
     for name, text in facts:
         if text:
             yield from _wrapped(text, f"{name + ' ':.<16} ")

@@ -100,8 +100,11 @@ def _default(parameter: Parameter) -> dict[str, Any] | None:
         return None
     if parameter.choices:
         found: dict[str, Any] = {"": label_of(parameter, str(default.value))}
-        return found | ({"instances": {i: label_of(parameter, str(v)) for i, v in default.instances.items()}}
-                        if default.instances else {})  # fmt: skip
+        return found | (
+            {"instances": {i: label_of(parameter, str(v)) for i, v in default.instances.items()}}
+            if default.instances
+            else {}
+        )
 
     def plain(value: float | bool | str) -> float | bool | str:
         is_whole = parameter.type in ("integer", "bits") and isinstance(value, float)

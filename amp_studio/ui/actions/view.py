@@ -11,7 +11,7 @@ from amp_studio.files import ParameterFile
 from amp_studio.schema import Value, why_not_simulated
 from amp_studio.ui.base.loading import load
 from amp_studio.ui.base.task import in_background
-from amp_studio.ui.base.theme import as_choice, wear
+from amp_studio.ui.base.theme import apply_style, as_choice
 from amp_studio.ui.base.translated import LANGUAGES, tr
 from amp_studio.ui.page.file_page import FilePage
 from amp_studio.ui.window.studio_window import StudioWindow
@@ -109,7 +109,7 @@ def themes(_: StudioWindow) -> list[tuple[str, str]]:
 def choose_theme(window: StudioWindow, choice: str) -> None:
     """Show every window in a theme at once, and keep the choice."""
     theme = as_choice(choice)
-    wear(theme)
+    apply_style(theme)
     window.settings.keep_theme(theme)
 
 

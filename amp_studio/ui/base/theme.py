@@ -1,6 +1,6 @@
 """How everything looks: the table of colours, light and dark, sizes, fonts, and icons of one hand.
 
-Nothing else in the window names a colour. ``wear`` puts it all on the application; it follows the desktop, or keeps to
+Nothing else in the window names a colour. ``apply_style`` puts it all on the application; it follows the desktop, or keeps to
 what the person chose, and views that have written a colour into a text listen to ``scheme().changed``.
 """
 
@@ -129,7 +129,7 @@ class Scheme(QObject):
             QGuiApplication.styleHints().setColorScheme(wanted.get(choice, Qt.ColorScheme.Unknown))
         if self._wanted() != self.is_dark:
             self.is_dark = not self.is_dark
-            _dress()
+            _apply_colours()
             self.changed.emit()
 
 
@@ -199,7 +199,7 @@ def palette() -> QPalette:
     return made
 
 
-def wear(choice: ThemeChoice = "system") -> None:
+def apply_style(choice: ThemeChoice = "system") -> None:
     """Put style, colours and font on the application, once; after that only the choice is followed."""
     application = QApplication.instance()
     if application.property("worn"):
@@ -209,10 +209,10 @@ def wear(choice: ThemeChoice = "system") -> None:
     scheme().choose(choice)
     QApplication.setStyle(QStyleFactory.create("Fusion"))
     QApplication.setFont(font("text"))
-    _dress()
+    _apply_colours()
 
 
-def _dress() -> None:
+def _apply_colours() -> None:
     QApplication.setPalette(palette())
     sheet = style_sheet({token: colour(token).name() for token in COLOURS}, is_dark())
     application = QApplication.instance()

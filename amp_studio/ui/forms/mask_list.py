@@ -53,10 +53,10 @@ class MaskList(QFrame):
         self.setFixedWidth(max(_NARROWEST, min(_WIDEST, wanted)))
         self.list.setFixedHeight(min(_MOST_ROWS, max(1, self.list.count())) * ROW + 2)
         self.list.itemClicked.connect(self._toggle)
-        self._dress()
-        scheme().changed.connect(self._dress)
+        self._apply_colours()
+        scheme().changed.connect(self._apply_colours)
 
-    def _dress(self) -> None:
+    def _apply_colours(self) -> None:
         """Take the colours of light or dark."""
         self.setStyleSheet(
             f"#mask {{ background: {colour('raised').name()}; border: 1px solid {colour('line2').name()}; border-radius: 4px; }}"

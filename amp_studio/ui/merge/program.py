@@ -10,7 +10,7 @@ from PySide6.QtWidgets import QApplication, QFileDialog
 from amp_studio.files import Document, Merge, ParameterFile
 from amp_studio.ui.base.garbage import collect_by_timer
 from amp_studio.ui.base.task import Task
-from amp_studio.ui.base.theme import wear
+from amp_studio.ui.base.theme import apply_style
 from amp_studio.ui.base.translated import tr
 from amp_studio.ui.base.workspace import Workspace
 from amp_studio.ui.window.settings import UserSettings
@@ -30,7 +30,7 @@ def merge_in_window(merge: Merge, ours: Path, output: Path, write: Callable[[Par
     application.setApplicationName("AMP Studio")
     application.setOrganizationName("AMP Studio")
     collect_by_timer()
-    wear(UserSettings().theme())
+    apply_style(UserSettings().theme())
     workspace = Workspace(Document.view(ours))
     window = tool_window(merge, workspace, output, write)
     window.show()

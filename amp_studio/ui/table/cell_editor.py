@@ -167,10 +167,10 @@ class RefusalFrame(QFrame):
         layout.setColumnStretch(1, 1)
         self.text = ""
         self._filled: tuple[Refusal, list[tuple[str, str]]] | None = None
-        self._dress()
-        scheme().changed.connect(self._dress)
+        self._apply_colours()
+        scheme().changed.connect(self._apply_colours)
 
-    def _dress(self) -> None:
+    def _apply_colours(self) -> None:
         """Take the colours of light or dark."""
         self.setStyleSheet(
             f"#refusal {{ background: {colour('raised').name()}; border: 1px solid {colour('error').name()};"

@@ -28,11 +28,25 @@ USUAL = "plausible.usual"
 REASON = "ours, not the manual's: what the parameter usually is, or can mean"
 _NEVER_NEGATIVE = frozenset(
     {
-        "velocity", "angular velocity", "acceleration", "angular acceleration", "rotary acceleration", "jerk", "angular jerk",
-        "time", "frequency", "resolution", "power", "memory", "gain", "integral gain",
-        "derivative gain", "acceleration gain", "percent",
+        "velocity",
+        "angular velocity",
+        "acceleration",
+        "angular acceleration",
+        "rotary acceleration",
+        "jerk",
+        "angular jerk",
+        "time",
+        "frequency",
+        "resolution",
+        "power",
+        "memory",
+        "gain",
+        "integral gain",
+        "derivative gain",
+        "acceleration gain",
+        "percent",
     }
-)  # fmt: skip
+)
 """Dimensions of which nothing is ever less than zero, where the manual does not say so."""
 
 
