@@ -48,6 +48,8 @@ STOPPED = (
     " programmed move is stopped in the same way, which is not printed."
 )
 ZONE_PAGE = "6-3 and 6-7"
+SLOW = "feedrate.external_decel_positioning"
+"""While the logic program requests it, in positioning moves; jogs are not slowed (9-6)."""
 ZONES = (
     "ASSUMED: the axis is alone in its zone group, so that no other axis keeps it out of the zone (6-4), and is stopped there as at an overtravel; for zones no"
     " stop is printed (6-3)."
@@ -134,7 +136,10 @@ def travel(read: AxisParameters) -> Travel:
         STOPPED,
         "The overtravel works only after homing (6-10). ASSUMED: it is checked once in a servo sample, on the measured position.",
     )
-    return Travel({"the software overtravel": edges}, "OVERTRAVEL", "6-10", notes, zones, ZONE_PAGE, ZONES)
+    slow = (read.optional(SLOW) or 0.0) / 60.0
+    return Travel(
+        {"the software overtravel": edges}, "OVERTRAVEL", "6-10", notes, zones, ZONE_PAGE, ZONES, slow=slow
+    )
 
 
 def _zones(read: AxisParameters) -> dict[str, tuple[float, float]]:

@@ -159,6 +159,8 @@ class Travel:
     """Whether the loop is switched off at a limit instead."""
     refuses: bool = False
     """Whether a move beyond a limit is not begun."""
+    slow: float = 0.0
+    """u/s while an external deceleration is requested; 0 where the control has none."""
     reads_ahead: str = ""
     """Code with which a programmed block beyond a limit is not begun; "" where it is begun."""
 

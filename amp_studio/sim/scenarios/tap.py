@@ -102,7 +102,7 @@ def _tapped(
     there = leg(depth, feed, Ramp("linear", rate))
     profile = _there_and_back(there, depth)
     until = end_of(profile) + SETTLE / axis.position_rate + NEAR
-    motion = run_axis(axis, profile, Until(until))
+    motion = run_axis(axis, profile, Until(until), thin=True)
     columns = per_minute({key: each.copy() for key, each in motion.columns.items()})
     time, command = motion.columns["time_s"], motion.columns["command_position"]
     thread = command if tapping.leads else _followed(time, command, tapping, lag)

@@ -15,7 +15,8 @@ from amp_studio.sim.errors import SimulationError
 from amp_studio.sim.law import AxisLaw, Ramp
 from amp_studio.sim.model import assumptions
 from amp_studio.sim.rounding import shown
-from amp_studio.sim.scenario import Scenario, Settings, number, refuse_unknown
+from amp_studio.sim.scenario import Scenario, Settings, above_zero, number, refuse_unknown
+from amp_studio.sim.series import Series
 from amp_studio.sim.trace import Alarm, Figure, Trace
 
 from .columns import alarms_of, column_units, per_minute
@@ -28,6 +29,9 @@ SETTINGS = {
     "move.zone": "a programmable zone that is on, by its number; default: the limits of the travel alone",
     "move.direction": "plus or minus; default: plus",
     "move.feedrate": "feedrate against the limit (mm/min or deg/min); default: the rapid feedrate",
+    "move.hard_stop": "where the axis meets its hard stop (mm or deg); default: not checked",
+    "move.slow_from": "where a switch requests external deceleration (mm or deg); default: none does",
+    "move.slow_feedrate": "feedrate behind that switch (mm/min or deg/min); default: that of the file",
 }
 
 
@@ -68,7 +72,11 @@ def run_travel(axis: AxisLaw, settings: Settings) -> Trace:
     if travel.refuses:
         seen = None
     else:
-        seen = course.go(sign * feedrate, ramp, Watch(limit, sign, device=True), abs(limit) + run_up)
+        slow = _slowed(travel, settings, sign, start, edge)
+        if slow is not None:
+            course.go(sign * feedrate, ramp, Watch(slow[0] - start, sign, device=True), abs(limit) + run_up)
+        rate = feedrate if slow is None else min(slow[1], feedrate)
+        seen = course.go(sign * rate, ramp, Watch(limit, sign, device=True), abs(limit) + run_up)
     if seen is not None and travel.coasts:
         course.switch_off()
     elif seen is not None:
@@ -84,6 +92,8 @@ def run_travel(axis: AxisLaw, settings: Settings) -> Trace:
     if travel.refuses:
         text = f"A move beyond {name}, {shown(edge, axis.unit)}, is not begun (page {travel.page})"
         alarms = (*alarms, Alarm(code, 0.0, text))
+    hard = number(settings, "move.hard_stop")
+    alarms = (*alarms, *_hit(axis, hard, sign, columns))
     if seen is not None:
         at = int(np.searchsorted(motion.columns["time_s"], seen.time))
         speed = abs(float(motion.columns["velocity"][min(at, len(motion.columns["velocity"]) - 1)]))
@@ -115,6 +125,8 @@ def run_travel(axis: AxisLaw, settings: Settings) -> Trace:
         ),
         "peak_following_error": (float(np.abs(columns["following_error"][motion.driven]).max()), axis.unit),
     }
+    if hard is not None:
+        result["hard_stop_margin"] = (sign * (hard - end) if reached or travel.refuses else None, axis.unit)
     return Trace(
         scenario="travel",
         axis=axis.axis,
@@ -128,6 +140,38 @@ def run_travel(axis: AxisLaw, settings: Settings) -> Trace:
         limits={},
         move={"move.start": start, "move.feedrate": feedrate * 60.0},
     )
+
+
+def _slowed(
+    travel: Travel, settings: Settings, sign: float, start: float, edge: float
+) -> tuple[float, float] | None:
+    """Return where an external deceleration is requested, and the feedrate behind it in u/s; None where nothing requests it."""
+    place = number(settings, "move.slow_from")
+    if place is None:
+        return None
+    given = above_zero(settings, "move.slow_feedrate")
+    rate = travel.slow if given is None else given / 60.0
+    if not rate:
+        raise SimulationError(
+            "No feedrate of an external deceleration is in the file: give move.slow_feedrate",
+            "move.slow_feedrate",
+        )
+    if not sign * start < sign * place < sign * edge:
+        raise SimulationError("move.slow_from must be between the start and the limit", "move.slow_from")
+    return place, rate
+
+
+def _hit(axis: AxisLaw, hard: float | None, sign: float, columns: dict[str, Series]) -> tuple[Alarm, ...]:
+    """Return the alarm of an axis that meets its hard stop, which no control notices by itself."""
+    if hard is None:
+        return ()
+    beyond = np.flatnonzero(sign * (columns["position"] - hard) >= 0.0)
+    if not beyond.size:
+        return ()
+    at = int(beyond[0])
+    speed = shown(abs(float(columns["velocity"][at])), f"{axis.unit}/min")
+    text = f"The axis meets its hard stop at {shown(hard, axis.unit)} with {speed}: move the limit away from it, or slow down before it"
+    return (Alarm("HARD STOP", float(columns["time_s"][at]), text),)
 
 
 def _zone(travel: Travel, settings: Settings) -> dict[str, tuple[float, float]] | None:

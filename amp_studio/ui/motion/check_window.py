@@ -26,7 +26,7 @@ from amp_studio.ui.base.task import Task, TaskProgress
 from amp_studio.ui.base.theme import GAP2, GAP3, Token, font, icon
 
 MARKS: dict[str, tuple[str, Token]] = {
-    "good": ("check-circle-fill", "chg"),
+    "good": ("check-circle-fill", "text"),
     "doubtful": ("warning-fill", "warn"),
     "bad": ("x-circle-fill", "error"),
     "not possible": ("circle-dashed", "dim"),
@@ -68,7 +68,8 @@ class CheckWindow(QDialog):
         self.table.setWordWrap(True)
         self.table.verticalHeader().hide()
         self.table.horizontalHeader().setSectionResizeMode(QHeaderView.ResizeMode.ResizeToContents)
-        self.table.horizontalHeader().setSectionResizeMode(3, QHeaderView.ResizeMode.Stretch)
+        for wide in (3, 4):
+            self.table.horizontalHeader().setSectionResizeMode(wide, QHeaderView.ResizeMode.Stretch)
         self.table.currentCellChanged.connect(lambda *_: self._show_detail())
         self.detail = QLabel()
         self.detail.setWordWrap(True)

@@ -186,3 +186,29 @@ def test_the_stop_at_an_overtravel_is_printed_for_manual_motion_and_assumed_else
     (note,) = [text for text in trace.assumptions if text.startswith("A software overtravel stops")]
     assert "manual motion" in note
     assert "ASSUMED: a programmed move" in note
+
+
+def test_an_external_deceleration_takes_the_speed_away_before_the_limit() -> None:
+    """Page 9-6: behind the switch the axis goes at External Decel Speed (Posit.), and passes the overtravel by less."""
+    file = mill(
+        zone__overtravel_used=Value(True),
+        zone__overtravel_positive=Value(100.0, "mm"),
+        zone__overtravel_negative=Value(-50.0, "mm"),
+        feedrate__external_decel_positioning=Value(500.0, "mm/min"),
+    )
+    fast = simulate(file, "travel", "1", {"move.start": 0.0}).result
+    slow = simulate(file, "travel", "1", {"move.start": 0.0, "move.slow_from": 50.0}).result
+    assert slow["speed_at_limit"][0] == pytest.approx(500.0, rel=0.02)
+    assert 0.0 < (slow["overrun"][0] or 0.0) < 0.2 * (fast["overrun"][0] or 0.0)
+    with pytest.raises(SimulationError, match="between the start and the limit"):
+        simulate(file, "travel", "1", {"move.start": 0.0, "move.slow_from": 120.0})
+
+
+def test_a_hard_stop_that_is_too_near_to_the_limit_is_met_with_a_speed() -> None:
+    """The axis passes the overtravel by its following error (10-18), which must be less than the way to the hard stop."""
+    file = mill(zone__overtravel_used=Value(True), zone__overtravel_positive=Value(100.0, "mm"))
+    far = simulate(file, "travel", "1", {"move.start": 0.0, "move.hard_stop": 120.0})
+    assert (far.result["hard_stop_margin"][0] or 0.0) > 0.0
+    near = simulate(file, "travel", "1", {"move.start": 0.0, "move.hard_stop": 101.0})
+    assert [alarm.code for alarm in near.alarms] == ["HARD STOP", "OVERTRAVEL"]
+    assert (near.result["hard_stop_margin"][0] or 0.0) < 0.0

@@ -130,7 +130,7 @@ VERB = Verb(
         "amp-studio simulate MILL_1394.amp spindle S1500",
         "amp-studio simulate MILL_1394.amp tap --pitch 1 --speed 400",
         "amp-studio simulate MILL_1394.amp probe --axis Z --speed 100",
-        "amp-studio simulate MILL_1394.amp travel --axis X,Y --set move.start=-200,-50 --set move.to=-470,-50",
+        "amp-studio simulate MILL_1394.amp travel --axis X,Y --set move.start=-10,-10 --set move.to=-100,-20",
         "amp-studio simulate MILL_1394.amp sweep --axis X -o map.svg",
         "amp-studio simulate MILL_1394.amp sweep --axis X --over model.inertia_ratio=0.5:2 --over model.resonance=60:90 --samples 200",
         "amp-studio simulate MILL_1394.amp identify record.csv --axis X -o machine.yaml",
