@@ -211,3 +211,17 @@ def test_an_explanation_that_outlasts_its_file_leads_nowhere(open_window, path: 
     window.files.close(page)
     QApplication.sendPostedEvents(None, QEvent.Type.DeferredDelete)
     page.go_to(("servo.excess_error", "1"))
+
+
+@pytest.mark.parametrize("size", [(1366, 768), (1024, 700)])
+def test_the_preview_that_opens_and_closes_twice_leaves_every_size_as_it_was(
+    opened, size: tuple[int, int]
+) -> None:
+    window = opened("mill-1394", *size)
+    window.go_to(EXCESS)
+    before = sizes(window)
+    for _ in range(2):
+        window.menus["view.preview"].trigger()
+        sizes(window)
+        window.menus["view.preview"].trigger()
+        assert sizes(window) == before

@@ -10,10 +10,11 @@ from pathlib import Path
 import pytest
 from PySide6.QtCore import QPoint, Qt
 from PySide6.QtTest import QTest
+from PySide6.QtWidgets import QFileDialog
 from pytestqt.qtbot import QtBot
 
 from amp_studio.files import content_of
-from amp_studio.files.example_files import examples
+from amp_studio.files.example_files import examples, examples_folder
 from amp_studio.schema import Value
 from amp_studio.ui.base.time_words import in_words
 from amp_studio.ui.dialogs.new_file_dialog import NewFileDialog
@@ -89,6 +90,21 @@ def test_an_example_is_copied_and_never_edited(
     window.edits.commit(("setup.in_position_tolerance", "X"), "77")
     assert window.save()
     assert original.read_bytes() == before
+
+
+def test_the_copy_of_an_example_is_proposed_among_the_users_own_files(
+    open_window, qtbot: QtBot, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    window = open_window()
+    read_all(window.welcome, qtbot)
+    item = window.welcome.examples.item(0)
+    proposed = []
+    monkeypatch.setattr(
+        QFileDialog, "getSaveFileName", lambda *given, **_: (proposed.append(given[2]), ("", ""))[1]
+    )
+    window.files.open_example(item.data(KEY).path)
+    assert examples_folder() not in Path(proposed[0]).parents
+    assert Path(proposed[0]).name == item.data(KEY).path.name
 
 
 def test_recent_files_show_machine_and_findings_once_the_page_is_at_rest(two, qtbot: QtBot) -> None:
