@@ -225,3 +225,14 @@ def test_the_preview_that_opens_and_closes_twice_leaves_every_size_as_it_was(
         sizes(window)
         window.menus["view.preview"].trigger()
         assert sizes(window) == before
+
+
+@pytest.mark.parametrize("size", [(1366, 768), (960, 540)])
+def test_the_page_at_the_control_takes_no_room_from_the_panels(opened, size: tuple[int, int]) -> None:
+    window = opened("mill-1394", *size)
+    before = sizes(window)
+    window.control.show("compare")
+    sizes(window)
+    assert (window.width(), window.height()) == size
+    window.control.leave()
+    assert sizes(window) == before

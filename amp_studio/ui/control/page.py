@@ -18,6 +18,7 @@ from PySide6.QtWidgets import (
     QLineEdit,
     QProgressBar,
     QPushButton,
+    QSizePolicy,
     QSplitter,
     QStackedWidget,
     QToolButton,
@@ -30,6 +31,7 @@ from amp_studio.schema import Value
 from amp_studio.ui.base.theme import GAP2, GAP3, HEAD, font, icon
 from amp_studio.ui.base.time_words import in_words
 from amp_studio.ui.base.workspace import Workspace
+from amp_studio.ui.forms.elided_label import ElidedLabel
 from amp_studio.ui.forms.message_bar import MessageBar, MessageKind
 from amp_studio.ui.forms.segment import Segment
 
@@ -106,7 +108,7 @@ class ControlPage(QWidget):
         self.hand = HandSheet()
         self.history = ExchangeHistory()
         self.history.restore_wanted.connect(self.restore_wanted)
-        self.heading = QLabel()
+        self.heading = ElidedLabel()
         self.heading.setFont(font("text", own=True))
         self.directions = Segment(self.tr("Direction"), [
             ("compare", self.tr("Compare"), ""),
@@ -151,7 +153,7 @@ class ControlPage(QWidget):
         self.one.clicked.connect(self._write_one)
         self.checked = QCheckBox()
         self.checked.toggled.connect(self.refresh)
-        self.note = QLabel()
+        self.note = ElidedLabel()
         self.progress = QProgressBar()
         self.progress.setMaximumWidth(200)
         self.cancel = QPushButton()
@@ -208,6 +210,8 @@ class ControlPage(QWidget):
         whole.addWidget(self.known)
         whole.addWidget(right, 1)
         self.setFocusProxy(self.states)
+        # Else its width would be taken from the panels beside the table even while it is not in front.
+        self.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Ignored)
 
     # -- what is shown -------------------------------------------------------------
 

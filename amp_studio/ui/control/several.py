@@ -13,7 +13,6 @@ from PySide6.QtWidgets import (
     QCheckBox,
     QFileDialog,
     QHeaderView,
-    QLabel,
     QPushButton,
     QTreeWidget,
     QTreeWidgetItem,
@@ -25,6 +24,7 @@ from amp_studio.ui.base.task import Task, TaskProgress
 from amp_studio.ui.base.theme import ROW, severity_icon
 from amp_studio.ui.base.translated import worded
 from amp_studio.ui.base.workspace import Workspace
+from amp_studio.ui.forms.elided_label import ElidedLabel
 from amp_studio.ui.forms.message_bar import MessageBar
 
 from .exchange import stages
@@ -68,7 +68,7 @@ class SeveralControls(QWidget):
             self.tr("All parameters of each are replaced; what it contains is kept beside the file first")
         )
         self.checked.toggled.connect(self._follow)
-        self.note = QLabel()
+        self.note = ElidedLabel()
         self.save_button = QPushButton(self.tr("Save &Table…"))
         self.save_button.clicked.connect(self.save)
         self.cancel = QPushButton(self.tr("Cancel"))
