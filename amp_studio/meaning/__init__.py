@@ -8,8 +8,8 @@ if TYPE_CHECKING:
     from .comparison import compare_meanings
     from .description import AxisMeaning, MachineMeaning, MigrationQuestion
     from .folder import read_answers, write_migration
-    from .migration import Migration, TargetError, less_safe, migrate, migration_json, migration_lines
+    from .migration import Migration, less_safe, migrate, migration_json, migration_lines
     from .reading import MeaningError
-    from .writing import Graded, GradeKind, WrittenMachine, inwards_high, inwards_low, not_above
+    from .writing import Graded, GradeKind, TargetError, WrittenMachine, inwards_high, inwards_low, not_above
 else:
     __getattr__ = front_page(__name__)

@@ -7,7 +7,6 @@ from dataclasses import dataclass
 from fnmatch import fnmatchcase
 from typing import Any
 
-from amp_studio.errors import AmpStudioError
 from amp_studio.files import ParameterFile
 from amp_studio.schema import (
     Address,
@@ -21,7 +20,7 @@ from amp_studio.schema import (
 from .description import MachineMeaning, MeantFigure, MigrationQuestion
 from .facts import RestFact, meanings_of
 from .reading import read_meaning
-from .writing import Graded, WrittenMachine
+from .writing import Graded, TargetError, WrittenMachine
 
 _NO_FACT = RestFact.model_construct(
     params=(),
@@ -30,10 +29,6 @@ _NO_FACT = RestFact.model_construct(
     do="look whether the machine needs it, and do it there by hand",
     less_safe=False,
 )
-
-
-class TargetError(AmpStudioError, ValueError):
-    """A target that nothing can be migrated to; one clear sentence."""
 
 
 @dataclass(frozen=True)

@@ -2,15 +2,24 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+import re
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from decimal import ROUND_CEILING, ROUND_FLOOR, Decimal
 from typing import Literal
+
+from amp_studio.errors import AmpStudioError
+from amp_studio.schema import quoted
 
 from .description import MigrationQuestion
 
 GradeKind = Literal["exact", "approximate", "not_possible"]
 _STEP = Decimal("0.000001")
+_NUMBER = r"[0-9]+\.?[0-9]*|\.[0-9]+"
+
+
+class TargetError(AmpStudioError, ValueError):
+    """A target that nothing can be migrated to, or an answer that is none; one clear sentence."""
 
 
 @dataclass(frozen=True)
@@ -53,15 +62,36 @@ class WrittenMachine:
     less_safe: list[str] = field(default_factory=list)
     measure: list[str] = field(default_factory=list)
 
-    def answer(self, question: MigrationQuestion, answers: Mapping[str, str]) -> str:
-        """Return the answer to a question, "" where it is open."""
+    def answer(self, question: MigrationQuestion, answers: Mapping[str, str], form: str = ".*") -> str:
+        """Return the answer to a question, "" where it is open; raises TargetError for one that is not of the ``form``."""
         self.asked.append(question)
         found = answers.get(question.id, "").strip()
-        if found:
-            self.answered[question.id] = found
-        else:
+        if not found:
             self.open.append(question)
+        elif not re.fullmatch(form, found, re.IGNORECASE):
+            raise TargetError(f"{question.id}: {quoted(found)} is no answer. {question.question}")
+        else:
+            self.answered[question.id] = found
         return found
+
+    def number(self, question: MigrationQuestion, answers: Mapping[str, str]) -> float | None:
+        """Return the number above 0 that a question is answered with, None where it is open; raises TargetError."""
+        found = self.answer(question, answers, _NUMBER)
+        if found and not float(found) > 0.0:
+            raise TargetError(f"{question.id}: {quoted(found)} is not above 0. {question.question}")
+        return float(found) if found else None
+
+    def home_steps(self, letters: Sequence[str], answers: Mapping[str, str]) -> list[str]:
+        """Return the letters of each step of homing, none where the question is open; raises TargetError."""
+        names = ", ".join(letters)
+        question = MigrationQuestion(
+            "home.order", f"In which order do the axes home ({names})? Write the steps, as: Z, X Y"
+        )
+        found = self.answer(question, answers, "[A-Z, ]*").upper()
+        steps = [step.replace(" ", "") for step in found.split(",") if step.strip()]
+        if found and sorted("".join(steps)) != sorted(letters):
+            raise TargetError(f"home.order: {quoted(found)} does not have each of {names} once")
+        return steps
 
 
 def inwards_high(value: float) -> str:

@@ -100,8 +100,8 @@ def test_a_search_and_a_latch_of_one_sign_are_graded_as_approximate() -> None:
 
 
 def test_answers_fill_the_keys_that_waited_for_them(tmp_path: Path) -> None:
-    found = ini(example("mill-1394"), tmp_path, home_order="Z, X Y", feedback_sign_X="-")
-    assert [figure(found, f"[JOINT_{n}]HOME_SEQUENCE") for n in range(4)] == [1, 1, 0, None]
+    found = ini(example("mill-1394"), tmp_path, home_order="Z, x Y, B", feedback_sign_X="-")
+    assert [figure(found, f"[JOINT_{n}]HOME_SEQUENCE") for n in range(4)] == [1, 1, 0, 2]
     assert figure(found, "[JOINT_0]ENCODER_SCALE") == pytest.approx(-2097152 / 12.7)
     assert figure(found, "[JOINT_1]ENCODER_SCALE") is None
 
@@ -132,6 +132,23 @@ def test_open_questions_write_nothing_unless_a_draft_is_wanted(
 def test_what_nobody_asked_is_refused(answers: dict[str, str], message: str) -> None:
     with pytest.raises(TargetError, match=message):
         migrate(example("mill-1394"), "linuxcnc" if answers else "fanuc", answers)
+
+
+@pytest.mark.parametrize(
+    ("target", "answers", "message"),
+    [
+        ("linuxcnc", {"home.order": "Z, X Y"}, "each of X, Y, Z, B once"),
+        ("linuxcnc", {"home.order": "Z, X Y, B, B"}, "each of X, Y, Z, B once"),
+        ("linuxcnc", {"feedback.sign.X": "yes"}, "'yes' is no answer"),
+        ("grblhal", {"steps.X": "many"}, "'many' is no answer"),
+        ("grblhal", {"home.pull_off": "0"}, "'0' is not above 0"),
+    ],
+)
+def test_an_answer_that_is_none_is_refused_with_its_question(
+    target: str, answers: dict[str, str], message: str
+) -> None:
+    with pytest.raises(TargetError, match=message):
+        migrate(example("mill-1394"), target, answers)
 
 
 def test_an_axis_with_a_letter_that_cannot_turn_is_asked_about() -> None:

@@ -35,10 +35,10 @@ def settings(file: ParameterFile, **answers: str) -> dict[str, str]:
 
 
 def test_a_mill_is_settings_of_a_grblhal_in_an_order_that_it_takes(tmp_path: Path) -> None:
-    found = settings(example("mill-1394"), home_order="Z, X Y", home_pull_off="2", steps_X="400")
+    found = settings(example("mill-1394"), home_order="Z, X Y, B", home_pull_off="2", steps_X="400")
     assert next(iter(found)) == "$22"
     expected = {"$130": "506", "$131": "404", "$132": "450", "$134": "0", "$110": "10000", "$114": "3600", "$120": "694.4", "$190": "2500",
-                "$180": "253.9", "$376": "2", "$44": "4", "$45": "3", "$100": "400", "$30": "6000"}  # fmt: skip
+                "$180": "253.9", "$376": "2", "$44": "4", "$45": "3", "$46": "16", "$100": "400", "$30": "6000"}  # fmt: skip
     assert {key: found.get(key) for key in expected} == expected
     assert "$101" not in found
     (tmp_path / "a.settings").write_text("".join(f"{k}={v}\n" for k, v in found.items()))

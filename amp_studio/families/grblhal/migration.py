@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import re
 from collections.abc import Mapping
-from contextlib import suppress
 
 from amp_studio.meaning import (
     AxisMeaning,
@@ -68,8 +67,7 @@ class _Settings:
             f"Axis {axis.letter} {what}: which letter shall it have ({', '.join(free)})?",
             sources,
         )
-        found = self.out.answer(question, self.answers).upper()
-        return found if found in free else ""
+        return self.out.answer(question, self.answers, f"[{''.join(free)}]").upper()
 
     def _homing(self, places: list[tuple[AxisMeaning, int]]) -> None:
         homed = [
@@ -87,20 +85,16 @@ class _Settings:
             if (axis.number("home.search") or axis.number("home.towards") or 0.0) < 0.0
         )
         self.values[23] = str(minus)
-        question = MigrationQuestion(
-            "home.order",
-            f"In which order do the axes home ({', '.join(LETTERS[p] for _, p in homed)})? Write the steps, as: Z, X Y",
-        )
-        steps = [step for step in self.out.answer(question, self.answers).upper().split(",") if step.strip()]
-        for number, step in enumerate(steps[:6]):
-            self.values[44 + number] = str(
+        steps = self.out.home_steps([LETTERS[place] for _, place in homed], self.answers)
+        for at, step in enumerate(steps[:6]):
+            self.values[44 + at] = str(
                 sum(1 << LETTERS.index(letter) for letter in step if letter in LETTERS)
             )
         question = MigrationQuestion(
             "home.pull_off", "How far from its switch does an axis stop after homing, in mm ($27)?"
         )
-        with suppress(ValueError):  # open: the setting is left out
-            self.values[27] = not_above(abs(float(self.out.answer(question, self.answers))))
+        if number := self.out.number(question, self.answers):
+            self.values[27] = not_above(number)
 
     def _axis(self, axis: AxisMeaning, n: int) -> None:
         self._grade(axis, "kind", "approximate" if axis.turns else "exact", "$376" if axis.turns else "", "a bit" if axis.turns else LETTERS[n],
@@ -111,8 +105,8 @@ class _Settings:
             f"steps.{axis.letter}",
             f"How many steps make 1 {'degree' if axis.turns else 'mm'} of {axis.letter} at the new motor (${100 + n})?",
         )
-        with suppress(ValueError):  # open: the setting is left out
-            self.values[100 + n] = not_above(abs(float(self.out.answer(question, self.answers))))
+        if number := self.out.number(question, self.answers):
+            self.values[100 + n] = not_above(number)
         if rapid := axis.number("rapid"):
             self.values[110 + n] = _thousandth(rapid)
             self._grade(axis, "rapid", "exact", f"${110 + n}", self.values[110 + n])

@@ -23,7 +23,6 @@ from .kinematics import LETTERS
 from .template import hal_template
 
 _TURNING = "ABC"
-_GROUP = re.compile(r"[A-Z]+")
 
 
 @dataclass
@@ -67,7 +66,7 @@ class _Migration:
 
     def written(self) -> WrittenMachine:
         """Return all of it."""
-        asked = {q.id: self.out.answer(q, self.answers) for q in self.machine.questions}
+        asked = {q.id: self.out.answer(q, self.answers, "[+-]") for q in self.machine.questions}
         steps = self._home_order()
         self._programs()
         self._path()
@@ -97,19 +96,12 @@ class _Migration:
             f"Axis {axis.letter} {what}: which letter shall it have ({', '.join(free)})?",
             source,
         )
-        found = self.out.answer(question, self.answers).upper()
-        return found if found in free else ""
+        return self.out.answer(question, self.answers, f"[{''.join(free)}]").upper()
 
     def _home_order(self) -> dict[str, int]:
         """Return letter -> step of Home All; empty where nobody has answered."""
-        names = ", ".join(self.letters[a.instance] for a in self.ordered)
-        question = MigrationQuestion(
-            "home.order", f"In which order do the axes home ({names})? Write the steps, as: Z, X Y"
-        )
-        groups = [_GROUP.findall(step) for step in self.out.answer(question, self.answers).upper().split(",")]
-        return {
-            letter: n for n, group in enumerate(g for g in groups if g) for word in group for letter in word
-        }
+        steps = self.out.home_steps([self.letters[a.instance] for a in self.ordered], self.answers)
+        return {letter: n for n, step in enumerate(steps) for letter in step}
 
     def _programs(self) -> None:
         put, letters = self.ini.put, [self.letters[a.instance] for a in self.ordered]
@@ -415,12 +407,8 @@ class _Migration:
             f"home.speed.{axis.letter}",
             f"With which speed does {axis.letter} search its switch, in {unit}? The PLC of the old control set it.",
         )
-        answer = self.out.answer(question, self.answers)
-        try:
-            speed = abs(float(answer)) * towards
-        except ValueError:
-            return None, None
-        return (speed, -speed / 10.0) if speed else (None, None)
+        speed = self.out.number(question, self.answers)
+        return (speed * towards, -speed * towards / 10.0) if speed else (None, None)
 
     def _home_place(self, axis: AxisMeaning, j: str) -> None:
         at, offset = axis.number("home.coordinate"), axis.number("home.offset")
