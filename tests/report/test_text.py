@@ -34,7 +34,7 @@ SMALL = Report(
     contents=Contents("axis"), machine=(("Machine", "Mill 7"),), facts=(("Units", "metric"),), help={}, pictures=(), motion=(), exchanges=(), counts=(("Values", "3"),), remarks="", remarked=(),
     axis_heads=("Axis", "Name"), axes=(("1", "X"),),
     notes=(Note("error", 1, "Axis 1 X", (("a@1", "1300 Home Calibration"),), "Too far.", "1300 = 0 mm", "5-10"),),
-    dangers=(), forced=(), not_set=(("1004", "G30 Position", "Axis 1 X"),),
+    dangers=(), forced=(), power_up=(), not_set=(("1004", "G30 Position", "Axis 1 X"),),
     sections=(Section("axis-1", "Axis 1 X", (Listing("Home", (
         row("1300", "Home Calibration", "12.5", is_changed=True),
         row("1310", "A name that is far too long for the column that names have in this table of ours", "0"),
