@@ -19,7 +19,7 @@ PATIENCE = 60.0
 PROGRAM = (sys.executable, "-m", "amp_studio.cli")
 
 
-def measures(folder: Path, full: Path, example: Path, times: int) -> Iterator[Measure]:
+def measures(folder: Path, full: Path, printed: Path, example: Path, times: int) -> Iterator[Measure]:
     """Yield the measures of cold processes; ``folder`` takes what they write."""
     settings = _private(folder, own_bytecode=times > 1)
     runs = times + 1 if times > 1 else 1  # the first leaves compiled modules, and is thrown away
@@ -34,8 +34,8 @@ def measures(folder: Path, full: Path, example: Path, times: int) -> Iterator[Me
     yield Measure("validate, cold process", program("validate", full), 25 * bare)
     picture = program("simulate", example, "step", "-o", folder / "step.svg")
     yield Measure("simulate a move and draw it, cold process", picture, 1.0)
-    yield Measure("report to PDF, cold process", program("report", full, "-o", folder / "full.pdf"), 3.0)
-    page = program("report", full, "-o", folder / "full.html", "--without", "motion")
+    yield Measure("report to PDF, cold process", program("report", printed, "-o", folder / "full.pdf"), 3.0)
+    page = program("report", printed, "-o", folder / "full.html", "--without", "motion")
     yield Measure("report to a web page without motion, cold process", page, 0.5)
     paint = [_until_painted(example, settings) for _ in range(runs)][-times:]
     yield Measure("first paint of the desktop program, cold process", tuple(paint), 1.5)

@@ -31,7 +31,7 @@ from amp_studio.validate.rules import RuleChecks
 NUM = "num-1060-mill/MILL_1060.amp"
 HALL = 5000
 """Files; a quick run takes a few that are still shared among processes."""
-FEW = 60
+FEW = 12
 DAMAGED = 800
 """Values of a file that are replaced by those of other parameters."""
 CAM_POINTS = 1900

@@ -20,7 +20,7 @@ from amp_studio.sim import simulate
 from amp_studio.validate import Validator
 
 
-def measures(folder: Path, full: Path, example: Path, times: int) -> Iterator[Measure]:
+def measures(folder: Path, full: Path, printed: Path, example: Path, times: int) -> Iterator[Measure]:
     """Yield the measures of a warm process; ``folder`` takes what is written."""
     yield Measure(
         "load the schema from its cache", timed(lambda: load_schema("9pc"), times, _forget_schema), 0.030
@@ -32,8 +32,8 @@ def measures(folder: Path, full: Path, example: Path, times: int) -> Iterator[Me
     yield Measure("  open alone", timed(lambda: open_file(full), times))
     yield from peers.measures(full, times)
     yield from _saves(folder, full, times)
-    file, pdf = open_file(full).file, folder / "warm.pdf"
-    print_it = timed(lambda: print_report(file, pdf, source=full), times)
+    file, pdf = open_file(printed).file, folder / "warm.pdf"
+    print_it = timed(lambda: print_report(file, pdf, source=printed), times)
     yield Measure("report to PDF", print_it)
     mill = open_file(example).file
     yield Measure(

@@ -59,8 +59,8 @@ TARGETS = {
     "import and validate a full NUM table",
     "download of a full file, TCP (0.5 s of it is the control's restart)",
     "verify of a full file, TCP",
-    "validate 60 files from the command line on all processors: a file",
-    "validate 60 files again, ten changed",
+    "validate 12 files from the command line on all processors: a file",
+    "validate 12 files again, ten changed",
 }
 
 
