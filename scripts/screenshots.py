@@ -24,8 +24,8 @@ WORK = TOP / "build" / "screenshots-work"
 MOMENT = 1_773_305_100
 """12 March 2026, 08:45 UTC: when every file was last changed."""
 LARGE, SMALL = (1440, 900), (1024, 700)
-PATIENCE = 60.0
-"""Seconds after which a page that is not ready ends the run."""
+PATIENCE = 900.0
+"""Seconds after which a page that is not ready ends the run: one that never will be, whatever else the computer does."""
 
 # Before anything imports Qt or asks where the user's folders are.
 os.environ |= {"QT_QPA_PLATFORM": "offscreen", "TZ": "UTC", "USER": "operator", "LOGNAME": "operator"}
@@ -122,16 +122,27 @@ class Stage:
         self.window.show()
         settle()
 
+    def take_keyboard(self) -> None:
+        """Let keys go to the window: no window manager gives the keyboard back after a progress dialog, which a slow computer shows."""
+        self.window.activateWindow()
+        settle(self.window.isActiveWindow)
+
     def path(self, folder: str) -> Path:
         """Return the parameter file of an example."""
         return next((self.files / folder).glob("*.amp"))
 
     @contextlib.contextmanager
     def beside(self, kind: str) -> Iterator[Any]:
-        """Give the side window of a class that was just opened, and close it afterwards."""
-        found = [w for w in self.window.findChildren(QWidget) if type(w).__name__ == kind and w.isVisible()]
-        yield found[-1]
-        found[-1].close()
+        """Give the side window of a class once it is open, which may wait for what it needs; close it afterwards."""
+
+        def found() -> list[QWidget]:
+            parts = self.window.findChildren(QWidget)
+            return [w for w in parts if type(w).__name__ == kind and w.isVisible()]
+
+        settle(found)
+        window = found()[-1]
+        yield window
+        window.close()
         QTest.qWait(1)
 
     def show_new(self, name: str, file: ParameterFile) -> None:
@@ -182,8 +193,10 @@ class Stage:
         """A value that is out of range, refused in its cell."""
         view = self.window.table_view
         self.window.go_to(EXCESS)
+        self.take_keyboard()
         view.setFocus()
         view.edit_current()
+        settle(QApplication.focusWidget)
         field: Any = QApplication.focusWidget()
         QTest.keyClick(field, Qt.Key.Key_A, Qt.KeyboardModifier.ControlModifier)
         QTest.keyClicks(field, "99999999 mm")
