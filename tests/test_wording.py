@@ -140,7 +140,7 @@ def test_a_room_uses_the_words_of_the_field(room: str) -> None:
 
 
 MENDED_NAMES = {"dress", "meant", "answer_once", "no_more"}
-"""Names, and parts of names between underscores, that said nothing to a stranger and are gone: none comes back."""
+"""Names, and parts of names between underscores, that meant nothing to a stranger and are gone: none comes back."""
 _NAME_PART = re.compile(rf"(?<![A-Za-z0-9])_*(?:[a-z0-9_]+_)?(?:{'|'.join(MENDED_NAMES)})(?:_[a-z0-9_]+)?\b")
 
 

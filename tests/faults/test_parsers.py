@@ -107,6 +107,7 @@ READERS = {
     "find/synonyms.py": "",  # a file of the program itself
     "schema/expression.py": "",  # its own names
     "ui/actions/find.py": "",  # writes to the clipboard
+    "trouble.py": "",  # what the program itself has written down of its faults
     "schema/units.py": "",  # a file of the program itself
     "transfer/client/kept.py": "damaged copies of a control",
     "transfer/client/live.py": "damaged control image",

@@ -64,7 +64,7 @@ class _Joint:
         )
         if read.axis not in letters:
             raise SimulationError(
-                f"Axis {read.axis} has no joint of its own in Kinematics ({kinematics}): only trivkins is simulated",
+                f"Axis {read.axis} has no joint in Kinematics ({kinematics}): only trivkins is simulated",
                 "kins.kinematics",
             )
         self.read, self.instance = read, str(letters.index(read.axis))

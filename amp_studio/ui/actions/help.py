@@ -51,7 +51,7 @@ def open_log_folder(_: StudioWindow) -> None:
 
 
 def report_problem(window: StudioWindow) -> None:
-    """Write a text file for a report; what is of the machine is in it only where the person says yes."""
+    """Write a text file for a report; what is of the machine is in it only with a yes of the person."""
     with_machine = False
     if window.workspace is not None or last_details():
         question = tr(
