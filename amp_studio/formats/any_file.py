@@ -9,7 +9,7 @@ from pathlib import Path
 from amp_studio.files import ENDING, ParameterFile, ParameterFileError, file_content, read_content
 
 from .import_export import all_formats, import_file
-from .text_format import FamilyNotGivenError, FormatError
+from .text_format import FamilyNotGivenError, FormatError, text_to_recognise
 
 _HEAD = re.compile(rb"(?m)^(?:\xef\xbb\xbf)?amp_studio[ \t]*:")
 """The line by which a parameter file is known, under whatever name."""
@@ -21,7 +21,7 @@ def is_text_of_control(path: Path) -> bool:
 
 
 def _is_text(content: bytes) -> bool:
-    text = content.decode("latin-1")
+    text = text_to_recognise(content)
     return not _HEAD.search(content) and any(each.recognises(text) for each in all_formats())
 
 

@@ -32,7 +32,15 @@ from amp_studio.schema import (
 
 from . import values_csv
 from .account import Account, account_of_export, account_of_import
-from .text_format import FamilyNotGivenError, FormatError, ReadOptions, TextFormat, TextOffer, TextRead
+from .text_format import (
+    FamilyNotGivenError,
+    FormatError,
+    ReadOptions,
+    TextFormat,
+    TextOffer,
+    TextRead,
+    text_to_recognise,
+)
 
 GENERAL: tuple[TextFormat, ...] = (values_csv.FORMAT,)
 """Formats of every family."""
@@ -219,7 +227,7 @@ def _format_for_reading(content: bytes, family: str | None, format_key: str | No
     offered = formats_of(family) if family else all_formats()
     if format_key is not None:
         return _named(format_key, offered)
-    text = content.decode("latin-1")
+    text = text_to_recognise(content)
     found = next((f for f in offered if f.recognises(text)), None)
     if found is None:
         raise FormatError(f"Unrecognised file format. Known: {', '.join(f.key for f in offered)}")

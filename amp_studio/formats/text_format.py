@@ -107,3 +107,8 @@ class TextFormat:
     def endings(self) -> tuple[str, ...]:
         """Endings of its files, that of the files it writes first."""
         return (self.ending, *self.other_endings)
+
+
+def text_to_recognise(content: bytes) -> str:
+    """Return a text by which its format is recognised, whatever its encoding; a no-break space of a page or a chat is a space."""
+    return content.replace(b"\xc2\xa0", b" ").decode("latin-1")

@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 import json
+from pathlib import Path
 
 import pytest
 
 from amp_studio.families.grblhal.formats.log import figure, is_listing, read_log
+from amp_studio.formats import import_file, is_text_of_control
 
 SETTINGS = {
     0: "10",
@@ -164,3 +166,14 @@ def test_other_texts_are_none(text: str) -> None:
 )
 def test_a_figure_is_the_number_at_the_beginning(text: str, expected: str) -> None:
     assert figure(text) == expected
+
+
+@pytest.mark.parametrize("encoding", ["utf-8", "utf-16", "cp1252"])
+def test_no_break_spaces_of_a_web_page_are_spaces(tmp_path: Path, encoding: str) -> None:
+    """A browser copies them where the page has them; a listing with them was no listing at all."""
+    listing = "".join(f"${n}\u00a0=\u00a0{value}\n" for n, value in ((0, 10), (1, 25), (2, 0), (110, 500)))
+    path = tmp_path / "copied.txt"
+    path.write_bytes(listing.encode(encoding))
+    file = import_file(path)
+    assert is_text_of_control(path)
+    assert file.values["stepper.pulse_time", ""].value == 10
