@@ -100,6 +100,15 @@ def pytest_collection_finish() -> None:
     gc.freeze()
 
 
+@pytest.hookimpl(optionalhook=True)
+def pytest_xdist_setupnodes() -> None:
+    """Compile the facts of every family once, before several workers do it at the same time."""
+    from amp_studio.schema import family_ids, load_schema  # after the folders above are set
+
+    for family in family_ids():
+        load_schema(family)
+
+
 @pytest.fixture(scope="session", autouse=True)
 def _controls_answer_at_once() -> Iterator[None]:
     """Wait a tenth of a second, not half of one or two, for a Grbl to make itself known: what is not one never answers."""
