@@ -177,3 +177,13 @@ def test_no_break_spaces_of_a_web_page_are_spaces(tmp_path: Path, encoding: str)
     file = import_file(path)
     assert is_text_of_control(path)
     assert file.values["stepper.pulse_time", ""].value == 10
+
+
+def test_the_table_of_a_web_page_is_read(tmp_path: Path) -> None:
+    rows = ((0, 10), (1, 25), (2, 0), (110, 500))
+    cells = "".join(f'<tr><td class="n">${n}</td><td>{v}</td><td>some words, mm</td></tr>' for n, v in rows)
+    path = tmp_path / "page.html"
+    path.write_text(f"<html><body><table>{cells}</table></body></html>")
+    assert is_text_of_control(path)
+    values = import_file(path).values
+    assert (values["stepper.pulse_time", ""].value, values["axis.max_rate", "X"].value) == (10, 500)

@@ -51,6 +51,10 @@ _AROUND = re.compile(
 _LEAST, _MOST_LISTINGS, _LOOKED_AT = 8, 1000, 20_000
 _MOST_LINES, _LONGEST, _LONGEST_VALUE = 200_000, 65_536, 400
 """A listing has some hundred lines, a log of a day some ten thousand; the longest value is a macro."""
+_CELL = re.compile(r"(\$[0-9]{1,5})[ \t]*</t[dh]>[ \t]*<t[dh][^<>\n]{0,200}>", re.IGNORECASE)
+_TAG = re.compile(r"</?(?:t[dhr]|table|thead|tbody|b|code|span|p)\b[^<>\n]{0,200}>", re.IGNORECASE)
+"""Cells and their marks in the table of a web page; what a control writes in < > begins otherwise."""
+_LONGEST_PAGE = 400_000
 _OBJECT = re.compile(r"\{[^{}]{0,4000}\}")
 _NAMED = re.compile(r'"\$(0|[1-9][0-9]{0,4})"\s*[,}]')
 _ITS_VALUE = re.compile(r'"value"\s*:\s*(?:"([^"]*)"|(-?[0-9][-+.0-9eE]*|true|false))', re.IGNORECASE)
@@ -204,6 +208,10 @@ _Piece = tuple[int, str, str, str, bool]
 
 def _lines(text: str, anywhere: bool) -> Iterator[tuple[int, str, str, list[_Piece]]]:
     """Yield number, text, text without what a sender writes before it, and the settings of each line that is not empty."""
+    if "<td" in text[:_LONGEST_PAGE]:
+        if text.count("<tr") > text.count("\n"):  # a page without lines
+            text = text.replace("<tr", "\n<tr")
+        text = _TAG.sub(" ", _CELL.sub(r"\1=", text))
     for n, came in enumerate(re.split(r"\r\n|\r|\n", text.lstrip(MARK)), 1):
         whole = _ESCAPES.sub("", came[:_LONGEST]).replace("\u00a0", " ").strip()
         if n > _MOST_LINES:
