@@ -257,7 +257,7 @@ def test_what_the_manual_calls_dangerous_about_a_difference_is_one_line(amp, mil
     assert amp("set", twin, "1300=1.5", "1595=Minus", "2595=Minus").code == 0
     said = amp("diff", mill, twin)
     assert said.err == (
-        "danger: Sign of Position Feedback (Axis 1, 2): A wrong sign can make the axis run away. (page 7-36)\n"
+        "danger: Sign of Position Feedback (X, Y): A wrong sign can make the axis run away. (page 7-36)\n"
     )
     assert len(said.out.splitlines()) == 4, "three differences and their count"
 

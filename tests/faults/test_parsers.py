@@ -108,6 +108,7 @@ READERS = {
     "schema/expression.py": "",  # its own names
     "ui/actions/find.py": "",  # writes to the clipboard
     "trouble.py": "",  # what the program itself has written down of its faults
+    "formats/text_format.py": "",  # which format a text has; it is read by that one
     "schema/units.py": "",  # a file of the program itself
     "transfer/client/kept.py": "damaged copies of a control",
     "transfer/client/live.py": "damaged control image",
