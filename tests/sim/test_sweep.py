@@ -120,6 +120,11 @@ class Stopped(Exception):
     """A person stops the sweep."""
 
 
+def test_a_sweep_of_which_nothing_is_possible_gives_the_reason() -> None:
+    with pytest.raises(SimulationError, match="inertia_ratio"):
+        sweep(file_of(MILL), "1", {"sweep.over": "model.inertia_ratio=0.5:2:4"}, "metric", way=ALONE)
+
+
 def test_a_sweep_that_was_stopped_goes_on_with_what_it_has(tmp_path: Path) -> None:
     seen: list[int] = []
 

@@ -146,6 +146,13 @@ class _Axes:
             except (RangeError, SimulationError):
                 yield None
 
+    def refuse(self, point: Sequence[float]) -> None:
+        """Raise SimulationError with the reason where a point makes no axis."""
+        try:
+            self._one(point)
+        except RangeError as error:
+            raise SimulationError(str(error)) from None
+
     def _one(self, point: Sequence[float]) -> _Bound:
         given = {
             each.name: number for each, number in zip(self.job.varied, point, strict=True) if not each.address
@@ -207,6 +214,12 @@ def _nothing(_parameter: str, _instance: str) -> ParameterValue:
 @lru_cache(maxsize=2)
 def _axes(job: SweepJob) -> _Axes:
     return _Axes(job)
+
+
+def refuse_impossible(job: SweepJob, points: Matrix, found: Matrix) -> None:
+    """Raise SimulationError with the reason of the first point where none makes an axis: dashes alone tell nobody what to do."""
+    if len(points) and not np.isfinite(found).any():
+        _axes(job).refuse(points[0].tolist())
 
 
 def bound_at_present(job: SweepJob) -> AxisLaw:

@@ -31,7 +31,7 @@ from amp_studio.sim.tuning.solver import gains_of, solve
 from amp_studio.sim.tuning.trial import Trial, address_of
 
 from .batch import FIGURES
-from .job import LOOP_FIGURES, SweepJob, bound_at_present
+from .job import LOOP_FIGURES, SweepJob, bound_at_present, refuse_impossible
 from .plan import Varied, points_of, read_varied
 from .running import SweepProgress, run_job
 from .text import MORE_IS_BETTER
@@ -76,6 +76,7 @@ def run_sweep(trial: Trial, settings: Settings, _others: Sequence[Trial] = (), w
     loops = not motion or (figure is None and len(points) <= MOST_LOOPS)
     job = _job(trial, varied, move, motion=motion, loops=loops)
     found = _run(job, points, way)
+    refuse_impossible(job, points, found)
     return _trace(job, trial, points, found, figure or ("stiffness" if loops else "settle_time"))
 
 
