@@ -175,12 +175,12 @@ def test_the_bits_of_a_word_are_shown_and_those_that_count_up_share_a_line(amp) 
 def test_bits_that_one_lost_figure_would_name_are_told_once(amp) -> None:
     word = amp("show", "57c422b", "setup.drive").out
     assert (
-        "Bits           0 to 15: Unnamed (figure 4.2) (not legible in the manual: keep the present value)\n"
+        "               2 to 15: Unnamed (figure 4.2) (not legible in the manual: keep the present value)\n"
         in word
     )
-    assert word.count("figure 4.2") == 1
+    assert word.count("Unnamed (figure 4.2)") == 1
     mode = amp("show", "57c422b", "control.mode").out
-    assert "3: Unnamed (figure 4.33) (not legible in the manual: keep the present value)\n" in mode
+    assert "3: Direct Drive Reference (inferred) (not legible in the manual: keep the present" in mode
     assert "4: Direction\n" in mode
 
 

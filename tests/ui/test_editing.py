@@ -234,12 +234,10 @@ def test_copy_and_paste_a_value(window: MainWindow, file: ParameterFile) -> None
 
 
 def test_one_key_fixes_the_selected_finding_and_undo_takes_it_back(
-    open_window, path, bare: bytes, person
-) -> None:  # fmt: skip
-    path.write_bytes(bare)
-    window = open_window(path)
-    workspace = window.workspace
-    finding = next(f for f in workspace.findings if f.fix)
+    window: MainWindow, workspace: Workspace
+) -> None:
+    window.edits.commit(EXCESS, "0.1 mm")
+    finding = next(f for f in workspace.findings if f.fix and f.severity == "error")
     row = workspace.findings.index(finding)
     window.findings.show_all()
     window.findings.select(finding)

@@ -50,7 +50,7 @@ for edit in range({EDITS}):
     if edit % {EDITS_A_REPORT} == {EDITS_A_REPORT} - 1:
         wait(lambda: window.preview.panel.is_settled)
 assert window.preview.panel.view.pages != pages, "no edit was seen in the report"
-assert len(families) == 6
+assert len(families) >= 6
 print(memory(), len(set(window.preview.panel.view.pages)))
 shutil.rmtree(folder)
 sys.stdout.flush()

@@ -123,6 +123,14 @@ RECIPES = {
             ("axis.max_travel", (200.0, 300.0, 600.0, 1200.0)),
         ),
     ),
+    "linuxcnc": Recipe(
+        (),
+        free=(
+            ("joint.ferror", (1.0, 2.0, 5.0)),
+            ("joint.min_ferror", (0.05, 0.1, 0.2)),
+            ("joint.backlash", (0.0, 0.005, 0.02)),
+        ),
+    ),
 }
 
 

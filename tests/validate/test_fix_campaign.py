@@ -10,7 +10,7 @@ from tests.campaigns import CAMPAIGN
 
 
 def test_every_fix_that_is_offered_in_a_random_machine_keeps_its_promises() -> None:
-    tried, broken = campaign(seed=0, count=4000 if CAMPAIGN else 45)
+    tried, broken = campaign(seed=0, count=4000 if CAMPAIGN else 70)
     assert broken == []
     assert tried > (4000 if CAMPAIGN else 50), "and there are fixes to try"
 

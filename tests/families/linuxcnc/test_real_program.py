@@ -7,6 +7,7 @@ import pwd
 import shutil
 import socket
 import subprocess
+import tempfile
 import time
 from collections.abc import Iterator
 from pathlib import Path
@@ -56,22 +57,18 @@ def answers() -> bool:
 
 
 @pytest.fixture
-def running(tmp_path: Path) -> Iterator[ParameterFile]:
+def running() -> Iterator[ParameterFile]:
     """Migrate the mill, start it without a screen, and give its configuration as it is read."""
     if answers():
         pytest.skip("another LinuxCNC runs on this computer")
     (path,) = (examples_folder() / "mill-1394").glob("*.amp")
-    folder = tmp_path / "mill"
-    folder.mkdir()
+    folder = Path(tempfile.mkdtemp(prefix="amp-studio-linuxcnc-"))  # in a folder that another user may enter
     for name, text in migrate(
         open_file(path).file, "linuxcnc", {"home.order": "Z, X Y, B"}
     ).written.texts.items():
         (folder / name).write_text(text)
     for place in (*folder.iterdir(), folder):
         shutil.chown(place, USER)
-    for place in folder.parents:
-        if place.owner() == "root" and place.is_relative_to(tmp_path.parents[1]):
-            place.chmod(0o755)
     command = f"cd '{folder}' && exec env -u DISPLAY linuxcnc MILL_1394.ini"
     program = subprocess.Popen(
         ["su", USER, "-c", command], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL
@@ -84,8 +81,10 @@ def running(tmp_path: Path) -> Iterator[ParameterFile]:
             select_for(0.3)
         yield import_file(folder / "MILL_1394.ini", "linuxcnc")
     finally:
-        stop()
+        if program.poll() is None:
+            stop()
         program.wait(20)
+        shutil.rmtree(folder)
 
 
 def select_for(seconds: float) -> None:

@@ -14,7 +14,7 @@ NONE = 1e99
 def joint_letter(joint: str, kinematics: str, joints: float) -> str:
     """The letter of a joint (K65): joint 1 of trivkins coordinates=XZ is Z. "" where kinematics are not plain."""
     letters = joint_letters(kinematics, int(joints))
-    return letters[int(joint)] if int(joint) < len(letters) else ""
+    return letters[int(joint)] if 0 <= int(joint) < len(letters) else ""
 
 
 def greatest_of_joints(values: Sequence[float | None], axis: str, kinematics: str, joints: float) -> float:
