@@ -217,7 +217,7 @@ def _axes(job: SweepJob) -> _Axes:
 
 
 def refuse_impossible(job: SweepJob, points: Matrix, found: Matrix) -> None:
-    """Raise SimulationError with the reason of the first point where none makes an axis: dashes alone tell nobody what to do."""
+    """Raise SimulationError with the reason of the first point where none makes an axis."""
     if len(points) and not np.isfinite(found).any():
         _axes(job).refuse(points[0].tolist())
 
