@@ -103,7 +103,8 @@ class BlockReader:
             if self.file.evaluation.canonical(address) is True:
                 meaning = f"calls the program {calls.programs[word.letter]} with its number"
                 number, unit = (read.number, read.unit) if read else (None, "")
-                return BlockWord(word.text, word.letter, number, unit, meaning, (address,), calls.page)
+                fault = read.fault if read else ""
+                return BlockWord(word.text, word.letter, number, unit, meaning, (address,), calls.page, fault)
         return read or BlockWord(
             word.text, word.letter, None, "", "not known", fault="this control has no such word"
         )
@@ -289,6 +290,8 @@ def code_at_power_up(codes: ControlCodes, key: str) -> str | None:
     if not codes.file.evaluation.state(address).is_active:
         return None
     choice = codes.file.evaluation.canonical(address)
+    if choice is None:  # not set; codes that power-up cannot choose have None too
+        return None
     for code, known in codes.known.items():
         if known.group is group and known.facts.choice == choice:
             return code

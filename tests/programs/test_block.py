@@ -194,5 +194,12 @@ def test_after_power_up_the_codes_are_those_of_the_file() -> None:
 
 
 def test_a_new_file_names_what_is_not_set() -> None:
-    state = power_up(new_file("9pc"))
-    assert any(line.meaning == "not set" for line in state.active)
+    file = new_file("9pc", "mill", ["X", "Y"])
+    lines = {line.what: line for line in power_up(file).active}
+    assert [(lines[what].code, lines[what].meaning) for what in ("motion", "feed")] == [("", "not set")] * 2
+    assert word(file, "F2.", letter="F").unit != "min"  # no code that power-up cannot choose is active
+
+
+def test_a_word_that_calls_a_program_keeps_what_is_wrong_with_its_number() -> None:
+    file = example("mill-1394", **{"33": "True"})
+    assert "more digits" in word(file, "T1234567", letter="T").fault
