@@ -10,6 +10,7 @@ from amp_studio.front_pages import front_page
 if TYPE_CHECKING:
     from .at_power_up import PowerUp, PowerUpLine, power_up
     from .block import BlockReader, ReadBlock
+    from .formats import digits_of, number_of
     from .words import ProgramBlockError
 else:
     __getattr__ = front_page(__name__)

@@ -165,7 +165,7 @@ class BlockReader:
         unit = use.unit if isinstance(use.unit, str) else use.unit["in" if self.is_inch() else "mm"]
         number = self._number(word, (use.format, "") if use.format else None, use.whole)
         named = (*((use.format,) if use.format else ()), *use.params)
-        params = (*self.codes.whole(named), *self._justifying(word, use.whole))
+        params = (*self.codes.whole(named), *self._justifying(word, use.format is None))
         return BlockWord(
             word.text,
             word.letter,
@@ -185,7 +185,7 @@ class BlockReader:
             return None
         axis, meaning, named = found
         number = self._number(word, (axes.format, axis) if axes.format else None, False)
-        params = (*self.codes.whole(named, axis), *self._justifying(word, False))
+        params = (*self.codes.whole(named, axis), *self._justifying(word, axes.format is None))
         return BlockWord(
             word.text,
             word.letter,
@@ -271,12 +271,12 @@ class BlockReader:
         trailing = self.file.evaluation.canonical((zeros.trailing, "")) is True
         return "both" if leading and trailing else "right" if leading else "left" if trailing else ""
 
-    def _justifying(self, word: TypedWord, whole: bool) -> tuple[Address, ...]:
+    def _justifying(self, word: TypedWord, without_format: bool) -> tuple[Address, ...]:
         """Return the parameters that place the digits of a number without a point."""
         facts = self.codes.facts
         if not word.number:
             return ((facts.no_number.param, ""),) if facts.no_number else ()
-        if facts.zeros is None or whole or "." in word.number:
+        if facts.zeros is None or without_format or "." in word.number:
             return ()
         return (facts.zeros.leading, ""), (facts.zeros.trailing, "")
 

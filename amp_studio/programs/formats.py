@@ -37,7 +37,7 @@ def number_of(typed: str, digits: tuple[int, int] | None, justified: Justified) 
     if digits is None:
         return WordNumber(float(typed))
     before, behind = digits
-    if point or not behind:
+    if point:
         if len(whole.lstrip("0")) > before or len(decimals.rstrip("0")) > behind:
             return WordNumber(
                 None, f"{quoted(figures)} has more digits than the format {before}.{behind} allows"
@@ -59,6 +59,5 @@ def number_of(typed: str, digits: tuple[int, int] | None, justified: Justified) 
         return WordNumber(sign * float(f"{figures.ljust(before + behind, '0')}e-{behind}"))
     if len(figures.lstrip("0")) > before:
         return WordNumber(None, f"{quoted(figures)} has more digits than the format {before}.{behind} allows")
-    return WordNumber(
-        float(typed), assumed="that a number without a point counts whole units while no zeros are left out"
-    )
+    whole_units = "that a number without a point counts whole units while no zeros are left out"
+    return WordNumber(float(typed), assumed=whole_units if behind else "")

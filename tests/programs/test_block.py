@@ -55,6 +55,17 @@ def test_the_printed_numbers_of_words_without_a_point(typed: str, zeros: str, nu
     assert bool(found.assumed) is (zeros == "")
 
 
+@pytest.mark.parametrize(("typed", "letter", "number"), [("S1500", "S", 15000.0), ("T1", "T", 100000.0)])
+def test_zeros_left_out_at_the_end_are_put_back_in_whole_words_too(
+    typed: str, letter: str, number: float
+) -> None:
+    """As `calculate 9pc word_value` has it: page 15-3 makes no exception of words without decimals."""
+    file = example("mill-1394", **{"404": "Disabled", "407": "Enabled", "494": "5.0 RPM", "497": "6"})
+    found = word(file, typed, letter=letter)
+    assert (found.number, found.fault) == (number, "")
+    assert ("format.trailing_zeros", "") in found.params
+
+
 def test_both_zero_modes_leave_a_number_without_a_point_no_place() -> None:
     file = example("mill-1394", **{"404": "Enabled", "407": "Enabled"})
     assert "both zero suppression modes" in word(file, "X1", letter="X").fault
@@ -202,4 +213,4 @@ def test_a_new_file_names_what_is_not_set() -> None:
 
 def test_a_word_that_calls_a_program_keeps_what_is_wrong_with_its_number() -> None:
     file = example("mill-1394", **{"33": "True"})
-    assert "more digits" in word(file, "T1234567", letter="T").fault
+    assert "'1234567' has more" in word(file, "T1234567", letter="T").fault

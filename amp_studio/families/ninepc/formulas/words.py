@@ -5,6 +5,8 @@ from __future__ import annotations
 import re
 from typing import Literal
 
+from amp_studio.programs import digits_of, number_of
+
 _FORMAT = re.compile(r"([0-9])(?:\.([0-9]))?(?:-([0-9])\.([0-9]))?")
 _WORD = re.compile(r"([+-]?)([0-9]+)")
 
@@ -31,8 +33,9 @@ def word_value(word: str, form: str, inch: bool, suppressed: Literal["leading", 
         raise ValueError(f"A word of the format {form} has up to {before + behind} digits, not {word!r}.")
     if suppressed not in ("leading", "trailing"):
         raise ValueError(f"The zeros left out are the leading or the trailing ones, not {suppressed!r}.")
-    digits = found[2] if suppressed == "leading" else found[2].ljust(before + behind, "0")
-    return float(f"{found[1]}{digits}e-{behind}")
+    value = number_of(word, (before, behind), "right" if suppressed == "leading" else "left").value
+    assert value is not None  # as many digits as the format has
+    return value
 
 
 def _digits(form: str, inch: bool) -> tuple[int, int]:
@@ -40,5 +43,4 @@ def _digits(form: str, inch: bool) -> tuple[int, int]:
     found = _FORMAT.fullmatch(form)
     if not found or (found[3] and not found[2]):
         raise ValueError(f"A word format is digits before and behind the point, as 3.4-4.3, not {form!r}.")
-    before, behind = (found[1], found[2] or "0") if inch or not found[3] else (found[3], found[4])
-    return int(before), int(behind)
+    return digits_of(form, inch)
