@@ -1,7 +1,8 @@
 """AMP Studio: the workbench for the numbered parameters that fit a control to a machine.
 
-As a library: ``amp.open`` and ``amp.new`` return a MachineParameters, ``amp.connect`` a ConnectedControl; every error on purpose is an AmpStudioError.
-What is named in ``__all__`` is public and stays; the rooms below (``amp_studio.files``, ``amp_studio.sim``, …) may change without notice.
+As a library: ``amp.open`` and ``amp.new`` return a MachineParameters, ``amp.connect`` a ConnectedControl;
+every error on purpose is an AmpStudioError. What is named in ``__all__`` is public and stays; the rooms below
+(``amp_studio.files``, ``amp_studio.sim``, …) may change without notice.
 """
 
 from .errors import AmpStudioError

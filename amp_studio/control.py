@@ -1,4 +1,6 @@
-"""The public library at a control: ask it, read it, compare it, and send a machine to it with everything that the verbs check."""
+"""The public library at a control: ask it, read it, compare it,
+and send a machine to it with everything that the verbs check.
+"""
 
 from __future__ import annotations
 
@@ -23,8 +25,9 @@ from amp_studio.transfer.client import (
 class ConnectedControl:
     """A control at an address (``tcp://192.168.1.20:2000``, ``COM3``, ``/dev/ttyUSB0``).
 
-    Each method opens the line, does its work and closes it again, so that nothing is blocked in between. Every method raises
-    TransferError, whose ``at_control`` is what the control contains then: old, new, mixed, defaults or unknown.
+    Each method opens the line, does its work and closes it again, so that nothing is blocked in between.
+    Every method raises TransferError, whose ``at_control`` is what the control contains then: old, new,
+    mixed, defaults or unknown.
     """
 
     def __init__(self, address: str, family: str = "") -> None:
@@ -39,12 +42,16 @@ class ConnectedControl:
         """Nothing is open between two methods."""
 
     def identify(self) -> ControlIdentity:
-        """Return what the control states of itself: name, revision, whether it is in E-stop, the digest of its content."""
+        """Return what the control states of itself: name, revision, whether it is in E-stop,
+        the digest of its content.
+        """
         with closing(open_driver(self.address, self.family)) as driver:
             return driver.identify()
 
     def status(self) -> ControlStatus:
-        """Return what the control shows of itself now: positions, following errors, states and faults; nothing is written."""
+        """Return what the control shows of itself now: positions, following errors, states and faults;
+        nothing is written.
+        """
         with closing(StatusReader(self.address, self.family)) as reader:
             return reader.read()
 
@@ -53,7 +60,9 @@ class ConnectedControl:
         return MachineParameters(fetch_file(self.address, family=self.family))
 
     def verify(self, machine: MachineParameters) -> ImageComparison:
-        """Compare a machine with what the control contains, every value and every byte; nothing is written."""
+        """Compare a machine with what the control contains, every value and every byte; nothing is
+        written.
+        """
         return verify_content(machine.file, fetch_image(self.address, family=machine.schema.family.family))
 
     def download(
@@ -64,10 +73,12 @@ class ConnectedControl:
         accept_errors: bool = False,
         keep: str | Path | None = None,
     ) -> Outcome:
-        """Send a machine, read it back and prove it; what the control contained is kept in a file before anything is replaced.
+        """Send a machine, read it back and prove it;
+        what the control contained is kept in a file before anything is replaced.
 
-        ``expect`` is the SHA-256 of what may be replaced, ``keep`` the folder of the copy: that of the machine's file, where it
-        is left out. A machine with errors is refused with MachineError unless they are accepted.
+        ``expect`` is the SHA-256 of what may be replaced, ``keep`` the folder of the copy: that of the
+        machine's file, where it is left out. A machine with errors is refused
+        with MachineError unless they are accepted.
         """
         errors = [finding for finding in machine.check(as_delivered=True) if finding.severity == "error"]
         if errors and not accept_errors:

@@ -61,10 +61,7 @@ def _in_terminal() -> int:
     )
     findings = Validator(file).run()
     counts = {s: sum(f.severity == s for f in findings) for s in ("error", "warning", "advice")}
-    _print_step(
-        2,
-        f"validated: {', '.join(counted(count, severity) for severity, count in counts.items())}",
-    )
+    _print_step(2, f"validated: {', '.join(counted(count, severity) for severity, count in counts.items())}")
     report = folder / f"{path.stem}.pdf"
     write_report(file, report, source=path)
     _print_step(3, f"printed {report} ({report.stat().st_size // 1024} KiB)")
@@ -102,8 +99,19 @@ def _percent(stage: str, done: int, total: int) -> None:
 
 
 def _start_control(state: Path, family: str, machine: str) -> subprocess.Popen[str]:
-    command = [sys.executable, "-m", "amp_studio.cli", "emulate", family, "--listen", "tcp://127.0.0.1:0",
-               "--state", str(state), "--machine", machine]  # fmt: skip
+    command = [
+        sys.executable,
+        "-m",
+        "amp_studio.cli",
+        "emulate",
+        family,
+        "--listen",
+        "tcp://127.0.0.1:0",
+        "--state",
+        str(state),
+        "--machine",
+        machine,
+    ]
     return subprocess.Popen(command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True)
 
 

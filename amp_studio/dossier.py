@@ -54,10 +54,16 @@ def write_report(
     path, source, contents = Path(path), Path(source) if source else None, contents or Contents()
     has_drawings = path.suffix.lower() in _DRAWN and "motion" not in contents.without
     return print_report(
-        file, path, contents, source=source, date=date, own=own, notify=notify,
+        file,
+        path,
+        contents,
+        source=source,
+        date=date,
+        own=own,
+        notify=notify,
         motion=tuple(motion_figures(file)) if has_drawings else (),
         exchanges=() if "exchanges" in contents.without or source is None else tuple(exchanges_of(source)),
-    )  # fmt: skip
+    )
 
 
 def set_dossier(
@@ -70,15 +76,25 @@ def set_dossier(
     own: BuilderRules = NO_RULES,
     notify: Notify = lambda _note: None,
 ) -> SetReport:
-    """Return the pages of what ``write_report`` writes as PDF; ``motion`` was drawn before (``motion_figures``), as that takes longest."""
+    """Return the pages of what ``write_report`` writes as PDF; ``motion`` was drawn before
+    (``motion_figures``), as that takes longest.
+    """
     return set_report(
-        file, contents, ppi, source=source, own=own, notify=notify, motion=motion,
+        file,
+        contents,
+        ppi,
+        source=source,
+        own=own,
+        notify=notify,
+        motion=motion,
         exchanges=() if "exchanges" in contents.without else tuple(exchanges_of(source)),
-    )  # fmt: skip
+    )
 
 
 def motion_figures(file: ParameterFile) -> Iterator[PrintedFigure]:
-    """Yield step and frequency response of each axis that can be simulated; why one cannot is a figure without a drawing."""
+    """Yield step and frequency response of each axis that can be simulated;
+    why one cannot is a figure without a drawing.
+    """
     from amp_studio.sim import SimulationError, listing, plot_svg, simulate
 
     try:
@@ -106,7 +122,9 @@ def motion_figures(file: ParameterFile) -> Iterator[PrintedFigure]:
 
 
 def motion_apart(file: ParameterFile) -> tuple[PrintedFigure, ...]:
-    """Return ``motion_figures`` from a process apart: the simulator takes 150 MB. Raises ReportNotMadeError."""
+    """Return ``motion_figures`` from a process apart: the simulator takes 150 MB. Raises
+    ReportNotMadeError.
+    """
     figures: tuple[PrintedFigure, ...] = pickle.loads(run_apart(__name__, content_of(file)))  # noqa: S301  # the program itself has written it
     return figures
 
@@ -127,5 +145,11 @@ def exchanges_of(source: Path) -> Iterator[ExchangeLine]:
 
     for each in read_exchanges(real.parent, text_of_name(real.name)):
         yield ExchangeLine(
-            local_time(each.when), each.who, each.verb, each.control, each.before[:_SHORT], each.after[:_SHORT], each.text
-        )  # fmt: skip
+            local_time(each.when),
+            each.who,
+            each.verb,
+            each.control,
+            each.before[:_SHORT],
+            each.after[:_SHORT],
+            each.text,
+        )

@@ -1,6 +1,8 @@
-"""Which families bring code and where their records are, without loading any: help and completion come at once.
+"""Which families bring code and where their records are, without loading any:
+help and completion come at once.
 
-The program's families are listed in ``amp_studio/families``. Another package brings one by an entry point of the group
+The program's families are listed in ``amp_studio/families``. Another package brings one by an entry point of
+the group
 ``amp_studio.families``: the id of the family, and ``module:NAME`` of its record (docs/family-code.md).
 """
 
@@ -42,8 +44,8 @@ def installed_places() -> dict[str, str]:
 def _has_families(folder: str) -> bool:
     """Return whether a package in a folder of the path brings a family.
 
-    A look into the files takes 2 ms for eighty packages; loading importlib.metadata, to ask it, takes 35, which every
-    start would pay for the few who have such a package.
+    A look into the files takes 2 ms for eighty packages; loading importlib.metadata, to ask it, takes 35,
+    which every start would pay for the few who have such a package.
     """
     try:
         with os.scandir(folder or os.curdir) as entries:

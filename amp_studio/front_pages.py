@@ -7,7 +7,8 @@ A page is the ``__init__`` of the room. It lists its names once, as the imports 
     else:
         __getattr__ = front_page(__name__)
 
-So a start loads only the modules that it needs, and a name that is not on the page is an error to the type checker too.
+So a start loads only the modules that it needs,
+and a name that is not on the page is an error to the type checker too.
 """
 
 from __future__ import annotations
@@ -23,7 +24,9 @@ if TYPE_CHECKING:
 
 
 def front_page(room: str) -> Callable[[str], Any]:
-    """Return the ``__getattr__`` of a room's page (PEP 562): it gives what a module of the room has at that time."""
+    """Return the ``__getattr__`` of a room's page (PEP 562):
+    it gives what a module of the room has at that time.
+    """
 
     def given(name: str) -> Any:
         place = places(room).get(name)

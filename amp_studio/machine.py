@@ -1,6 +1,8 @@
-"""One machine: its parameter file, what is wrong with it, how it moves, its papers and texts. The public library begins here.
+"""One machine: its parameter file, what is wrong with it, how it moves, its papers and texts.
+The public library begins here.
 
-``amp_studio`` gives what is in this module and in ``control``; the verbs of the command line are made of the same.
+``amp_studio`` gives what is in this module and in ``control``;
+the verbs of the command line are made of the same.
 """
 
 from __future__ import annotations
@@ -54,7 +56,8 @@ _OF_SCENARIOS = ("move", "model", "tune", "sweep", "gear", "cam")
 """First words of the settings of a scenario that are no parameters."""
 
 NewValue = str | float | bool | Value | None
-"""What can be set: a text as a user types it (``5 mm``), a number in the unit of the file, yes or no, a Value, None to clear."""
+"""What can be set: a text as a user types it (``5 mm``), a number in the unit of the file, yes or no,
+a Value, None to clear."""
 
 
 class MachineError(AmpStudioError, ValueError):
@@ -74,7 +77,8 @@ class ParameterEntry:
     id: str
     instance: str
     value: float | bool | str | None
-    """A number in ``unit``, the label of a choice, a text, yes or no; None where it is not set, and for a secret."""
+    """A number in ``unit``, the label of a choice, a text, yes or no; None where it is not set,
+    and for a secret."""
     unit: str
     raw: float | str | None
     """What the control stores; None where it is unknown."""
@@ -94,8 +98,9 @@ class ParameterEntry:
 class MachineParameters:
     """The parameters of one machine, by any address that a user types: ``machine["1300@X"] = "5 mm"``.
 
-    Every error that it raises on purpose is an AmpStudioError with one sentence for the user, and changes nothing. ``file`` is the
-    parameter file in memory, for what this class does not have; what is below it in the program may change without notice.
+    Every error that it raises on purpose is an AmpStudioError with one sentence for the user, and changes
+    nothing. ``file`` is the parameter file in memory, for what this class does not have; what is below it in
+    the program may change without notice.
     """
 
     def __init__(self, file: ParameterFile, path: Path | None = None, digest: str | None = None) -> None:
@@ -106,7 +111,10 @@ class MachineParameters:
 
     def __repr__(self) -> str:
         name = self.path.name if self.path else self.file.header.name or "not saved"
-        return f"<MachineParameters {name}: {self.schema.family.name}, {self.file.machine}, {len(self.file.values)} values>"
+        return (
+            f"<MachineParameters {name}: {self.schema.family.name}, {self.file.machine},"
+            f" {len(self.file.values)} values>"
+        )
 
     @property
     def schema(self) -> Schema:
@@ -116,7 +124,8 @@ class MachineParameters:
     # -- values ------------------------------------------------------------------
 
     def __getitem__(self, address: str) -> ParameterEntry:
-        """Return one value by number, id or label, with ``@`` and the axis where there are several; ``.BIT`` is a field of a word.
+        """Return one value by number, id or label, with ``@`` and the axis where there are several;
+        ``.BIT`` is a field of a word.
 
         Raises UnknownParameterError.
         """
@@ -134,7 +143,8 @@ class MachineParameters:
     def set(self, values: Mapping[str, NewValue | ParameterEntry], *, force: str = "") -> list[Change]:
         """Set several values, all or none, and return what changed.
 
-        ``force`` (a text that names by whom and why) takes values out of range and marks them. Raises AssignmentError, RangeError.
+        ``force`` (a text that names by whom and why) takes values out of range and marks them.
+        Raises AssignmentError, RangeError.
         """
         wanted = read_assignments(self.file, ((name, _typed(value)) for name, value in values.items()))
         return self.file.set_many(wanted, force=force)
@@ -150,18 +160,23 @@ class MachineParameters:
     def check(self, *, as_delivered: bool = False) -> tuple[Finding, ...]:
         """Return the findings, errors first; the builder's rules beside the file count too.
 
-        Those about printed defaults of steps that nobody has reached are left out, as ``validate`` does, unless
+        Those about printed defaults of steps that nobody has reached are left out, as ``validate`` does,
+        unless
         ``as_delivered``: a download asks for them.
         """
         validator = self._validator()
         return validator.run() if as_delivered else found_in(validator)
 
     def fix(self, rule: str = "", *, safe: bool = False) -> list[Fixed]:
-        """Make the suggested fixes of all findings, or of one rule, and return what changed; with ``safe`` only what moves nothing."""
+        """Make the suggested fixes of all findings, or of one rule, and return what changed;
+        with ``safe`` only what moves nothing.
+        """
         return apply_fixes(self._validator(), lambda f: rule in ("", f.rule) and (f.safe or not safe))
 
     def diff(self, other: MachineParameters | str | Path) -> tuple[Difference, ...]:
-        """Return what differs from another machine of the same family, or from a file; raises MachineError."""
+        """Return what differs from another machine of the same family, or from a file; raises
+        MachineError.
+        """
         there = other if isinstance(other, MachineParameters) else open_machine(other)
         if there.schema.family.family != self.schema.family.family:
             raise MachineError(f"{there!r} is of another family than {self!r}")
@@ -177,7 +192,8 @@ class MachineParameters:
     # -- what it does --------------------------------------------------------------
 
     def simulate(self, scenario: str, axis: str | None = None, **settings: float | str) -> Trace:
-        """Run a scenario (``step``, ``circle``, ``home``, …) with these values; ``move_feedrate=2000`` is the setting move.feedrate.
+        """Run a scenario (``step``, ``circle``, ``home``, …) with these values;
+        ``move_feedrate=2000`` is the setting move.feedrate.
 
         Raises SimulationError.
         """
@@ -188,7 +204,8 @@ class MachineParameters:
         )
 
     def report(self, path: str | Path, **contents: Any) -> None:
-        """Write the documentation as the ending of ``path`` names it (.pdf, .html, .xlsx, .csv, .json, .txt); ``contents`` are those of Contents.
+        """Write the documentation as the ending of ``path`` names it (.pdf, .html, .xlsx, .csv, .json, .txt);
+        ``contents`` are those of Contents.
 
         Raises MachineError, SaveError.
         """
@@ -222,7 +239,8 @@ class MachineParameters:
         self.path, self._digest = target, document.digest
 
     def export(self, path: str | Path, format_key: str | None = None, *, secrets: bool = False) -> Account:
-        """Write the values in a text format of the family, by the ending of ``path``; returns what became of each value.
+        """Write the values in a text format of the family, by the ending of ``path``;
+        returns what became of each value.
 
         Raises FormatError, SaveError.
         """
@@ -282,7 +300,7 @@ def _plain(value: float | bool | str) -> str:
     return value if isinstance(value, str) else write_number(value)
 
 
-# -- what a user types, and what he gets --------------------------------------------------------------------------------
+# -- what a user types, and what he gets
 
 
 def read_assignments(
@@ -292,8 +310,9 @@ def read_assignments(
 ) -> dict[Address, Value | None]:
     """Read assignments in order, each in the light of those before it; the file itself is not changed.
 
-    Raises AssignmentError that names everything that cannot be set. ``notify`` is called with which parameter a number means
-    that is printed for several. A value is cleared by ``NOT_SET`` only: an empty text may be a variable without a value.
+    Raises AssignmentError that names everything that cannot be set. ``notify`` is called with which parameter
+    a number means that is printed for several. A value is cleared by ``NOT_SET`` only:
+    an empty text may be a variable without a value.
     """
     trial = file.copy()
     found: dict[Address, Value | None] = {}
@@ -349,7 +368,9 @@ def _clears(text: str) -> bool:
 
 
 def _with_bit(file: ParameterFile, address: Address, bit: int, text: str) -> Value:
-    """Return the value of a word of bits with one field changed; a word that is not set counts as its default, or 0."""
+    """Return the value of a word of bits with one field changed;
+    a word that is not set counts as its default, or 0.
+    """
     field = field_at(file.schema.parameters[address[0]], bit)
     word = file.get(address) or file.default(address) or Value(0)
     return Value(with_field(field, int(word.value), text), word.unit)
@@ -361,14 +382,25 @@ def bit_row(file: ParameterFile, address: Address, bit: int) -> dict[str, Any]:
     words = (file.get(address), file.default(address))
     word, default = (None if v is None else field_value(field, int(v.value)) for v in words)
     labels = {c.raw: c.label for c in field.choices or ()}
-    return {"param": f"{file.machine_schema.short(address)}.{bit}", "id": address[0], "instance": address[1],
-            "bit": bit, "label": field.label, "value": labels.get(word, word), "unit": "", "raw": word,
-            "default": word == default, "state": file.evaluation.state(address).state,
-            "forced": address in file.forced}  # fmt: skip
+    return {
+        "param": f"{file.machine_schema.short(address)}.{bit}",
+        "id": address[0],
+        "instance": address[1],
+        "bit": bit,
+        "label": field.label,
+        "value": labels.get(word, word),
+        "unit": "",
+        "raw": word,
+        "default": word == default,
+        "state": file.evaluation.state(address).state,
+        "forced": address in file.forced,
+    }
 
 
 def value_row(file: ParameterFile, address: Address, secrets: bool) -> dict[str, Any]:
-    """Return a value as ``get --json`` gives it; a secret that is set has neither value nor raw unless asked for."""
+    """Return a value as ``get --json`` gives it;
+    a secret that is set has neither value nor raw unless asked for.
+    """
     parameter, value = file.schema.parameters[address[0]], file.get(address)
     masked = parameter.secret and not secrets
     plain = None if value is None or masked else value.value
@@ -377,12 +409,22 @@ def value_row(file: ParameterFile, address: Address, secrets: bool) -> dict[str,
     raw = None
     if value is not None and not masked:
         raw = stored_number(parameter, value, turns=file.evaluation.turns(address))
-    return {
-        "param": file.machine_schema.short(address), "id": address[0], "instance": address[1],
-        "value": plain, "unit": value.unit if value else file.evaluation.unit(address, file.header.units), "raw": raw,
-        "default": file.is_default(address), "state": file.evaluation.state(address).state,
-        "forced": address in file.forced,
-    } | _labels(parameter, value) | ({"secret": True, "set": value is not None} if parameter.secret else {}) | _real_figure(file, address)  # fmt: skip
+    return (
+        {
+            "param": file.machine_schema.short(address),
+            "id": address[0],
+            "instance": address[1],
+            "value": plain,
+            "unit": value.unit if value else file.evaluation.unit(address, file.header.units),
+            "raw": raw,
+            "default": file.is_default(address),
+            "state": file.evaluation.state(address).state,
+            "forced": address in file.forced,
+        }
+        | _labels(parameter, value)
+        | ({"secret": True, "set": value is not None} if parameter.secret else {})
+        | _real_figure(file, address)
+    )
 
 
 def _labels(parameter: Parameter, value: Value | None) -> dict[str, str]:

@@ -1,4 +1,6 @@
-"""A fault of the program itself: one line for the person, the details in a file for the developer who mends it."""
+"""A fault of the program itself: one line for the person,
+the details in a file for the developer who mends it.
+"""
 
 from __future__ import annotations
 

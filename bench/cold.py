@@ -42,9 +42,11 @@ def measures(folder: Path, full: Path, printed: Path, example: Path, times: int)
 
 
 def _private(folder: Path, own_bytecode: bool) -> Mapping[str, str]:
-    """No display, no settings of the person who measures, and compiled modules kept as an installed program has them.
+    """No display, no settings of the person who measures,
+    and compiled modules kept as an installed program has them.
 
-    ``own_bytecode`` keeps them apart from those of this person: the first run, which is thrown away, compiles every module.
+    ``own_bytecode`` keeps them apart from those of this person: the first run, which is thrown away,
+    compiles every module.
     """
     checkout = str(BENCH.parent)
     path = os.pathsep.join(filter(None, (checkout, os.environ.get("PYTHONPATH", ""))))
@@ -65,7 +67,9 @@ def _run(command: tuple[str, ...], settings: Mapping[str, str]) -> float:
 
 
 def _until_painted(example: Path, settings: Mapping[str, str]) -> float:
-    """Return the time from the start of the process until it reports that it has painted the table of the example."""
+    """Return the time from the start of the process until it reports
+    that it has painted the table of the example.
+    """
     command = (sys.executable, str(BENCH / "first_paint.py"), str(example))
     begin = time.perf_counter()
     with subprocess.Popen(command, env=settings, stdout=subprocess.PIPE, stderr=subprocess.PIPE) as process:

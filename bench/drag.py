@@ -1,4 +1,6 @@
-"""A handle of a picture that is dragged in a window of 1440 by 900, all pictures in view. The slowest frame of many counts."""
+"""A handle of a picture that is dragged in a window of 1440 by 900, all pictures in view.
+The slowest frame of many counts.
+"""
 
 from __future__ import annotations
 
@@ -14,7 +16,8 @@ from measure import Measure
 os.environ.setdefault("QT_QPA_PLATFORM", "offscreen")
 
 FRAME = 0.016
-"""Seconds that a frame may take at worst, until all is painted. Processor time, which other programs do not add to."""
+"""Seconds that a frame may take at worst, until all is painted. Processor time,
+which other programs do not add to."""
 EXAMPLES = Path(__file__).resolve().parent.parent / "examples"
 DRAGGED = (
     ("9/PC", "mill-1394/MILL_1394.amp", ("zone.overtravel_negative", "1")),

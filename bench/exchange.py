@@ -77,9 +77,12 @@ def _control(listen: str, state: Path) -> Iterator[str]:
         "mill",
     ]
     with subprocess.Popen(
-        [*command, "--state", str(state)], stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True,
+        [*command, "--state", str(state)],
+        stdin=subprocess.PIPE,
+        stdout=subprocess.PIPE,
+        text=True,
         env={**os.environ, "PYTHONPATH": os.pathsep.join(sys.path)},
-    ) as process:  # fmt: skip
+    ) as process:
         assert process.stdin is not None
         assert process.stdout is not None
         try:

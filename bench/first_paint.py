@@ -1,4 +1,5 @@
-"""Start the desktop program on a file, say ``painted`` when the table of its values has been painted, and end.
+"""Start the desktop program on a file, say ``painted`` when the table of its values has been painted,
+and end.
 
 The start is that of the program itself (``amp_studio.ui.main``); all that is
 added is an ear for the paint event of the table.

@@ -1,4 +1,6 @@
-"""The parameter table at its largest: every parameter of the NUM mill in a window of 1440 by 900. The slowest of many counts."""
+"""The parameter table at its largest: every parameter of the NUM mill in a window of 1440 by 900.
+The slowest of many counts.
+"""
 
 from __future__ import annotations
 
@@ -15,7 +17,8 @@ from measure import Measure, timed
 os.environ.setdefault("QT_QPA_PLATFORM", "offscreen")
 
 FRAME, KEYSTROKE, EDIT = 0.016, 0.030, 0.050
-"""Seconds that a frame of a scrolling table, a keystroke and an edit may take at worst, until all is painted."""
+"""Seconds that a frame of a scrolling table, a keystroke and an edit may take at worst, until all is
+painted."""
 EXAMPLE = Path(__file__).resolve().parent.parent / "examples" / "num-1060-mill" / "MILL_1060.amp"
 
 
@@ -57,27 +60,42 @@ def measures(folder: Path, times: int) -> Iterator[Measure]:
     table.show_parameters(every)
     application.processEvents()
     bar, steps = view.verticalScrollBar(), cycle([3] * 40 + [-3] * 40)
-    yield worst("frame while scrolling by the wheel", FRAME,
-                timed(until_painted(lambda: bar.setValue(bar.value() + next(steps))), 20 * times))  # fmt: skip
+    yield worst(
+        "frame while scrolling by the wheel",
+        FRAME,
+        timed(until_painted(lambda: bar.setValue(bar.value() + next(steps))), 20 * times),
+    )
     page, pages = bar.pageStep(), cycle([1] * 20 + [-1] * 20)
-    yield worst("frame while scrolling by the page", FRAME,
-                timed(until_painted(lambda: bar.setValue(bar.value() + page * next(pages))), 8 * times))  # fmt: skip
+    yield worst(
+        "frame while scrolling by the page",
+        FRAME,
+        timed(until_painted(lambda: bar.setValue(bar.value() + page * next(pages))), 8 * times),
+    )
     address = _number(table)
     view.setCurrentIndex(table.index_of(address))
     down = cycle([Qt.Key.Key_Down] * 15 + [Qt.Key.Key_Up] * 15)
-    yield worst("key that moves the current cell, painted", KEYSTROKE,
-                timed(until_painted(lambda: QTest.keyClick(view, next(down))), 8 * times))  # fmt: skip
+    yield worst(
+        "key that moves the current cell, painted",
+        KEYSTROKE,
+        timed(until_painted(lambda: QTest.keyClick(view, next(down))), 8 * times),
+    )
     view.setCurrentIndex(table.index_of(address))
     values = cycle(["1", "2"])
-    yield worst("edit of a value in the table, painted", EDIT,
-                timed(until_painted(lambda: workspace.enter(address, next(values))), 4 * times))  # fmt: skip
+    yield worst(
+        "edit of a value in the table, painted",
+        EDIT,
+        timed(until_painted(lambda: workspace.enter(address, next(values))), 4 * times),
+    )
     view.setCurrentIndex(table.index_of(address))
     view.edit(table.index_of(address))
     field: Any = view.indexWidget(table.index_of(address))
     assert field is not None, "the cell is edited"
     letters = cycle("=1+2*3/4+5*6-7")
-    yield worst("keystroke in a cell, with its result, painted", KEYSTROKE,
-                timed(until_painted(lambda: QTest.keyClick(field, next(letters))), 4 * times))  # fmt: skip
+    yield worst(
+        "keystroke in a cell, with its result, painted",
+        KEYSTROKE,
+        timed(until_painted(lambda: QTest.keyClick(field, next(letters))), 4 * times),
+    )
     workspace.close()
     window.control.close()
     window.hide()

@@ -1,6 +1,7 @@
 """Five families open in one window: the memory of the process, and how long a full file takes to open there.
 
-``python bench/many_files.py FULL FILE …`` opens the files in a process alone and prints megabytes, then seconds.
+``python bench/many_files.py FULL FILE …`` opens the files in a process alone and prints megabytes,
+then seconds.
 """
 
 from __future__ import annotations
@@ -81,7 +82,9 @@ def _rest(application: QCoreApplication) -> None:
 
 
 def _resident() -> float:
-    """Return the megabytes of memory that this process has now; the most it had where the system has no such figure."""
+    """Return the megabytes of memory that this process has now;
+    the most it had where the system has no such figure.
+    """
     try:
         text = Path("/proc/self/status").read_text(encoding="ascii")
         return int(text.partition("VmRSS:")[2].split()[0]) / 1024

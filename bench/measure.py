@@ -37,7 +37,8 @@ def timed(
 ) -> tuple[float, ...]:
     """Return the seconds of each of ``times`` calls; ``before`` runs ahead of each and does not count.
 
-    ``warm`` calls come first and are thrown away, but where there is one call only, which shows that it runs. Python's collector runs as it does in the program.
+    ``warm`` calls come first and are thrown away, but where there is one call only, which shows that it runs.
+    Python's collector runs as it does in the program.
     """
     seconds = []
     for n in range(-warm if times > 1 else 0, times):
@@ -55,10 +56,14 @@ def table(measures: Sequence[Measure]) -> str:
     """Return all measures as one table."""
     head = ("", "median", "min", "max", "target", "")
     rows = [head] + [
-        (m.name, *(said(f, m.unit) for f in (median(m.figures), min(m.figures), max(m.figures))),
-         f"< {said(m.target, m.unit)}" if m.target is not None else "", m.verdict)
+        (
+            m.name,
+            *(said(f, m.unit) for f in (median(m.figures), min(m.figures), max(m.figures))),
+            f"< {said(m.target, m.unit)}" if m.target is not None else "",
+            m.verdict,
+        )
         for m in measures
-    ]  # fmt: skip
+    ]
     widths = [max(len(row[column]) for row in rows) for column in range(len(head))]
     lines = []
     for row in rows:
@@ -72,7 +77,9 @@ def table(measures: Sequence[Measure]) -> str:
 
 
 def said(figure: float, measured: str = "s") -> str:
-    """Write a figure with three digits and the unit that suits it: ``1.23 s``, ``45.6 ms``, ``789 µs``, ``12.3 MB``, ``3 %``."""
+    """Write a figure with three digits and the unit that suits it: ``1.23 s``, ``45.6 ms``, ``789 µs``,
+    ``12.3 MB``, ``3 %``.
+    """
     if measured == "MB":
         return f"{figure:.1f} MB"
     if measured == "%":

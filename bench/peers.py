@@ -27,7 +27,9 @@ def measures(full: Path, times: int) -> Iterator[Measure]:
 
 
 def _as_json(file: ParameterFile) -> tuple[str, dict[str, tuple[float, float]]]:
-    """Return the numbers of a file as JSON, each in the unit of its range, and the ranges with fixed bounds."""
+    """Return the numbers of a file as JSON, each in the unit of its range, and the ranges with fixed
+    bounds.
+    """
     entries, ranges = [], {}
     for (parameter_id, instance), value in file.values.items():
         parameter = file.schema.parameters[parameter_id]

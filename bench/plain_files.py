@@ -1,7 +1,7 @@
 """How much of a line plain files use: XMODEM and YMODEM beside sz and rz, in one run over one cable.
 
-``python bench/plain_files.py [BYTES]``. The cable is a pseudo terminal of 11,520 bytes a second each way (115,200 bit/s),
-clean, and with one byte of so many changed. 100 % is the time the bytes alone take.
+``python bench/plain_files.py [BYTES]``. The cable is a pseudo terminal of 11,520 bytes a second each way
+(115,200 bit/s), clean, and with one byte of so many changed. 100 % is the time the bytes alone take.
 """
 
 from __future__ import annotations

@@ -1,4 +1,6 @@
-"""Real listings (figures in tests/families/grblhal/listings.yaml): import rate, round trip and false errors. They may only get better."""
+"""Real listings (figures in tests/families/grblhal/listings.yaml): import rate, round trip and false errors.
+They may only get better.
+"""
 
 from __future__ import annotations
 
@@ -16,7 +18,9 @@ LISTINGS = Path(__file__).parents[1] / "tests" / "families" / "grblhal" / "listi
 
 
 def measures() -> Iterator[Measure]:
-    """Yield the shares of listings that are refused, of values that do not come back, and of errors that are none."""
+    """Yield the shares of listings that are refused, of values that do not come back,
+    and of errors that are none.
+    """
     listings = read_yaml(LISTINGS.read_text("utf-8")).data["listings"]
     refused = values = lost = false = 0
     with tempfile.TemporaryDirectory() as folder:

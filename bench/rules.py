@@ -1,4 +1,6 @@
-"""Rules: a whole run, one edit, a hall full of machine files, and the same relational rules done in other ways."""
+"""Rules: a whole run, one edit, a hall full of machine files,
+and the same relational rules done in other ways.
+"""
 
 from __future__ import annotations
 
@@ -161,7 +163,9 @@ def _num_table(folder: Path, num: Path, times: int) -> Iterator[Measure]:
 
 
 def _hall(folder: Path, files: int, times: int) -> Iterator[Measure]:
-    """Yield the time of the command line for a folder of machines of all families, of which no two are the same."""
+    """Yield the time of the command line for a folder of machines of all families,
+    of which no two are the same.
+    """
     hall = folder / "hall"
     hall.mkdir()
     texts = [path.read_text("utf-8") for path in sorted(examples_folder().glob("*/*.amp"))]
@@ -201,8 +205,13 @@ def _hall(folder: Path, files: int, times: int) -> Iterator[Measure]:
 # -- the same rules in other ways ----------------------------------------------------------------------
 
 OPERATORS: dict[str, Callable[[float, float], bool]] = {
-    "<": operator.lt, "<=": operator.le, ">": operator.gt, ">=": operator.ge, "==": operator.eq, "!=": operator.ne,
-}  # fmt: skip
+    "<": operator.lt,
+    "<=": operator.le,
+    ">": operator.gt,
+    ">=": operator.ge,
+    "==": operator.eq,
+    "!=": operator.ne,
+}
 RELATION = re.compile(r"(\w+) (<=|>=|==|!=|<|>) (\w+)")
 
 

@@ -41,7 +41,8 @@ def main() -> None:
     )
     times = 1 if parser.parse_args().quick else 15
     print(
-        f"Python {platform.python_version()} on {platform.system()}, {processor()}, {os.cpu_count()} processors{load()}"
+        f"Python {platform.python_version()} on {platform.system()}, {processor()}, {os.cpu_count()}"
+        f" processors{load()}"
     )
     with tempfile.TemporaryDirectory(prefix="amp-studio-bench-") as name:
         print(table(list(measures(Path(name), times))))

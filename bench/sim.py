@@ -1,8 +1,9 @@
-"""The simulator beside others: one axis with all non-linear parts, and its linear part for those that know only that.
+"""The simulator beside others: one axis with all non-linear parts,
+and its linear part for those that know only that.
 
-Peers: the same axis in C (``sim_axis.c``, compiled here with -O2), scipy's ``lsim`` and python-control's ``forced_response`` on the
-linear part. Accuracy comes first: halving the physics step has to change nothing that can be seen, and the C program has to
-give the same positions; otherwise nothing is measured.
+Peers: the same axis in C (``sim_axis.c``, compiled here with -O2), scipy's ``lsim`` and python-control's
+``forced_response`` on the linear part. Accuracy comes first: halving the physics step has to change nothing
+that can be seen, and the C program has to give the same positions; otherwise nothing is measured.
 """
 
 from __future__ import annotations
@@ -35,14 +36,16 @@ SECONDS = 10.0
 TIMES_REAL = 8_000.0
 """How many times faster than real time one core has to be.
 
-It was 10,000 while an output that arrives inside of a physics step was averaged over it; now such a step is cut in two, and here every
-step is one: 80,000 advances of two masses, 14 ns each. The C program, which cuts too, is the measure of what is possible."""
+It was 10,000 while an output that arrives inside of a physics step was averaged over it; now such a step is
+cut in two, and here every step is one: 80,000 advances of two masses, 14 ns each. The C program, which cuts
+too, is the measure of what is possible."""
 SAME = 1e-9
 """mm: largest difference of the positions in C."""
 VISIBLE = 0.002
 """mm: largest difference that halving the step may make with ideal devices, on a move of 1.5 m."""
 COUNTS = 0.003
-"""mm: what counts may add to it, three of them: whether one comes a sample sooner is decided by the last digit."""
+"""mm: what counts may add to it, three of them:
+whether one comes a sample sooner is decided by the last digit."""
 STRIDE = 4
 """Physics steps for one row: a row every 1 ms."""
 

@@ -1,7 +1,8 @@
 """The laws of all five families at their own sampling times, each with the gains of its example.
 
-The machine has friction, stiction, weight, a spring, where the gains allow it backlash and a resonance, a current loop or velocity loop, delay, limits and counts. Halving the physics step has to move no axis by more than a thousandth of its largest
-following error and three counts.
+The machine has friction, stiction, weight, a spring, where the gains allow it backlash and a resonance, a
+current loop or velocity loop, delay, limits and counts. Halving the physics step has to move no axis by more
+than a thousandth of its largest following error and three counts.
 """
 
 from __future__ import annotations
@@ -40,7 +41,8 @@ class Case:
     torque: float
     """What friction and weight are shares of, in the unit of the torque."""
     two_masses: bool = True
-    """Whether its gains have the margin for motor and load that move apart; an axis without it swings for ever."""
+    """Whether its gains have the margin for motor and load that move apart;
+    an axis without it swings for ever."""
 
 
 CASES = (
@@ -73,7 +75,9 @@ def axis_of(case: Case) -> AxisLaw:
 
 
 def measures(times: int) -> Iterator[Measure]:
-    """Yield how long ten seconds of each axis take; raises AssertionError where halving the step can be seen."""
+    """Yield how long ten seconds of each axis take; raises AssertionError where halving the step can be
+    seen.
+    """
     for case in CASES:
         axis = axis_of(case)
         assert axis.feedrate is not None

@@ -1,4 +1,6 @@
-"""What happens again and again in a program that runs: opening, checking, editing, saving, printing, simulating."""
+"""What happens again and again in a program that runs: opening, checking, editing, saving, printing,
+simulating.
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,7 @@
-"""How Sphinx makes the site of these pages (``make docs``): nothing is loaded from the network, and it is read from file://."""
+"""How Sphinx makes the site of these pages (``make docs``).
+
+Nothing is loaded from the network, and it is read from file://.
+"""
 
 import re
 from pathlib import Path
@@ -37,7 +40,7 @@ def setup(app: Sphinx) -> None:
 
 
 def _search_numbers(app: Sphinx, problem: Exception | None) -> None:
-    """Let the search take words that are a number: they are in its index, but its script drops them from what is asked."""
+    """Let the search take words that are a number: they are in its index, but its script drops them."""
     if problem is None:
         script = Path(app.outdir) / "_static" / "searchtools.js"
         text = script.read_text(encoding="utf-8")

@@ -1,8 +1,8 @@
 """Checks every link of the pages in a folder: its page or file must be there, and its anchor on that page.
 
-What the search leads to is checked too. Only the folder is read: a link out of it by a path is broken, and one into
-the network is not followed. A picture, script or style that a page would load from the network is an error, because the
-site is read without one.
+What the search leads to is checked too. Only the folder is read: a link out of it by a path is broken, and
+one into the network is not followed. A picture, script or style that a page would load from the network is an
+error, because the site is read without one.
 """
 
 from __future__ import annotations
@@ -48,7 +48,9 @@ class Page(HTMLParser):
 
 
 def faults(folder: Path) -> tuple[list[str], int, int]:
-    """Return what is wrong with the links of a site, how many pages it has, and how many links were followed."""
+    """Return what is wrong with the links of a site, how many pages it has, and how many links were
+    followed.
+    """
     pages = {
         path.resolve(): Page(path.read_text(encoding="utf-8")) for path in sorted(folder.rglob("*.html"))
     }

@@ -2,9 +2,10 @@
 
     python scripts/extract_57c422b.py MANUAL.txt -o tests/manual/57c422b.yaml
 
-MANUAL.txt is the scanned manual as plain text. Written are the registers of the headings and of the text (``11,12`` is
-one value of two registers, ``68/69`` are two alike, ``99-103`` a span), bits, names of commands, bounds, units and
-defaults, each with its section and line. Bit layouts are in figures, which the text has not.
+MANUAL.txt is the scanned manual as plain text. Written are the registers of the headings and of the text
+(``11,12`` is one value of two registers, ``68/69`` are two alike, ``99-103`` a span), bits, names of
+commands, bounds, units and defaults, each with its section and line. Bit layouts are in figures,
+which the text has not.
 """
 
 from __future__ import annotations

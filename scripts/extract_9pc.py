@@ -2,9 +2,10 @@
 
     python scripts/extract_9pc.py MANUAL.txt -o tests/manual/9pc.yaml
 
-MANUAL.txt is the scanned manual as plain text, the cells of its tables separated by tabs. Written are parameter
-numbers, ranges, choices and the rows of the Patch AMP table, each with its section and line. What
-looks like a fact and is not understood is reported on stderr; ``tests/manual`` compares the database with the rest.
+MANUAL.txt is the scanned manual as plain text, the cells of its tables separated by tabs. Written are
+parameter numbers, ranges, choices and the rows of the Patch AMP table, each with its section and line. What
+looks like a fact and is not understood is reported on stderr;
+``tests/manual`` compares the database with the rest.
 """
 
 from __future__ import annotations
@@ -40,8 +41,13 @@ UNIT = (
 TABLE_NUMBER = re.compile(r"\[(\d+)\]|(\d+)(?= \((?:single process|process \d)\))")
 ONLY_NUMBERS = re.compile(rf"(?:(?:{TABLE_NUMBER.pattern})\s*(?:\([^)]*\))?\s*)+")
 HEADED = {"axis": "axis", "spindle": "spindle", "parameter": "name", "deskew": "pair"}
-COLUMNS = {"mill": "machine", "lathe": "machine", "single process": "process", "process 1": "process",
-           "process 2": "process"}  # fmt: skip
+COLUMNS = {
+    "mill": "machine",
+    "lathe": "machine",
+    "single process": "process",
+    "process 1": "process",
+    "process 2": "process",
+}
 LONGEST_RANGE_IN_WORDS = 50
 PROSE = re.compile(r"(?:The|This|These|Set|If|When|Use|Refer|You|Important)\b")
 
@@ -317,8 +323,13 @@ def patch_rows(lines: Sequence[tuple[int, str]]) -> Iterator[StoredRow]:
         cells = [cell.strip() for cell in text.split("\t")]
         if len(cells) != 4 or not (head := re.fullmatch(r"(\d+(?: \d+)*)( \^L)?", cells[0])):
             continue
-        row = StoredRow(line=n, numbers=tuple(head[1].split()), name=cut(cells[1]), default=cut(cells[2]),
-                        machine="lathe" if head[2] else "")  # fmt: skip
+        row = StoredRow(
+            line=n,
+            numbers=tuple(head[1].split()),
+            name=cut(cells[1]),
+            default=cut(cells[2]),
+            machine="lathe" if head[2] else "",
+        )
         yield stored(row, cells[3].replace("\\$", "$"))
 
 

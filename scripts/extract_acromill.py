@@ -2,10 +2,10 @@
 
     python scripts/extract_acromill.py MANUAL.txt -o tests/manual/acromill.yaml
 
-MANUAL.txt is the guide as plain text, the cells of tables separated by tabs. Written are the names of the parameters
-of each tab, with their typical and default values and units, the values that the pictures of the tabs show, ranges in
-brackets and values with their labels, the rows that the chapter on cutter compensation repeats, and the lists of gains
-of appendix C, each with the tab or chapter, its page and its line.
+MANUAL.txt is the guide as plain text, the cells of tables separated by tabs. Written are the names of the
+parameters of each tab, with their typical and default values and units, the values that the pictures of the
+tabs show, ranges in brackets and values with their labels, the rows that the chapter on cutter compensation
+repeats, and the lists of gains of appendix C, each with the tab or chapter, its page and its line.
 """
 
 from __future__ import annotations
@@ -25,9 +25,34 @@ ENTRY = re.compile(r"(\S[^\t]*?)\.*\t(\d+)")
 FIRST, BEHIND = "Sys Params", "P Parameters"
 CHAPTERS = ["Common programming errors", "Start the Tuning procedure"]
 """Chapters with facts of the tabs' parameters."""
-TABS = {"Servo", "Axes", "Control", "Home", "Jog", "I/O", "Speeds", "Compat", "Comm", "Spindle", "Display", "Tool",
-        "Inputs", "Outputs", "Misc", "FOV", "ROV", "SOV", "Probe", "SOV Probe", "System Parameters", "Save", "Close",
-        "Page 1", "Page 2", "I/O Logic Masks"}  # fmt: skip
+TABS = {
+    "Servo",
+    "Axes",
+    "Control",
+    "Home",
+    "Jog",
+    "I/O",
+    "Speeds",
+    "Compat",
+    "Comm",
+    "Spindle",
+    "Display",
+    "Tool",
+    "Inputs",
+    "Outputs",
+    "Misc",
+    "FOV",
+    "ROV",
+    "SOV",
+    "Probe",
+    "SOV Probe",
+    "System Parameters",
+    "Save",
+    "Close",
+    "Page 1",
+    "Page 2",
+    "I/O Logic Masks",
+}
 TABLE = ["Parameter", "Typical Value", "Default Value", "Units"]
 UNIT = re.compile(r"Inch or mm|Radians|Integer")
 """Units of the rows that are repeated without the head of their table."""

@@ -2,9 +2,10 @@
 
     python scripts/extract_num.py MANUAL.txt -o tests/manual/num.yaml
 
-MANUAL.txt is the scanned manual as plain text, the cells of its tables separated by tabs. Written are the list of
-chapter 2 and, of every section, the words and bits it names, their codes, bounds and defaults, each with its line.
-Sections whose heading the scan lost, and lines that look like facts and gave none, are reported on stderr.
+MANUAL.txt is the scanned manual as plain text, the cells of its tables separated by tabs. Written are the
+list of chapter 2 and, of every section, the words and bits it names, their codes, bounds and defaults, each
+with its line. Sections whose heading the scan lost, and lines that look like facts and gave none,
+are reported on stderr.
 """
 
 from __future__ import annotations
@@ -51,7 +52,8 @@ UNIT = (
 )
 DEFAULTS = (
     re.compile(
-        rf"(?i)\b(default|basic) values?(?: initialised)?(?: of parameter P\d+)?(?: of| is| forced to|:) ?(?:{VALUE}|(zero)){UNIT}"
+        r"(?i)\b(default|basic) values?(?: initialised)?(?: of parameter P\d+)?(?: of| is| forced to|:)"
+        rf" ?(?:{VALUE}|(zero)){UNIT}"
     ),
     re.compile(rf"(?:{VALUE}|(zero)){UNIT} \((default)(?: value)?\)"),
     re.compile(rf"\((default) {VALUE}\)"),
@@ -137,9 +139,11 @@ def sections(lines: Sequence[str], missed: list[str]) -> Iterator[Section]:
             drafts.append(Draft(title, page, n, described.get(page, "")))
             seen.add(match[1])
         read_line(drafts[-1], n, text, lines, missed)
-    missed += [f"no heading {number} {title!r} (page {page})"
-               for number, (title, page) in sorted(contents.items(), key=lambda entry: page_order(entry[1][1]))
-               if number not in seen]  # fmt: skip
+    missed += [
+        f"no heading {number} {title!r} (page {page})"
+        for number, (title, page) in sorted(contents.items(), key=lambda entry: page_order(entry[1][1]))
+        if number not in seen
+    ]
     for draft in drafts:
         section = draft.facts()
         if any(
@@ -176,8 +180,15 @@ def read_line(draft: Draft, n: int, text: str, lines: Sequence[str], missed: lis
     if match := re.fullmatch(r"No\. of words\t(\d+)", text):
         kind = re.match(r"Type (\d)", lines[n - 2])
         category = lines[n - 3].partition("\t")[2]
-        draft.sizes.append(PrintedSize(line=n, number=draft.parameter, words=int(match[1]),
-                                       type=kind[1] if kind else "", category=category))  # fmt: skip
+        draft.sizes.append(
+            PrintedSize(
+                line=n,
+                number=draft.parameter,
+                words=int(match[1]),
+                type=kind[1] if kind else "",
+                category=category,
+            )
+        )
         return
     named = list(PARAMETER.finditer(text))
     if re.match(r"#+ ", text) and draft.parameter:
@@ -239,7 +250,9 @@ def read_words(draft: Draft, n: int, text: str, named: list[re.Match[str]], abou
 
 
 def read_bits(draft: Draft, n: int, text: str, named: list[re.Match[str]], about: str) -> None:
-    """Add the bits that a line names, in words or as the head of a table of codes; a picture has divisions."""
+    """Add the bits that a line names, in words or as the head of a table of codes; a picture has
+    divisions.
+    """
     if "<div>" in text:
         return
     cells = text.split("\t")

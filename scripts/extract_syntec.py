@@ -2,8 +2,9 @@
 
     python scripts/extract_syntec.py MANUAL.txt -o tests/manual/syntec.yaml
 
-MANUAL.txt is the slides as plain text, a heading a slide, the cells of tables separated by tabs. Written are parameter
-numbers (``21~40`` is one fact), units, defaults, ranges and values with their labels, each with its slide and line.
+MANUAL.txt is the slides as plain text, a heading a slide, the cells of tables separated by tabs. Written are
+parameter numbers (``21~40`` is one fact), units, defaults, ranges and values with their labels,
+each with its slide and line.
 """
 
 from __future__ import annotations
@@ -43,7 +44,8 @@ PLACES = (
     (r".*Software stroke limit|G22", "3."),
     (r"MPG", "4."),
 )
-"""The slides have no numbers: the section that a heading belongs to, and behind the last dot the slide in it."""
+"""The slides have no numbers: the section that a heading belongs to, and behind the last dot the slide in
+it."""
 
 SERIES = re.compile(r"(\d+\w* series(?:; \w+)?|\d+\w/\d+\w) : (\d+)")
 

@@ -1,7 +1,7 @@
 """Makes the n-th system call of an act fail, for every n: after each failure a caller looks at what is left.
 
-What fails is one call alone or every call from it on, with an error of the system or with Ctrl-C. The calls of Python's
-own machinery (imports) are made before, by running the act once.
+What fails is one call alone or every call from it on, with an error of the system or with Ctrl-C. The calls
+of Python's own machinery (imports) are made before, by running the act once.
 """
 
 from __future__ import annotations
@@ -16,9 +16,28 @@ from types import ModuleType
 from typing import Any
 
 CALLS = (
-    "open", "fdopen", "read", "write", "lseek", "fsync", "close", "replace", "rename", "link", "unlink", "stat", "lstat", "fstat",
-    "chmod", "fchmod", "fchown", "listxattr", "getxattr", "setxattr", "readlink",
-)  # fmt: skip
+    "open",
+    "fdopen",
+    "read",
+    "write",
+    "lseek",
+    "fsync",
+    "close",
+    "replace",
+    "rename",
+    "link",
+    "unlink",
+    "stat",
+    "lstat",
+    "fstat",
+    "chmod",
+    "fchmod",
+    "fchown",
+    "listxattr",
+    "getxattr",
+    "setxattr",
+    "readlink",
+)
 FAILURES = ("ENOSPC", "EIO", "EACCES", "interrupt")
 MOST = 2_000
 """Calls an act may make before something must be wrong."""
@@ -80,13 +99,18 @@ class _Calls:
 
 
 def each_failure(
-    prepare: Callable[[], object], act: Callable[[], object], *, failures: Sequence[str] = FAILURES,
-    lasting: Sequence[bool] = (False, True), which: Callable[[int], bool] = lambda _at: True,
-) -> Iterator[Ended]:  # fmt: skip
-    """Yield how an act ends for each call that fails and each way to fail, and last of each how it ends untouched.
+    prepare: Callable[[], object],
+    act: Callable[[], object],
+    *,
+    failures: Sequence[str] = FAILURES,
+    lasting: Sequence[bool] = (False, True),
+    which: Callable[[int], bool] = lambda _at: True,
+) -> Iterator[Ended]:
+    """Yield how an act ends for each call that fails and each way to fail,
+    and last of each how it ends untouched.
 
-    ``prepare`` brings the disk back to where the act begins; ``which`` takes a sample of the calls (seeded, say) where
-    all of them take too long. Ctrl-C comes once: a person stops a program once.
+    ``prepare`` brings the disk back to where the act begins; ``which`` takes a sample of the calls (seeded,
+    say) where all of them take too long. Ctrl-C comes once: a person stops a program once.
     """
     prepare()
     act()

@@ -1,10 +1,12 @@
-"""Harvest the settings of grblHAL and its plugins from their sources: numbers, names, units, bounds, bits and build conditions.
+"""Harvest the settings of grblHAL and its plugins from their sources: numbers, names, units, bounds,
+bits and build conditions.
 
     python scripts/harvest_grblhal.py FOLDER/core FOLDER/Plugins_motor … [--write]
 
-Each folder is a checkout, or a git directory, of one repository; the core is the first. Only facts are taken, none of the
-sources' help. What parameter_db describes by hand stays as it is; of it, a mask or a choice that is wider in some build is
-listed. ``--write`` writes the rest to ``parameter_db/grblhal/groups``, one file a group.
+Each folder is a checkout, or a git directory, of one repository; the core is the first. Only facts are taken,
+none of the sources' help. What parameter_db describes by hand stays as it is; of it, a mask or a choice that
+is wider in some build is listed. ``--write`` writes the rest to ``parameter_db/grblhal/groups``,
+one file a group.
 """
 
 from __future__ import annotations
@@ -80,7 +82,8 @@ RUN_TIME = {
 NAMES = {"Setting_SpindlePWMBehaviour": "Disable spindle with zero speed (obsolete)"}
 """Settings that the source calls deprecated alone."""
 SETS = {"ESET_OPTS": (5, 10), "MSET_OPTS": (8, 5)}
-"""Options of settings of which there are several sets: how many, and numbers from one to the next (settings.h)."""
+"""Options of settings of which there are several sets: how many,
+and numbers from one to the next (settings.h)."""
 PORTS = 16
 GROUP_NAMES = {
     "Group_UserSettings": "User settings",
@@ -288,7 +291,8 @@ def resolved(cell: str, sources: Sources) -> str:
     return "".join(found)
 
 
-# -- as parameters -----------------------------------------------------------------------------------------------------
+# -- as parameters
+# -----------------------------------------------------------------------------------------------------
 
 
 def key_of(text: str) -> str:
@@ -355,7 +359,10 @@ def parameter(setting: Found, identifier: str, nth: int = 0) -> list[str]:
         f"  - id: {identifier}",
         f"    name: {yaml_text(' '.join(name.split()))}",
         "    layouts:",
-        f'      - {{machines: [grblhal], scope: {scope}, numbers: {{start: {setting.number + nth * setting.step}{step}, format: "${{n}}"}}}}',
+        (
+            f"      - {{machines: [grblhal], scope: {scope}, numbers: {{start:"
+            f' {setting.number + nth * setting.step}{step}, format: "${{n}}"}}}}'
+        ),
         f"    type: {'bits' if kind == 'axes' else 'text' if kind == 'password' else kind}",
         *value_lines(setting, kind),
     ]
@@ -369,7 +376,10 @@ def parameter(setting: Found, identifier: str, nth: int = 0) -> list[str]:
         "    needs:",
         f"      - {{what: {yaml_text('a build with ' + setting.condition)}, page: {page}}}",
         "    help:",
-        "      what: A setting of other builds. Number, name, unit, bounds and bits are those of the firmware's source.",
+        (
+            "      what: A setting of other builds. Number, name, unit, bounds and bits are those of the"
+            " firmware's source."
+        ),
         f"      find: Ask the control; its help is the answer to $SED={setting.number + nth * setting.step}.",
         "      wrong: The help of the control has it.",
         f"    page: {page}",
@@ -494,7 +504,8 @@ def report(by_number: dict[int, list[Found]], sources: Sources, *, write: bool, 
         ):
             by_hand[layout.numbers.start] = parameter_id
     print(
-        f"{len(by_number)} numbers in {len({s.source for s in sources.settings})} files; {len(by_hand)} described by hand"
+        f"{len(by_number)} numbers in {len({s.source for s in sources.settings})} files; {len(by_hand)}"
+        " described by hand"
     )
     groups: dict[str, list[Found]] = {}
     for n, settings in sorted(by_number.items()):
@@ -526,7 +537,10 @@ def report(by_number: dict[int, list[Found]], sources: Sources, *, write: bool, 
         key = f"{base}_builds" if title in known_groups else base
         lines = [
             "# yaml-language-server: $schema=../../schemas/group.schema.json",
-            "# Written by scripts/harvest_grblhal.py from the sources of the firmware and its plugins: facts of other builds.",
+            (
+                "# Written by scripts/harvest_grblhal.py from the sources of the firmware and its plugins:"
+                " facts of other builds."
+            ),
             f"key: {key}",
             f"name: {yaml_text(title)}",
             *(["section: Of other builds"] if title in known_groups else []),

@@ -1,8 +1,9 @@
-"""The bare facts a manual prints, and the file that contains them: what every ``extract_*.py`` beside this one gives.
+"""The bare facts a manual prints, and the file that contains them:
+what every ``extract_*.py`` beside this one gives.
 
 A fact is numbers, names, letters and units, with its line, never a sentence. One fact is one line of
-the file, so that a diff shows which fact has changed. An extractor reads a manual's text and nothing else: it knows
-neither ``amp_studio`` nor ``parameter_db``, because what it finds is there to judge them.
+the file, so that a diff shows which fact has changed. An extractor reads a manual's text and nothing else: it
+knows neither ``amp_studio`` nor ``parameter_db``, because what it finds is there to judge them.
 """
 
 from __future__ import annotations
@@ -41,7 +42,9 @@ class PrintedNumber:
 
 @dataclass(frozen=True, kw_only=True)
 class PrintedRange:
-    """Both bounds as printed (without the commas of thousands); a bound that is another parameter is its words."""
+    """Both bounds as printed (without the commas of thousands);
+    a bound that is another parameter is its words.
+    """
 
     line: int
     low: str

@@ -1,10 +1,12 @@
-"""Measure how much there is to know, and print one table: lines, names, imports past a front page, starts, installed size.
+"""Measure how much there is to know, and print one table: lines, names, imports past a front page, starts,
+installed size.
 
     python scripts/measure_house.py                  the table
     python scripts/measure_house.py --past find      every name that the room "find" imports past a front page
     python scripts/measure_house.py --no-starts      without the starts, which take some seconds
 
-The same script before and after a change of the structure: what it prints is written into the decision about that change.
+The same script before and after a change of the structure:
+what it prints is written into the decision about that change.
 """
 
 from __future__ import annotations
@@ -29,7 +31,8 @@ FUNCTIONS = (ast.FunctionDef, ast.AsyncFunctionDef)
 MOST_BRANCHES = 10
 """The cyclomatic complexity up to which a function is easy to read."""
 STARTS = 7
-"""Processes of each kind, one after the other in turn; the least processor time counts, for the machine does other work too."""
+"""Processes of each kind, one after the other in turn; the least processor time counts,
+for the machine does other work too."""
 
 
 @dataclass(frozen=True)
@@ -50,7 +53,9 @@ class ImportedName:
 
 @cache
 def room_of(module: str, package: Path = PACKAGE) -> str:
-    """Return the room of a module: the folder or single module directly below the package, or a folder in it that has a front page."""
+    """Return the room of a module: the folder or single module directly below the package,
+    or a folder in it that has a front page.
+    """
     parts = module.split(".")[1:]
     for end in range(len(parts), 1, -1):
         if is_front_page(package.joinpath(*parts[:end], "__init__.py")):
@@ -65,7 +70,9 @@ def is_front_page(path: Path) -> bool:
 
 
 def imported_names(package: Path = PACKAGE) -> Iterator[ImportedName]:
-    """Yield every name that a room of ``package`` imports from another room that it is not in; those for types alone too."""
+    """Yield every name that a room of ``package`` imports from another room that it is not in;
+    those for types alone too.
+    """
     top = package.name
     for path in sorted(package.rglob("*.py")):
         inside = path.relative_to(package.parent).with_suffix("").parts
@@ -98,7 +105,9 @@ def _asked_for(node: ast.AST, folder: Sequence[str], root: Path) -> Iterator[tup
 
 @cache
 def names_given(page: Path) -> frozenset[str]:
-    """Return the names that a front page gives: what it imports, also for type checkers alone, and what it makes."""
+    """Return the names that a front page gives: what it imports, also for type checkers alone,
+    and what it makes.
+    """
     given: set[str] = set()
     open_nodes: list[ast.stmt] = ast.parse(page.read_text("utf-8")).body
     for node in open_nodes:
@@ -163,10 +172,7 @@ def code_figures() -> Iterator[tuple[str, str]]:
     yield "modules of the fullest folder", f"{most} ({folder.relative_to(ROOT).as_posix()})"
     yield "classes", f"{sum(isinstance(node, ast.ClassDef) for node in nodes):,}"
     yield "public names of modules", f"{sum(len(public_names(tree)) for tree in trees):,}"
-    yield (
-        "names on the front pages of the rooms",
-        f"{sum(len(names_given(page)) for page in pages()):,}",
-    )
+    yield ("names on the front pages of the rooms", f"{sum(len(names_given(page)) for page in pages()):,}")
     yield "functions", f"{len(functions):,}"
     yield f"functions over complexity {MOST_BRANCHES}", f"{hard:,} ({hard / len(functions):.1%})"
     taken = list(imported_names())
@@ -176,7 +182,9 @@ def code_figures() -> Iterator[tuple[str, str]]:
 
 
 def branches(function: ast.AST) -> int:
-    """Return the cyclomatic complexity of a function, counted as radon does: 1, and 1 for each way the code can part."""
+    """Return the cyclomatic complexity of a function, counted as radon does: 1,
+    and 1 for each way the code can part.
+    """
     count = 1
     for node in own_nodes(function):
         match node:
@@ -236,7 +244,9 @@ def start_figures() -> Iterator[tuple[str, str]]:
 
 
 def processor_time(command: Sequence[str]) -> float:
-    """Return the seconds of processor time of a process that was run to its end; not on Windows, which does not count them."""
+    """Return the seconds of processor time of a process that was run to its end; not on Windows,
+    which does not count them.
+    """
     import resource
 
     before = resource.getrusage(resource.RUSAGE_CHILDREN)

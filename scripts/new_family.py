@@ -1,9 +1,11 @@
 """Write the frame of a control family: facts that load, with one parameter to replace.
 
     python scripts/new_family.py ld2                 writes parameter_db/ld2
-    python scripts/new_family.py ld2 --into FOLDER   writes FOLDER/ld2, for another package (docs/family-code.md)
+    python scripts/new_family.py ld2 --into FOLDER   writes FOLDER/ld2,
+    for another package (docs/family-code.md)
 
-docs/howto/add-family.md goes on from there; `make test TESTS=tests/schema/test_whole_family.py` lists what is missing.
+docs/howto/add-family.md goes on from there; `make test TESTS=tests/schema/test_whole_family.py` lists what is
+missing.
 """
 
 from __future__ import annotations
@@ -18,7 +20,8 @@ import write_schemas
 from amp_studio.schema import database_folder, family_ids
 
 FILES = {
-    "family.yaml": """\
+    "family.yaml": (
+        """\
 # yaml-language-server: $schema=../schemas/family.schema.json
 family: {name}
 name: {name}                              # as its users call it
@@ -27,7 +30,7 @@ title: {name}, manual                     # as it is on the cover
 machines:
   - {{key: machine, name: Machine}}
 default_machine: machine
-# What can have a value of its own: here the control, and each axis.
+# What can have separate values: here the control, and each axis.
 scopes:
   global: {{instances: [""], label: Control}}
   axis: {{instances: [X, Y], label: "{{i}} axis"}}
@@ -38,8 +41,10 @@ ways:
   - {{way: sheet, what: Values are keyed in at the screens of a {name}}}
 effect: {{level: restart}}                # at-once, reset, restart or command: when a change takes effect
 groups: [general]                         # in the manual's order; a file in groups/ for each
-""",
-    "groups/general.yaml": """\
+"""
+    ),
+    "groups/general.yaml": (
+        """\
 # yaml-language-server: $schema=../../schemas/group.schema.json
 key: general
 name: General
@@ -59,13 +64,16 @@ parameters:
       find: How a user finds its value.
       wrong: What a wrong value does to the machine.
     page: "1"
-""",
+"""
+    ),
 }
 """Path below the family's folder -> its text, with the name to fill in."""
 
 
 def write_family(name: str, folder: Path) -> list[Path]:
-    """Write the frame into ``folder``/``name``; raises FileExistsError, and writes nothing, where it exists."""
+    """Write the frame into ``folder``/``name``; raises FileExistsError, and writes nothing, where it
+    exists.
+    """
     family = folder / name
     family.mkdir(parents=True)
     written = []

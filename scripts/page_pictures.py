@@ -1,6 +1,8 @@
-"""Draw the pictures of README and the pages: each from the state that the commands above it on its page have made.
+"""Draw the pictures of README and the pages:
+each from the state that the commands above it on its page have made.
 
-``screenshots.py`` calls it; the pictures go into ``docs/images``, light and in English, with a palette so that they stay small.
+``screenshots.py`` calls it; the pictures go into ``docs/images``, light and in English,
+with a palette so that they stay small.
 """
 
 from __future__ import annotations
@@ -50,7 +52,9 @@ def draw_documents(make_stage: Callable[[], Stage]) -> int:
 
 
 def _draw_page(stage: Stage, page: str) -> int:
-    """Run the commands of a page in a separate folder, and draw its pictures between them; returns how many."""
+    """Run the commands of a page in a separate folder, and draw its pictures between them; returns how
+    many.
+    """
     folder = stage.files / Path(page).stem
     folder.mkdir()
     count = 0
@@ -269,9 +273,12 @@ def with_palette(image: QImage) -> QImage:
     kept = found[np.sort(np.argsort(-count, kind="stable")[:COLOURS])]
     parts = [(colours >> shift & 255).astype(np.int32) for colours in (found, kept) for shift in (16, 8, 0)]
     all_of, few = np.stack(parts[:3], 1), np.stack(parts[3:], 1)
-    nearest = np.concatenate([
-        np.argmin(((block[:, None] - few[None]) ** 2).sum(2), 1) for block in np.array_split(all_of, max(1, len(all_of) // 1000))
-    ])  # fmt: skip
+    nearest = np.concatenate(
+        [
+            np.argmin(((block[:, None] - few[None]) ** 2).sum(2), 1)
+            for block in np.array_split(all_of, max(1, len(all_of) // 1000))
+        ]
+    )
     indices = np.zeros((height, (width + 3) // 4 * 4), np.uint8)
     indices[:, :width] = nearest[place].reshape(height, width)
     made = QImage(indices.tobytes(), width, height, indices.shape[1], QImage.Format.Format_Indexed8)

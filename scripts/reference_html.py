@@ -1,7 +1,7 @@
 """What all pages of the generated reference are made of: anchors, links, lists of facts.
 
-A page is Markdown with HTML inside: an anchor is the id or the number of a parameter exactly as the program writes it, which
-a label of Sphinx cannot be (it makes ``servo-excess-error`` of ``servo.excess_error``).
+A page is Markdown with HTML inside: an anchor is the id or the number of a parameter exactly as the program
+writes it, which a label of Sphinx cannot be (it makes ``servo-excess-error`` of ``servo.excess_error``).
 """
 
 from __future__ import annotations
@@ -56,7 +56,9 @@ def facts_list(facts: Iterable[tuple[str, str]]) -> str:
 
 
 def table(head: Iterable[str], rows: Iterable[Iterable[str]]) -> str:
-    """Return a table of HTML cells; the index leaves out bare numbers, so cells touch: 2750excess is found."""
+    """Return a table of HTML cells; the index leaves out bare numbers, so cells touch: 2750excess is
+    found.
+    """
     lines = ["<table>", "<tr>" + " ".join(f"<th>{escape(cell)}</th>" for cell in head) + "</tr>"]
     lines += ["<tr>" + "".join(f"<td>{cell}</td>" for cell in row) + "</tr>" for row in rows]
     return "\n".join([*lines, "</table>"])
@@ -82,11 +84,14 @@ def admonition(kind: str, title: str, text: str) -> str:
 def page(schema: Schema, title: str, *parts: str) -> str:
     """Return a page of a family.
 
-    It is in no list of Sphinx: with every group of every family in the list beside each page, the site would take three
-    times as long and be twice as large. What leads here is the page of the family.
+    It is in no list of Sphinx: with every group of every family in the list beside each page, the site would
+    take three times as long and be twice as large. What leads here is the page of the family.
     """
     short = schema.family.short or schema.family.name
-    above = f'<p><a href="../index.html">Reference</a> › <a href="index.html">{escape(schema.family.name)}</a></p>'
+    above = (
+        '<p><a href="../index.html">Reference</a> › <a'
+        f' href="index.html">{escape(schema.family.name)}</a></p>'
+    )
     head = "---\norphan: true\n---"
     return "\n\n".join([head, heading(1, f"{short}: {title}"), above, *filter(None, parts)])
 
@@ -193,7 +198,9 @@ def _owners(schema: Schema) -> dict[tuple[str, str], str]:
 
 
 def number_anchor(schema: Schema, parameter: Parameter, number: str) -> str:
-    """Return where a number leads on the page of its group; what several parameters share, to the parameter itself."""
+    """Return where a number leads on the page of its group; what several parameters share,
+    to the parameter itself.
+    """
     group = schema.group_of[parameter.id].key
     return f"n-{number}" if _owners(schema)[group, number] == parameter.id else parameter.id
 

@@ -33,7 +33,10 @@ from amp_studio.schema import Rule, Schema, read_address
 
 def rules(schema: Schema) -> str:
     """Return the page of all rules."""
-    what = 'What <code>amp-studio validate</code> checks; a condition is written in <a href="../../schema.html">CEL</a>.'
+    what = (
+        "What <code>amp-studio validate</code> checks; a condition is written in <a"
+        ' href="../../schema.html">CEL</a>.'
+    )
     return page(schema, "Rules", what, *(part for rule in schema.rules for part in _rule(schema, rule)))
 
 
@@ -92,10 +95,7 @@ def tables(schema: Schema) -> str:
     for printed in printed_tables(schema):
         head, *cells = cells_of(printed)
         rows = ([escape(cell) for cell in row] for row in cells)
-        parts += [
-            section(printed.id, f"{printed.title} (page {printed.page})"),
-            table(head, rows),
-        ]
+        parts += [section(printed.id, f"{printed.title} (page {printed.page})"), table(head, rows)]
         parts += [paragraph(printed.note)] if printed.note else []
         names = parameter_links(schema, printed.params)
         parts += [f"<p>Looked up for: {names}</p>"] if names else []

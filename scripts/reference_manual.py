@@ -1,4 +1,6 @@
-"""The page of the generated reference that leads from the pages of a printed manual to what is taken from them."""
+"""The page of the generated reference that leads from the pages of a printed manual
+to what is taken from them.
+"""
 
 from __future__ import annotations
 
@@ -95,8 +97,8 @@ def manual_pages(schema: Schema) -> str:
         )
     parts = [
         paragraph(
-            f"{schema.family.title}: what each page says of which parameter. "
-            "A page that is not listed only goes on with what the one before it began, or has nothing of a parameter."
+            f"{schema.family.title}: what each page says of which parameter. A page that is not listed only"
+            " goes on with what the one before it began, or has nothing of a parameter."
         )
     ]
     for chapter, entries in chapters.items():

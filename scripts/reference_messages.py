@@ -30,7 +30,10 @@ def messages(schema: Schema, every: Messages) -> str:
     """Return the page of a list of messages, each with the way to its cause."""
     find = f"<code>amp-studio find FILE.amp '{escape(every.messages[0].name)}'</code>"
     parts = [
-        f"<p>With the file of a machine, {find} shows the values behind a message and the rules that are broken.</p>"
+        (
+            f"<p>With the file of a machine, {find} shows the values behind a message and the rules that are"
+            " broken.</p>"
+        )
     ]
     parts += [paragraph(every.note)] if every.note else []
     parts += [part for message in every.messages for part in _message(schema, message)]
@@ -79,7 +82,9 @@ def _message(schema: Schema, message: ControlMessage) -> Iterator[str]:
 
 
 def cause_steps(schema: Schema, message: ControlMessage) -> Iterator[str]:
-    """Yield what to look at in turn: the printed causes, each parameter with its rules, the rules of no parameter."""
+    """Yield what to look at in turn: the printed causes, each parameter with its rules,
+    the rules of no parameter.
+    """
     yield from map(escape, message.causes)
     every = {rule.id: rule for rule in schema.rules}
     rules = [every[name] for name in message.rules if name in every]

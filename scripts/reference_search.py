@@ -1,8 +1,9 @@
-"""What the search of the site knows: every parameter, rule, message, table, step, page of a manual and heading of a guide.
+"""What the search of the site knows: every parameter, rule, message, table, step,
+page of a manual and heading of a guide.
 
-It is a script and not a JSON file, because a browser lets a page of file:// load scripts only. ``docs/_static/search.js``
-asks it. An entry is [kind, title, address, exact names, words of names, words of texts]; addresses are below that of their
-family.
+It is a script and not a JSON file, because a browser lets a page of file:// load scripts only.
+``docs/_static/search.js`` asks it. An entry is [kind, title, address, exact names, words of names, words of
+texts]; addresses are below that of their family.
 """
 
 from __future__ import annotations
@@ -39,9 +40,13 @@ def search_script(guides: list[Entry]) -> str:
         schema = load_schema(family)
         own = schema.family
         families.append(
-            {"family": own.short or own.name, "names": [own.family, own.short, own.name],
-             "folder": f"reference/{family}/", "entries": list(family_entries(schema))}
-        )  # fmt: skip
+            {
+                "family": own.short or own.name,
+                "names": [own.family, own.short, own.name],
+                "folder": f"reference/{family}/",
+                "entries": list(family_entries(schema)),
+            }
+        )
     families.append({"family": "", "names": [], "folder": "", "entries": guides})
     return f"searchEntries({json.dumps(families, ensure_ascii=False, separators=(',', ':'))});"
 
@@ -64,8 +69,14 @@ def family_entries(schema: Schema) -> Iterator[Entry]:
         yield ["group", title, f"{group_page(group)}.html", [group.key], "", ""]
     for printed in printed_tables(schema):
         text = " ".join((*printed.head, printed.note))
-        yield ["table", f"{printed.title} (page {printed.page})", _at("tables", printed.id), [printed.id, f"table {printed.id}"],
-               "", _words(text)]  # fmt: skip
+        yield [
+            "table",
+            f"{printed.title} (page {printed.page})",
+            _at("tables", printed.id),
+            [printed.id, f"table {printed.id}"],
+            "",
+            _words(text),
+        ]
     for rule in schema.rules:
         yield ["rule", rule.title, _at("rules", rule.id), [rule.id], "", _words(rule.message)]
     for step in steps_of(schema) if schema.commissioning is not None else ():
@@ -117,14 +128,7 @@ def guide_entries(folder: Path) -> list[Entry]:
             address = _at(name, anchor) if len(known) > 1 else f"{name}.html"
             more = f"{name} {title}" if plain != title else name
             found.append(
-                [
-                    kind,
-                    plain,
-                    address,
-                    [],
-                    re.sub("[/-]", " ", more),
-                    _words(re.sub("<[^>]*>", " ", below)),
-                ]
+                [kind, plain, address, [], re.sub("[/-]", " ", more), _words(re.sub("<[^>]*>", " ", below))]
             )
     return found
 
@@ -138,8 +142,14 @@ def _parameter(schema: Schema, parameter: Parameter) -> Entry:
     noted = (n.says for n in (*helped.danger, *helped.warning, *helped.note))
     units = schema.units_of(parameter)
     text = " ".join((group.name, group.section, *units, helped.what, helped.find, helped.wrong, *noted))
-    return ["parameter", f"{number} {parameter.name}".strip(), _at(group_page(group), parameter.id),
-            [parameter.id, *every_number(schema, parameter)], "; ".join(labels), _words(text)]  # fmt: skip
+    return [
+        "parameter",
+        f"{number} {parameter.name}".strip(),
+        _at(group_page(group), parameter.id),
+        [parameter.id, *every_number(schema, parameter)],
+        "; ".join(labels),
+        _words(text),
+    ]
 
 
 def _message(message: ControlMessage, every: Messages) -> Entry:

@@ -1,4 +1,5 @@
-"""Draw every page of the window without a display: light and dark, English and German, for documents and for review.
+"""Draw every page of the window without a display: light and dark, English and German,
+for documents and for review.
 
 The files are copies of the examples with fixed times; nothing of the person who runs it is read or written.
 """
@@ -25,7 +26,8 @@ MOMENT = 1_773_305_100
 """12 March 2026, 08:45 UTC: when every file was last changed."""
 LARGE, SMALL = (1440, 900), (1024, 700)
 PATIENCE = 900.0
-"""Seconds after which a page that is not ready ends the run: one that never will be, whatever else the computer does."""
+"""Seconds after which a page that is not ready ends the run: one that never will be,
+whatever else the computer does."""
 
 # Before anything imports Qt or asks where the user's folders are.
 os.environ |= {"QT_QPA_PLATFORM": "offscreen", "TZ": "UTC", "USER": "operator", "LOGNAME": "operator"}
@@ -123,7 +125,9 @@ class Stage:
         settle()
 
     def take_keyboard(self) -> None:
-        """Let keys go to the window: no window manager gives the keyboard back after a progress dialog, which a slow computer shows."""
+        """Let keys go to the window: no window manager gives the keyboard back after a progress dialog,
+        which a slow computer shows.
+        """
         self.window.activateWindow()
         settle(self.window.isActiveWindow)
 
@@ -133,7 +137,9 @@ class Stage:
 
     @contextlib.contextmanager
     def beside(self, kind: str) -> Iterator[Any]:
-        """Give the side window of a class once it is open, which may wait for what it needs; close it afterwards."""
+        """Give the side window of a class once it is open, which may wait for what it needs;
+        close it afterwards.
+        """
 
         def found() -> list[QWidget]:
             parts = self.window.findChildren(QWidget)
@@ -254,11 +260,27 @@ class Stage:
 
         workspace = self.window.workspace
         self.control_page()
-        for when, verb, text in (("2026-03-10T07:12:00Z", "upload", "written into MILL_1394.amp"),
-                                 ("2026-03-12T08:30:00Z", "download", "complete and read back equal")):  # fmt: skip
-            add_exchange(workspace.path, RecordedExchange(when, "operator", verb, workspace.path.name, "9pc", "tcp://192.168.0.20:4001",
-                "3f6c1a90be52", "a14be0097d21", "new" if verb == "download" else "", "", text,
-                (("1400 Home Calibration, X", "0.5 mm", "1 mm"),) if verb == "download" else ()))  # fmt: skip
+        for when, verb, text in (
+            ("2026-03-10T07:12:00Z", "upload", "written into MILL_1394.amp"),
+            ("2026-03-12T08:30:00Z", "download", "complete and read back equal"),
+        ):
+            add_exchange(
+                workspace.path,
+                RecordedExchange(
+                    when,
+                    "operator",
+                    verb,
+                    workspace.path.name,
+                    "9pc",
+                    "tcp://192.168.0.20:4001",
+                    "3f6c1a90be52",
+                    "a14be0097d21",
+                    "new" if verb == "download" else "",
+                    "",
+                    text,
+                    (("1400 Home Calibration, X", "0.5 mm", "1 mm"),) if verb == "download" else (),
+                ),
+            )
         page = self.window.control
         page.recorded()
         self.take("15-history", self.window, LARGE)
@@ -319,11 +341,14 @@ class Stage:
         from amp_studio.ui.dialogs.new_file_dialog import NewFileDialog
 
         self.window.go_to(("servo.lead_screw_pitch", "1"))
-        for n, (act, kind, name) in enumerate((
-            (self.window.edits.calculator, "CalculatorDialog", "calculator"),
-            (self.window.edits.tables, "TablesDialog", "tables"),
-            (self.window.edits.steps, "StepList", "undo"),
-        ), 18):  # fmt: skip
+        for n, (act, kind, name) in enumerate(
+            (
+                (self.window.edits.calculator, "CalculatorDialog", "calculator"),
+                (self.window.edits.tables, "TablesDialog", "tables"),
+                (self.window.edits.steps, "StepList", "undo"),
+            ),
+            18,
+        ):
             act()
             with self.beside(kind) as dialog:
                 self.take(f"{n}-{name}", dialog)
@@ -402,7 +427,9 @@ class Stage:
 
     def families(self) -> None:
         """The other families, each with its pictures."""
-        for n, folder in enumerate(("num-1060-mill", "acromill-router", "57c422b-label-press", "grblhal-router", "syntec-mill"), 30):  # fmt: skip
+        for n, folder in enumerate(
+            ("num-1060-mill", "acromill-router", "57c422b-label-press", "grblhal-router", "syntec-mill"), 30
+        ):
             self.window.open_first(self.path(folder))
             settle()
             self.take(f"{n}-{folder}", self.window, LARGE)
@@ -419,9 +446,22 @@ class Stage:
 
 
 PAGES: tuple[Callable[[Stage], None], ...] = (
-    Stage.welcome, Stage.steps, Stage.main, Stage.refusal, Stage.find, Stage.pictures, Stage.compare, Stage.exchange,
-    Stage.motion, Stage.tuning, Stage.dialogs, Stage.preview, Stage.project_check, Stage.machines, Stage.families,
-)  # fmt: skip
+    Stage.welcome,
+    Stage.steps,
+    Stage.main,
+    Stage.refusal,
+    Stage.find,
+    Stage.pictures,
+    Stage.compare,
+    Stage.exchange,
+    Stage.motion,
+    Stage.tuning,
+    Stage.dialogs,
+    Stage.preview,
+    Stage.project_check,
+    Stage.machines,
+    Stage.families,
+)
 
 
 def draw(language: str, only: str) -> int:

@@ -1,4 +1,5 @@
-"""Bring the texts of the window up to date: code's new texts get an id in ``en.toml`` and a place in the others; what is gone goes.
+"""Bring the texts of the window up to date: code's new texts get an id in ``en.toml``
+and a place in the others; what is gone goes.
 
 ``--check`` changes nothing, and fails where something is new, gone or has no translation.
 """

@@ -1,7 +1,7 @@
 """Writes the reference of every parameter of every family, in Markdown, into a folder: one page a group.
 
-All of it comes from the schema and from the functions behind ``amp-studio show``, so that the pages are never another
-opinion than the program. Sphinx makes the site of them (``make docs``).
+All of it comes from the schema and from the functions behind ``amp-studio show``, so that the pages are never
+another opinion than the program. Sphinx makes the site of them (``make docs``).
 """
 
 from __future__ import annotations
@@ -84,7 +84,10 @@ def overview() -> str:
     return "\n\n".join(
         [
             heading(1, "Reference"),
-            "Every parameter, rule and message of every control family, made from the same facts as the program.",
+            (
+                "Every parameter, rule and message of every control family, made from the same facts as the"
+                " program."
+            ),
             table(("Family", "Parameters", "Rules", "Messages", "Manual"), rows),
             LEGEND,
             "\n".join(
@@ -195,14 +198,20 @@ def linked(schema: Schema, parameter: Parameter) -> Iterator[tuple[str, list[str
     )
     yield (
         "Tables",
-        [link("tables", t.id, t.title) + f" (page {page_links([t.page])})" for t in printed_tables(schema)
-         if parameter.id in t.params],
-    )  # fmt: skip
+        [
+            link("tables", t.id, t.title) + f" (page {page_links([t.page])})"
+            for t in printed_tables(schema)
+            if parameter.id in t.params
+        ],
+    )
     yield (
         "Named by",
-        [parameter_link(schema, other) for other in schema.parameters.values()
-         if parameter.id in other.help.related and other.id not in parameter.help.related],
-    )  # fmt: skip
+        [
+            parameter_link(schema, other)
+            for other in schema.parameters.values()
+            if parameter.id in other.help.related and other.id not in parameter.help.related
+        ],
+    )
 
 
 def main() -> None:

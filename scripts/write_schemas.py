@@ -1,7 +1,9 @@
-"""Writes the JSON Schemas by which an editor completes and checks fact files, a builder's rules.yaml and project.yaml.
+"""Writes the JSON Schemas by which an editor completes and checks fact files,
+a builder's rules.yaml and project.yaml.
 
 They come from the models that read those files, with their docstrings as descriptions, and are in
-``parameter_db/schemas``, so that they travel with the package. ``make schema`` writes them; a test sees that they are fresh.
+``parameter_db/schemas``, so that they travel with the package. ``make schema`` writes them;
+a test sees that they are fresh.
 """
 
 from __future__ import annotations
@@ -108,7 +110,9 @@ def _in_dialect(schema: Any) -> Any:
 
 
 def _with_own_units(schema: Any) -> Any:
-    """Return a schema that lists the units which only one family has behind those that every family may use."""
+    """Return a schema that lists the units which only one family has behind those that every family may
+    use.
+    """
     every = read_yaml(UNITS_FILE.read_text(encoding="utf-8")).data["units"]
     own = {unit: None for family in family_ids() for unit in load_schema(family).family.own_units}
 
@@ -166,8 +170,9 @@ def _docstrings(kind: type[Any]) -> dict[str, str]:
 
 
 def _plain(text: str) -> str:
-    """Return a docstring as an editor shows it."""
-    return text.replace("``", "`")
+    """Return a docstring as an editor shows it: a line a paragraph."""
+    paragraphs = (" ".join(part.split()) for part in text.split("\n\n"))
+    return "\n\n".join(paragraphs).replace("``", "`")
 
 
 def main() -> None:

@@ -1,4 +1,6 @@
-"""How many generated cases a test tries: few and the same each time in ``make test``, many new ones in ``make campaign``."""
+"""How many generated cases a test tries: few and the same each time in ``make test``,
+many new ones in ``make campaign``.
+"""
 
 from __future__ import annotations
 

@@ -35,17 +35,15 @@ _KEPT = (
     "PATHEXT",
 )
 _KEPT_BEGIN = ("AMP_STUDIO_FULL", "AMP_STUDIO_TEST_", "COV_", "PYTEST_")
-"""Of the environment tests see what finds programs and packages, and what steers the tests: no language, no number of columns,
-no style of Qt, no proxy, no password."""
-_FIXED = {
-    "QT_QPA_PLATFORM": "offscreen",
-    "LANG": "C.UTF-8",
-    "TZ": "UTC",
-}
+"""Of the environment tests see what finds programs and packages, and what steers the tests: no language, no
+number of columns, no style of Qt, no proxy, no password."""
+_FIXED = {"QT_QPA_PLATFORM": "offscreen", "LANG": "C.UTF-8", "TZ": "UTC"}
 
 
 def _private_folders() -> Path:
-    """Make the temporary home of the user: one cache for all workers of a run, the rest for each alone; return the first."""
+    """Make the temporary home of the user: one cache for all workers of a run, the rest for each alone;
+    return the first.
+    """
     home = os.environ.get("AMP_STUDIO_TEST_HOME")
     if home is None:
         home = os.environ["AMP_STUDIO_TEST_HOME"] = tempfile.mkdtemp(prefix="amp-studio-tests-")
@@ -83,15 +81,17 @@ os.umask(0o022)
 sys.dont_write_bytecode = False
 _the_fonts_of_the_tests(_private_folders())
 
-# Two workers on two cores take as long as they take, and so does what they generate. Generated cases are the same each time, so
-# that a change is judged by what it changed, and what an earlier run found is not remembered; `make campaign` tries new ones and prints how to repeat one.
+# Two workers on two cores take as long as they take, and so does what they generate. Generated cases are the
+# same each time, so that a change is judged by what it changed, and what an earlier run found is not
+# remembered; `make campaign` tries new ones and prints how to repeat one.
 _NO_CLOCK: Any = {"deadline": None, "suppress_health_check": [HealthCheck.too_slow]}
 settings.register_profile("fixed", **_NO_CLOCK, derandomize=True, database=None)
 settings.register_profile("campaign", **_NO_CLOCK, print_blob=True, max_examples=examples(100))
 settings.load_profile("campaign" if CAMPAIGN else "fixed")
 
 
-# Eight thousand tests, and the schemas they load, stay to the end: Python need not look through them again and again.
+# Eight thousand tests, and the schemas they load, stay to the end: Python need not look through them again
+# and again.
 gc.set_threshold(100_000)
 
 
@@ -111,7 +111,9 @@ def pytest_xdist_setupnodes() -> None:
 
 @pytest.fixture(scope="session", autouse=True)
 def _controls_answer_at_once() -> Iterator[None]:
-    """Wait a tenth of a second, not half of one or two, for a Grbl to make itself known: what is not one never answers."""
+    """Wait a tenth of a second, not half of one or two, for a Grbl to make itself known:
+    what is not one never answers.
+    """
     with pytest.MonkeyPatch.context() as patch:
         for name in ("RECOGNISED", "RECOGNISED_SERIAL"):
             patch.setattr(f"amp_studio.transfer.client.drivers.{name}", 0.1)

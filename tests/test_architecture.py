@@ -1,4 +1,6 @@
-"""The house keeps its plan: imports point one way, each room introduces itself, and every library is declared."""
+"""The house keeps its plan: imports point one way, each room introduces itself,
+and every library is declared.
+"""
 
 from __future__ import annotations
 
@@ -65,11 +67,7 @@ ASTRAY = [
     ("validate", "import amp_studio.families.num", "Imports between the rooms point one way"),
     ("ui", "import amp_studio.families.num", "A family is reached through its registration only"),
     ("families/num", "import amp_studio.families.syntec", "Families do not see each other"),
-    (
-        "transfer/links",
-        "import amp_studio.transfer.house",
-        "The parts of transfer stand one above the other",
-    ),
+    ("transfer/links", "import amp_studio.transfer.house", "The parts of transfer stand one above the other"),
     ("sim", "import amp_studio.report", "Imports between the rooms point one way"),
     ("report", "import amp_studio.ui", "Imports between the rooms point one way"),
     ("files", "from PySide6.QtCore import QObject", "Qt is imported in ui only"),
@@ -81,7 +79,9 @@ ASTRAY = [
 
 @pytest.fixture(scope="module")
 def lint_of_astray_imports(checkout: Path, tmp_path_factory: pytest.TempPathFactory) -> str:
-    """Return the output of import-linter for the package with every import of ``ASTRAY``, each in a separate module."""
+    """Return the output of import-linter for the package with every import of ``ASTRAY``,
+    each in a separate module.
+    """
     folder = tmp_path_factory.mktemp("astray")
     for module in (checkout / "amp_studio").rglob("*.py"):
         empty = folder / module.relative_to(checkout)
@@ -140,7 +140,9 @@ def test_no_folder_has_more_modules_than_a_reader_takes_in(checkout: Path) -> No
 
 @cache
 def imported_libraries(package: Path) -> list[tuple[str, Path]]:
-    """Return the top name of every absolute import of the package, wherever it is in a file, by a statement or by name."""
+    """Return the top name of every absolute import of the package, wherever it is in a file,
+    by a statement or by name.
+    """
     found: list[tuple[str, Path]] = []
     for path in sorted(package.rglob("*.py")):
         for node in nodes_of(path):
@@ -277,7 +279,8 @@ def test_every_function_of_a_walk_is_where_the_page_says(checkout: Path) -> None
 
 
 EXAMPLES_OF_FAMILIES = {"demo.py"}
-"""The job that is shown is about some machine, as are the lines to type (``amp-studio new …``) in the help of verbs."""
+"""The job that is shown is about some machine, as are the lines to type (``amp-studio new …``)
+in the help of verbs."""
 ORDINARY_WORDS = {"NT", "basic", "num", "patch", "registers"}
 """Parts of such names that are words of the language too."""
 
@@ -342,7 +345,9 @@ def modules_below(package: Path) -> dict[str, Path]:
 
 
 def asked_for(node: ast.Import | ast.ImportFrom, name: str, modules: dict[str, Path]) -> Iterator[str]:
-    """Yield the modules that an import names; for a name of a front page the page, and the module that it is loaded from."""
+    """Yield the modules that an import names; for a name of a front page the page,
+    and the module that it is loaded from.
+    """
     if isinstance(node, ast.Import):
         yield from (alias.name for alias in node.names if alias.name in modules)
         return
@@ -376,7 +381,9 @@ def given_by(page: Path) -> tuple[tuple[str, str], ...]:
 
 
 def imports_of(path: Path, *, at_loading: bool) -> list[ast.Import | ast.ImportFrom]:
-    """Return the imports of a file, those for types alone left out; ``at_loading`` leaves out those in functions too."""
+    """Return the imports of a file, those for types alone left out;
+    ``at_loading`` leaves out those in functions too.
+    """
     found: list[ast.Import | ast.ImportFrom] = []
     open_nodes: list[ast.AST] = [tree_of(path)]
     while open_nodes:
@@ -409,8 +416,9 @@ def circles(package: Path) -> list[list[str]]:
     """Return the modules that import each other when they are loaded, each circle once."""
     modules = modules_below(package)
     asked = {
-        name: {m for node in imports_of(path, at_loading=True) for m in asked_for(node, name, modules)}
-        - {name}
+        name: (
+            {m for node in imports_of(path, at_loading=True) for m in asked_for(node, name, modules)} - {name}
+        )
         for name, path in modules.items()
     }
     reached = {name: set(direct) for name, direct in asked.items()}
@@ -467,7 +475,9 @@ def test_a_front_page_gives_what_another_room_takes_and_no_more(checkout: Path) 
 
 
 def test_no_name_of_a_front_page_is_a_module_below_it_too(checkout: Path) -> None:
-    """Python sets a loaded module on its package: a name that is loaded when it is asked for would be the module then."""
+    """Python sets a loaded module on its package:
+    a name that is loaded when it is asked for would be the module then.
+    """
     assert [
         f"{page.parent.name}.{name}"
         for page in measure_house.pages(checkout / "amp_studio")
@@ -522,7 +532,9 @@ def test_an_event_loop_runs_inside_another_one_in_two_places_alone(checkout: Pat
 
 
 def test_the_window_loads_the_simulator_by_its_loader_alone(checkout: Path) -> None:
-    """An import in a function of ui that brings the simulator comes after a call of the loader in that function."""
+    """An import in a function of ui that brings the simulator comes after a call of the loader
+    in that function.
+    """
     modules = modules_below(checkout / "amp_studio")
     brings = {"amp_studio.dossier"} | {name for name in modules if f"{name}.".startswith("amp_studio.sim.")}
     asked = {
@@ -611,33 +623,15 @@ def test_every_rule_that_is_switched_off_has_its_reason(checkout: Path) -> None:
     """In the tables of ruff and mypy: beside the rule, or in the line above it."""
     lines = (checkout / "pyproject.toml").read_text(encoding="utf-8").splitlines()
     start = lines.index("ignore = [")
-    end = lines.index("[tool.ruff.lint.pydocstyle]")
+    end = lines.index("[tool.ruff.lint.isort]")
     rules = [n for n in range(start + 1, end) if re.search(r'^\s*"[A-Z]+\d*",|= \["', lines[n])]
     assert len(rules) > 30
     missing = [lines[n].strip() for n in rules if not re.search(r"# +\S+|= \[$", lines[n])]
     assert missing == [f'"D10{n}",' for n in (2, 3, 4, 5, 7)], "D100 gives the reason of all of them"
 
 
-FORMATTED = (
-    "calibration",
-    "cli",
-    "drawing",
-    "files",
-    "find",
-    "formats",
-    "guide",
-    "pictures",
-    "programs",
-    "report",
-    "schema",
-    "sheet",
-    "transfer",
-    "validate",
-)
-"""Rooms in which the formatter alone decides; each that is added stays so."""
-
-
-@pytest.mark.parametrize("room", FORMATTED)
-def test_the_formatter_decides(checkout: Path, room: str) -> None:
-    paths = sorted((checkout / "amp_studio" / room).rglob("*.py"))
-    assert [path.name for path in paths if re.search(r"# fmt: (skip|off)", path.read_text("utf-8"))] == []
+@pytest.mark.parametrize("folder", ["amp_studio", "tests", "scripts", "bench"])
+def test_the_formatter_decides(checkout: Path, folder: str) -> None:
+    pragma = re.compile("# fmt" + ": (skip|off)")
+    paths = sorted((checkout / folder).rglob("*.py"))
+    assert [str(path) for path in paths if pragma.search(path.read_text("utf-8"))] == []

@@ -45,7 +45,8 @@ def test_exchanges_are_in_every_kind_of_document(mill: Path, tmp_path: Path) -> 
         ),
     )
     assert [(e.verb, e.control, e.after, e.text) for e in exchanges_of(mill)] == [
-        ("download", "tcp://10.0.0.1:9600", "abababababab", "9 values sent")]  # fmt: skip
+        ("download", "tcp://10.0.0.1:9600", "abababababab", "9 values sent")
+    ]
     for ending in (".html", ".txt"):
         out = tmp_path / f"r{ending}"
         write_report(open_file(mill).file, out, Contents(without=frozenset({"motion"})), source=mill)

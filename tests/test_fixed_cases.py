@@ -16,13 +16,27 @@ from PySide6.QtWidgets import QApplication
 from tests.campaigns import CAMPAIGN
 
 SOURCES = sorted(Path(__file__).parent.rglob("*.py"))
-UNSEEDED = {"betavariate", "choice", "choices", "gauss", "getrandbits", "randbytes", "randint", "random", "randrange",
-            "sample", "shuffle", "uniform"}  # fmt: skip
+UNSEEDED = {
+    "betavariate",
+    "choice",
+    "choices",
+    "gauss",
+    "getrandbits",
+    "randbytes",
+    "randint",
+    "random",
+    "randrange",
+    "sample",
+    "shuffle",
+    "uniform",
+}
 """Functions of the module ``random`` that draw from a generator that begins anywhere."""
 
 
 def drawn_anew(source: str) -> list[str]:
-    """Return the calls in a source that draw from a generator without a seed, and settings that undo the fixed ones."""
+    """Return the calls in a source that draw from a generator without a seed,
+    and settings that undo the fixed ones.
+    """
     found, tree = [], ast.parse(source)
     imported = any(isinstance(node, ast.Import) and node.names[0].name == "random" for node in ast.walk(tree))
     for node in ast.walk(tree):

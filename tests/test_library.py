@@ -29,8 +29,19 @@ def mill(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
 @pytest.fixture
 def control(tmp_path: Path) -> Iterator[str]:
     """Start an emulated control in E-stop and return its address."""
-    command = [sys.executable, "-m", "amp_studio", "emulate", "9pc", "--listen", "tcp://127.0.0.1:0",
-               "--state", str(tmp_path / "control"), "--machine", "mill"]  # fmt: skip
+    command = [
+        sys.executable,
+        "-m",
+        "amp_studio",
+        "emulate",
+        "9pc",
+        "--listen",
+        "tcp://127.0.0.1:0",
+        "--state",
+        str(tmp_path / "control"),
+        "--machine",
+        "mill",
+    ]
     with subprocess.Popen(command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True) as process:
         assert process.stdout is not None
         yield process.stdout.readline().removeprefix("listening on ").strip()

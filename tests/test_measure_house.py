@@ -77,5 +77,8 @@ def test_each_way_in_which_code_can_part_counts(body: str, count: int) -> None:
 
 
 def test_bodies_are_counted_without_heads_and_docstrings() -> None:
-    source = 'X = 1\n\ndef f(\n    a,\n):\n    """What."""\n    if a:\n        return 1\n\n    def g():\n        return 2\n'
+    source = (
+        'X = 1\n\ndef f(\n    a,\n):\n    """What."""\n    if a:\n        return 1\n\n    def g():\n       '
+        " return 2\n"
+    )
     assert measure_house.body_lines(ast.parse(source)) == 5

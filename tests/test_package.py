@@ -1,4 +1,6 @@
-"""The wheel is all a user needs: it is built, installed into an empty environment and used far from the checkout."""
+"""The wheel is all a user needs: it is built,
+installed into an empty environment and used far from the checkout.
+"""
 
 from __future__ import annotations
 
@@ -51,7 +53,9 @@ def files_below(folder: Path, *, within: Path) -> Iterable[str]:
 
 @pytest.fixture(scope="module")
 def wheel(checkout: Path, tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """Build the source archive from the checkout and the wheel from the source archive, without the network."""
+    """Build the source archive from the checkout and the wheel from the source archive, without the
+    network.
+    """
     out = tmp_path_factory.mktemp("dist")
     command = [sys.executable, "-m", "build", "--no-isolation", "--outdir", str(out), str(checkout)]
     done = subprocess.run(command, capture_output=True, text=True, check=False)
@@ -62,7 +66,9 @@ def wheel(checkout: Path, tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 @pytest.fixture(scope="module")
 def installed(wheel: Path, tmp_path_factory: pytest.TempPathFactory) -> Installed:
-    """Install the wheel into a new environment; the libraries come by a path file, which leaves editable installs out."""
+    """Install the wheel into a new environment; the libraries come by a path file,
+    which leaves editable installs out.
+    """
     folder = tmp_path_factory.mktemp("empty") / "venv"
     venv.create(folder, with_pip=False, symlinks=os.name != "nt")
     environment = Installed(folder)

@@ -1,8 +1,8 @@
 """The words of messages, help, docstrings, comments and documents: the terms of the field, no private idiom.
 
-Every room of the program is checked, every document listed here, the docstrings and comments of the tests, and the
-texts of ``parameter_db``. Names in backquotes and the values in braces of a message are not checked, and neither is a text of
-a single word (a key); of identifiers those that were mended are.
+Every room of the program is checked, every document listed here, the docstrings and comments of the tests,
+and the texts of ``parameter_db``. Names in backquotes and the values in braces of a message are not checked,
+and neither is a text of a single word (a key); of identifiers those that were mended are.
 """
 
 from __future__ import annotations
@@ -105,7 +105,8 @@ _PART_OF_A_MESSAGE = getattr(tokenize, "FSTRING_MIDDLE", tokenize.STRING)
 
 
 _CODE = re.compile(r"^```.*?^```|(?<=\n\n)(?:    [^\n]*\n|\n)+", re.MULTILINE | re.DOTALL)
-"""Blocks of a document that are no text. Lines that go on with an entry of a list are indented, too, but follow a line."""
+"""Blocks of a document that are no text. Lines that go on with an entry of a list are indented, too,
+but follow a line."""
 
 
 def texts_of(path: Path) -> Iterator[tuple[int, str]]:
@@ -140,7 +141,8 @@ def test_a_room_uses_the_words_of_the_field(room: str) -> None:
 
 
 MENDED_NAMES = {"dress", "meant", "answer_once", "no_more"}
-"""Names, and parts of names between underscores, that meant nothing to a stranger and are gone: none comes back."""
+"""Names, and parts of names between underscores, that meant nothing to a stranger and are gone:
+none comes back."""
 _NAME_PART = re.compile(rf"(?<![A-Za-z0-9])_*(?:[a-z0-9_]+_)?(?:{'|'.join(MENDED_NAMES)})(?:_[a-z0-9_]+)?\b")
 
 

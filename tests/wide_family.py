@@ -1,4 +1,6 @@
-"""A family that is nothing like the 9/PC: axes that are always there, words of bits, texts, machine types in the header."""
+"""A family that is nothing like the 9/PC: axes that are always there, words of bits, texts,
+machine types in the header.
+"""
 
 from __future__ import annotations
 

@@ -1,9 +1,11 @@
-"""Lost motion of an axis from the circles of a ball-bar: the radius steps outwards where the axis turns round.
+"""Lost motion of an axis from the circles of a ball-bar:
+the radius steps outwards where the axis turns round.
 
-Before it turns at the end of its travel the slide lags behind by half of the lost motion and the circle is that much too
-small; behind it the slide lags on the other side and the circle is too large. The first axis of a circle turns at 0 and
-180 degrees, the second one at 90 and 270. Lines are fitted on both sides, so that the slope of other errors does not count,
-and the first degrees are left out: there the controller is still taking up what is lost.
+Before it turns at the end of its travel the slide lags behind by half of the lost motion and the circle is
+that much too small; behind it the slide lags on the other side and the circle is too large. The first axis of
+a circle turns at 0 and 180 degrees, the second one at 90 and 270. Lines are fitted on both sides, so that the
+slope of other errors does not count, and the first degrees are left out:
+there the controller is still taking up what is lost.
 """
 
 from __future__ import annotations
@@ -25,7 +27,8 @@ _FEWEST = 3
 def lost_motions(measurement: Measurement, which: str) -> list[Fraction]:
     """Return the outward step of the radius at each turn of an axis, in the unit of the measurement.
 
-    ``which`` axis of the circle: "first" or "second". Raises CalibrationError where the points do not reach a turn.
+    ``which`` axis of the circle: "first" or "second".
+    Raises CalibrationError where the points do not reach a turn.
     """
     if which not in TURNS:
         raise CalibrationError("name whether the axis is the first or the second one of the circle")
@@ -40,7 +43,9 @@ def lost_motions(measurement: Measurement, which: str) -> list[Fraction]:
 
 
 def _step(run: MeasuredRun, turn: float) -> float | None:
-    """Return the radius behind a turn less that before it, in the direction of travel; None with too few points."""
+    """Return the radius behind a turn less that before it, in the direction of travel;
+    None with too few points.
+    """
     below: list[tuple[float, float]] = []
     above: list[tuple[float, float]] = []
     for at, by in run.points:

@@ -23,7 +23,9 @@ ASK_COMMA = "name the decimal sign (a decimal comma is not guessed)"
 
 
 def lines_of(text: str) -> list[tuple[int, str]]:
-    """Return the lines that are no comments, with their numbers; raises MeasurementError for what is too long."""
+    """Return the lines that are no comments, with their numbers;
+    raises MeasurementError for what is too long.
+    """
     lines = text.removeprefix("\ufeff").splitlines()
     if len(lines) > MOST_LINES:
         raise MeasurementError(f"{len(lines)} lines are too many: {MOST_LINES} at most")

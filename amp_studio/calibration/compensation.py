@@ -1,7 +1,7 @@
 """What a control family offers against the errors of an axis; found by the family's registration.
 
-``compensation_of`` returns the record of a family, or one that offers nothing. Positions are those that the control reads
-and errors are measured less target, whatever the sign of the family's own table.
+``compensation_of`` returns the record of a family, or one that offers nothing. Positions are those that the
+control reads and errors are measured less target, whatever the sign of the family's own table.
 """
 
 from __future__ import annotations
@@ -19,7 +19,8 @@ from .measurement import MeasuredPoints
 
 @dataclass(frozen=True)
 class CalibrationTable:
-    """The table of one axis: points with rising positions in ``unit``, each with the error that it takes away.
+    """The table of one axis: points with rising positions in ``unit``,
+    each with the error that it takes away.
 
     ``input`` and ``start`` are those of the control's screen, "" where there is nothing to choose.
     """
@@ -69,7 +70,9 @@ class TableForm(Protocol):
         """Return the table that takes these errors away best; raises CalibrationError where none can."""
 
     def figure(self, table: CalibrationTable, at: Fraction, error: Fraction) -> Fraction:
-        """Return what the control's screen has beside a position: the error, the measured position or the correction."""
+        """Return what the control's screen has beside a position: the error,
+        the measured position or the correction.
+        """
 
     def error(self, table: CalibrationTable, at: Fraction, figure: Fraction) -> Fraction:
         """Return the error that a figure of the screen means."""
@@ -83,7 +86,9 @@ class TableForm(Protocol):
 
 @dataclass(frozen=True)
 class TuningPage:
-    """One page of values that are tuned at the machine: its title, the manual's page and its parameters in order."""
+    """One page of values that are tuned at the machine: its title,
+    the manual's page and its parameters in order.
+    """
 
     key: str
     title: str
@@ -102,7 +107,8 @@ class Compensation:
     ``is_signed``  its sign means which way motion is lost; else the sign that is there is kept
     ``table``      its calibration table; None for none
     ``pages``      what is tuned at the machine besides
-    ``follow``     values that the control changes by itself after one of them is changed: id -> (id, choice or text)
+    ``follow``     values that the control changes by itself after one of them is changed: id -> (id,
+    choice or text)
     """
 
     reversal: str = ""

@@ -1,4 +1,6 @@
-"""Errors over the positions of an axis: straight lines from point to point, constant beyond the first and the last."""
+"""Errors over the positions of an axis: straight lines from point to point,
+constant beyond the first and the last.
+"""
 
 from __future__ import annotations
 
@@ -48,7 +50,8 @@ class ErrorCurve:
 
 
 def mean_curve(measurement: Measurement, rising: bool | None = None) -> ErrorCurve:
-    """Return the mean error at each target: of one direction, or of both with the same weight (ISO 230-2, 3.12).
+    """Return the mean error at each target: of one direction, or of both with the same weight (ISO 230-2,
+    3.12).
 
     Targets that were not reached from every direction of the measurement are left out of the mean of both.
     """

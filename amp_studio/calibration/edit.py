@@ -1,4 +1,6 @@
-"""A calibration table changed by hand, as at the control's screen: insert, replace, delete, and what it comes to."""
+"""A calibration table changed by hand, as at the control's screen: insert, replace, delete,
+and what it comes to.
+"""
 
 from __future__ import annotations
 
@@ -10,7 +12,9 @@ from .errors import CalibrationError
 
 
 def inserted(table: CalibrationTable, at: Fraction, error: Fraction) -> CalibrationTable:
-    """Return a table with one more point; the first one has no error, as at the control. Raises CalibrationError."""
+    """Return a table with one more point; the first one has no error, as at the control.
+    Raises CalibrationError.
+    """
     if any(position == at for position, _ in table.points):
         raise CalibrationError(f"there is a point at {_text(at)} already: replace it")
     if not table.points and error:
@@ -31,14 +35,18 @@ def deleted(table: CalibrationTable, at: Fraction) -> CalibrationTable:
 
 
 def rechosen(table: CalibrationTable, input_: str, start: str) -> CalibrationTable:
-    """Return a table with another input or start, which the control asks only while there are no points (page 36-6)."""
+    """Return a table with another input or start,
+    which the control asks only while there are no points (page 36-6).
+    """
     if table.points and (input_ != table.input or start != table.start):
         raise CalibrationError("input and start can be chosen again when all points of the axis are deleted")
     return replace(table, input=input_, start=start)
 
 
 def left_over(table: CalibrationTable, at: Fraction, error: Fraction) -> Fraction:
-    """Return the whole error of a position where ``error`` was measured with the table switched on (page 36-10)."""
+    """Return the whole error of a position where ``error`` was measured with the table switched
+    on (page 36-10).
+    """
     return error + table.curve.at(at)
 
 

@@ -1,7 +1,8 @@
 """Figures of a linear or rotary axis by ISO 230-2: mean errors, reversal, repeatability and accuracy.
 
-For target i, of n runs in a direction: mean error x_i, estimator of the standard deviation s_i with n - 1. Both directions
-give the mean (x_i+ + x_i-)/2 and the reversal value B_i = x_i+ - x_i-. Everything is in the unit of the measurement.
+For target i, of n runs in a direction: mean error x_i, estimator of the standard deviation s_i with n - 1.
+Both directions give the mean (x_i+ + x_i-)/2 and the reversal value B_i = x_i+ - x_i-.
+Everything is in the unit of the measurement.
 """
 
 from __future__ import annotations

@@ -1,4 +1,6 @@
-"""What the head of a column of measured points means: position, angle of a circle, error, direction, run, and the unit beside it."""
+"""What the head of a column of measured points means: position, angle of a circle, error, direction, run,
+and the unit beside it.
+"""
 
 from __future__ import annotations
 
@@ -56,7 +58,9 @@ class Head:
 
 
 def read_head(text: str, column: int) -> Head:
-    """Return what a head means; a value column without a word of its kind, as ``Run 1 +``, contains errors."""
+    """Return what a head means; a value column without a word of its kind, as ``Run 1 +``, contains
+    errors.
+    """
     words = " ".join(text.strip().strip("\"'").casefold().replace("_", " _").split())
     found = _BRACKETED.search(words) or _SPACED.search(words)
     unit = _UNITS[found[1]] if found else ""

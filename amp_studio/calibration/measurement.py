@@ -1,4 +1,6 @@
-"""What was measured on an axis: runs over target positions, and what a person has to answer before they are used."""
+"""What was measured on an axis: runs over target positions,
+and what a person has to answer before they are used.
+"""
 
 from __future__ import annotations
 
@@ -18,7 +20,8 @@ MeasuredPoints = tuple[tuple[Fraction, Fraction], ...]
 class MeasurementAnswers:
     """What nobody but the person who measured knows for certain; "" where the file is to answer.
 
-    ``unit`` of the positions, ``error_unit`` of the errors, ``sign`` one of ``SIGNS``, ``decimal`` one of ``DECIMALS``.
+    ``unit`` of the positions, ``error_unit`` of the errors, ``sign`` one of ``SIGNS``,
+    ``decimal`` one of ``DECIMALS``.
     """
 
     unit: str = ""
@@ -41,9 +44,11 @@ class Measurement:
 
     ``unit``     of positions and errors: mm, deg or counts
     ``answers``  what was used, with what the file itself has answered
-    ``assumed``  names of the answers that neither the file nor a person gave: to be asked before anything is written
+    ``assumed``  names of the answers that neither the file nor a person gave: to be asked before anything is
+    written
     ``notes``    sentences that a person has to know
-    ``is_circle``  runs are circles of a ball-bar: positions are degrees, errors those of the radius, rising is counterclockwise
+    ``is_circle``  runs are circles of a ball-bar: positions are degrees, errors those of the radius,
+    rising is counterclockwise
     """
 
     runs: tuple[MeasuredRun, ...]

@@ -1,8 +1,9 @@
-"""From measured points to what is set in a file: calibration table, reversal error, and what error is expected to remain.
+"""From measured points to what is set in a file: calibration table, reversal error,
+and what error is expected to remain.
 
-Motion that is lost at a reversal leaves a rising run behind by half of it and a falling run ahead by the other half; the
-mean of both directions is what the table takes away. Points measured with compensation on are what it has left over, so
-what it takes away already is added again.
+Motion that is lost at a reversal leaves a rising run behind by half of it and a falling run ahead by the
+other half; the mean of both directions is what the table takes away. Points measured with compensation on are
+what it has left over, so what it takes away already is added again.
 """
 
 from __future__ import annotations
@@ -30,7 +31,8 @@ class Wish:
 
     ``was_on``  whether the axis was measured with its compensation on; None for not answered
     ``circle``  which axis of a ball-bar's circle it is, "first" or "second"; "" for not answered
-    ``input``, ``start``  as the control's screen asks them, "" for what the present table has, else the usual one
+    ``input``, ``start``  as the control's screen asks them, "" for what the present table has,
+    else the usual one
     """
 
     was_on: bool | None = None
@@ -47,7 +49,8 @@ class Proposal:
 
     ``settings``  the values to set
     ``before``    mean errors as measured, ``after`` as expected; ``True`` for the rising direction
-    ``reversal``  lost motion that is compensated now and that is proposed; None where there is nothing to propose
+    ``reversal``  lost motion that is compensated now and that is proposed;
+    None where there is nothing to propose
     """
 
     axis: str
@@ -72,7 +75,9 @@ class Proposal:
 
 
 def propose(file: ParameterFile, axis: str, measurement: Measurement, wish: Wish) -> Proposal:
-    """Return what measured points make of an axis (its instance); raises CalibrationError for what is to be answered first."""
+    """Return what measured points make of an axis (its instance);
+    raises CalibrationError for what is to be answered first.
+    """
     offered = compensation_of(file.schema.family.family)
     if not offered.reversal and offered.table is None:
         raise CalibrationError(
@@ -179,7 +184,9 @@ def base_unit(file: ParameterFile, offered: Compensation, axis: str) -> str:
 
 
 def shown_unit(file: ParameterFile, table: CalibrationTable) -> tuple[str, Fraction]:
-    """Return the unit in which a table is shown and typed, that of the file, and what one of it is in the unit of the table."""
+    """Return the unit in which a table is shown and typed, that of the file,
+    and what one of it is in the unit of the table.
+    """
     if table.unit == "mm" and file.header.units == "inch":
         return "in", Fraction("25.4")
     return table.unit, Fraction(1)
@@ -194,7 +201,9 @@ def check_unit(file: ParameterFile, offered: Compensation, axis: str, unit: str)
 
 
 def present_table(file: ParameterFile, offered: Compensation, axis: str) -> CalibrationTable | None:
-    """Return the table that an axis has; None where it has none. Raises CalibrationError for one that cannot be read."""
+    """Return the table that an axis has; None where it has none.
+    Raises CalibrationError for one that cannot be read.
+    """
     if offered.table is None:
         return None
     value = file.get((offered.table.parameter, axis))
@@ -204,7 +213,9 @@ def present_table(file: ParameterFile, offered: Compensation, axis: str) -> Cali
 
 
 def lost_motion(file: ParameterFile, offered: Compensation, axis: str) -> Fraction:
-    """Return the lost motion that an axis compensates now, in its base unit; positive unless its sign has a meaning."""
+    """Return the lost motion that an axis compensates now, in its base unit;
+    positive unless its sign has a meaning.
+    """
     if not offered.reversal:
         return Fraction(0)
     address = (offered.reversal, axis)
@@ -274,7 +285,9 @@ def _reversal_of(
     settings: dict[Address, Value],
     notes: list[str],
 ) -> tuple[Fraction, Fraction] | None:
-    """Return the same for lost motions that were measured at several places; ``on`` is compensated already."""
+    """Return the same for lost motions that were measured at several places; ``on`` is compensated
+    already.
+    """
     address = (offered.reversal, axis)
     total = _mean(lost) + on
     if _mean(lost) < 0 and not on:
@@ -292,8 +305,8 @@ def _reversal_of(
     low = min(lost) + on
     if low < total:
         notes.append(
-            f"lost motion differs over the travel: the least is {float(low):.5f} {base_unit(file, offered, axis)}, and the manuals "
-            "warn of a value above it"
+            f"lost motion differs over the travel: the least is {float(low):.5f}"
+            f" {base_unit(file, offered, axis)}, and the manuals warn of a value above it"
         )
     value, made = rounded(file, address, total)
     present = file.get(address)
@@ -307,7 +320,9 @@ def _reversal_of(
 
 
 def rounded(file: ParameterFile, address: Address, amount: Fraction) -> tuple[Value, Fraction]:
-    """Return an amount (mm, deg, counts) as a value in the unit of entry, rounded towards zero, and what it is then."""
+    """Return an amount (mm, deg, counts) as a value in the unit of entry, rounded towards zero,
+    and what it is then.
+    """
     parameter = file.schema.parameters[address[0]]
     unit = file.evaluation.unit(address, file.header.units)
     size = size_of(file.evaluation, address, unit)

@@ -1,7 +1,8 @@
 """Measured points from a text: plain columns of a spreadsheet or a laser's own file, in one or several runs.
 
-Nothing is guessed that could turn or scale an error: units, sign and decimal comma come from the heads of the columns or
-from a person, and what nobody has answered is listed in ``Measurement.assumed``. Docs: docs/tuning.md.
+Nothing is guessed that could turn or scale an error: units, sign and decimal comma come from the heads of the
+columns or from a person, and what nobody has answered is listed in ``Measurement.assumed``. Docs:
+docs/tuning.md.
 """
 
 from __future__ import annotations
@@ -43,7 +44,9 @@ _BASE = {"mm": "mm", "in": "mm", "um": "mm", "deg": "deg", "arcsec": "deg", "cou
 
 
 def read_measured_file(path: Path, answers: MeasurementAnswers, usual_unit: str = "mm") -> Measurement:
-    """Read a file of measured points; raises MeasurementError with its name, and OSError where it cannot be read."""
+    """Read a file of measured points; raises MeasurementError with its name,
+    and OSError where it cannot be read.
+    """
     text = read_table_text(path)
     try:
         return read_measurement(text, answers, usual_unit)
@@ -52,7 +55,9 @@ def read_measured_file(path: Path, answers: MeasurementAnswers, usual_unit: str 
 
 
 def read_measurement(text: str, answers: MeasurementAnswers, usual_unit: str = "mm") -> Measurement:
-    """Read measured points; ``usual_unit`` is that of the axis, assumed where nobody names one. Raises MeasurementError."""
+    """Read measured points; ``usual_unit`` is that of the axis, assumed where nobody names one.
+    Raises MeasurementError.
+    """
     _check(answers)
     if "\0" in text:
         raise MeasurementError("this is no text with measured points")
@@ -165,9 +170,11 @@ def _heads(
             titles.pop()
     notes = (
         (
-            f"{len(titles)} lines before the columns were not read"
-            if len(titles) != 1
-            else "1 line before the columns was not read",
+            (
+                f"{len(titles)} lines before the columns were not read"
+                if len(titles) != 1
+                else "1 line before the columns was not read"
+            ),
         )
         if titles
         else ()
@@ -198,7 +205,8 @@ def _table(
     if heads is None:
         if len(rows[0][1]) != 2:
             raise MeasurementError(
-                f"{len(rows[0][1])} columns without heads: name them in a line before, as position, run 1 +, run 1 -",
+                f"{len(rows[0][1])} columns without heads: name them in a line before, as position, run 1 +,"
+                " run 1 -",
                 rows[0][0],
             )
         heads = [Head("position", "", None), Head("error", "", None)]
@@ -236,9 +244,11 @@ def _table(
     if ignored:
         notes = (
             *notes,
-            f"{ignored} columns that are neither position nor error were not read"
-            if ignored > 1
-            else "1 column that is neither position nor error was not read",
+            (
+                f"{ignored} columns that are neither position nor error were not read"
+                if ignored > 1
+                else "1 column that is neither position nor error was not read"
+            ),
         )
     is_circle = kinds[at] == "angle"
     if is_circle and kinds[values[0]] == "measured":
@@ -273,7 +283,8 @@ def _grouped(
 
 
 def parted(points: Sequence[tuple[Fraction, Fraction]]) -> list[RawRun]:
-    """Part points in the order of measuring into runs: a new one where the direction turns, or it starts over.
+    """Part points in the order of measuring into runs: a new one where the direction turns,
+    or it starts over.
 
     Several readings of one target in a row are one of each run.
     """
@@ -323,7 +334,9 @@ def _layers(run: Sequence[tuple[Fraction, list[Fraction]]]) -> Iterable[RawRun]:
 
 
 def _with_directions(runs: Sequence[RawRun]) -> list[MeasuredRun]:
-    """Return runs with their directions; one that names none has that of its targets, a single target the rising one."""
+    """Return runs with their directions; one that names none has that of its targets,
+    a single target the rising one.
+    """
     found = []
     for run in runs:
         targets = [at for at, _ in run.points]

@@ -1,8 +1,9 @@
-"""The text file of a Renishaw laser (.rtl), as programs that read it show it; the maker publishes no description.
+"""The text file of a Renishaw laser (.rtl), as programs that read it show it;
+the maker publishes no description.
 
-Sections end with ``::``. ``Targets :`` is followed by the target positions, ``Run Target Data:`` by a line for each point: run,
-target, deviation. Target positions are in mm and deviations in µm by those programs, for linear measurements; for any
-other kind the units are asked.
+Sections end with ``::``. ``Targets :`` is followed by the target positions, ``Run Target Data:`` by a line
+for each point: run, target, deviation. Target positions are in mm and deviations in µm by those programs, for
+linear measurements; for any other kind the units are asked.
 """
 
 from __future__ import annotations

@@ -1,7 +1,7 @@
 """Values tuned in steps, as with {INCRE VALUE} and {DECRE VALUE}: by how much, and where they stop.
 
-The manuals print no size of a step, so it is a person's choice: the last decimal that the control keeps, or ten, a hundred or a
-thousand of it. A value stops at the bounds of its range (9/PC, page 36-11).
+The manuals print no size of a step, so it is a person's choice: the last decimal that the control keeps, or
+ten, a hundred or a thousand of it. A value stops at the bounds of its range (9/PC, page 36-11).
 """
 
 from __future__ import annotations
@@ -20,7 +20,9 @@ _USUAL_DECIMALS = {"length": 5, "angle": 5}
 
 
 def steps_of(file: ParameterFile, address: Address) -> tuple[Fraction, ...]:
-    """Return the steps that are offered for a value, in the unit in which it is shown; none for what is no number."""
+    """Return the steps that are offered for a value, in the unit in which it is shown;
+    none for what is no number.
+    """
     parameter = file.schema.parameters[address[0]]
     if parameter.type not in ("integer", "real") or parameter.choices:
         return ()
@@ -36,7 +38,9 @@ def steps_of(file: ParameterFile, address: Address) -> tuple[Fraction, ...]:
 
 
 def stepped(file: ParameterFile, address: Address, by: Fraction) -> Value:
-    """Return a value increased by so much in the unit in which it is shown, at most to its bound; raises CalibrationError."""
+    """Return a value increased by so much in the unit in which it is shown, at most to its bound;
+    raises CalibrationError.
+    """
     present = file.get(address)
     unit = file.evaluation.unit(address, file.header.units)
     label = file.machine_schema.label(address)

@@ -9,7 +9,7 @@ from pathlib import Path
 from . import candidates
 from .verb import VerbArgument
 
-# -- kinds of values: a function that raises ValueError with what is wrong ---------------------------------------------
+# -- kinds of values: a function that raises ValueError with what is wrong
 
 
 def path_of(text: str) -> Path:
@@ -56,7 +56,7 @@ def seconds(text: str) -> float:
     return float(text)
 
 
-# -- what is named -----------------------------------------------------------------------------------------------
+# -- what is named
 
 PATH = VerbArgument("path", type=path_of, help="parameter file (.amp)")
 PATHS = VerbArgument(
@@ -69,22 +69,19 @@ AXIS = VerbArgument(
     "--axis", help="axis by its letter or number (default: the first)", completes=candidates.axes
 )
 
-# -- how results are printed -------------------------------------------------------------------------------------
+# -- how results are printed
 
 JSON = VerbArgument("--json", action="store_true", help="print one JSON document")
 SECRETS = VerbArgument("--secrets", action="store_true", help="passwords in clear; they are masked otherwise")
 LANGUAGE = VerbArgument(
-    "--language",
-    choices=("en", "de"),
-    default="en",
-    help="language of the report's own words (default: en)",
+    "--language", choices=("en", "de"), default="en", help="language of the report's own words (default: en)"
 )
 DRY_RUN = VerbArgument("--dry-run", action="store_true", help="change nothing, show what would change")
 BY_LETTER = VerbArgument(
     "--by-letter", action="store_true", help="match axes by their letters instead of their numbers"
 )
 
-# -- what is read ------------------------------------------------------------------------------------------------
+# -- what is read
 
 TEXT = (
     VerbArgument(
@@ -107,7 +104,7 @@ ON_FAULT = VerbArgument(
     help="what to do with out-of-range values (default: ask at a terminal, else quit)",
 )
 
-# -- controls ----------------------------------------------------------------------------------------------------
+# -- controls
 
 
 def several_controls(*names: str, dest: str, required: bool = True) -> tuple[VerbArgument, ...]:
@@ -127,10 +124,7 @@ def several_controls(*names: str, dest: str, required: bool = True) -> tuple[Ver
             help="several controls one after the other; none is begun after the first failure",
         ),
         VerbArgument(
-            "--report",
-            type=path_of,
-            metavar="FILE",
-            help="write the table of results, as .csv or .html",
+            "--report", type=path_of, metavar="FILE", help="write the table of results, as .csv or .html"
         ),
     )
 
@@ -165,16 +159,9 @@ def line_options(protocols: tuple[str, ...]) -> tuple[VerbArgument, ...]:
         ),
         VerbArgument("--percent", action="store_true", help="raw: % before and after the text"),
         VerbArgument(
-            "--leader",
-            type=count,
-            default=0,
-            metavar="N",
-            help="raw: blank characters before and after",
+            "--leader", type=count, default=0, metavar="N", help="raw: blank characters before and after"
         ),
         VerbArgument(
-            "--blank",
-            choices=("nul", "space"),
-            default="nul",
-            help="raw: the blank character (default: nul)",
+            "--blank", choices=("nul", "space"), default="nul", help="raw: the blank character (default: nul)"
         ),
     )

@@ -16,7 +16,9 @@ def ask_at_terminal() -> None:
 
 
 def _ask(place: str) -> str:
-    """Return what is entered without showing it; Ctrl-C ends the question also where it is only noted otherwise."""
+    """Return what is entered without showing it;
+    Ctrl-C ends the question also where it is only noted otherwise.
+    """
     if threading.current_thread() is not threading.main_thread():
         return ""
     before = signal.signal(signal.SIGINT, signal.default_int_handler)

@@ -1,6 +1,8 @@
-"""What a shell offers in a place of the command line: names of the facts, and of the file that the line names.
+"""What a shell offers in a place of the command line: names of the facts,
+and of the file that the line names.
 
-Each function takes the first word behind the verb and the word that is typed; the rooms are loaded when one is called.
+Each function takes the first word behind the verb and the word that is typed;
+the rooms are loaded when one is called.
 """
 
 from __future__ import annotations

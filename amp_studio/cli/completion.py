@@ -1,7 +1,7 @@
 """Shell completion: what the scripts for bash, zsh and fish (``amp-studio completion``) ask the program.
 
-A script hands the line over as it is; what may come next is in the description of the verb, so a new verb or option
-completes at once. Where nothing is found the shell offers files.
+A script hands the line over as it is; what may come next is in the description of the verb, so a new verb or
+option completes at once. Where nothing is found the shell offers files.
 """
 
 from __future__ import annotations
@@ -19,8 +19,8 @@ ASKED = "__complete"
 def answer(words: Sequence[str], breaks: str) -> None:
     """Print what may come next, a line each; nothing if that is a file.
 
-    bash gives the line (``--line TEXT``) and is answered from the last of its word ``breaks`` on, as it puts the answer
-    there.
+    bash gives the line (``--line TEXT``) and is answered from the last of its word ``breaks`` on, as it puts
+    the answer there.
     """
     typed = list(words)
     if typed[:1] == ["--line"]:
@@ -35,7 +35,9 @@ def answer(words: Sequence[str], breaks: str) -> None:
 
 
 def _words_of(line: str) -> list[str]:
-    """Part a line that may end inside a word or a quote; the last word is the one that is typed, perhaps empty."""
+    """Part a line that may end inside a word or a quote; the last word is the one that is typed,
+    perhaps empty.
+    """
     for closing in ("", "'", '"'):
         try:
             words = shlex.split(line + closing)
@@ -46,7 +48,9 @@ def _words_of(line: str) -> list[str]:
 
 
 def _found(before: Sequence[str], current: str) -> Iterator[str]:
-    """Yield what may come after the words ``before`` in the place of the one that is typed; more than fits is no matter."""
+    """Yield what may come after the words ``before`` in the place of the one that is typed;
+    more than fits is no matter.
+    """
     verbs = verb_names()
     if not before:
         yield from (*verbs, "--help", "--version")
@@ -68,7 +72,9 @@ def _found(before: Sequence[str], current: str) -> Iterator[str]:
 
 
 def _parted(verb: Verb, words: Sequence[str]) -> tuple[VerbArgument | None, list[str]]:
-    """Return the option that waits for its value, if one does, and the words that are no options or values of some."""
+    """Return the option that waits for its value, if one does,
+    and the words that are no options or values of some.
+    """
     options = {name: argument for argument in verb.arguments if argument.is_option for name in argument.names}
     waiting: VerbArgument | None = None
     values = []

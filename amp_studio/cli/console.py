@@ -20,7 +20,9 @@ def note(text: str) -> None:
 
 
 def ask(question: str) -> str:
-    """Return a person's answer; the question goes through the stream that keeps texts from steering the terminal."""
+    """Return a person's answer; the question goes through the stream that keeps texts
+    from steering the terminal.
+    """
     print_notice(question, end="")
     return input()
 
@@ -57,8 +59,8 @@ def is_family(text: str) -> bool:
 def progress(of: str = "") -> Callable[[str, int, int], None]:
     """Return a progress callback: one line on standard error that counts the per cent.
 
-    A terminal sees it change; elsewhere, and where it is that ``of`` one control among several, the end of each stage is a
-    line, and what is waited for.
+    A terminal sees it change; elsewhere, and where it is that ``of`` one control among several, the end of
+    each stage is a line, and what is waited for.
     """
     last: dict[str, int] = {}
     changes = sys.stderr.isatty() and not of

@@ -1,4 +1,6 @@
-"""What the help has besides the arguments of a verb; in the man page too. Nothing here loads a schema: help must come at once."""
+"""What the help has besides the arguments of a verb; in the man page too. Nothing here loads a schema:
+help must come at once.
+"""
 
 from __future__ import annotations
 
@@ -9,7 +11,10 @@ from .registry import summaries
 from .verb import Verb
 
 PROGRAM = "amp-studio"
-ABOUT = "Edit, check, print and exchange the parameters of a machine control. Without a verb: the desktop program, on the files that are named."
+ABOUT = (
+    "Edit, check, print and exchange the parameters of a machine control. Without a verb: the desktop"
+    " program, on the files that are named."
+)
 EXIT_CODES = (
     "0  done, nothing wrong",
     "1  done; what was checked has errors, or the two sides differ",
@@ -28,7 +33,10 @@ _VALUES = (
     "yes, no              yes/no, or the label or letter of a choice (a)",
     "raw:-1               what the control stores",
     "0x05                 a mask; by the labels of its bits: 'Axis 1, Axis 5'; bit by bit: P3N0.5=yes",
-    "=25.4/5000           an expression: 1340==25.4/5000, 1750='=Y*1.1' (the parameter on axis Y), 1350='=rapid@X*0.05'",
+    (
+        "=25.4/5000           an expression: 1340==25.4/5000, 1750='=Y*1.1' (the parameter on axis Y),"
+        " 1350='=rapid@X*0.05'"
+    ),
     "not-set              clears the value: 1300=not-set (an empty value is refused)",
     "Units: mm, in, deg, mm/min, ipm, deg/min, rpm, ms, s, %, V, Hz",
 )

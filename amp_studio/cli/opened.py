@@ -15,9 +15,11 @@ if TYPE_CHECKING:
 
 
 def opened(path: Path, options: Options | None = None, notify: Callable[[str], None] = note) -> ParameterFile:
-    """Return the parameters of a file that is only read; notes about a control's own text go to standard error.
+    """Return the parameters of a file that is only read;
+    notes about a control's own text go to standard error.
 
-    ``options`` with ``arguments.TEXT`` name the family and the machine type of such a text. Raises UsageError, ParameterFileError.
+    ``options`` with ``arguments.TEXT`` name the family and the machine type of such a text.
+    Raises UsageError, ParameterFileError.
     """
     from amp_studio.files import ENDING, open_file
 

@@ -1,4 +1,6 @@
-"""What happens with values out of range in an upload or an import: the option ``--on-fault``, or a question for each."""
+"""What happens with values out of range in an upload or an import: the option ``--on-fault``,
+or a question for each.
+"""
 
 from __future__ import annotations
 
@@ -23,7 +25,8 @@ class _AtTheTerminal:
             return "keep"
         if self._on_fault == "quit":
             raise UsageError(
-                f"{self._by} contains an illegal value, nothing was written: {problem} (--on-fault keep takes it)"
+                f"{self._by} contains an illegal value, nothing was written: {problem} (--on-fault keep"
+                " takes it)"
             )
         while True:
             answer = ask(f"{problem}\n[C]ontinue checking, [E]dit parameter, [Q]uit? ").strip().casefold()

@@ -10,7 +10,8 @@ from pathlib import Path
 from typing import NamedTuple
 
 Mark = tuple[int, int, int, int] | str | None
-"""What distinguishes one state of a file from another: device, number, size and time; None where there is no file.
+"""What distinguishes one state of a file from another: device, number, size and time;
+None where there is no file.
 
 A text gives the reason why it cannot be examined.
 """

@@ -1,4 +1,6 @@
-"""What a verb writes: checked before anything is done, written whole or not at all, with a note of what was not kept."""
+"""What a verb writes: checked before anything is done, written whole or not at all,
+with a note of what was not kept.
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,5 @@
-"""Reads a command line with argparse, of whose parts only the documented ones are used; misuse is answered in plain words.
+"""Reads a command line with argparse, of whose parts only the documented ones are used;
+misuse is answered in plain words.
 
 docs/decisions/0008-argparse.md has why it is argparse, with what others cost.
 """
@@ -36,7 +37,8 @@ class _Parser(argparse.ArgumentParser):
     """A parser of argparse that raises what is wrong, and prints the help of this program."""
 
     def __init__(self, name: str, verb: Verb) -> None:
-        # With each argument argparse asks for a formatter, which would measure the terminal if it were not given a width.
+        # With each argument argparse asks for a formatter, which would measure the terminal if it were not
+        # given a width.
         super().__init__(
             prog=f"{PROGRAM} {name}",
             description=verb.about,
@@ -47,7 +49,9 @@ class _Parser(argparse.ArgumentParser):
             self.add_argument(*argument.names, help=argument.help.replace("%", "%%"), **self._how(argument))
 
     def _how(self, argument: VerbArgument) -> dict[str, Any]:
-        """Return the arguments of ``add_argument``; a choice is read here, because an unknown one is answered with the nearest."""
+        """Return the arguments of ``add_argument``; a choice is read here,
+        because an unknown one is answered with the nearest.
+        """
         how = dict(argument.how)
         if "type" in how:
             how["type"] = _in_words(how["type"])
@@ -75,7 +79,9 @@ class _Parser(argparse.ArgumentParser):
 
 
 def _in_words(kind: Callable[[str], Any]) -> Callable[[str], Any]:
-    """Return the reader of a value whose refusals argparse repeats; those of a ValueError it puts into its own words."""
+    """Return the reader of a value whose refusals argparse repeats;
+    those of a ValueError it puts into its own words.
+    """
 
     def read(text: str) -> Any:
         try:
@@ -97,13 +103,16 @@ def help_text(name: str, verb: Verb) -> str:
 
 
 def parse(name: str, verb: Verb, words: Sequence[str]) -> Options:
-    """Return what the words behind a verb mean; raises UsageError, and HelpPrinted where help was asked for."""
+    """Return what the words behind a verb mean; raises UsageError, and HelpPrinted where help was asked
+    for.
+    """
     parser = _Parser(name, verb)
     _check_options(parser, words)
     words = _with_signed(verb, words)
     found, left = parser.parse_known_args(words, Options())
     if left and not any(word.startswith("-") for word in left):
-        # argparse gives an optional word nothing where it comes behind an option; this one does, and takes longer.
+        # argparse gives an optional word nothing where it comes behind an option; this one does, and takes
+        # longer.
         found, left = parser.parse_known_intermixed_args(words, Options())
     if left:
         parser.error(_unexpected(left, verb.options))
@@ -112,7 +121,9 @@ def parse(name: str, verb: Verb, words: Sequence[str]) -> Options:
 
 
 def refuse_program(word: str, verbs: Iterable[str]) -> NoReturn:
-    """Refuse the first word of a command line, which is no verb and no option of the program; raises UsageError."""
+    """Refuse the first word of a command line, which is no verb and no option of the program;
+    raises UsageError.
+    """
     known, what = (("-h", "--help", "--version"), "option") if word.startswith("-") else (verbs, "verb")
     raise UsageError(f"{_unknown(what, word, known)} (see '{PROGRAM} --help')")
 
@@ -129,7 +140,9 @@ def _check_options(parser: _Parser, words: Sequence[str]) -> None:
 
 
 def _with_signed(verb: Verb, words: Sequence[str]) -> list[str]:
-    """Return words in which a value that begins with a minus and a figure is joined to its option: alone it looks like one."""
+    """Return words in which a value that begins with a minus and a figure is joined to its option:
+    alone it looks like one.
+    """
     signed = {name for each in verb.arguments if each.signed for name in each.names}
     joined: list[str] = []
     for word in words:

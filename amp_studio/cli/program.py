@@ -34,8 +34,8 @@ def start(arguments: Sequence[str] | None) -> NoReturn:
     ignore_interrupts()
     end_results()
     if was_asked():
-        # Run by ``python -m`` CPython would end itself by the signal where it interrupted a text given to exec(), a
-        # dataclass for one, or whatever else caught the exception; the exit code would be lost.
+        # Run by ``python -m`` CPython would end itself by the signal where it interrupted a text given to
+        # exec(), a dataclass for one, or whatever else caught the exception; the exit code would be lost.
         os._exit(code)
     gc.freeze()  # the end of Python would look through all objects for cycles: a third of the time of a check
     sys.exit(code)
@@ -147,13 +147,16 @@ def _leave() -> int:
 
 
 def _one_line(text: str) -> str:
-    """Return a message in one line that can be read, whatever somebody wrote that it repeats; its end describes the present state."""
+    """Return a message in one line that can be read, whatever somebody wrote that it repeats;
+    its end describes the present state.
+    """
     line = " ".join(text.split())
     return line if len(line) <= BEGINNING + END else f"{line[:BEGINNING]} … {line[-END:]}"
 
 
 def _refuse(text: str, replaced: Sequence[Target], code: int = FAULT, *, quiet: bool = False) -> int:
-    """Print in one line what went wrong and what is true now, and return the exit code; ``quiet`` where nothing has changed.
+    """Print in one line what went wrong and what is true now, and return the exit code;
+    ``quiet`` where nothing has changed.
 
     ``code`` is that of the state of a control.
     """

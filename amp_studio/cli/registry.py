@@ -26,7 +26,9 @@ _FOLDER = f"{os.path.dirname(__file__)}/verbs"  # noqa: PTH120  # pathlib takes 
 
 
 def _modules(group: str) -> Iterator[tuple[str, str]]:
-    """Yield verb and module of each file of a folder; a word of Python has ``_`` behind it as the name of a file."""
+    """Yield verb and module of each file of a folder;
+    a word of Python has ``_`` behind it as the name of a file.
+    """
     for file in sorted(os.listdir(f"{_FOLDER}/{group}")):  # noqa: PTH208  # see above
         module = file.removesuffix(".py")
         if module not in (file, "__init__"):
@@ -51,7 +53,9 @@ def all_verbs() -> dict[str, Verb]:
 
 
 def summaries() -> dict[str, dict[str, str]]:
-    """Return heading -> verb -> what it is for, from the docstrings of the files: to load all of them takes 50 ms."""
+    """Return heading -> verb -> what it is for, from the docstrings of the files:
+    to load all of them takes 50 ms.
+    """
     found: dict[str, dict[str, str]] = {}
     for group, heading in GROUPS.items():
         verbs = found[heading] = {}

@@ -1,4 +1,6 @@
-"""The standard streams of the program: there whatever the shell has closed, and no text on them steers the terminal."""
+"""The standard streams of the program: there whatever the shell has closed,
+and no text on them steers the terminal.
+"""
 
 from __future__ import annotations
 
@@ -11,7 +13,9 @@ from typing import TextIO
 
 
 class Screen(io.TextIOWrapper):
-    """A standard stream that shows steering signs instead of passing them on; only line ends and tabs pass."""
+    """A standard stream that shows steering signs instead of passing them on; only line ends and tabs
+    pass.
+    """
 
     overwritten = False
     """Whether the present line of the terminal is one that the next replaces."""
@@ -36,7 +40,9 @@ def _shown(text: str) -> str:
 
 
 def open_streams() -> None:
-    """Put streams of this module in the place of Python's; a handle that the shell has closed leads nowhere."""
+    """Put streams of this module in the place of Python's; a handle that the shell has closed leads
+    nowhere.
+    """
     while (
         handle := os.open(os.devnull, os.O_RDWR)
     ) <= 2:  # a file opened later must not become standard output

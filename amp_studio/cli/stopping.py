@@ -1,8 +1,8 @@
 """Ctrl-C, answered once and by everything that runs.
 
-The first one raises KeyboardInterrupt; what comes while the verb ends and describes the present state is ignored. Python and
-the rule engine lose an interrupt that comes in the wrong moment (while an object is put away, inside a function that an
-expression calls): ``was_asked`` remembers it.
+The first one raises KeyboardInterrupt; what comes while the verb ends and describes the present state is
+ignored. Python and the rule engine lose an interrupt that comes in the wrong moment (while an object is put
+away, inside a function that an expression calls): ``was_asked`` remembers it.
 """
 
 from __future__ import annotations

@@ -1,7 +1,8 @@
-"""What a verb is made of, as plain data: the parser, the help, the man page and the completion are made of the same.
+"""What a verb is made of, as plain data: the parser, the help,
+the man page and the completion are made of the same.
 
-A verb is one file below ``verbs``: its ``VERB`` describes it, its ``run`` does the work. A room is imported by the function
-that uses it, so that help and completion load none.
+A verb is one file below ``verbs``: its ``VERB`` describes it, its ``run`` does the work. A room is imported
+by the function that uses it, so that help and completion load none.
 """
 
 from __future__ import annotations
@@ -12,7 +13,8 @@ if TYPE_CHECKING:
     from typing import Any
 
     Completion = Callable[[str, str], Iterable[str]]
-    """What may come in a place: of the first word behind the verb (``""`` where there is none) and the word that is typed."""
+    """What may come in a place: of the first word behind the verb (``""`` where there is none)
+    and the word that is typed."""
 
 
 class Options:
@@ -28,8 +30,8 @@ class Options:
 class VerbArgument:
     """A word of a verb (``path``) or an option of it (``-o``, ``--output``).
 
-    ``how`` are arguments of ``ArgumentParser.add_argument``; ``completes`` gives what a shell offers, ``signed`` is true where
-    a value may begin with a minus and a figure (``-50=0.001``).
+    ``how`` are arguments of ``ArgumentParser.add_argument``; ``completes`` gives what a shell offers,
+    ``signed`` is true where a value may begin with a minus and a figure (``-50=0.001``).
     """
 
     def __init__(
@@ -62,8 +64,9 @@ class VerbArgument:
 class Verb:
     """One verb: what it is for, what it takes, and what its help ends with.
 
-    ``about`` is the docstring of its file, one sentence; ``sections`` are titles of ``manual.SECTIONS``; ``writes`` names the arguments whose files it may replace; ``at_control`` is
-    true where it may connect to a control and have the user asked for a password.
+    ``about`` is the docstring of its file, one sentence; ``sections`` are titles of ``manual.SECTIONS``;
+    ``writes`` names the arguments whose files it may replace; ``at_control`` is true where it may connect to
+    a control and have the user asked for a password.
     """
 
     def __init__(

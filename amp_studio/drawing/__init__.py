@@ -1,8 +1,8 @@
 """Drawings: a scene of shapes in world units with scales, labels and handles, and its one SVG writer.
 
-Pictures of a machine's values and plots of a simulated motion are the same thing: scenes, one alone or several below each
-other. What is drawn is decided above (`pictures`, `sim`); where it lies (`frame`, `labels`, `strokes`) and how it looks
-(`svg`, the painter of the window) is decided here, once.
+Pictures of a machine's values and plots of a simulated motion are the same thing: scenes, one alone or
+several below each other. What is drawn is decided above (`pictures`, `sim`); where it lies (`frame`,
+`labels`, `strokes`) and how it looks (`svg`, the painter of the window) is decided here, once.
 """
 
 from typing import TYPE_CHECKING

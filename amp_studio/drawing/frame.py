@@ -65,7 +65,9 @@ class Placement:
 
 
 def _gap(scene: Scene, horizontal: bool) -> float:
-    """Return the least distance of two figures in points: panels are low, and a logarithmic scale has its figures unevenly."""
+    """Return the least distance of two figures in points: panels are low,
+    and a logarithmic scale has its figures unevenly.
+    """
     if scene.look == "panel":
         return 44.0 if horizontal and scene.x.log else 72.0 if horizontal else 30.0
     return 72.0 if horizontal else 40.0

@@ -1,7 +1,9 @@
-"""Where the texts of a scene are, none on another: the same for a screen, which measures its font, and for paper.
+"""Where the texts of a scene are, none on another: the same for a screen, which measures its font,
+and for paper.
 
-Figures of the scales come first, then the names of parameters, then figures at points. A name that has no room beside its point
-goes further away and gets a line to it, then it loses its value; what has no room at all is left out, and a tip has it.
+Figures of the scales come first, then the names of parameters, then figures at points. A name that has no
+room beside its point goes further away and gets a line to it, then it loses its value; what has no room at
+all is left out, and a tip has it.
 """
 
 from __future__ import annotations
@@ -127,7 +129,9 @@ class Heading:
 
 
 def heading_of(panel: Scene, left: float, right: float, measure: Measure) -> list[Heading]:
-    """Return what a panel shows, and its curves by name where it has several, from left to right: no name is left out."""
+    """Return what a panel shows, and its curves by name where it has several, from left to right:
+    no name is left out.
+    """
     title = f"{panel.title} ({panel.y.unit})" if panel.y.unit else panel.title
     pieces = [Heading(left, 0, title, strong=True)]
     x, line = left + measure(title, True) + 2.0 * _BETWEEN, 0

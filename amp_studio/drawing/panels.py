@@ -88,7 +88,9 @@ def zoomed(panel: Scene, span: tuple[float, float]) -> Scene:
 def visible(
     curves: Sequence[Curve], levels: Sequence[NamedPlace], span: tuple[float, float] | None
 ) -> tuple[float, float]:
-    """Return least and greatest value of curves between two places (None: everywhere), with the levels that are near."""
+    """Return least and greatest value of curves between two places (None: everywhere),
+    with the levels that are near.
+    """
     low, high = math.inf, -math.inf
     for curve in curves:
         inside = curve.y if span is None else curve.y[(curve.x >= span[0]) & (curve.x <= span[1])]
@@ -116,7 +118,9 @@ def map_scene(
     safe: NDArray[np.bool_],
     points: Sequence[tuple[str, Point, ShapeSort]],
 ) -> Scene:
-    """Return a map of a figure over two values (name, unit, the values of the cells), with the edge of the safe region and points by name."""
+    """Return a map of a figure over two values (name, unit, the values of the cells),
+    with the edge of the safe region and points by name.
+    """
     logs = [_is_geometric(side) for side in (x[2], y[2])]
     edges = [_edges(side, log) for side, log in zip((x[2], y[2]), logs, strict=True)]
     cells = CellMap(unit, edges[0], edges[1], values, safe, _ends(values, safe))

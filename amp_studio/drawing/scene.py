@@ -1,7 +1,7 @@
 """A picture as data: shapes in world units, labels of parameters, and handles that move their values.
 
-World units are those in which the file shows the values (mm, in, deg, mm/min, V, …); what becomes of them on paper or on a
-screen is the business of ``frame``.
+World units are those in which the file shows the values (mm, in, deg, mm/min, V, …); what becomes of them on
+paper or on a screen is the business of ``frame``.
 """
 
 from __future__ import annotations
@@ -68,7 +68,8 @@ class Curve:
     held: bool = False
     """Whether a value is constant between two samples of the control."""
     dense: bool = False
-    """Whether it ripples between samples: where it is too dense it is drawn as its mean in the band it fills."""
+    """Whether it ripples between samples: where it is too dense it is drawn as its mean in the band it
+    fills."""
 
     @property
     def is_before(self) -> bool:
@@ -124,7 +125,8 @@ class Dot:
 
 @dataclass(frozen=True)
 class Text:
-    """A text beside a point; ``anchor`` is the side of the text that lies at the point (``inside``: in a box below its corner,
+    """A text beside a point; ``anchor`` is the side of the text that lies at the point (``inside``: in a box
+    below its corner,
     ``corner``: below at the left).
     """
 
@@ -250,7 +252,8 @@ class Scene:
     marks: tuple[NamedPlace, ...] = ()
     """Places of x."""
     look: Literal["picture", "panel", "rings"] = "picture"
-    """A ``panel`` of several has a frame and above it what it shows and its curves by name; ``rings`` have no scales."""
+    """A ``panel`` of several has a frame and above it what it shows and its curves by name;
+    ``rings`` have no scales."""
     share: float = 1.0
     """Share of a panel in the height of its picture."""
     fixed: float | None = None

@@ -18,9 +18,11 @@ UNSEEN = 0.25
 
 
 def strokes_of(frame: Placement, curve: Curve) -> tuple[Series, Series | None]:
-    """Return the line (n, 2) of a curve in points of the sheet, and the outline (m, 2) of the band that it fills, if so.
+    """Return the line (n, 2) of a curve in points of the sheet, and the outline (m, 2)
+    of the band that it fills, if so.
 
-    What lies beyond the edges of the frame is there too where a line leads to it: the drawing is to be clipped.
+    What lies beyond the edges of the frame is there too where a line leads to it:
+    the drawing is to be clipped.
     """
     x, y = _inside(frame, curve)
     columns = max(int(frame.width), 2)
@@ -36,7 +38,9 @@ def strokes_of(frame: Placement, curve: Curve) -> tuple[Series, Series | None]:
 
 
 def cell_boxes(frame: Placement, cells: CellMap) -> Iterator[tuple[float, float, float, float, float, bool]]:
-    """Yield left, top, width and height of each cell in points, its share of the scale of colours, and whether it is safe."""
+    """Yield left, top, width and height of each cell in points, its share of the scale of colours,
+    and whether it is safe.
+    """
     least, most = cells.ends
     xs = [frame.at((float(x), 0.0))[0] for x in cells.x]
     ys = [frame.at((0.0, float(y)))[1] for y in cells.y]
@@ -71,8 +75,9 @@ def _placed(frame: Placement, x: Series, y: Series) -> Series:
 def thinned(x: Series, y: Series, columns: int, unseen: float = 0.0) -> tuple[Series, Series]:
     """Return first, least, greatest and last point of each of ``columns`` stretches: the line as it is drawn.
 
-    No peak is lost and no edge moves (U. Jugel et al., M4, Proceedings of the VLDB Endowment 7, 2014). A stretch that
-    rises or falls by less than ``unseen`` is its first point alone: three of four points of a smooth curve.
+    No peak is lost and no edge moves (U. Jugel et al., M4, Proceedings of the VLDB Endowment 7, 2014). A
+    stretch that rises or falls by less than ``unseen`` is its first point alone:
+    three of four points of a smooth curve.
     """
     if len(x) <= 4 * columns:
         return x, y
@@ -112,7 +117,9 @@ def unheld(x: Series, y: Series) -> tuple[Series, Series]:
 
 
 def banded(x: Series, y: Series, columns: int) -> tuple[Series, Series, Series, Series]:
-    """Return (x, mean, least, greatest) of each of ``columns`` stretches, for a value that jumps at every sample."""
+    """Return (x, mean, least, greatest) of each of ``columns`` stretches,
+    for a value that jumps at every sample.
+    """
     edges = np.linspace(0, len(x), min(columns, len(x)) + 1).astype(np.int64)
     starts = edges[:-1]
     counts = np.diff(edges)

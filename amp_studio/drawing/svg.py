@@ -69,7 +69,9 @@ PLOT_WRAP = 150
 
 
 def scene_svg(scene: Scene, width: float = WIDTH, drawn: float = HEIGHT, *, notes: bool = True) -> str:
-    """Return the SVG text of a scene in a width and, without title and notes, a height in points; ``notes`` are under it."""
+    """Return the SVG text of a scene in a width and, without title and notes, a height in points;
+    ``notes`` are under it.
+    """
     shown = sorted(scene.notes, key=lambda note: note.order) if notes else []
     lines = [line for note in shown for line in _wrapped(("! " if note.wrong else "") + note.text)]
     height = HEAD + drawn + NOTE * len(lines) + (8.0 if lines else 0.0)
@@ -84,7 +86,9 @@ def scene_svg(scene: Scene, width: float = WIDTH, drawn: float = HEIGHT, *, note
         *_texts(frame, width, drawn),
         "</g>",
         *(
-            f'<text x="16" y="{HEAD + drawn + NOTE * (n + 0.7):g}" fill="{INKS["error"] if line.startswith("! ") else DIM}">{escape(line.removeprefix("! "))}</text>'
+            f'<text x="16" y="{HEAD + drawn + NOTE * (n + 0.7):g}"'
+            f' fill="{INKS["error"] if line.startswith("! ") else DIM}">'
+            f"{escape(line.removeprefix('! '))}</text>"
             for n, line in enumerate(lines)
         ),
         "</svg>",
@@ -117,12 +121,16 @@ def picture_svg(
     head = [
         _opened(width, y + 12.0),
         f'<rect width="{width}" height="{y + 12.0:g}" fill="{BASE}"/>',
-        f'<text x="{PLOT_LEFT:g}" y="28" fill="{TEXT}" font-size="17" font-weight="600">{escape(picture.title)}</text>',
+        (
+            f'<text x="{PLOT_LEFT:g}" y="28" fill="{TEXT}" font-size="17"'
+            f' font-weight="600">{escape(picture.title)}</text>'
+        ),
     ]
     colour = INKS["error"] if picture.has_alarm else DIM
     for n, line in enumerate(facts):
         head.append(
-            f'<text x="{PLOT_LEFT:g}" y="{48 + FACT * n:g}" fill="{colour}" font-size="12">{escape(line)}</text>'
+            f'<text x="{PLOT_LEFT:g}" y="{48 + FACT * n:g}" fill="{colour}"'
+            f' font-size="12">{escape(line)}</text>'
         )
     return "\n".join([*head, *parts, "</svg>"]) + "\n"
 
@@ -168,7 +176,10 @@ def _sample(curve: Curve, x: float, y: float) -> str:
     ink = INKS[curve.sort]
     if curve.dots:
         return _ring(x + 0.5 * SAMPLE, y, ink)
-    return f'<path d="M{x:.1f} {y:.1f}h{SAMPLE:g}" stroke="{ink}" stroke-width="2"{_DASH if curve.dashed else ""}/>'
+    return (
+        f'<path d="M{x:.1f} {y:.1f}h{SAMPLE:g}" stroke="{ink}"'
+        f' stroke-width="2"{_DASH if curve.dashed else ""}/>'
+    )
 
 
 def _shapes(frame: Placement) -> Iterator[str]:
@@ -193,7 +204,10 @@ def _across(frame: Placement) -> Iterator[str]:
     right, bottom = frame.left + frame.width, frame.top + frame.height
     for level in frame.scene.levels:
         y = frame.at((0.0, level.at))[1]
-        yield f'<path d="M{frame.left:.1f} {y:.1f}H{right:.1f}" stroke="{INKS[level.sort]}" stroke-dasharray="2 3"/>'
+        yield (
+            f'<path d="M{frame.left:.1f} {y:.1f}H{right:.1f}" stroke="{INKS[level.sort]}" stroke-dasharray="2'
+            ' 3"/>'
+        )
     for mark in frame.scene.marks:
         x, dash = frame.at((mark.at, 0.0))[0], "" if mark.sort == "error" else ' stroke-dasharray="5 3"'
         yield f'<path d="M{x:.1f} {frame.top:.1f}V{bottom:.1f}" stroke="{INKS[mark.sort]}"{dash}/>'
@@ -204,11 +218,17 @@ def _cells(frame: Placement, cells: CellMap) -> Iterator[str]:
 
     for left, top, width, height, share, is_safe in cell_boxes(frame, cells):
         pale = "" if is_safe else f' fill-opacity="{PALE}"'
-        yield f'<rect x="{_short(left)}" y="{_short(top)}" width="{_short(width)}" height="{_short(height)}" fill="{_shade(share)}"{pale}/>'
+        yield (
+            f'<rect x="{_short(left)}" y="{_short(top)}" width="{_short(width)}" height="{_short(height)}"'
+            f' fill="{_shade(share)}"{pale}/>'
+        )
     left, step = frame.left + frame.width + 22.0, frame.height / BAR_STEPS
     for n in range(BAR_STEPS):
         top = frame.top + frame.height - (n + 1) * step
-        yield f'<rect x="{left:.1f}" y="{top:.1f}" width="{BAR:g}" height="{step + 0.5:.1f}" fill="{_shade((n + 0.5) / BAR_STEPS)}"/>'
+        yield (
+            f'<rect x="{left:.1f}" y="{top:.1f}" width="{BAR:g}" height="{step + 0.5:.1f}"'
+            f' fill="{_shade((n + 0.5) / BAR_STEPS)}"/>'
+        )
     for y, text in bar_figures(frame, cells):
         yield f'<text x="{left + BAR + 5:.1f}" y="{y + 4:.1f}" fill="{DIM}">{escape(text)}</text>'
 
@@ -240,9 +260,15 @@ def _curve(frame: Placement, curve: Curve) -> Iterator[str]:
         yield from (_ring(x, y, ink) for x, y in line.tolist())
         return
     if band is not None:
-        yield f'<polygon fill="{ink}" fill-opacity="0.25" stroke="{ink}" stroke-opacity="0.4" stroke-width="0.6" points="{_joined(band.tolist())}"/>'
+        yield (
+            f'<polygon fill="{ink}" fill-opacity="0.25" stroke="{ink}" stroke-opacity="0.4"'
+            f' stroke-width="0.6" points="{_joined(band.tolist())}"/>'
+        )
     dash = _DASH if curve.dashed else ""
-    yield f'<polyline fill="none" stroke="{ink}" stroke-width="1.5" stroke-linejoin="round"{dash} points="{_joined(line.tolist())}"/>'
+    yield (
+        f'<polyline fill="none" stroke="{ink}" stroke-width="1.5" stroke-linejoin="round"{dash}'
+        f' points="{_joined(line.tolist())}"/>'
+    )
 
 
 def _joined(points: Sequence[Sequence[float]]) -> str:
@@ -287,8 +313,9 @@ def _wrapped(text: str) -> Iterator[str]:
 def _patterns() -> str:
     hatches = (("hatch", INKS["forbidden"]), ("either", INKS["either"]), ("wrong", INKS["error"]))
     made = "".join(
-        f'<pattern id="{name}" width="7" height="7" patternUnits="userSpaceOnUse" patternTransform="rotate(45)">'
-        f'<line x1="0" y1="0" x2="0" y2="7" stroke="{ink}" stroke-opacity="0.45"/></pattern>'
+        f'<pattern id="{name}" width="7" height="7" patternUnits="userSpaceOnUse"'
+        f' patternTransform="rotate(45)"><line x1="0" y1="0" x2="0" y2="7" stroke="{ink}"'
+        ' stroke-opacity="0.45"/></pattern>'
         for name, ink in hatches
     )
     return f"<defs>{made}</defs>"
@@ -306,21 +333,30 @@ def _grid(frame: Placement) -> Iterator[str]:
         if frame.scene.y.low < 0.0 < frame.scene.y.high:
             zero = frame.at((0.0, 0.0))[1]
             yield f'<path d="M{frame.left:.1f} {zero:.1f}H{right:.1f}" stroke="{INKS["overlap"]}"/>'
-        yield f'<rect x="{frame.left:.1f}" y="{frame.top:.1f}" width="{frame.width:.1f}" height="{frame.height:.1f}" fill="none" stroke="{INKS["overlap"]}"/>'
+        yield (
+            f'<rect x="{frame.left:.1f}" y="{frame.top:.1f}" width="{frame.width:.1f}"'
+            f' height="{frame.height:.1f}" fill="none" stroke="{INKS["overlap"]}"/>'
+        )
 
 
 def _area(frame: Placement, area: FilledArea) -> str:
     left, top = frame.at((area.left, area.top))
     right, bottom = frame.at((area.right, area.bottom))
     stroke = "none" if area.sort == "overlap" else INKS[area.sort]
-    return f'<rect x="{left:.1f}" y="{top:.1f}" width="{right - left:.1f}" height="{bottom - top:.1f}" fill="{FILLS.get(area.sort, "none")}" stroke="{stroke}"/>'
+    return (
+        f'<rect x="{left:.1f}" y="{top:.1f}" width="{right - left:.1f}" height="{bottom - top:.1f}"'
+        f' fill="{FILLS.get(area.sort, "none")}" stroke="{stroke}"/>'
+    )
 
 
 def _line(frame: Placement, line: Polyline) -> str:
     points = " ".join(f"{x:.1f},{y:.1f}" for x, y in map(frame.at, line.points))
     dash = ' stroke-dasharray="5 4"' if line.dashed else ""
     width = 6.0 if line.sort == "rail" else 2.0 if line.sort in ("now", "error") else 1.2
-    return f'<polyline points="{points}" fill="none" stroke="{INKS[line.sort]}" stroke-width="{width:g}" stroke-opacity="{0.5 if line.sort == "rail" else 1:g}"{dash}/>'
+    return (
+        f'<polyline points="{points}" fill="none" stroke="{INKS[line.sort]}" stroke-width="{width:g}"'
+        f' stroke-opacity="{0.5 if line.sort == "rail" else 1:g}"{dash}/>'
+    )
 
 
 def _handle_dot(at: Point) -> str:
@@ -331,13 +367,20 @@ def _dot(frame: Placement, dot: Dot) -> str:
     x, y = frame.at(dot.at)
     ink = INKS[dot.sort]
     if dot.kind == "home":
-        return f'<path d="M{x - 10:.1f} {y:.1f}h20M{x:.1f} {y - 10:.1f}v20" stroke="{ink}" stroke-width="1.5"/><circle cx="{x:.1f}" cy="{y:.1f}" r="6" fill="none" stroke="{ink}" stroke-width="1.5"/>'
+        return (
+            f'<path d="M{x - 10:.1f} {y:.1f}h20M{x:.1f} {y - 10:.1f}v20" stroke="{ink}"'
+            f' stroke-width="1.5"/><circle cx="{x:.1f}" cy="{y:.1f}" r="6" fill="none" stroke="{ink}"'
+            ' stroke-width="1.5"/>'
+        )
     if dot.kind == "switch":
         return f'<rect x="{x - 6:.1f}" y="{y - 6:.1f}" width="12" height="12" rx="2" fill="{ink}"/>'
     if dot.kind in ARROWS:
         return f'<path d="{_arrow(x, y, dot.kind)}" fill="none" stroke="{ink}" stroke-width="1.5"/>'
     if dot.kind in ("marker", "end"):
-        return f'<path d="M{x:.1f} {y - 8:.1f}v16" stroke="{INKS["now"] if dot.kind == "marker" else ink}" stroke-width="2"/>'
+        return (
+            f'<path d="M{x:.1f} {y - 8:.1f}v16" stroke="{INKS["now"] if dot.kind == "marker" else ink}"'
+            ' stroke-width="2"/>'
+        )
     return f'<circle cx="{x:.1f}" cy="{y:.1f}" r="3.5" fill="{BASE}" stroke="{ink}" stroke-width="1.5"/>'
 
 
@@ -365,15 +408,24 @@ def _texts(frame: Placement, width: float, height: float) -> Iterator[str]:
     """Yield the texts of a scene where each has room; one that has none is shown under the pointer."""
     found = labels_of(frame, width, height, measured, LINE)
     for at, text in found.left_out:
-        yield f'<circle cx="{at[0]:.1f}" cy="{at[1]:.1f}" r="9" fill="{BASE}" fill-opacity="0"><title>{escape(text)}</title></circle>'
+        yield (
+            f'<circle cx="{at[0]:.1f}" cy="{at[1]:.1f}" r="9" fill="{BASE}"'
+            f' fill-opacity="0"><title>{escape(text)}</title></circle>'
+        )
     for label in found.shown:
         if label.leader:
             (x1, y1), (x2, y2) = label.leader
-            yield f'<path d="M{x1:.1f} {y1:.1f}L{x2:.1f} {y2:.1f}" stroke="{INKS["second"]}" stroke-width="0.75"/>'
+            yield (
+                f'<path d="M{x1:.1f} {y1:.1f}L{x2:.1f} {y2:.1f}" stroke="{INKS["second"]}"'
+                ' stroke-width="0.75"/>'
+            )
     for label in found.shown:
         if label.strong or label.over:
             box = label.box
-            yield f'<rect x="{box.left:.1f}" y="{box.top:.1f}" width="{box.width:.1f}" height="{box.height:.1f}" fill="{BASE}" fill-opacity="0.8"/>'
+            yield (
+                f'<rect x="{box.left:.1f}" y="{box.top:.1f}" width="{box.width:.1f}"'
+                f' height="{box.height:.1f}" fill="{BASE}" fill-opacity="0.8"/>'
+            )
         yield _label(label)
 
 
@@ -383,4 +435,7 @@ def _label(label: Label) -> str:
         value = f' <tspan fill="{DIM}" font-weight="400">{escape(label.value)}</tspan>'
     weight = ' font-weight="600"' if label.strong else ""
     x = box.left + 0.5 * box.width  # an estimated width is wrong by as much on both sides
-    return f'<text x="{x:.1f}" y="{box.top + 0.8 * box.height:.1f}" fill="{INKS[label.sort]}" text-anchor="middle"{weight}>{escape(label.text)}{value}</text>'
+    return (
+        f'<text x="{x:.1f}" y="{box.top + 0.8 * box.height:.1f}" fill="{INKS[label.sort]}"'
+        f' text-anchor="middle"{weight}>{escape(label.text)}{value}</text>'
+    )

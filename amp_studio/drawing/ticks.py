@@ -13,7 +13,9 @@ def round_step(least: float) -> float:
 
 
 def multiple(number: float, step: float) -> float:
-    """Return the multiple of a step that is nearest to a number, without the dust of doubles: -150.0, not -150.00000000000003."""
+    """Return the multiple of a step that is nearest to a number, without the dust of doubles: -150.0,
+    not -150.00000000000003.
+    """
     if step <= 0.0:
         return number
     grain = Decimal(f"{step:.12g}")
@@ -21,7 +23,9 @@ def multiple(number: float, step: float) -> float:
 
 
 def ticks(low: float, high: float, about: float, step: float = 0.0) -> list[float]:
-    """Return the multiples of a step from low to high; without a step of one that makes about so many round numbers."""
+    """Return the multiples of a step from low to high;
+    without a step of one that makes about so many round numbers.
+    """
     step = step or round_step((high - low) / max(about, 2.0))
     first, last = math.ceil(low / step - 1e-9), math.floor(high / step + 1e-9)
     return [multiple(n * step, step) for n in range(first, last + 1)]

@@ -1,7 +1,8 @@
-"""What each control family does differently, a folder each: formulas, text formats, drivers, the law of its axes.
+"""What each control family does differently, a folder each: formulas, text formats, drivers,
+the law of its axes.
 
-The rooms below find it through this table and by nothing else (``schema/registration.py``). docs/family-code.md lists
-what one more family has to write, and how another package brings one.
+The rooms below find it through this table and by nothing else (``schema/registration.py``).
+docs/family-code.md lists what one more family has to write, and how another package brings one.
 """
 
 from __future__ import annotations
@@ -17,10 +18,7 @@ FAMILIES = {
 }
 """Family -> its record."""
 
-SCENARIOS = {
-    "9pc": ("procedure",),
-    "57c422b": ("procedure", "gear", "cam", "backlash"),
-}
+SCENARIOS = {"9pc": ("procedure",), "57c422b": ("procedure", "gear", "cam", "backlash")}
 """Family -> the scenarios that its law alone has, for help and completion, which load no law."""
 
 FORMATS = {

@@ -54,7 +54,9 @@ _OF_A_FOLDER = {"project.yaml", "rules.yaml", RECORD}
 
 
 def check_output(path: Path, *inputs: Path) -> None:
-    """Refuse an output that cannot be written, or with which one of the inputs would be lost; raises SaveError."""
+    """Refuse an output that cannot be written, or with which one of the inputs would be lost;
+    raises SaveError.
+    """
     with _as_save_error(path):
         real = destination(path)
     if real.name.casefold() in _OF_A_FOLDER:
@@ -82,9 +84,10 @@ def write_atomic(
 ) -> str:
     """Replace a file by new content, all or nothing.
 
-    ``content`` may be worked out from the previous content, None where there is no file. ``expected`` is the digest the
-    file on disk must still have (None: there must be no file; "": do not look). The previous file becomes the backup.
-    A companion is readable by those who may read its file, and takes the place of a link instead of following it.
+    ``content`` may be worked out from the previous content, None where there is no file. ``expected`` is the
+    digest the file on disk must still have (None: there must be no file; "": do not look). The previous file
+    becomes the backup. A companion is readable by those who may read its file, and takes the place of a link
+    instead of following it.
     ``notify`` is called after the save with each thing of the old file that could not be kept.
     Returns the digest of the new content; raises ChangedOnDiskError, SaveError, and what ``content`` raises.
     """
@@ -137,7 +140,8 @@ def _replace(temporary: Path, real: Path, path: Path, *, is_new: bool) -> None:
 
 
 def _named(temporary: Path, real: Path) -> bool:
-    """Give a file a name that nothing has; returns whether the file system can. Raises ChangedOnDiskError where it is taken.
+    """Give a file a name that nothing has; returns whether the file system can.
+    Raises ChangedOnDiskError where it is taken.
 
     So nobody's file is replaced that came at the last moment, and no empty file has to keep the name free.
     """
@@ -172,9 +176,11 @@ def _as_save_error(path: Path) -> Iterator[None]:
 
 @contextlib.contextmanager
 def _staged(path: Path, content: bytes, like: Path | None, notes: list[str]) -> Iterator[Path]:
-    """Write and sync a temporary file beside ``path``, with owner and mode of ``like``; it is gone afterwards."""
-    # Shortened, because a name may be as long as the system lets it be; the name is known before there is a file, so that
-    # whatever stops the program finds it.
+    """Write and sync a temporary file beside ``path``, with owner and mode of ``like``;
+    it is gone afterwards.
+    """
+    # Shortened, because a name may be as long as the system lets it be; the name is known before there is a
+    # file, so that whatever stops the program finds it.
     temporary = path.with_name(f".{path.name[:24]}.{os.urandom(8).hex()}.tmp")
     flags = os.O_WRONLY | os.O_CREAT | os.O_EXCL | NO_LINK | HARMLESS
     try:
@@ -194,7 +200,9 @@ def _staged(path: Path, content: bytes, like: Path | None, notes: list[str]) -> 
 
 @contextlib.contextmanager
 def _put_back_unless_saved(kept: Path, temporary: Path) -> Iterator[None]:
-    """Keep the older backup until the file itself has been replaced: a save that fails there has changed nothing."""
+    """Keep the older backup until the file itself has been replaced:
+    a save that fails there has changed nothing.
+    """
     older, has_older = kept.with_name(f".{kept.name[:24]}.{os.urandom(8).hex()}.tmp"), os.path.lexists(kept)
     with contextlib.suppress(OSError):  # a file system without a second name for a file
         os.link(kept, older, follow_symlinks=False)
@@ -225,7 +233,9 @@ def write_all(handle: int, content: bytes) -> None:
 
 
 def append_line(path: Path, content: bytes, like: Path) -> None:
-    """Add lines to the end of a file that is made with the mode of ``like``; a last line that was cut off is closed. Raises OSError."""
+    """Add lines to the end of a file that is made with the mode of ``like``;
+    a last line that was cut off is closed. Raises OSError.
+    """
     handle = os.open(
         path, os.O_RDWR | os.O_APPEND | os.O_CREAT | NO_LINK | HARMLESS, like.stat().st_mode & 0o666
     )

@@ -1,4 +1,6 @@
-"""Owner, permissions and attributes of a file, which the new file that takes its name would not have by itself."""
+"""Owner, permissions and attributes of a file,
+which the new file that takes its name would not have by itself.
+"""
 
 from __future__ import annotations
 
@@ -9,7 +11,9 @@ from pathlib import Path
 
 
 def keep_attributes(old: Path, handle: int) -> list[str]:
-    """Give an open new file the owner, the mode and the attributes of an old one; return a sentence for what cannot be kept."""
+    """Give an open new file the owner, the mode and the attributes of an old one;
+    return a sentence for what cannot be kept.
+    """
     if os.name != "posix":
         return []
     was = old.stat()
@@ -60,7 +64,9 @@ def _owners(found: os.stat_result) -> str:
 
 
 def _keep_extended(old: Path, handle: int) -> list[str]:
-    """Copy extended attributes, access control lists among them; labels of the system's own are given by the system."""
+    """Copy extended attributes, access control lists among them;
+    labels of the system's own are given by the system.
+    """
     if not hasattr(os, "listxattr"):
         return []
     lost = []

@@ -1,6 +1,7 @@
 """The axes of a file: which there are, their letters, how they move. An idea of every family.
 
-A family declares where a file has this: in types of axes (``AxisProfile``), or otherwise (``AxisDeclaration``).
+A family declares where a file has this: in types of axes (``AxisProfile``),
+or otherwise (``AxisDeclaration``).
 """
 
 from __future__ import annotations
@@ -34,7 +35,9 @@ def fitted_axes(file: ParameterFile) -> tuple[str, ...]:
 
 
 def shown_axes(file: ParameterFile) -> tuple[str, ...]:
-    """Return the axes that have a column and are printed: the fitted ones, and inputs that something else uses."""
+    """Return the axes that have a column and are printed: the fitted ones,
+    and inputs that something else uses.
+    """
     return tuple(a for a in axis_instances(file) if is_fitted(file.evaluation, a) or other_use(file, a))
 
 
@@ -46,7 +49,9 @@ def other_use(file: ParameterFile, axis: str) -> str:
 
 
 def axis_type(file: ParameterFile, axis: str) -> str:
-    """Return the type key of an axis; when it is not set the unfitted one, or the usual one where there is none."""
+    """Return the type key of an axis; when it is not set the unfitted one,
+    or the usual one where there is none.
+    """
     profile = axis_profile(file)
     value = file.get((profile.type, axis))
     return str(value.value) if value else profile.unfitted or profile.usual_type
@@ -59,7 +64,9 @@ def axis_turns(file: ParameterFile, axis: str) -> bool:
 
 
 def axis_kind(file: ParameterFile, axis: str) -> str:
-    """Return how an axis moves, as its head shows it: its type, ``linear`` or ``rotary``; "" where the family has no such fact."""
+    """Return how an axis moves, as its head shows it: its type, ``linear`` or ``rotary``;
+    "" where the family has no such fact.
+    """
     if file.schema.family.axes:
         return axis_type(file, axis)
     if use := other_use(file, axis):
@@ -70,7 +77,9 @@ def axis_kind(file: ParameterFile, axis: str) -> str:
 
 
 def alike_axes(file: ParameterFile, axis: str) -> tuple[str, ...]:
-    """Return the fitted axes of the same type as an axis; where there are no types, those that move as it does."""
+    """Return the fitted axes of the same type as an axis; where there are no types,
+    those that move as it does.
+    """
     return tuple(a for a in fitted_axes(file) if are_alike(file, a, axis))
 
 
@@ -89,7 +98,9 @@ def axis_letter(file: ParameterFile, axis: str) -> str:
 
 
 def axis_title(file: ParameterFile, axis: str) -> str:
-    """Return the head of an axis: ``1 X linear``, ``0 X linear, Group 2`` where there are several groups, ``X axis``."""
+    """Return the head of an axis: ``1 X linear``, ``0 X linear, Group 2`` where there are several groups,
+    ``X axis``.
+    """
     family = file.schema.family
     letter, kind = axis_letter(file, axis), axis_kind(file, axis)
     if use := other_use(file, axis):
@@ -102,7 +113,8 @@ def axis_title(file: ParameterFile, axis: str) -> str:
 
 
 def axis_head(file: ParameterFile, axis: str) -> tuple[str, str]:
-    """Return the head of an axis in two parts, the letter and the rest: ``("X", "1 linear")``, ``("Z", "linear")``.
+    """Return the head of an axis in two parts, the letter and the rest: ``("X", "1 linear")``, ``("Z",
+    "linear")``.
 
     The letter is the one that the file gives it; an axis without one has a rest only, ``Axis 3``.
     """

@@ -1,4 +1,6 @@
-"""What a family can do with its axes, and the reason where it cannot: for menus and dialogs, before anything is tried."""
+"""What a family can do with its axes, and the reason where it cannot: for menus and dialogs,
+before anything is tried.
+"""
 
 from __future__ import annotations
 

@@ -1,7 +1,7 @@
 """Which axes a machine has: to choose them for a new file, to name, type, add and remove them.
 
-Each operation writes the parameters that the family's facts name and returns the changes it made, so that it is one step
-to undo. An error changes nothing.
+Each operation writes the parameters that the family's facts name and returns the changes it made, so that it
+is one step to undo. An error changes nothing.
 """
 
 from __future__ import annotations
@@ -27,15 +27,15 @@ from .axis_abilities import letters_offered, parameters_of_axes, why_axes_are_fi
 from .axis_values import axis_addresses, bits_of_axes, moved
 from .parameter_file import Change, ParameterFile, fill_defaults
 
-# -- all axes of a machine -------------------------------------------------------------------------------------------
+# -- all axes of a machine
 
 
 def name_axes(file: ParameterFile, names: Sequence[str]) -> list[Change]:
     """Name the axes in order and fit as many; the others become unfitted.
 
-    With types of axes a spindle's name makes a spindle; A, B and C are fitted as rotary, every other as linear, as is
-    usual. Where axes are in groups a name may carry its group, ``X.2``. Raises AxisError for a name that is not
-    offered, for too many axes, and where a family always has the same ones.
+    With types of axes a spindle's name makes a spindle; A, B and C are fitted as rotary, every other as
+    linear, as is usual. Where axes are in groups a name may carry its group, ``X.2``. Raises AxisError for a
+    name that is not offered, for too many axes, and where a family always has the same ones.
     """
     instances, declared = axis_instances(file), file.schema.family.declared_axes
     if instances and len(names) > len(instances):
@@ -101,7 +101,9 @@ def _of_type(file: ParameterFile, profile: AxisProfile, axis: str, name: str) ->
 def _lettered(
     file: ParameterFile, declared: AxisDeclaration, names: Sequence[str]
 ) -> dict[Address, Value | None]:
-    """Return what declares the letters of the axes; raises AxisError for letters that a control cannot have."""
+    """Return what declares the letters of the axes; raises AxisError for letters that a control cannot
+    have.
+    """
     instances = axis_instances(file)
     if declared.any_letters:
         if bad := [name for n, name in enumerate(names) if name not in instances or name in names[:n]]:
@@ -110,7 +112,8 @@ def _lettered(
     if tuple(names) != instances[: len(names)] or len(names) < declared.least:
         order = ", ".join(instances)
         raise AxisError(
-            f"{file.schema.family.name} has the first {declared.least} or more of the axes {order}, in this order"
+            f"{file.schema.family.name} has the first {declared.least} or more of the axes {order}, in this"
+            " order"
         )
     return {(str(declared.letters), ""): Value("".join(names))}
 
@@ -127,11 +130,13 @@ def _may_choose(file: ParameterFile) -> None:
         raise AxisError(reason)
 
 
-# -- one axis --------------------------------------------------------------------------------------------------------
+# -- one axis
 
 
 def rename_axis(file: ParameterFile, axis: str, name: str) -> list[Change]:
-    """Give an axis another letter; raises AxisError for one that is not offered, or that its group has already."""
+    """Give an axis another letter; raises AxisError for one that is not offered,
+    or that its group has already.
+    """
     known_axis(file, axis)
     if reason := why_letters_are_fixed(file.schema):
         raise AxisError(reason)
@@ -166,8 +171,8 @@ def retype_axis(file: ParameterFile, axis: str, type_key: str) -> list[Change]:
 def add_axis(file: ParameterFile, name: str, at: str | None = None) -> list[Change]:
     """Fit one more axis under a name: the first that is free, or one given with ``at``.
 
-    Where a family counts its axes from the first one, the axes from ``at`` on move up by one, with all their values;
-    where an axis is what it is wired to, ``at`` must be free. Raises AxisError.
+    Where a family counts its axes from the first one, the axes from ``at`` on move up by one, with all their
+    values; where an axis is what it is wired to, ``at`` must be free. Raises AxisError.
     """
     _may_choose(file)
     declared, instances, fitted = file.schema.family.declared_axes, axis_instances(file), fitted_axes(file)
@@ -198,7 +203,9 @@ def _add_typed(file: ParameterFile, name: str, place: str, free: list[str]) -> N
 
 
 def _make_room(file: ParameterFile, place: str, free: list[str]) -> None:
-    """Move the axes from one on up by one, as far as the next that is free; what was there moves to the gap."""
+    """Move the axes from one on up by one, as far as the next that is free; what was there moves to the
+    gap.
+    """
     instances = axis_instances(file)
     start = instances.index(place)
     end = next((n for n in range(start, len(instances)) if instances[n] in free), None)
@@ -214,8 +221,8 @@ def _add_flagged(file: ParameterFile, declared: AxisDeclaration, name: str, at: 
     place = at if at is not None else next((a for a in axis_instances(file) if a not in taken), "")
     if known_axis(file, place) in fitted:
         raise AxisError(
-            f"axis {place} is there already ({axis_letter(file, place) or 'without a name'}); an axis is known by the "
-            f"{declared.place}: choose one that is free"
+            f"axis {place} is there already ({axis_letter(file, place) or 'without a name'}); an axis is"
+            f" known by the {declared.place}: choose one that is free"
         )
     if place in taken:
         raise AxisError(f"the input {place} serves a spindle or a handwheel")
@@ -241,9 +248,11 @@ def _add_last(file: ParameterFile, declared: AxisDeclaration, name: str, at: str
 
 
 def delete_axis(file: ParameterFile, axis: str) -> list[Change]:
-    """Make an axis unfitted and put its values back to their printed defaults; a value without one is not set.
+    """Make an axis unfitted and put its values back to their printed defaults;
+    a value without one is not set.
 
-    Raises AxisError for an axis that the machine must have, and for one that is not the last where they are counted.
+    Raises AxisError for an axis that the machine must have,
+    and for one that is not the last where they are counted.
     """
     known_axis(file, axis)
     _may_choose(file)
@@ -298,13 +307,15 @@ def _unfitted(profile: AxisProfile, axis: str) -> dict[Address, Value | None]:
     return {(profile.type, axis): Value(profile.unfitted or "")}
 
 
-# -- where axes have no types ----------------------------------------------------------------------------------------
+# -- where axes have no types
 
 
 def _named(
     file: ParameterFile, declared: AxisDeclaration, axis: str, name: str
 ) -> dict[Address, Value | None]:
-    """Return what gives an axis a letter and, for ``X.2``, a group; raises AxisError for one that is not offered."""
+    """Return what gives an axis a letter and, for ``X.2``, a group;
+    raises AxisError for one that is not offered.
+    """
     letter, point, group = name.strip().partition(".")
     offered = letters_offered(file.schema)
     if declared.name is None or letter.upper() not in offered or bool(point) != bool(group):

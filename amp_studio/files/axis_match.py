@@ -17,7 +17,8 @@ class MatchedAxes:
     """A file whose axes have the numbers that their letters have in another file.
 
     ``moved``: (letter, number before, number now) of each axis that got another one.
-    ``left_out``: letters of axes for which the other file has no free number; their values are not in ``file``.
+    ``left_out``: letters of axes for which the other file has no free number;
+    their values are not in ``file``.
     """
 
     file: ParameterFile
@@ -26,7 +27,9 @@ class MatchedAxes:
 
 
 def axis_letters(file: ParameterFile) -> dict[str, str]:
-    """Return fitted axis -> its letter, as the machine is programmed; the instance itself where it has none."""
+    """Return fitted axis -> its letter, as the machine is programmed; the instance itself where it has
+    none.
+    """
     letters = {axis: axis_letter(file, axis) for axis in fitted_axes(file)}
     return {
         axis: axis if not letter or letter.startswith("raw:") else letter for axis, letter in letters.items()
@@ -36,8 +39,8 @@ def axis_letters(file: ParameterFile) -> dict[str, str]:
 def matched_by_letter(file: ParameterFile, like: ParameterFile) -> MatchedAxes:
     """Return a file with each axis at the number that its letter has in ``like``; both are of one schema.
 
-    An axis whose letter ``like`` does not have gets a number that is free there, its own if possible. Where a letter occurs
-    twice in one of the files nobody knows which axis is meant, and all stay where they are.
+    An axis whose letter ``like`` does not have gets a number that is free there, its own if possible. Where a
+    letter occurs twice in one of the files nobody knows which axis is meant, and all stay where they are.
     """
     mine, theirs = axis_letters(file), axis_letters(like)
     wanted = {letter: axis for axis, letter in theirs.items()}
@@ -85,7 +88,8 @@ def _moved(file: ParameterFile, places: Mapping[str, str]) -> ParameterFile:
 
 
 def as_axis(file: ParameterFile, source: str, target: str) -> ParameterFile:
-    """Return a file in which axis ``target`` has the values of axis ``source``, except its name and what it is fitted by.
+    """Return a file in which axis ``target`` has the values of axis ``source``,
+    except its name and what it is fitted by.
 
     They may be of different types. Raises AxisError for an axis that does not exist and for one with itself.
     """

@@ -1,7 +1,7 @@
 """The values of one axis, wherever a family keeps them: to copy, swap, move and compare them.
 
-They are the instances of parameters of the axis, those of its parts (the points of its cam table), and its bit in each
-word that has a bit for every axis.
+They are the instances of parameters of the axis, those of its parts (the points of its cam table), and its
+bit in each word that has a bit for every axis.
 """
 
 from __future__ import annotations
@@ -38,7 +38,9 @@ def axis_addresses(file: ParameterFile, axis: str) -> Iterator[Address]:
 
 
 def bits_of_axes(file: ParameterFile, wanted: Mapping[str, bool]) -> dict[Address, Value]:
-    """Return every word with a bit for each axis, with those of some axes as wanted; a word that is not set is 0 before."""
+    """Return every word with a bit for each axis, with those of some axes as wanted;
+    a word that is not set is 0 before.
+    """
     found = {}
     for parameter_id, bits in words_of_axes(file.schema).items():
         value = file.get((parameter_id, ""))
@@ -69,7 +71,7 @@ def words_of_axes(schema: Schema) -> dict[str, dict[str, int]]:
     return found
 
 
-# -- copy ------------------------------------------------------------------------------------------------------------
+# -- copy
 
 
 def copy_axis(file: ParameterFile, source: str, target: str) -> list[Change]:
@@ -90,7 +92,9 @@ def copy_axis(file: ParameterFile, source: str, target: str) -> list[Change]:
 
 
 def copied_values(file: ParameterFile, source: str, target: str) -> dict[Address, Value | None]:
-    """Return what an axis has after it was copied from another: values and bits, without name and what it is fitted by."""
+    """Return what an axis has after it was copied from another: values and bits,
+    without name and what it is fitted by.
+    """
     own, wanted = _own(file), dict[Address, Value | None]()
     for parameter_id, instance in axis_addresses(file, target):
         if parameter_id not in own:
@@ -106,7 +110,9 @@ def copied_values(file: ParameterFile, source: str, target: str) -> dict[Address
 
 
 def _own(file: ParameterFile) -> set[str]:
-    """Return the parameters that say what an axis is called and whether it is there: they are never copied."""
+    """Return the parameters that say what an axis is called and whether it is there: they are never
+    copied.
+    """
     profile, declared = file.schema.family.axes, file.schema.family.declared_axes
     if profile:
         return {profile.name, *filter(None, (profile.fitted_by,))}
@@ -116,14 +122,14 @@ def _own(file: ParameterFile) -> set[str]:
     return fields | set(declared.flags)
 
 
-# -- swap and move ---------------------------------------------------------------------------------------------------
+# -- swap and move
 
 
 def swap_axes(file: ParameterFile, first: str, second: str) -> list[Change]:
     """Let two axes change places with all their values, also name, type and what fits them.
 
-    In a family whose axes have fixed names their values change places. What names an axis by its number follows.
-    Raises AxisError.
+    In a family whose axes have fixed names their values change places. What names an axis by its number
+    follows. Raises AxisError.
     """
     for axis in (first, second):
         known_axis(file, axis)
@@ -140,7 +146,9 @@ def swap_axes(file: ParameterFile, first: str, second: str) -> list[Change]:
 
 
 def moved(file: ParameterFile, order: Mapping[str, str]) -> None:
-    """Move axes, each to the place of another (``order``: from -> to), with all their values, bits and references."""
+    """Move axes, each to the place of another (``order``: from -> to), with all their values,
+    bits and references.
+    """
     wanted: dict[Address, Value | None] = {}
     notes, left = dict(file.header.value_notes), file.header.value_notes
     for source, target in order.items():
@@ -194,11 +202,13 @@ def _choices_of_axes(schema: Schema) -> dict[str, dict[str, str]]:
     return {p.id: keys for p in schema.parameters.values() if (keys := of(p))}
 
 
-# -- compare ---------------------------------------------------------------------------------------------------------
+# -- compare
 
 
 def compare_axes(file: ParameterFile, first: str, second: str) -> list[AxisDifference]:
-    """Return where two axes differ, in the manual's order; what names and fits them is left out. Raises AxisError."""
+    """Return where two axes differ, in the manual's order; what names and fits them is left out.
+    Raises AxisError.
+    """
     for axis in (first, second):
         known_axis(file, axis)
     own = _own(file)

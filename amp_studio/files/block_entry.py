@@ -1,4 +1,6 @@
-"""Several values entered at once: what would change, what is the same, what is refused and why, before anything changes."""
+"""Several values entered at once: what would change, what is the same, what is refused and why,
+before anything changes.
+"""
 
 from __future__ import annotations
 
@@ -55,8 +57,8 @@ class BlockEntry:
 def plan_entry(file: ParameterFile, texts: Mapping[Address, str], read: ReadText) -> BlockEntry:
     """Return what entering texts would do; the file itself is not changed.
 
-    ``not set`` clears a value. The values are tried together, as two that bound each other may move together; those out of
-    range are refused, and the others are tried again without them.
+    ``not set`` clears a value. The values are tried together, as two that bound each other may move together;
+    those out of range are refused, and the others are tried again without them.
     """
     read_all = {address: _read(file, address, text, read) for address, text in texts.items()}
     return _tried(file, texts, read_all)

@@ -65,7 +65,9 @@ class MadeLike:
 
 
 def of_one_machine(schema: Schema) -> tuple[Parameter, ...]:
-    """Return the parameters whose values a new file never takes over from another: calibrations, lost motion, passwords."""
+    """Return the parameters whose values a new file never takes over from another: calibrations,
+    lost motion, passwords.
+    """
     named = schema.commissioning.of_one_machine if schema.commissioning else ()
     secret = (p.id for p in schema.parameters.values() if p.secret)
     return tuple(schema.parameters[name] for name in (*named, *secret) if name in schema.parameters)
@@ -79,10 +81,10 @@ def new_like(source: ParameterFile, name: str) -> ParameterFile:
 def made_like(source: ParameterFile, name: str, axes: Iterable[str] = ()) -> MadeLike:
     """Return a new file with the values of another one, and what was not taken over.
 
-    What was measured on the other machine, passwords, notes, software revision, ticks and marks of values out of range stay
-    with it; such a parameter has its printed default, or is not set; a password is not set. With ``axes`` the
-    new file has these: one whose letter the other file has gets its values, the rest their defaults. Raises ValueError
-    where a family cannot be made with other axes.
+    What was measured on the other machine, passwords, notes, software revision, ticks and marks of values out
+    of range stay with it; such a parameter has its printed default, or is not set; a password is not set.
+    With ``axes`` the new file has these: one whose letter the other file has gets its values, the rest their
+    defaults. Raises ValueError where a family cannot be made with other axes.
     """
     file, axes = source.copy(), list(axes)
     file.header.notes = file.header.revision = ""
@@ -112,8 +114,8 @@ def _with_axes(
     schema = source.schema
     if schema.family.axes is None:
         raise ValueError(
-            f"a file of {schema.family.name} is made like another one with the same axes ({', '.join(letters)}): "
-            "leave the axes out, and add or remove axes in the new file"
+            f"a file of {schema.family.name} is made like another one with the same axes"
+            f" ({', '.join(letters)}): leave the axes out, and add or remove axes in the new file"
         )
     made = new_file(schema.family.family, source.machine, axes, source.header.name)
     made.header.units, made.header.application = source.header.units, source.header.application

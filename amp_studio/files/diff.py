@@ -20,7 +20,9 @@ class Difference:
     b: Value | None
 
     def in_one_unit(self) -> tuple[Value | None, Value | None]:
-        """Return both sides in the unit of ``a``, to nine digits; as they are where that would make them look alike."""
+        """Return both sides in the unit of ``a``, to nine digits;
+        as they are where that would make them look alike.
+        """
         if self.a is None:
             return self.a, self.b
         a, b = in_one_unit((self.a, self.b), self.a.unit)
@@ -28,7 +30,9 @@ class Difference:
 
 
 def in_one_unit(values: Sequence[Value | None], unit: str) -> list[Value | None]:
-    """Return values in one unit, to nine digits; as they are where they have no such unit, or different ones would look alike."""
+    """Return values in one unit, to nine digits; as they are where they have no such unit,
+    or different ones would look alike.
+    """
     try:
         shown = [_in_unit(value, unit) for value in values]
     except UnitError:

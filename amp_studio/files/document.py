@@ -80,7 +80,9 @@ class Document:
 
     @classmethod
     def open(cls, path: Path | str) -> Document:
-        """Open a file for editing; raises ParameterFileError, and InUseError while another program edits it."""
+        """Open a file for editing; raises ParameterFileError, and InUseError while another program edits
+        it.
+        """
         path = Path(path)
         document = cls._of(path)
         document._lock.take()
@@ -153,7 +155,9 @@ class Document:
         return self.digest is None or self.saved != file.values or self._saved_rest != rest
 
     def as_saved(self) -> ParameterFile:
-        """Return the file as it is on disk, as far as this document knows: as it was opened, saved or acknowledged last."""
+        """Return the file as it is on disk, as far as this document knows: as it was opened,
+        saved or acknowledged last.
+        """
         header, forced, unknown = self._saved_rest
         file = ParameterFile(self.file.schema, replace(header, extra=dict(header.extra)))
         file.take(self.saved)
@@ -192,7 +196,9 @@ class Document:
         return Document.create(twin, path)
 
     def acknowledge(self, on_disk: Opened) -> None:
-        """Take the version on disk, which another program has written, for known: the next save replaces it, and it becomes the backup."""
+        """Take the version on disk, which another program has written, for known: the next save replaces it,
+        and it becomes the backup.
+        """
         self.digest = on_disk.digest
         self.saved = dict(on_disk.file.values)
         self._saved_rest = _rest_of(on_disk.file)
@@ -230,7 +236,9 @@ class Document:
             )
 
     def history(self, address: Address | None = None) -> list[HistoryEntry]:
-        """Return what was saved before, newest first; of one address, or of all. A line that is none is left out."""
+        """Return what was saved before, newest first; of one address, or of all.
+        A line that is none is left out.
+        """
         try:
             content = read_file(self.history_path, follow=False, tail=True)
         except OSError:
@@ -251,7 +259,9 @@ class Document:
         return replace(entry, old=MASKED if entry.old else "", new=MASKED if entry.new else "")
 
     def _journal_text(self, address: Address, value: Value | None) -> str:
-        """Return a value as the history keeps it: the history goes where the file does not, so it contains no secret."""
+        """Return a value as the history keeps it: the history goes where the file does not,
+        so it contains no secret.
+        """
         is_secret = self.file.schema.parameters[address[0]].secret
         return MASKED if is_secret and value is not None else self._text(address, value)
 
@@ -266,7 +276,9 @@ class Document:
         return hidden_path(self.path, ".unsaved")
 
     def keep_unsaved(self) -> None:
-        """Write the unsaved work beside the file, so that a killed program loses none; no change removes it."""
+        """Write the unsaved work beside the file, so that a killed program loses none; no change removes
+        it.
+        """
         changes, header = self.unsaved_changes(), self._unsaved_header()
         if not changes and not header:
             self._drop_journal()
@@ -289,7 +301,9 @@ class Document:
         return {key: text if isinstance(text, str) else dict(text) for key, text in texts.items()}
 
     def _drop_journal(self) -> None:
-        """Remove the journal, if it is this document's: one that a killed program left waits for its offer."""
+        """Remove the journal, if it is this document's: one that a killed program left waits for its
+        offer.
+        """
         if self._journal_is_ours:
             with contextlib.suppress(OSError):
                 self.journal_path.unlink(missing_ok=True)
@@ -298,7 +312,8 @@ class Document:
     def find_unsaved(self) -> Unsaved | None:
         """Return the work a killed program left for this file, or None; this document's own is not left yet.
 
-        A journal that cannot be read leaves nothing to offer; a change in it that cannot be meant is left out.
+        A journal that cannot be read leaves nothing to offer;
+        a change in it that cannot be meant is left out.
         """
         if self._journal_is_ours:
             return None
@@ -350,7 +365,9 @@ def _rest_of(file: ParameterFile) -> tuple[Header, dict[Address, str], dict[str,
 
 
 def recover_backup(path: Path, expected: str | None = "") -> str:
-    """Make the backup the file again; what was there becomes the backup. Raises FileNotFoundError, ParameterFileError, SaveError."""
+    """Make the backup the file again; what was there becomes the backup. Raises FileNotFoundError,
+    ParameterFileError, SaveError.
+    """
     backup = backup_path(path)
     try:
         content = read_file(backup)

@@ -9,7 +9,9 @@ _LEAST = 12
 
 
 def erased_question(file: ParameterFile) -> str:
-    """Return what to ask about the content of a control that is nothing but printed defaults; "" for any other."""
+    """Return what to ask about the content of a control that is nothing but printed defaults;
+    "" for any other.
+    """
     known = [address for address in file.values if file.default(address) is not None]
     if len(known) < _LEAST or not all(map(file.is_default, known)):
         return ""

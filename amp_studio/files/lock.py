@@ -1,7 +1,7 @@
 """The lock by which two programs on one file notice each other; it ends with its program.
 
-It is the operating system's own call: a library would put another kind of lock, which outlives a killed program, in its
-place where a file system has none, and cannot lock by a file that another user has left.
+It is the operating system's own call: a library would put another kind of lock, which outlives a killed
+program, in its place where a file system has none, and cannot lock by a file that another user has left.
 """
 
 from __future__ import annotations
@@ -25,6 +25,7 @@ if sys.platform == "win32":
 
     def _lock(handle: int) -> None:
         msvcrt.locking(handle, msvcrt.LK_NBLCK, 1)
+
 else:
     import fcntl
 
@@ -118,7 +119,9 @@ class EditLock:
         return visible(left[:_LONGEST_NOTE])
 
     def _write_owner(self) -> None:
-        """Write who has the lock into a file of his own: a link that somebody put there is removed, not followed."""
+        """Write who has the lock into a file of his own: a link that somebody put there is removed,
+        not followed.
+        """
         who = f"{user()} on {socket.gethostname()}, process {os.getpid()}, since {now()}"
         with contextlib.suppress(OSError):
             self._holder_path().unlink(missing_ok=True)
@@ -130,7 +133,9 @@ class EditLock:
 
 
 def _locked(place: Path) -> int:
-    """Return the handle of the locked file, which is made where there is none; raises BlockingIOError, OSError."""
+    """Return the handle of the locked file, which is made where there is none; raises BlockingIOError,
+    OSError.
+    """
     for _ in range(_TRIES):
         is_new = not os.path.lexists(place)
         handle = _opened(place)

@@ -16,8 +16,9 @@ Side = Literal["base", "a", "b"]
 RowPart = Literal["value", "header", "entry"]
 """What a row is about: a parameter, an entry of the header, or an entry that the schema does not know."""
 RowKind = Literal["same", "a", "b", "both", "different", "conflict"]
-"""``a``, ``b``: only that side changed it (without a base: only that side has it); ``both``: to the same; ``different``: two
-values, and no base that would show who changed it; ``conflict``: both changed it, and not to the same."""
+"""``a``, ``b``: only that side changed it (without a base: only that side has it); ``both``: to the same;
+``different``: two values, and no base that would show who changed it; ``conflict``: both changed it,
+and not to the same."""
 
 HEADER_TEXTS = ("application", "revision", "notes")
 """Header entries that are compared as texts. The name stays with its file; units are how a file is shown."""
@@ -80,10 +81,11 @@ class RowGroup:
 
 
 class Merge:
-    """Sources A and B, and what both come from, if that is known; by default the result takes what one side changed.
+    """Sources A and B, and what both come from, if that is known;
+    by default the result takes what one side changed.
 
-    Without a base the result is A (``ground``) until something is taken from B. The sources are not touched. Raises ValueError when
-    they are not of one family.
+    Without a base the result is A (``ground``) until something is taken from B. The sources are not touched.
+    Raises ValueError when they are not of one family.
     """
 
     def __init__(
@@ -199,7 +201,9 @@ class Merge:
         return self.ground
 
     def result_of(self, row: Row) -> Value | None:
-        """Return the value in the result; a conflict that is not settled keeps what the file has into which it goes."""
+        """Return the value in the result; a conflict that is not settled keeps what the file has into which
+        it goes.
+        """
         choice = self.choice(row) or self.ground
         return choice.value if isinstance(choice, Typed) else row.of(choice)
 
@@ -211,8 +215,8 @@ class Merge:
     def keep_choices(self, before: Merge, *, swapped: bool = False, without: Side | None = None) -> None:
         """Take over what was chosen in an earlier merge, for the rows that still differ.
 
-        With ``swapped`` sides A is B now. ``without`` is the side whose source is another one now: nobody has chosen
-        its values.
+        With ``swapped`` sides A is B now. ``without`` is the side whose source is another one now: nobody has
+        chosen its values.
         """
         other: dict[Side, Side] = {"a": "b", "b": "a", "base": "base"}
         rows = {row.id for row in self.differing}
@@ -228,7 +232,9 @@ class Merge:
         return file
 
     def refitted(self, result: ParameterFile) -> list[Row]:
-        """Return the rows whose value has another unit in the result than where it was taken: their axis moves otherwise now."""
+        """Return the rows whose value has another unit in the result than where it was taken:
+        their axis moves otherwise now.
+        """
         return [
             row
             for row in self.rows
@@ -238,8 +244,8 @@ class Merge:
     def apply_to(self, file: ParameterFile) -> list[Change]:
         """Put the result into a file that contains A or B; returns the values changed.
 
-        A value that is the same already stays as it is written. An axis that begins to turn takes its lengths along as angles,
-        as everywhere. Marks of values out of range come with their values.
+        A value that is the same already stays as it is written. An axis that begins to turn takes its lengths
+        along as angles, as everywhere. Marks of values out of range come with their values.
         """
         changes: list[Change] = []
         for row in self.differing:
@@ -273,7 +279,9 @@ class Merge:
             file.unknown[row.id.key] = str(value.value)
 
     def _put_header(self, file: ParameterFile, row: Row) -> None:
-        """Put an entry of the header: a text, one entry of a list of texts, or a key that this program does not know."""
+        """Put an entry of the header: a text, one entry of a list of texts,
+        or a key that this program does not know.
+        """
         (name, inner), value, choice = row.address, self.result_of(row), self.choice(row) or self.ground
         text = "" if value is None else str(value.value)
         if name == MACHINE:
@@ -302,7 +310,8 @@ def _demand_one_family(*files: ParameterFile | None) -> None:
 
 
 def _header_texts(file: ParameterFile | None) -> dict[Address, Value]:
-    """Return what is compared of a header: its texts, the entries of its lists (notes, ticked steps), unknown keys.
+    """Return what is compared of a header: its texts, the entries of its lists (notes, ticked steps),
+    unknown keys.
 
     The machine type is there only where no parameter is for it.
     """

@@ -1,7 +1,8 @@
-"""Notes of people: about one value, about a group of parameters, about the machine. They are part of the file.
+"""Notes of people: about one value, about a group of parameters, about the machine.
+They are part of the file.
 
-In the file they are the entries ``value_notes`` (by address), ``group_notes`` (by the key of the group) and ``notes``. A note
-about a value of another machine type, or of a group that is no more, stays as it is.
+In the file they are the entries ``value_notes`` (by address), ``group_notes`` (by the key of the group) and
+``notes``. A note about a value of another machine type, or of a group that is no more, stays as it is.
 """
 
 from __future__ import annotations
@@ -34,7 +35,9 @@ class MachineNote(NamedTuple):
 
 
 class NoteError(AmpStudioError, ValueError):
-    """A note that no file can contain, or about something that the family does not have; the text is one sentence."""
+    """A note that no file can contain, or about something that the family does not have;
+    the text is one sentence.
+    """
 
 
 def machine_note(file: ParameterFile) -> str:
@@ -53,14 +56,18 @@ def group_note(file: ParameterFile, key: str) -> str:
 
 
 def set_machine_note(file: ParameterFile, text: str) -> bool:
-    """Note something about the machine, nothing with an empty text; returns whether it was new. Raises NoteError."""
+    """Note something about the machine, nothing with an empty text; returns whether it was new.
+    Raises NoteError.
+    """
     text, old = _checked(text), file.header.notes
     file.header.notes = text
     return text != old
 
 
 def set_value_note(file: ParameterFile, address: Address, text: str) -> bool:
-    """Note something about a value, nothing with an empty text; returns whether it was new. Raises NoteError."""
+    """Note something about a value, nothing with an empty text; returns whether it was new. Raises
+    NoteError.
+    """
     found = _with(file.header.value_notes, written(address), text)
     is_new = dict(found) != dict(file.header.value_notes)
     file.header.value_notes = found
@@ -68,7 +75,9 @@ def set_value_note(file: ParameterFile, address: Address, text: str) -> bool:
 
 
 def set_group_note(file: ParameterFile, key: str, text: str) -> bool:
-    """Note something about a group, nothing with an empty text; returns whether it was new. Raises NoteError."""
+    """Note something about a group, nothing with an empty text; returns whether it was new. Raises
+    NoteError.
+    """
     if key not in {group.key for group in file.schema.groups}:
         raise NoteError(f"there is no group '{key}'")
     found = _with(file.header.group_notes, key, text)

@@ -145,7 +145,8 @@ class ParameterFile:
     def get(self, address: Address) -> Value | None:
         """Return a value, or None when it is not set.
 
-        Raises TypeError for what is no address, UnknownParameterError for an address that the family does not have.
+        Raises TypeError for what is no address, UnknownParameterError for an address
+        that the family does not have.
         """
         value = self.values.get(address)
         if value is None and address not in self.machine_schema.places:
@@ -167,8 +168,8 @@ class ParameterFile:
     def is_default(self, address: Address) -> bool:
         """Return whether a value equals the printed default, whatever the unit.
 
-        A secret of several instances does as a whole or not at all: which sign of a password is the printed one
-        would give the rest of it away.
+        A secret of several instances does as a whole or not at all: which sign of a password is the printed
+        one would give the rest of it away.
         """
         parameter = self.schema.parameters[address[0]]
         if not parameter.secret:
@@ -192,11 +193,12 @@ class ParameterFile:
     # -- changing --------------------------------------------------------------
 
     def set(self, address: Address, value: Value | None) -> Change | None:
-        """Set one value without asking whether it is in range; returns the change, or None if it was so already.
+        """Set one value without asking whether it is in range; returns the change,
+        or None if it was so already.
 
-        Raises TypeError for what is no address or no value, UnknownParameterError for an address that the family does not
-        have, UnitError for an unknown unit, InvalidValueError for a value that no file of the parameter can contain. A text that
-        a user types is read by ``find`` and ``read``.
+        Raises TypeError for what is no address or no value, UnknownParameterError for an address that the
+        family does not have, UnitError for an unknown unit, InvalidValueError for a value that no file of the
+        parameter can contain. A text that a user types is read by ``find`` and ``read``.
         """
         value = self._usable(address, value)
         old = self.values.get(address)
@@ -288,7 +290,9 @@ class ParameterFile:
         return changes
 
     def refit_turned(self, changes: Iterable[Change]) -> list[Change]:
-        """Refit the units of each axis that these changes made turn, or move straight; returns the changes."""
+        """Refit the units of each axis that these changes made turn, or move straight; returns the
+        changes.
+        """
         return [change for place in self._turned(changes) for change in self.refit_units(*place)]
 
     def _turned(self, changes: Iterable[Change]) -> Iterable[tuple[str, Scope | None]]:
@@ -305,8 +309,8 @@ class ParameterFile:
     def step(self) -> Iterator[list[Change]]:
         """Make changes as one step and collect them; an error takes all of them back, with marks and header.
 
-        This is the only place that takes an edit back: ``set_many``, the desktop's steps and the trial of a fix
-        are made of it.
+        This is the only place that takes an edit back: ``set_many``, the desktop's steps and the trial of a
+        fix are made of it.
         """
         before, changes = Marks.of(self), list[Change]()
         stop = self.listen(changes.append)
@@ -329,12 +333,16 @@ class ParameterFile:
         after.put_back(self)
 
     def take(self, values: Mapping[Address, Value]) -> None:
-        """Take values as they were read, in range or not, and forget what followed from the old ones; raises as ``set`` does."""
+        """Take values as they were read, in range or not, and forget what followed from the old ones;
+        raises as ``set`` does.
+        """
         usable = {address: self._usable(address, value) for address, value in values.items()}
         self.take_read({address: value for address, value in usable.items() if value is not None})
 
     def take_read(self, values: Mapping[Address, Value]) -> None:
-        """Take values that ``read_stored`` has returned for addresses of this machine type: they are checked already."""
+        """Take values that ``read_stored`` has returned for addresses of this machine type:
+        they are checked already.
+        """
         self.values.update(values)
         self.revision += 1
         self.evaluation.forget()
@@ -345,7 +353,9 @@ class ParameterFile:
         self.evaluation.forget()
 
     def refit_units(self, axis: str, scope: Scope | None = "axis") -> list[Change]:
-        """Give each value of an axis, or of an instance of another scope, a unit that fits the way it moves; returns the changes."""
+        """Give each value of an axis, or of an instance of another scope, a unit that fits the way it moves;
+        returns the changes.
+        """
         changes = []
         scopes = self.machine_schema.scopes
         for address in self.addresses():

@@ -1,4 +1,6 @@
-"""Where a file really lies, and the files that lie beside it: one set, by whatever link the file is reached."""
+"""Where a file really lies, and the files that lie beside it: one set, by whatever link the file is
+reached.
+"""
 
 from __future__ import annotations
 
@@ -26,8 +28,8 @@ _OF_A_FILE = re.compile(r"(.+\.amp)\.(?:bak|history)|\.(.+)\.(?:lock|holder|unsa
 def real_path(path: Path) -> Path:
     """Return the path with all links followed; the file itself need not be there, its folder must.
 
-    ``Path.resolve`` would return a link unfollowed where it cannot follow it, and the link would be taken for the file.
-    Raises OSError.
+    ``Path.resolve`` would return a link unfollowed where it cannot follow it, and the link would be taken for
+    the file. Raises OSError.
     """
     try:
         return Path(os.path.realpath(path, strict=True))
@@ -37,7 +39,9 @@ def real_path(path: Path) -> Path:
 
 
 def is_there(path: Path) -> bool:
-    """Return whether a name is taken, by a file, a link that leads nowhere, or anything else; raises OSError if this cannot be found out."""
+    """Return whether a name is taken, by a file, a link that leads nowhere, or anything else;
+    raises OSError if this cannot be found out.
+    """
     try:
         os.lstat(path)
     except FileNotFoundError:
@@ -46,7 +50,9 @@ def is_there(path: Path) -> bool:
 
 
 def destination(path: Path) -> Path:
-    """Return the file that writing to a path makes or replaces; raises OSError for a path that must not be written to."""
+    """Return the file that writing to a path makes or replaces;
+    raises OSError for a path that must not be written to.
+    """
     real = real_path(path)
     if belongs := _OF_A_FILE.fullmatch(real.name):
         message = f"Belongs to {belongs[1] or belongs[2]}: choose another name"

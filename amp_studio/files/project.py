@@ -72,7 +72,9 @@ _TEXTS = tuple(f.name for f in fields(ProjectInfo) if f.name != "extra")
 
 
 class Project:
-    """One project on disk. Every operation on its files is here, with one clear sentence when it cannot be done."""
+    """One project on disk. Every operation on its files is here,
+    with one clear sentence when it cannot be done.
+    """
 
     def __init__(self, folder: Path, info: ProjectInfo) -> None:
         self.folder, self.info = folder, info
@@ -81,7 +83,9 @@ class Project:
 
     @classmethod
     def create(cls, folder: Path, info: ProjectInfo) -> Project:
-        """Make a new project folder; raises InvalidNameError when there is a project already or the family is unknown, SaveError."""
+        """Make a new project folder; raises InvalidNameError when there is a project already
+        or the family is unknown, SaveError.
+        """
         _check(info)
         if is_there(folder / "project.yaml"):
             raise InvalidNameError(f"{folder} is a project already")
@@ -146,26 +150,32 @@ class Project:
         return self.folder / f"{name}{ENDING}"
 
     def copy(self, source: Path, name: str) -> Path:
-        """Copy a file, also one of another project, under a new name; raises InvalidNameError, ParameterFileError."""
+        """Copy a file, also one of another project, under a new name; raises InvalidNameError,
+        ParameterFileError.
+        """
         target = self._free(name)
         content = file_content(source)
         family = read_content(source, content).schema.family
         if family.family != self.info.family:
             raise InvalidNameError(
-                f"{source.name} is for {family.name}, this project for {load_schema(self.info.family).family.name}"
+                f"{source.name} is for {family.name}, this project for"
+                f" {load_schema(self.info.family).family.name}"
             )
         write_atomic(target, content, None)
         return target
 
     def rename(self, source: Path, name: str) -> Path:
-        """Rename a file with its backup, its history and its unsaved work; raises InvalidNameError, and InUseError while it is open."""
+        """Rename a file with its backup, its history and its unsaved work; raises InvalidNameError,
+        and InUseError while it is open.
+        """
         target = self._free(name)
         with EditLock(source):
             _move(source, target)
         return target
 
     def delete(self, source: Path) -> None:
-        """Delete a file; its last content stays as its backup, so that it can be recovered. Raises InUseError.
+        """Delete a file; its last content stays as its backup, so that it can be recovered.
+        Raises InUseError.
 
         Of a link only the link is removed: the file it leads to may be in other projects too.
         """

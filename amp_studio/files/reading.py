@@ -56,7 +56,8 @@ HEADER_SECTIONS = ("done", *NOTE_SECTIONS)
 """Entries of the header that have a text for each of several things."""
 SECTIONS = ("done", "values", "forced", *NOTE_SECTIONS)
 DESCRIPTION = "description"
-"""The description that the control gave of itself, in lines, where its schema is made of that: so the file opens without it."""
+"""The description that the control gave of itself, in lines, where its schema is made of that:
+so the file opens without it."""
 KNOWN_KEYS = {"amp_studio", "family", DESCRIPTION, *SECTIONS, *HEADER_KEYS}
 _REMEMBERED = 200
 """Signs of the longest text whose meaning is remembered."""
@@ -98,7 +99,9 @@ def read_content(path: Path, content: bytes, schema: Schema | None = None) -> Pa
 
 
 def value_lines(path: Path) -> dict[Address, int]:
-    """Return the line of each value of a parameter file; nothing for a file that is none, or cannot be read."""
+    """Return the line of each value of a parameter file; nothing for a file that is none, or cannot be
+    read.
+    """
     try:
         document = read_yaml(text_of(path, file_content(path)), text_scalar, spans=True)
     except (FileError, YamlError):
@@ -246,12 +249,16 @@ class _FileReader:
 
 
 def seal_of(description: bytes) -> str:
-    """Return the first line of a description in a file, by which a change in it is noticed: it bounds what is sent."""
+    """Return the first line of a description in a file, by which a change in it is noticed:
+    it bounds what is sent.
+    """
     return f"sha256 {hashlib.sha256(description).hexdigest()}"
 
 
 def extra_entries(text: str, data: dict[str, Any]) -> dict[str, object]:
-    """Return the keys this program does not know with their values as YAML means them, so that a save keeps their kind."""
+    """Return the keys this program does not know with their values as YAML means them,
+    so that a save keeps their kind.
+    """
     if not set(data) - KNOWN_KEYS:
         return {}
     typed = read_yaml(text, spelled_scalar).data

@@ -1,7 +1,8 @@
 """Cells of a CSV file that a spreadsheet takes for the text they are.
 
-A spreadsheet takes a cell that begins with ``=``, ``+``, ``-`` or ``@`` for a formula, which may start programs or call
-addresses (OWASP, "CSV Injection"). An apostrophe before it makes it a text; reading the file back takes it off.
+A spreadsheet takes a cell that begins with ``=``, ``+``, ``-`` or ``@`` for a formula, which may start
+programs or call addresses (OWASP, "CSV Injection"). An apostrophe before it makes it a text;
+reading the file back takes it off.
 """
 
 from __future__ import annotations
@@ -14,7 +15,9 @@ _SAFE = re.compile("'" + _FORMULA.pattern)
 
 
 def text_cell(text: str) -> str:
-    """Return a cell with ``text``: with an apostrophe before what would be a formula. A plain number stays one."""
+    """Return a cell with ``text``: with an apostrophe before what would be a formula.
+    A plain number stays one.
+    """
     return f"'{text}" if _FORMULA.match(text) and not _NUMBER.fullmatch(text) else text
 
 

@@ -1,4 +1,6 @@
-"""Parameter files as they are written: the previous text is amended, read back, and compared before it replaces anything."""
+"""Parameter files as they are written: the previous text is amended, read back,
+and compared before it replaces anything.
+"""
 
 from __future__ import annotations
 
@@ -34,7 +36,9 @@ from .reading import (
 
 
 def content_of(file: ParameterFile, previous: bytes | None = None) -> bytes:
-    """Return a file's content; with the ``previous`` content what did not change stays as it is written there."""
+    """Return a file's content; with the ``previous`` content what did not change stays
+    as it is written there.
+    """
     header: dict[str, Any] = {"amp_studio": str(FORMAT), "family": file.schema.family.family}
     header |= {key: getattr(file.header, key) for key in HEADER_KEYS if getattr(file.header, key)}
     header |= file.header.extra
@@ -82,7 +86,9 @@ def _amended(file: ParameterFile, previous: bytes, wanted: dict[str, Any]) -> st
 
 
 def _as_spelled(file: ParameterFile, entries: dict[str, str], known: object) -> dict[str, str]:
-    """Return entries with those that mean the same already as a person spelled them: 0.50 in, control.type@."""
+    """Return entries with those that mean the same already as a person spelled them: 0.50 in,
+    control.type@.
+    """
     found: dict[str, tuple[str, str]] = {}
     for key, text in known.items() if isinstance(known, dict) else ():
         address = read_address(key)
@@ -103,16 +109,13 @@ def _entries(file: ParameterFile) -> dict[str, str]:
 
 
 def save_file(
-    file: ParameterFile,
-    path: Path | str,
-    expected: str | None = None,
-    notify: Notify = lambda _message: None,
+    file: ParameterFile, path: Path | str, expected: str | None = None, notify: Notify = lambda _message: None
 ) -> str:
     """Save a file, all or nothing; the previous file becomes the backup.
 
     ``expected`` is the digest the file had when it was opened, None for a new
-    one; ``notify`` is called with what could not be kept. The content is read back before it replaces anything.
-    Returns the new digest; raises ChangedOnDiskError or SaveError.
+    one; ``notify`` is called with what could not be kept. The content is read back before it replaces
+    anything. Returns the new digest; raises ChangedOnDiskError or SaveError.
     """
     path = Path(path)
     file.header.signature = file.schema.signature

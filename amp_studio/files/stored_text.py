@@ -55,7 +55,9 @@ def storage_text(file: ParameterFile, address: Address) -> str:
 
 
 def _single_text(parameter: Parameter, value: Value, *, turns: bool) -> str:
-    """Return ``0.0004, shown as 0.000``: the 32-bit float that the control keeps, where it is coarser or shown coarser."""
+    """Return ``0.0004, shown as 0.000``: the 32-bit float that the control keeps,
+    where it is coarser or shown coarser.
+    """
     storage = parameter.storage
     assert storage is not None
     unit = stored_unit(parameter, turns=turns)

@@ -10,7 +10,9 @@ _STAMP = re.compile(r"\b\d{4}-\d\d-\d\dT\d\d:\d\d:\d\d(?:\+00:00|Z)")
 
 
 def local_time(stamp: str) -> str:
-    """Return a stored time as local date and time to the minute; a text that is no time is returned unchanged."""
+    """Return a stored time as local date and time to the minute;
+    a text that is no time is returned unchanged.
+    """
     try:
         moment = datetime.fromisoformat(stamp)
     except ValueError:
@@ -32,7 +34,8 @@ def with_days_and_times(text: str) -> str:
 
 
 def day_and_time(stamp: str, now: datetime | None = None) -> str:
-    """Return a stored time in the words of a person: ``today 14:35``, ``yesterday 17:48``, ``18 Nov 16:20``, ``18 Nov 2024``.
+    """Return a stored time in the words of a person: ``today 14:35``, ``yesterday 17:48``, ``18 Nov 16:20``,
+    ``18 Nov 2024``.
 
     ``now`` is the present moment unless given; a text that is no time is returned unchanged.
     """

@@ -1,4 +1,6 @@
-"""Other versions of an open file, to compare with: as it was opened, as it was saved, its backup, its defaults, its history."""
+"""Other versions of an open file, to compare with: as it was opened, as it was saved, its backup,
+its defaults, its history.
+"""
 
 from __future__ import annotations
 
@@ -12,7 +14,9 @@ from .reading import read_stored
 
 
 def with_defaults(file: ParameterFile) -> ParameterFile:
-    """Return a file in which every value that is set is the printed default; one for which none is printed stays."""
+    """Return a file in which every value that is set is the printed default;
+    one for which none is printed stays.
+    """
     twin = file.copy()
     for address in file.values:
         default = file.default(address)

@@ -1,7 +1,7 @@
 """Writes YAML, and changes entries of a YAML text without touching another byte of it.
 
-What did not change stays as a person wrote it: remarks, order, spelling, line ends. A new entry comes after the one
-before it in the given order; a remark below an entry that goes belongs to what follows, and stays.
+What did not change stays as a person wrote it: remarks, order, spelling, line ends. A new entry comes after
+the one before it in the given order; a remark below an entry that goes belongs to what follows, and stays.
 """
 
 from __future__ import annotations
@@ -16,7 +16,7 @@ _BREAK = re.compile("\r\n|\n|\r")
 _LONGEST_KEY = 1000
 """A key may have 1024 signs unless it is marked by ``?``."""
 
-# -- one value ---------------------------------------------------------------------------------------------------------
+# -- one value
 
 _PRINTABLE = re.compile("[^\x00-\x1f\x7f-\x9f\u2028\u2029\ud800-\udfff\ufeff\ufffe\uffff]+")
 _PLAIN = re.compile(r"(?:[^\s\-?:,\[\]{}#&*!|>'\"%@`=<~]|-(?=[^\s\-]))(?:.*[^\s:])?")
@@ -70,11 +70,13 @@ def _flow_text(value: Any) -> str:
     return _double_quoted(value) if isinstance(value, str) else scalar_text(value)
 
 
-# -- entries -------------------------------------------------------------------------------------------------------------
+# -- entries
 
 
 def entry_lines(key: Any, value: Any, indent: str = "") -> Iterator[str]:
-    """Yield the lines of one entry of a mapping: lists and mappings in it as blocks, what is in these in one line each."""
+    """Yield the lines of one entry of a mapping: lists and mappings in it as blocks,
+    what is in these in one line each.
+    """
     name = scalar_text(key)
     if len(name) > _LONGEST_KEY:
         yield f"{indent}? {name}"
@@ -102,10 +104,11 @@ def new_text(entries: Mapping[str, Any], end: str = "") -> str:
 def amended(
     document: YamlDocument, known: Mapping[str, Any], wanted: Mapping[str, Any], sections: Sequence[str] = ()
 ) -> str | None:
-    """Return the text of a document with other entries; None where it is a mapping in braces, which has no lines.
+    """Return the text of a document with other entries; None where it is a mapping in braces,
+    which has no lines.
 
-    ``known`` is what each entry means now, in the terms of ``wanted``: what is equal in both is not touched. The entries
-    of ``sections`` are compared one by one.
+    ``known`` is what each entry means now, in the terms of ``wanted``: what is equal in both is not touched.
+    The entries of ``sections`` are compared one by one.
     """
     editor = _Editor(document, sections)
     if not isinstance(document.data, dict) or any(editor.is_flow((key,)) for key in document.data):
@@ -178,7 +181,9 @@ class _Editor:
                 self._insert(behind, key, value, indent)
 
     def add_item(self, title: str, last: Span | None, item: Mapping[str, Any]) -> None:
-        """Write a mapping as the next item of a list in lines; as the first, under its title, where there is no last."""
+        """Write a mapping as the next item of a list in lines; as the first, under its title,
+        where there is no last.
+        """
         text, indent = self.document.text, ""
         at = max((self._line_behind(span.end) for span in self.spans.values()), default=len(text))
         if last is not None:
@@ -245,5 +250,7 @@ class _Editor:
 
 
 def without_stray_tabs(content: bytes) -> bytes:
-    """Return a content whose blank lines are empty: YAML takes a tab in one behind some entries and not behind others."""
+    """Return a content whose blank lines are empty:
+    YAML takes a tab in one behind some entries and not behind others.
+    """
     return re.sub(rb"(?m)^ *\t[ \t]*$", b"", content)

@@ -1,4 +1,6 @@
-"""What there is to find of a family on a machine type: parameters, choices, messages and groups, with the words of each."""
+"""What there is to find of a family on a machine type: parameters, choices, messages and groups,
+with the words of each.
+"""
 
 from __future__ import annotations
 
@@ -35,7 +37,8 @@ KINDS: dict[HitKind, float] = {
     "choice": 0.8,
     "group": 0.7,
 }
-"""What a kind is worth among others whose words match as well: the parameter before its choice, that before its group."""
+"""What a kind is worth among others whose words match as well: the parameter before its choice,
+that before its group."""
 
 
 _ESTOP = "E-Stop estop emergency stop"
@@ -125,7 +128,9 @@ def _message(message: ControlMessage, listed: str) -> Entry:
 
 
 def searched_words(where: Where, text: str) -> set[str]:
-    """Return the words by which a text is found: a code and a number with letters also in parts, without leading zeros."""
+    """Return the words by which a text is found: a code and a number with letters also in parts,
+    without leading zeros.
+    """
     words = set(words_of(text))
     if where in ("number", "code"):
         for word in tuple(words):

@@ -1,4 +1,6 @@
-"""The values of a file, to be found by what a person reads: a number with or without a unit, a choice, a text."""
+"""The values of a file, to be found by what a person reads: a number with or without a unit, a choice,
+a text.
+"""
 
 from __future__ import annotations
 
@@ -32,7 +34,9 @@ class Number(NamedTuple):
 
 
 def asked_number(query: str) -> Number | None:
-    """Return the number that a question is: ``12.7``, ``12.7 mm``, ``0x0F``; None where it is something else."""
+    """Return the number that a question is: ``12.7``, ``12.7 mm``, ``0x0F``; None where it is something
+    else.
+    """
     if _HEX.fullmatch(query.strip()):
         return Number(int(query, 16), "")
     try:
@@ -64,7 +68,9 @@ class FileValues:
                 self._numbers.setdefault((float(value.value), value.unit), []).append(address)
 
     def having(self, number: Number) -> list[Address]:
-        """Return the addresses with a number in the unit it was entered in, or with the same length, time, … in another."""
+        """Return the addresses with a number in the unit it was entered in, or with the same length, time,
+        … in another.
+        """
         found: list[Address] = []
         for (value, unit), addresses in self._numbers.items():
             wanted = number.value

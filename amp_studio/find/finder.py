@@ -27,7 +27,8 @@ from .words import words_of
 _EXACT, _VALUE, _DEFAULT = 100.0, 11.0, 7.0
 """Scores of what is no matter of words: a whole number, a value, a value that is the printed default."""
 _SYNONYM_WORTH, _LESS_LIKELY = 0.95, 0.85
-"""What a hit is worth that has what the question means, and each further meaning against the one before it."""
+"""What a hit is worth that has what the question means, and each further meaning against the one before
+it."""
 _TAIL = 0.2
 """Part of the best score below which a hit only buries the others."""
 _SURE = 4.0
@@ -60,7 +61,9 @@ class Hit:
 
 @lru_cache(maxsize=16)
 def index_of(schema: Schema, machine: str) -> Index:
-    """Return the index of a family on a machine type: made once, in 0.1 s, and safe to be made in a thread."""
+    """Return the index of a family on a machine type: made once, in 0.1 s, and safe to be made in a
+    thread.
+    """
     return Index(entries_of(schema, machine))
 
 
@@ -129,7 +132,9 @@ class Finder:
         )
 
     def _addressed(self, query: str) -> list[Hit]:
-        """Return the one value that a question addresses as files and verbs do: ``home.calibration@X``, ``P3N0.5``."""
+        """Return the one value that a question addresses as files and verbs do: ``home.calibration@X``,
+        ``P3N0.5``.
+        """
         if self.file is None or " " in query or not {"@", "."} & set(query):
             return []
         try:
@@ -237,7 +242,9 @@ class Finder:
         return ", ".join(parts)
 
     def _label(self, address: Address, span: bool = False) -> str:
-        """Return number and name; with ``span`` of the first instance, as a parameter with many is known by that."""
+        """Return number and name; with ``span`` of the first instance,
+        as a parameter with many is known by that.
+        """
         parameter = self.schema.parameters[address[0]]
         if span:
             numbers = (self._here.number((address[0], i)) for i in self._here.instances(parameter))

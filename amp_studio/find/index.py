@@ -62,11 +62,14 @@ class Index:
                         places[n] = where
         self.vocabulary = Vocabulary(self._having)
         self._plain: dict[int, list[tuple[float, str]]] = {}
-        """Entry -> its texts as their words alone, made when they are first compared, with what they are worth."""
+        """Entry -> its texts as their words alone, made when they are first compared,
+        with what they are worth."""
         self._titles = [" ".join(words_of(_title(entry))) for entry in self.entries]
 
     def search(self, query: str, most: int) -> list[Match]:
-        """Return the best matches of a question, the best first: with all its words, or most of them and every number."""
+        """Return the best matches of a question, the best first: with all its words,
+        or most of them and every number.
+        """
         words = self.asked(query)
         if not words:
             return []
@@ -96,7 +99,9 @@ class Index:
         return [self._match(score, -n, found[-n]) for score, n in best[:most]]
 
     def nearest(self, query: str) -> str:
-        """Return the question with each unknown word replaced by the nearest known one; empty where nothing is near."""
+        """Return the question with each unknown word replaced by the nearest known one;
+        empty where nothing is near.
+        """
         words = [
             word if self.vocabulary.like(word) else self.vocabulary.nearest(word) for word in words_of(query)
         ]
@@ -106,7 +111,9 @@ class Index:
     # -- parts of a search --------------------------------------------------------
 
     def asked(self, query: str) -> list[str]:
-        """Return the words to look for: two that are known as one are one, and one that is known as two is both."""
+        """Return the words to look for: two that are known as one are one,
+        and one that is known as two is both.
+        """
         typed, words = asked_words(query), []
         n = 0
         while n < len(typed):

@@ -1,7 +1,8 @@
-"""ValueMarks of values, by which a list is filtered: not set, changed, with findings, unlike on the axes, changed since a download.
+"""ValueMarks of values, by which a list is filtered: not set, changed, with findings, unlike on the axes,
+changed since a download.
 
-A list is made of rows, each the addresses of one parameter on its axes. What is asked of one value is asked of it alone;
-whether the axes differ is asked of the row.
+A list is made of rows, each the addresses of one parameter on its axes. What is asked of one value is asked
+of it alone; whether the axes differ is asked of the row.
 """
 
 from __future__ import annotations
@@ -57,7 +58,9 @@ class ValueMarks:
         self.caused = frozenset(a for f in found if f.rule != NOT_SET for a in f.causes)
 
     def forget(self, addresses: Collection[Address]) -> None:
-        """Forget what depends on edited values; all of it without any, or where they decide what else is active."""
+        """Forget what depends on edited values; all of it without any,
+        or where they decide what else is active.
+        """
         decides = self.file.evaluation.decides_states
         if not addresses or any(map(decides, addresses)):
             self._own.clear()
@@ -78,7 +81,9 @@ class ValueMarks:
         return self._asks[mark](address)
 
     def passing(self, marks: Collection[Mark], row: Sequence[Address]) -> int:
-        """Return how many values of a row have all the marks; one of a row whose axes differ are all of it."""
+        """Return how many values of a row have all the marks; one of a row whose axes differ are all of
+        it.
+        """
         if "axes-differ" in marks and not self.differs(row):
             return 0
         asks = [self._asks[mark] for mark in marks if mark != "axes-differ"]
@@ -92,7 +97,9 @@ class ValueMarks:
         return sum(ask(address) for row in rows for address in row)
 
     def differs(self, row: Sequence[Address]) -> bool:
-        """Return whether the active values of one parameter are not the same on all axes of a kind; names and types never are."""
+        """Return whether the active values of one parameter are not the same on all axes of a kind;
+        names and types never are.
+        """
         if len(row) < 2:
             return False
         key = tuple(row)
@@ -155,7 +162,9 @@ def noted(file: ParameterFile) -> frozenset[Address]:
 
 
 def rows_of_file(file: ParameterFile) -> list[tuple[Address, ...]]:
-    """Return the rows of all parameters of a file that are not hidden: the axes of each, or its only value."""
+    """Return the rows of all parameters of a file that are not hidden: the axes of each, or its only
+    value.
+    """
     rows: dict[tuple[str, str], list[Address]] = {}
     here = file.machine_schema
     for address in file.addresses():

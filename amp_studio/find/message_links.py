@@ -1,4 +1,6 @@
-"""A message of the control in the light of a file: its parameters with their values, and which of its rules are broken."""
+"""A message of the control in the light of a file: its parameters with their values,
+and which of its rules are broken.
+"""
 
 from __future__ import annotations
 
@@ -64,7 +66,9 @@ def message_page(
     file: ParameterFile | None = None,
     findings: Iterable[Finding] = (),
 ) -> MessagePage:
-    """Return the page of a message; what a described control or another machine type does not have is left out."""
+    """Return the page of a message; what a described control
+    or another machine type does not have is left out.
+    """
     here = schema.on(machine)
     rules = {rule.id: rule for rule in schema.rules}
     told: dict[str, list[Finding]] = {}

@@ -7,7 +7,9 @@ from amp_studio.schema import Address, axis_name
 
 
 def place_of(file: ParameterFile, address: Address) -> str:
-    """Return the letter of the axis, or what else an instance is called; empty for the only one of the control."""
+    """Return the letter of the axis, or what else an instance is called;
+    empty for the only one of the control.
+    """
     here = file.machine_schema
     if address[1] and here.kin(here.scopes[address[0]], "axis"):
         name = axis_name(file.evaluation, address[1])

@@ -1,4 +1,6 @@
-"""What people type for what the manuals call otherwise: German and trade words, and what they see at the machine."""
+"""What people type for what the manuals call otherwise: German and trade words,
+and what they see at the machine.
+"""
 
 from __future__ import annotations
 
@@ -33,7 +35,8 @@ class Meaning:
 
 
 def meanings(query: str) -> Iterator[Meaning]:
-    """Yield what a question may mean in the words of the manuals, the likeliest first; nothing for one without a synonym.
+    """Yield what a question may mean in the words of the manuals, the likeliest first;
+    nothing for one without a synonym.
 
     The longest group of words counts; what is around it stays in the question.
     """

@@ -1,8 +1,8 @@
 """Words of a text, and the known words that a mistyped one may be.
 
-A typing error is one letter too many, too few, another one, or two neighbours exchanged (Damerau, optimal string
-alignment). A library for that (rapidfuzz) is 3 MB of C++ for one distance over some thousand short words: here letter
-pairs choose the few dozen words that can be near, and only those are measured.
+A typing error is one letter too many, too few, another one, or two neighbours exchanged (Damerau, optimal
+string alignment). A library for that (rapidfuzz) is 3 MB of C++ for one distance over some thousand short
+words: here letter pairs choose the few dozen words that can be near, and only those are measured.
 """
 
 from __future__ import annotations
@@ -70,7 +70,9 @@ PREFIX, ONE_SLIP, TWO_SLIPS = 0.85, 0.7, 0.5
 
 
 def words_of(text: str) -> list[str]:
-    """Return the words and numbers of a text in their order, in small letters; ``0.5`` is one word, ``MOT-022`` two."""
+    """Return the words and numbers of a text in their order, in small letters; ``0.5`` is one word,
+    ``MOT-022`` two.
+    """
     return _WORD.findall(text.casefold())
 
 

@@ -1,7 +1,7 @@
 """Text formats: what controls, their tools and people read and write, as files. No link is needed for them.
 
-``import_file`` and ``export_file`` find the format by name, by content or by the ending of the file. A format of one
-family alone is in that family's folder and found by its registration.
+``import_file`` and ``export_file`` find the format by name, by content or by the ending of the file. A format
+of one family alone is in that family's folder and found by its registration.
 """
 
 from typing import TYPE_CHECKING

@@ -1,4 +1,6 @@
-"""What becomes of every value of a file in a text, and of every entry of a text in a file: found by reading the text back."""
+"""What becomes of every value of a file in a text, and of every entry of a text in a file:
+found by reading the text back.
+"""
 
 from __future__ import annotations
 
@@ -37,7 +39,9 @@ class UnknownEntry(NamedTuple):
 
 @dataclass(frozen=True)
 class Account:
-    """Every value is in exactly one of ``written`` (or their number), ``not_representable`` and ``rounded``."""
+    """Every value is in exactly one of ``written`` (or their number), ``not_representable`` and
+    ``rounded``.
+    """
 
     written: int
     """Values that come back as they are."""

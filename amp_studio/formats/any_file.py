@@ -34,8 +34,8 @@ def open_for_reading(
 ) -> ParameterFile:
     """Return the parameters of a parameter file or of a control's own text; raises ParameterFileError.
 
-    ``notify`` is called with what a person should know of a text that was taken; ``family`` and ``machine`` are those of a
-    text that shall not decide by itself. Raises UnknownFamilyError.
+    ``notify`` is called with what a person should know of a text that was taken; ``family`` and ``machine``
+    are those of a text that shall not decide by itself. Raises UnknownFamilyError.
     """
     content = file_content(path)
     if path.suffix.casefold() == ENDING or not _is_text(content):

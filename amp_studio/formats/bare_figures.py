@@ -1,7 +1,7 @@
 """Values as bare figures of a control: in the unit it keeps them in, without the unit's name.
 
-Where a family has a parameter that chooses the unit system (Default Units, inch or metric), a figure is in the unit of
-the system that is chosen; where nothing is chosen, in that of the printed default.
+Where a family has a parameter that chooses the unit system (Default Units, inch or metric), a figure is in
+the unit of the system that is chosen; where nothing is chosen, in that of the printed default.
 """
 
 from __future__ import annotations
@@ -32,7 +32,9 @@ def system_of(file: ParameterFile) -> str:
 
 
 def default_system(schema: Schema) -> str:
-    """Return the unit system that is used while nobody has chosen one; empty where the family prints no default."""
+    """Return the unit system that is used while nobody has chosen one;
+    empty where the family prints no default.
+    """
     chooser = schema.family.unit_parameter
     default = schema.parameters[chooser].default if chooser else None
     return str(default.value) if default and default.value in schema.family.units else ""

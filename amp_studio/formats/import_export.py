@@ -73,10 +73,11 @@ def import_file(
     notify: Callable[[str], None] = lambda _message: None,
     take_account: Callable[[Account], object] = lambda _account: None,
 ) -> ParameterFile:
-    """Return the parameters of a text file, in a file that contains nothing else; values out of range are in it too.
+    """Return the parameters of a text file, in a file that contains nothing else;
+    values out of range are in it too.
 
-    ``take_account`` is called with what became of the text. ``machine`` is the machine type where the text shall not decide, ``listing`` which of several listings in one text,
-    counted from 1 (0 is the last one).
+    ``take_account`` is called with what became of the text. ``machine`` is the machine type where the text
+    shall not decide, ``listing`` which of several listings in one text, counted from 1 (0 is the last one).
     ``notify`` is called with what a person should know of a text that was taken: words it leaves out.
     Without a family, the format or the text has to name it. Raises FormatError with line and column,
     UnknownFamilyError, OSError.
@@ -102,7 +103,9 @@ def import_file(
 
 
 def offer_of(path: Path, family: str | None = None) -> TextOffer | None:
-    """Return what may be decided about a text before it is imported; None if there is nothing. Raises OSError."""
+    """Return what may be decided about a text before it is imported; None if there is nothing.
+    Raises OSError.
+    """
     content = _as_utf8(read_file(path, _MOST_BYTES))
     try:
         chosen = _format_for_reading(content, family, None)
@@ -177,9 +180,11 @@ class Export:
 def export_of(
     file: ParameterFile, path: Path | str, format_key: str | None = None, *, secrets: bool = False
 ) -> Export:
-    """Return what ``export_file`` writes; nothing is written yet. Its account is made by reading the text back.
+    """Return what ``export_file`` writes; nothing is written yet.
+    Its account is made by reading the text back.
 
-    Raises FormatError for a format that is not offered, a value it cannot write, and a text that cannot be read back.
+    Raises FormatError for a format that is not offered, a value it cannot write,
+    and a text that cannot be read back.
     """
     path = Path(path)
     chosen = _format_for_writing(file.schema.family.family, path, format_key)
@@ -215,8 +220,8 @@ def export_file(
 ) -> Export:
     """Write a file in a format, named or found by the ending; an existing file is replaced only as a whole.
 
-    Secret values are left out unless ``secrets`` asks for them; ``notify`` is called with what of the old file could not be
-    kept. Raises as ``export_of`` does, and SaveError.
+    Secret values are left out unless ``secrets`` asks for them; ``notify`` is called with what of the old
+    file could not be kept. Raises as ``export_of`` does, and SaveError.
     """
     export = export_of(file, path, format_key, secrets=secrets)
     write_atomic(Path(path), export.content, notify=notify)
@@ -241,7 +246,8 @@ def _format_for_writing(family: str, path: Path, format_key: str | None) -> Text
     found = next((f for f in offered if path.suffix.lower() in f.endings), None)
     if found is None:
         raise FormatError(
-            f"'{path.name}': unknown file extension. Known: {', '.join(f'{f.ending} ({f.key})' for f in offered)}"
+            f"'{path.name}': unknown file extension. Known:"
+            f" {', '.join(f'{f.ending} ({f.key})' for f in offered)}"
         )
     return found
 

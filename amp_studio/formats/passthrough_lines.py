@@ -1,8 +1,9 @@
 """What a script contains besides settings: kept in the parameter file, and written back in its place.
 
-Each line that is not understood is an unknown entry of the parameter file (``acr line 5: PLC0``). Where they were is
-kept in the header, as the list of all lines of the script: a setting is there as a mark, ``{axes.pulses@X}``, so
-that its value is in one place only, and so is a line that is not understood, ``{line 5}``.
+Each line that is not understood is an unknown entry of the parameter file (``acr line 5: PLC0``). Where they
+were is kept in the header, as the list of all lines of the script: a setting is there as a mark,
+``{axes.pulses@X}``, so that its value is in one place only, and so is a line that is not understood,
+``{line 5}``.
 """
 
 from __future__ import annotations
@@ -28,7 +29,9 @@ class PassthroughLine:
 
 
 def keep(found: TextRead, kind: str, rows: Sequence[PassthroughLine], *, always: bool = False) -> None:
-    """Keep the lines of a script where one of them is not understood, or ``always``; ``kind`` is a word for its format."""
+    """Keep the lines of a script where one of them is not understood, or ``always``;
+    ``kind`` is a word for its format.
+    """
     unknown = {f"{kind} line {row.kept_as}": row.text for row in rows if row.kept_as}
     if unknown or always:
         found.unknown = unknown
@@ -66,7 +69,7 @@ def _row_text(row: PassthroughLine) -> str:
     return mark(f"line {row.kept_as}") if row.kept_as else row.text
 
 
-# -- marks ---------------------------------------------------------------------------------------------------------
+# -- marks
 
 
 def mark(what: str) -> str:

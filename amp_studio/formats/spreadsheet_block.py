@@ -1,8 +1,9 @@
-"""A block of cells as spreadsheets exchange it: text with tabs, or a table in HTML. Read and written without loss.
+"""A block of cells as spreadsheets exchange it: text with tabs, or a table in HTML.
+Read and written without loss.
 
-A spreadsheet shows a number in its own manner (``0,43``, ``1.234,50``, ``12-Nov``). LibreOffice and Excel give the number
-itself beside it (``sdval``, ``x:num``), which is taken where it is there. Where it is not, the shown text counts, and one that
-can be read two ways is left for the person to decide: nothing is guessed.
+A spreadsheet shows a number in its own manner (``0,43``, ``1.234,50``, ``12-Nov``). LibreOffice and Excel
+give the number itself beside it (``sdval``, ``x:num``), which is taken where it is there. Where it is not,
+the shown text counts, and one that can be read two ways is left for the person to decide: nothing is guessed.
 """
 
 from __future__ import annotations
@@ -45,7 +46,9 @@ class BlockCell(NamedTuple):
 
 
 def read_block(text: str, markup: str = "") -> list[list[str]]:
-    """Return the rows of a block, all of one length; from the table in the HTML ``markup`` where there is one. Raises BlockError."""
+    """Return the rows of a block, all of one length;
+    from the table in the HTML ``markup`` where there is one. Raises BlockError.
+    """
     if len(markup) > LONGEST_MARKUP:
         markup = ""
     if len(text) > LONGEST:
@@ -58,13 +61,16 @@ def read_block(text: str, markup: str = "") -> list[list[str]]:
 
 
 def _plain(text: str) -> str:
-    """Return a cell with the blanks and the minus of a keyboard: spreadsheets group digits by narrow blanks that no line breaks at."""
+    """Return a cell with the blanks and the minus of a keyboard:
+    spreadsheets group digits by narrow blanks that no line breaks at.
+    """
     text = _BLANKS.sub(" ", text)
     return "-" + text[1:] if re.match(r"\u2212\s*[0-9.,]", text) else text
 
 
 def two_ways(rows: Sequence[Sequence[str]]) -> set[str]:
-    """Return the texts of a block whose point may set groups of thousands apart, as a comma beside them is decimal.
+    """Return the texts of a block whose point may set groups of thousands apart,
+    as a comma beside them is decimal.
 
     ``1.234`` alone is one and a bit; in a table that also has ``0,5`` it may be a thousand.
     """
@@ -96,7 +102,7 @@ def _rows_of_text(text: str) -> list[list[str]]:
     return rows if rows != [[""]] else []
 
 
-# -- HTML --------------------------------------------------------------------------------------------------------------
+# -- HTML
 
 
 def _rows_of_html(markup: str) -> list[list[str]]:
@@ -200,9 +206,11 @@ def _span(text: str | None) -> int:
 
 
 def _cell_text(shown: str, number: str | None) -> str:
-    """Return what a cell means that shows a text and has a number too: the number, with the unit that is shown.
+    """Return what a cell means that shows a text and has a number too: the number,
+    with the unit that is shown.
 
-    A date, a time, a percentage or a truth value is a number too, but not the one that is seen: it stays a text.
+    A date, a time, a percentage or a truth value is a number too, but not the one that is seen:
+    it stays a text.
     """
     if number is None or not re.fullmatch(r"[-+]?[0-9]*\.?[0-9]+(?:[eE][-+]?[0-9]+)?", number):
         return shown
@@ -215,7 +223,7 @@ def _cell_text(shown: str, number: str | None) -> str:
     return f"{number} {unit}" if unit else number
 
 
-# -- writing -----------------------------------------------------------------------------------------------------------
+# -- writing
 
 
 def block_text(rows: Sequence[Sequence[BlockCell]]) -> str:
@@ -228,9 +236,14 @@ def _field(text: str) -> str:
 
 
 def block_html(rows: Sequence[Sequence[BlockCell]], heads: int = 0) -> str:
-    """Return a block as a table in HTML, in which numbers are numbers that show their unit; the first ``heads`` rows are heads."""
+    """Return a block as a table in HTML, in which numbers are numbers that show their unit;
+    the first ``heads`` rows are heads.
+    """
     lines = [
-        '<html xmlns:x="urn:schemas-microsoft-com:office:excel"><head><meta charset="utf-8"></head><body><table>'
+        (
+            '<html xmlns:x="urn:schemas-microsoft-com:office:excel"><head><meta'
+            ' charset="utf-8"></head><body><table>'
+        )
     ]
     for n, row in enumerate(rows):
         lines.append(
@@ -247,7 +260,8 @@ def _html_cell(cell: BlockCell, tag: str) -> str:
     unit = re.sub(r"[\"'\\;]", "", cell.unit)
     if not unit:
         return f'<{tag} align=right x:num="{figure}" sdval="{figure}" sdnum="1033;">{text}</{tag}>'
-    # LibreOffice takes a number without the unit of its format (tried with 24.2), so there it is a text that keeps it.
+    # LibreOffice takes a number without the unit of its format (tried with 24.2), so there it is a text that
+    # keeps it.
     form = html.escape(rf"General\0022 {unit}\0022")
     return f'<{tag} align=right style="mso-number-format:\'{form}\'" x:num="{figure}">{text}</{tag}>'
 

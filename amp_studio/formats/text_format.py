@@ -39,7 +39,8 @@ class ReadOptions:
     listing: int = 0
     """Which of several listings of one text, counted from 1; 0 is the last one."""
     beside: Callable[[str], str | None] = lambda _name: None
-    """Returns the text of a file beside this one that it names, its bytes as latin-1; None where there is none."""
+    """Returns the text of a file beside this one that it names, its bytes as latin-1;
+    None where there is none."""
 
 
 @dataclass
@@ -99,7 +100,8 @@ class TextFormat:
     offer: Callable[[str, Schema], TextOffer] | None = None
     """Returns what may be decided about a text; raises FormatError. None where a text decides everything."""
     included: Callable[[ParameterFile], Mapping[str, str]] | None = None
-    """Returns the texts, by name, that a text takes in and that the file keeps; None where a text is alone."""
+    """Returns the texts, by name, that a text takes in and that the file keeps; None where a text is
+    alone."""
     otherwise: str = ""
     """The encoding of a text that is not of ``encoding``; without it such a text is refused."""
 
@@ -110,5 +112,7 @@ class TextFormat:
 
 
 def text_to_recognise(content: bytes) -> str:
-    """Return a text by which its format is recognised, whatever its encoding; a no-break space of a page or a chat is a space."""
+    """Return a text by which its format is recognised, whatever its encoding;
+    a no-break space of a page or a chat is a space.
+    """
     return content.replace(b"\xc2\xa0", b" ").decode("latin-1")

@@ -1,7 +1,7 @@
 """Values as a table for a spreadsheet: one line a value, RFC 4180, UTF-8 with the mark Excel looks for.
 
-Any table with the columns ``id``, ``value`` and ``unit`` can be read, the CSV of a report too; ``instance`` may be
-missing for values of the control as a whole. Other columns are ignored.
+Any table with the columns ``id``, ``value`` and ``unit`` can be read, the CSV of a report too; ``instance``
+may be missing for values of the control as a whole. Other columns are ignored.
 """
 
 from __future__ import annotations

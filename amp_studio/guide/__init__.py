@@ -1,8 +1,9 @@
 """Commissioning, guided: the steps of a family in their order, and how far a file has come in them.
 
-``steps_of`` are the steps, from the facts; ``progress`` is what one file has set and not set, and which findings belong to
-steps that have been reached and which are deferred; ``present`` parts these for every list; ``next_open`` is the next value to give. A step that a person has
-ticked is kept in the head of the file (``tick``).
+``steps_of`` are the steps, from the facts; ``progress`` is what one file has set and not set, and which
+findings belong to steps that have been reached and which are deferred; ``present`` parts these for every
+list; ``next_open`` is the next value to give.
+A step that a person has ticked is kept in the head of the file (``tick``).
 """
 
 from typing import TYPE_CHECKING

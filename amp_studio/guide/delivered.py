@@ -1,4 +1,6 @@
-"""What is found in a file, apart from what is as delivered (``steps_done``): one answer for verbs, window, reports and library."""
+"""What is found in a file, apart from what is as delivered (``steps_done``): one answer for verbs, window,
+reports and library.
+"""
 
 from __future__ import annotations
 
@@ -21,7 +23,9 @@ class Present(NamedTuple):
 
 
 def present(validator: Validator, findings: Sequence[Finding]) -> Present:
-    """Return which of the findings of a validator, which has run, are a state: none in a file in which no value is missing."""
+    """Return which of the findings of a validator, which has run, are a state:
+    none in a file in which no value is missing.
+    """
     if not validator.not_set or all(finding.rule == NOT_SET for finding in findings):
         return Present(tuple(findings))
     now = progress(validator, findings)

@@ -1,15 +1,16 @@
 """How far a file has come in the steps of commissioning.
 
-A value is *open* where the file needs it and has none: the parameter is active, can be set, and is not one that a file is
-complete without. A value is *untouched* where it is open or the printed default.
+A value is *open* where the file needs it and has none: the parameter is active, can be set, and is not one
+that a file is complete without. A value is *untouched* where it is open or the printed default.
 
-A finding belongs to the last step of which it reads an untouched value: not before then has anybody put that value next
-to the others. Where it reads none it belongs to the step of what is wrong.
+A finding belongs to the last step of which it reads an untouched value: not before then has anybody put that
+value next to the others. Where it reads none it belongs to the step of what is wrong.
 
-The steps are reached in their order, as far as the first that is not finished: it has an open value, or an error belongs
-to it. In a file in which nobody has set anything but its axes none is reached; in one that lacks no value all are. A finding
-that belongs to a later step is deferred, as delivered: a state of the file and no fault in it, unless somebody has set what
-is wrong: he learns it at once. A download and its preview know nothing of steps.
+The steps are reached in their order, as far as the first that is not finished: it has an open value, or an
+error belongs to it. In a file in which nobody has set anything but its axes none is reached; in one that
+lacks no value all are. A finding that belongs to a later step is deferred, as delivered: a state of the file
+and no fault in it, unless somebody has set what is wrong: he learns it at once.
+A download and its preview know nothing of steps.
 """
 
 from __future__ import annotations
@@ -61,8 +62,8 @@ class StepProgress:
     def state(self) -> StepState:
         """How far it is.
 
-        It is done when nothing is open, nothing about it is an error, and all that somebody had to give is given. Where
-        every value has a default nobody had to give any: then it is done when a person ticks it.
+        It is done when nothing is open, nothing about it is an error, and all that somebody had to give is
+        given. Where every value has a default nobody had to give any: then it is done when a person ticks it.
         """
         if not self.active or (self.step.id == REST and not self.total and not self.own):
             return "not needed"
@@ -185,7 +186,9 @@ def _axis_parameters(family: Family) -> frozenset[str]:
 
 
 def _belongs_to(file: ParameterFile, finding: Finding) -> tuple[int, bool]:
-    """Return the number of the step to which a finding belongs, 0 for none, and whether somebody has set what is wrong."""
+    """Return the number of the step to which a finding belongs, 0 for none,
+    and whether somebody has set what is wrong.
+    """
     places = step_of(file.schema)
 
     def is_untouched(address: Address) -> bool:
@@ -203,7 +206,8 @@ def _in_order(step: SetupStep, addresses: Sequence[Address]) -> tuple[Address, .
 
 
 def next_open(now: GuideProgress, after: Address | None = None) -> Address | None:
-    """Return the next open value behind an address in the order of the steps, from the first again after the last.
+    """Return the next open value behind an address in the order of the steps,
+    from the first again after the last.
 
     Without an address, or one that is in no step, it is the first. None where nothing is open.
     """

@@ -8,7 +8,9 @@ from .steps import SetupStep
 
 
 def tick(file: ParameterFile, step: SetupStep, by: str | None) -> bool:
-    """Tick a step as done by somebody at some time (``by``), or take the tick away (None); returns whether that is new."""
+    """Tick a step as done by somebody at some time (``by``), or take the tick away (None);
+    returns whether that is new.
+    """
     if (file.header.done.get(step.id) is None) == (by is None):
         return False
     others = {name: who for name, who in file.header.done.items() if name != step.id}

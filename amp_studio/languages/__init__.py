@@ -1,4 +1,6 @@
-"""The words of the program in the languages that it speaks: one file a language, every text under its id, for window and documents."""
+"""The words of the program in the languages that it speaks: one file a language, every text under its id,
+for window and documents.
+"""
 
 from typing import TYPE_CHECKING
 

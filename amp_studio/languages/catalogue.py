@@ -1,7 +1,8 @@
 """Reads the texts of a language: ``LANGUAGE.toml`` beside this module, in sections, each text under its id.
 
-The English file has the texts as the code writes them, so a text with better words keeps its id and its translations. TOML is
-read by Python's own library in a hundredth of a second; YAML of this size takes seven times as long.
+The English file has the texts as the code writes them, so a text with better words keeps its id and its
+translations. TOML is read by Python's own library in a hundredth of a second;
+YAML of this size takes seven times as long.
 """
 
 from __future__ import annotations
@@ -43,7 +44,9 @@ def texts_of(code: str, section: TextSection) -> dict[str, Forms]:
 
 
 def own_texts(code: str, section: TextSection) -> dict[str, Forms]:
-    """Return English text -> text in a language, of what is translated; several forms are found by the form for several."""
+    """Return English text -> text in a language, of what is translated;
+    several forms are found by the form for several.
+    """
     own = texts_of(code, section)
     return {
         english if isinstance(english, str) else english[-1]: own[key]

@@ -1,4 +1,6 @@
-"""What the parameters of a machine mean, whatever the family: read by facts, written for another control, graded one by one."""
+"""What the parameters of a machine mean, whatever the family: read by facts, written for another control,
+graded one by one.
+"""
 
 from typing import TYPE_CHECKING
 

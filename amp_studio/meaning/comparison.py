@@ -14,16 +14,30 @@ from .reading import read_meaning
 _SAME = 1e-6
 """Part by which two figures may differ and count as the same: what rounding inwards has taken away."""
 _UNITS = {
-    "travel.low": "", "travel.high": "", "rollover": "", "error.limit": "", "backlash": "", "home.coordinate": "", "home.offset": "",
-    "home.second": "", "rapid": "/min", "feed.ceiling": "/min", "jog": "/min", "home.search": "/min", "home.leave": "/min",
-    "acceleration": "/s2", "jerk": "/s3",
-}  # fmt: skip
+    "travel.low": "",
+    "travel.high": "",
+    "rollover": "",
+    "error.limit": "",
+    "backlash": "",
+    "home.coordinate": "",
+    "home.offset": "",
+    "home.second": "",
+    "rapid": "/min",
+    "feed.ceiling": "/min",
+    "jog": "/min",
+    "home.search": "/min",
+    "home.leave": "/min",
+    "acceleration": "/s2",
+    "jerk": "/s3",
+}
 """Concepts in mm or degrees, and what of time is behind it."""
 
 
 @dataclass(frozen=True)
 class MeaningRow:
-    """One concept of one axis ("" for the machine) on each machine; None where a machine has none or it is not known."""
+    """One concept of one axis ("" for the machine) on each machine;
+    None where a machine has none or it is not known.
+    """
 
     concept: str
     axis: str

@@ -1,7 +1,8 @@
-"""A machine described without a word of its control: figures by concept, each with the parameters that it comes from.
+"""A machine described without a word of its control: figures by concept,
+each with the parameters that it comes from.
 
-Lengths are mm or degrees, speeds per minute, accelerations per second squared, as everywhere in rules. What a control does not
-have is no figure; what a reader does not know is none either, and never a default.
+Lengths are mm or degrees, speeds per minute, accelerations per second squared, as everywhere in rules. What a
+control does not have is no figure; what a reader does not know is none either, and never a default.
 """
 
 from __future__ import annotations
@@ -12,7 +13,8 @@ from dataclasses import dataclass, field
 from amp_studio.schema import Address
 
 Meant = float | str | bool | list[float | None] | None
-"""A number, the key of a closed choice, a number for each gear, or None: the control has such a thing, and here it is none."""
+"""A number, the key of a closed choice, a number for each gear, or None: the control has such a thing,
+and here it is none."""
 
 CHOICES: dict[str, tuple[str, ...]] = {
     "kind": ("linear", "rotary"),
@@ -23,16 +25,38 @@ CHOICES: dict[str, tuple[str, ...]] = {
 """Concept -> what it can be; a reader that gives anything else is wrong."""
 
 OF_AXIS = (
-    "kind", "travel.kind", "travel.low", "travel.high", "rollover", "rapid", "ramp.kind", "acceleration", "jerk", "error.limit",
-    "gain", "feed_forward", "backlash", "scale", "home.kind", "home.coordinate", "home.offset", "home.search", "home.leave",
-    "home.towards", "home.second", "feed.ceiling", "jog",
-)  # fmt: skip
+    "kind",
+    "travel.kind",
+    "travel.low",
+    "travel.high",
+    "rollover",
+    "rapid",
+    "ramp.kind",
+    "acceleration",
+    "jerk",
+    "error.limit",
+    "gain",
+    "feed_forward",
+    "backlash",
+    "scale",
+    "home.kind",
+    "home.coordinate",
+    "home.offset",
+    "home.search",
+    "home.leave",
+    "home.towards",
+    "home.second",
+    "feed.ceiling",
+    "jog",
+)
 OF_MACHINE = ("spindle.greatest", "spindle.least", "startup")
 
 
 @dataclass(frozen=True)
 class ParameterSource:
-    """A parameter that a figure comes from: its address, its number as a person writes it, its value and its page."""
+    """A parameter that a figure comes from: its address, its number as a person writes it,
+    its value and its page.
+    """
 
     address: Address
     param: str

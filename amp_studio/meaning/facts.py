@@ -1,4 +1,6 @@
-"""``meaning.yaml`` of a family: how its parameters become a machine description, in CEL, and what becomes of all others."""
+"""``meaning.yaml`` of a family: how its parameters become a machine description, in CEL,
+and what becomes of all others.
+"""
 
 from __future__ import annotations
 
@@ -20,7 +22,9 @@ class Derived(Model):
 
 
 class ConceptFact(Model):
-    """One concept. An expression that makes no sense of its values, as of one that is not set, gives no figure."""
+    """One concept. An expression that makes no sense of its values, as of one that is not set,
+    gives no figure.
+    """
 
     concept: str
     reads: Named

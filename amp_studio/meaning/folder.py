@@ -19,10 +19,11 @@ _LINE = re.compile(r"\s*([A-Za-z][A-Za-z0-9_.]*)\s*:\s*(.*?)\s*")
 
 
 def write_migration(migration: Migration, folder: Path) -> list[str]:
-    """Write the configuration and its report into a new folder; returns the names. Raises OSError, with nothing written.
+    """Write the configuration and its report into a new folder; returns the names. Raises OSError,
+    with nothing written.
 
-    A name with an ending is that of one file, the configuration alone. What is there already stays as it is: nobody
-    knows what in it is of another machine.
+    A name with an ending is that of one file, the configuration alone. What is there already stays as it is:
+    nobody knows what in it is of another machine.
     """
     if folder.suffix:
         with folder.open("x", encoding="utf-8", newline="\n") as file:

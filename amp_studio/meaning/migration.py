@@ -1,4 +1,6 @@
-"""The way out of an old control: its parameters, each exactly once, with what becomes of it at the new one."""
+"""The way out of an old control: its parameters, each exactly once, with what becomes of it at the new
+one.
+"""
 
 from __future__ import annotations
 
@@ -156,7 +158,9 @@ def less_safe(migration: Migration) -> list[str]:
 
 
 def migration_json(migration: Migration) -> dict[str, Any]:
-    """Return a migration in the form of ``migrate --json``; every active parameter is once in the first five lists."""
+    """Return a migration in the form of ``migrate --json``;
+    every active parameter is once in the first five lists.
+    """
 
     def rows(outcome: str, *keys: str) -> list[dict[str, Any]]:
         return [
@@ -199,10 +203,14 @@ def migration_lines(migration: Migration) -> Iterator[str]:
     counts = {
         o: len(migration.of(o)) for o in ("exact", "approximate", "not_possible", "asked", "old_hardware")
     }
-    yield f"Migration of {migration.machine.name or 'a machine'} ({migration.machine.family}) to {migration.target}"
     yield (
-        f"{len(migration.entries)} active parameters: {counts['exact']} taken over exactly, {counts['approximate']} approximated, "
-        f"{counts['not_possible']} not possible, {counts['asked']} asked, {counts['old_hardware']} of the old hardware"
+        f"Migration of {migration.machine.name or 'a machine'} ({migration.machine.family}) to"
+        f" {migration.target}"
+    )
+    yield (
+        f"{len(migration.entries)} active parameters: {counts['exact']} taken over exactly,"
+        f" {counts['approximate']} approximated, {counts['not_possible']} not possible, {counts['asked']}"
+        f" asked, {counts['old_hardware']} of the old hardware"
     )
     yield from _section("Less safe than before", less_safe(migration))
     yield from _section(
@@ -211,8 +219,13 @@ def migration_lines(migration: Migration) -> Iterator[str]:
     )
     yield from _section("To be measured at the machine", migration.written.measure)
     yield from _section("HAL is a template: it moves nothing, and nothing of the old wiring is in it", [])
-    for outcome, title in (("exact", "Taken over exactly"), ("approximate", "Approximated"), ("not_possible", "Not possible"),
-                           ("asked", "Asked"), ("old_hardware", "Of the old hardware")):  # fmt: skip
+    for outcome, title in (
+        ("exact", "Taken over exactly"),
+        ("approximate", "Approximated"),
+        ("not_possible", "Not possible"),
+        ("asked", "Asked"),
+        ("old_hardware", "Of the old hardware"),
+    ):
         yield from _section(title, [_line(entry) for entry in migration.of(outcome)])
 
 
@@ -224,9 +237,15 @@ def _line(entry: MigratedParameter) -> str:
     facts = entry.facts
     match entry.outcome:
         case "exact":
-            return f"{entry.param} {facts['raw']} -> {facts['key']} = {facts['value']} ({facts['formula']}, page {facts['page']})"
+            return (
+                f"{entry.param} {facts['raw']} -> {facts['key']} = {facts['value']} ({facts['formula']}, page"
+                f" {facts['page']})"
+            )
         case "approximate":
-            return f"{entry.param} {facts['raw']} -> {facts['key']} = {facts['value']}: before, {facts['old']}; now, {facts['new']}; safe: {facts['safe_side']}"
+            return (
+                f"{entry.param} {facts['raw']} -> {facts['key']} = {facts['value']}: before, {facts['old']};"
+                f" now, {facts['new']}; safe: {facts['safe_side']}"
+            )
         case "not_possible":
             return f"{entry.param} {facts['raw']}: {facts['loses']}; {facts['do']}"
         case "asked":

@@ -1,4 +1,6 @@
-"""A machine description of a parameter file, by the facts of its family. Only values that are active count."""
+"""A machine description of a parameter file, by the facts of its family. Only values that are active
+count.
+"""
 
 from __future__ import annotations
 
@@ -93,7 +95,9 @@ class _Reader:
                     )
 
     def value(self, reads: Named, expression: str, instance: str, derived: Mapping[str, Any]) -> Any:
-        """Return what an expression is for the active values; ``_NOTHING`` where it makes no sense of them."""
+        """Return what an expression is for the active values; ``_NOTHING`` where it makes no sense of
+        them.
+        """
         names = {name: self._canonical(text, instance) for name, text in reads.items()} | dict(derived)
         functions = {**WORD_FUNCTIONS, **rule_functions(self.file.schema.family.family)}
         compiled = program(expression)

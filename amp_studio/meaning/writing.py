@@ -27,7 +27,8 @@ class Graded:
     """One concept of one axis ("" for the machine): what it became, and how well.
 
     ``key``, ``value``   of the new control, as they are written
-    ``old``, ``new``     how either control behaves, and ``safe_side`` which of them is safe, of what is approximate
+    ``old``, ``new``     how either control behaves, and ``safe_side`` which of them is safe, of what is
+    approximate
     ``loses``, ``do``    what the machine loses, and what to do, of what is not possible
     """
 
@@ -63,7 +64,9 @@ class WrittenMachine:
     measure: list[str] = field(default_factory=list)
 
     def answer(self, question: MigrationQuestion, answers: Mapping[str, str], form: str = ".*") -> str:
-        """Return the answer to a question, "" where it is open; raises TargetError for one that is not of the ``form``."""
+        """Return the answer to a question, "" where it is open;
+        raises TargetError for one that is not of the ``form``.
+        """
         self.asked.append(question)
         found = answers.get(question.id, "").strip()
         if not found:
@@ -75,7 +78,9 @@ class WrittenMachine:
         return found
 
     def number(self, question: MigrationQuestion, answers: Mapping[str, str]) -> float | None:
-        """Return the number above 0 that a question is answered with, None where it is open; raises TargetError."""
+        """Return the number above 0 that a question is answered with, None where it is open;
+        raises TargetError.
+        """
         found = self.answer(question, answers, _NUMBER)
         if found and not float(found) > 0.0:
             raise TargetError(f"{question.id}: {quoted(found)} is not above 0. {question.question}")
@@ -105,7 +110,9 @@ def inwards_low(value: float) -> str:
 
 
 def not_above(value: float) -> str:
-    """Return a speed, a ramp or an error limit, never above the old one: rounded towards zero to a millionth."""
+    """Return a speed, a ramp or an error limit, never above the old one: rounded towards zero to a
+    millionth.
+    """
     rounding = ROUND_FLOOR if value >= 0 else ROUND_CEILING
     return _text(Decimal(repr(value)).quantize(_STEP, rounding))
 

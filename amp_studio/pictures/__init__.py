@@ -1,7 +1,8 @@
-"""Pictures of a machine's values that can be edited: scenes (`drawing`) with handles, drawn of a parameter file.
+"""Pictures of a machine's values that can be edited: scenes (`drawing`) with handles,
+drawn of a parameter file.
 
-Which parameters a picture is drawn from are facts of the family (``pictures.yaml``). A picture draws what is set; what is not
-set, inactive or out of range becomes a note, and nothing is guessed.
+Which parameters a picture is drawn from are facts of the family (``pictures.yaml``). A picture draws what is
+set; what is not set, inactive or out of range becomes a note, and nothing is guessed.
 """
 
 from typing import TYPE_CHECKING

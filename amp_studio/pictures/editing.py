@@ -18,7 +18,9 @@ def dragged(handle: Handle, at: Point) -> WantedValues:
 
 
 def stepped(file: ParameterFile, handle: Handle, right: int, up: int, times: int = 1) -> WantedValues:
-    """Return the values of a handle that keys move so many steps to the right and up; one value follows all four keys."""
+    """Return the values of a handle that keys move so many steps to the right and up;
+    one value follows all four keys.
+    """
     found = {}
     for drag in handle.drags:
         count = (right if drag.along == "x" else up) if len(handle.drags) > 1 else right + up

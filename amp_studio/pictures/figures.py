@@ -1,4 +1,6 @@
-"""Values of a file as figures of a picture, and back: units, resolution, range, and why one cannot be drawn."""
+"""Values of a file as figures of a picture, and back: units, resolution, range, and why one cannot be
+drawn.
+"""
 
 from __future__ import annotations
 
@@ -57,7 +59,9 @@ class ValueReader:
         self.notes: dict[str, PictureNote] = {}
 
     def address(self, parameter: ParameterId, instance: str, scope: str = "axis") -> Address | None:
-        """Return the instance that belongs to an axis (a spindle …), or the one of the control; None where there is none."""
+        """Return the instance that belongs to an axis (a spindle …), or the one of the control;
+        None where there is none.
+        """
         instances = self.file.machine_schema.instances(self.file.schema.parameters[parameter])
         if instance in instances:
             return parameter, instance
@@ -68,7 +72,9 @@ class ValueReader:
         return None if found.is_list else found.addresses[0]
 
     def unit(self, address: Address) -> str:
-        """Return the unit in which a value is drawn: that of the file, or mm and deg where another parameter sets its size."""
+        """Return the unit in which a value is drawn: that of the file,
+        or mm and deg where another parameter sets its size.
+        """
         entry = self.evaluation.unit(address, self.file.header.units)
         size = size_of(self.evaluation, address, entry)
         return size.unit if size else entry
@@ -177,7 +183,9 @@ class ValueReader:
     # -- back to values ----------------------------------------------------------
 
     def value(self, address: Address, number: float, unit: str, grain: float) -> Value | None:
-        """Return a number of a picture as a value in the file's unit, rounded to the step that a person would enter."""
+        """Return a number of a picture as a value in the file's unit,
+        rounded to the step that a person would enter.
+        """
         entry = self.evaluation.unit(address, self.file.header.units)
         in_entry = self._to_entry(address, number, unit, entry)
         if in_entry is None or not math.isfinite(in_entry):
@@ -193,7 +201,9 @@ class ValueReader:
         return convert(number, unit, entry) if dimension(unit) == dimension(entry) else None
 
     def resolution(self, address: Address) -> float:
-        """Return the smallest change of a value in the unit of entry: a whole one, or the last decimal that is stored."""
+        """Return the smallest change of a value in the unit of entry: a whole one,
+        or the last decimal that is stored.
+        """
         definition = self.file.schema.parameters[address[0]]
         if definition.type == "integer":
             return 1.0
@@ -211,7 +221,9 @@ class ValueReader:
         *,
         rises: bool = True,
     ) -> Drag:
-        """Return how a figure follows a coordinate: ``inverse`` is coordinate -> figure, ``span`` the figures the picture shows."""
+        """Return how a figure follows a coordinate: ``inverse`` is coordinate -> figure,
+        ``span`` the figures the picture shows.
+        """
         address, unit = figure.address, figure.unit
         entry = self.evaluation.unit(address, self.file.header.units)
         across = abs(self._to_entry(address, span, unit, entry) or 0.0)

@@ -10,7 +10,9 @@ from .figures import DrawnValue, ValueReader
 
 
 def draw_gain(file: ParameterFile, roles: ErrorRoles, axis: str, like: Scene | None = None) -> Scene:
-    """Return the gain of an axis over its following error; beyond the break it is the gain times the ratio."""
+    """Return the gain of an axis over its following error; beyond the break it is the gain times the
+    ratio.
+    """
     figures = ValueReader(file)
     gain = figures.figure(roles.gain, axis)
     ratio = figures.figure(roles.ratio, axis) if roles.ratio else None

@@ -73,7 +73,8 @@ def draw_gears(file: ParameterFile, roles: GearRoles, spindle: str, like: Scene 
         "gears",
         spindle,
         "Spindle gears",
-        f"{f'spindle {spindle}, ' if spindle else ''}{'volts' if roles.unit == 'V' else roles.unit} over speed",
+        f"{f'spindle {spindle}, ' if spindle else ''}{'volts' if roles.unit == 'V' else roles.unit} over"
+        " speed",
         x,
         y,
         areas=tuple(areas),

@@ -12,7 +12,9 @@ from .figures import ValueReader
 
 
 def axes_with(file: ParameterFile, parameters: Iterable[ParameterId]) -> tuple[str, ...]:
-    """Return the axes on which one of the parameters is set and active; the fitted ones where there is none."""
+    """Return the axes on which one of the parameters is set and active; the fitted ones where there is
+    none.
+    """
     own = [p for p in parameters if file.machine_schema.scopes[p] == "axis"]
     axes = every_axis(file)
     found = tuple(axis for axis in axes if any(_is_drawn(file, p, axis) for p in own))

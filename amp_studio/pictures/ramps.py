@@ -37,7 +37,9 @@ class _Drawn:
 
 
 def ramp_of(file: ParameterFile, role: RampKind, axis: str, feedrate: float, base: str) -> Ramp | None:
-    """Return one kind of ramp of an axis as the simulator takes it: in ``base`` (mm, in, deg, counts) and s; None where it is not set."""
+    """Return one kind of ramp of an axis as the simulator takes it: in ``base`` (mm, in, deg, counts) and s;
+    None where it is not set.
+    """
     found = _drawn(ValueReader(file), role, axis, feedrate, base)
     return found.ramp if found else None
 
@@ -105,7 +107,9 @@ def _speed(figures: ValueReader, feed: DrawnValue | None) -> float | None:
 
 
 def _mode(figures: ValueReader, roles: RampRoles, axis: str) -> str | None:
-    """Return what the file chooses between the kinds: the key of a choice, 0 or 1 of a bit; None where it is not set."""
+    """Return what the file chooses between the kinds: the key of a choice, 0 or 1 of a bit;
+    None where it is not set.
+    """
     address = figures.address(roles.mode, axis) if roles.mode else None
     value = figures.file.get(address) if address else None
     if address is None:
@@ -250,7 +254,8 @@ def _within_scans(
     used = min(max(given, up / (role.jerk_scans.most * scan)), up / (role.jerk_scans.least * scan))
     if used != given:
         figures.note(
-            f"{jerk.label}: {jerk.shown} is outside {role.jerk_scans.least:g} to {role.jerk_scans.most:g} scans, drawn with {used:.6g} {shown(jerk.unit)}",
+            f"{jerk.label}: {jerk.shown} is outside {role.jerk_scans.least:g} to {role.jerk_scans.most:g}"
+            f" scans, drawn with {used:.6g} {shown(jerk.unit)}",
             jerk.address,
             wrong=True,
         )

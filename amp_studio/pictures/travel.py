@@ -42,7 +42,8 @@ class _Ends:
 def draw_travel(
     file: ParameterFile, roles: TravelRoles, axes: tuple[str, ...], like: Scene | None = None
 ) -> Scene:
-    """Return the picture of a pair of axes (or of one); ``like`` gives the view that stays while a handle is dragged.
+    """Return the picture of a pair of axes (or of one);
+    ``like`` gives the view that stays while a handle is dragged.
 
     A travel that is much longer than the other one lies along x.
     """
@@ -153,7 +154,9 @@ def _inner(ends: list[_Ends]) -> tuple[float, float]:
 def _boxes(
     figures: ValueReader, zone: ZoneRole, axes: tuple[str, ...], travel: list[tuple[float, float]]
 ) -> list[list[_Ends]]:
-    """Return the bodies that a zone is: one for each group of axes, over the whole travel of an axis that is not in it."""
+    """Return the bodies that a zone is: one for each group of axes,
+    over the whole travel of an axis that is not in it.
+    """
     groups: dict[object, list[str]] = {}
     for axis in axes:
         address = figures.address(zone.group, axis) if zone.group else None

@@ -1,4 +1,5 @@
-"""What a control does with the words of a part program under a parameter file: their numbers, codes and what is active.
+"""What a control does with the words of a part program under a parameter file: their numbers,
+codes and what is active.
 
 What a code means, and by which format a letter is read, are facts of a family (``program.yaml``).
 """

@@ -53,7 +53,9 @@ class ReadBlock:
 
 
 class BlockReader:
-    """Reads blocks one after the other; a modal code stays active for the blocks after it, as on the control."""
+    """Reads blocks one after the other; a modal code stays active for the blocks after it, as on the
+    control.
+    """
 
     def __init__(self, file: ParameterFile) -> None:
         self.file = file
@@ -66,7 +68,9 @@ class BlockReader:
         """Key of a group -> code without zeros."""
 
     def read(self, block: str) -> ReadBlock:
-        """Return the words of a block in their order. Raises ProgramBlockError for a block that cannot be read at all."""
+        """Return the words of a block in their order.
+        Raises ProgramBlockError for a block that cannot be read at all.
+        """
         for statement in self.codes.facts.statements:
             if re.match(statement.pattern, block.strip().upper()):
                 line = block.strip()
@@ -199,7 +203,9 @@ class BlockReader:
         )
 
     def _axes(self, letter: str) -> Iterator[tuple[str, str, tuple[str, ...]]]:
-        """Yield axis, meaning and parameters of a letter that names an axis, its distance or its arc center."""
+        """Yield axis, meaning and parameters of a letter that names an axis, its distance or its arc
+        center.
+        """
         axes, evaluation = self.codes.facts.axes, self.file.evaluation
         if axes is None:
             return
@@ -282,7 +288,9 @@ class BlockReader:
 
 
 def code_at_power_up(codes: ControlCodes, key: str) -> str | None:
-    """Return the code of a group that is active after power-up, without zeros; None where none is, or it is not set."""
+    """Return the code of a group that is active after power-up, without zeros; None where none is,
+    or it is not set.
+    """
     group = next(group for group in codes.groups if group.key == key)
     if group.power_up is None:
         return None

@@ -1,4 +1,6 @@
-"""The codes of a control under a parameter file: its system, what each code means there, and the macro calls of the builder."""
+"""The codes of a control under a parameter file: its system, what each code means there,
+and the macro calls of the builder.
+"""
 
 from __future__ import annotations
 

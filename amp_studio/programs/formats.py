@@ -1,4 +1,6 @@
-"""The number of a word by its word format: digits before and behind the point, and the place of a number without a point."""
+"""The number of a word by its word format: digits before and behind the point,
+and the place of a number without a point.
+"""
 
 from __future__ import annotations
 
@@ -8,7 +10,8 @@ from typing import Literal
 from amp_studio.schema import quoted
 
 Justified = Literal["", "right", "left", "both"]
-"""The end of the format to which the digits of a number without a point are set: ``right`` with leading zeros left out."""
+"""The end of the format to which the digits of a number without a point are set:
+``right`` with leading zeros left out."""
 
 
 @dataclass(frozen=True)

@@ -43,7 +43,8 @@ class TypedWord:
 def words_of(block: str, expressions: bool = False) -> Iterator[TypedWord]:
     """Yield the words of one block; remarks and block delete characters are left out.
 
-    With ``expressions`` a word may have an expression in parentheses for its number. Raises ProgramBlockError.
+    With ``expressions`` a word may have an expression in parentheses for its number.
+    Raises ProgramBlockError.
     """
     if len(block) > LONGEST:
         raise ProgramBlockError(f"A block has at most {LONGEST} characters, not {len(block)}")

@@ -1,7 +1,9 @@
-"""Reports are made in a process apart where the program goes on after them, and where a project's template makes them.
+"""Reports are made in a process apart where the program goes on after them,
+and where a project's template makes them.
 
-Typst runs in the process that calls it, keeps about 100 MB of each document for those after it, cannot be interrupted, and
-ends the process where memory is over: a template without an end, or with too much, ends alone.
+Typst runs in the process that calls it, keeps about 100 MB of each document for those after it, cannot be
+interrupted, and ends the process where memory is over: a template without an end, or with too much,
+ends alone.
 """
 
 from __future__ import annotations
@@ -24,7 +26,10 @@ _PATIENCE_S = 40.0
 """Of both: jinja2 has half of it (``templating``)."""
 _MOST_MEMORY = 3 * 2**30
 """Bytes of address space, where the system can bound it."""
-_CHILD = "import sys; sys.path.insert(0, sys.argv.pop()); from {module} import answer; answer(sys.stdin.buffer, sys.stdout.buffer)"
+_CHILD = (
+    "import sys; sys.path.insert(0, sys.argv.pop()); from {module} import answer; answer(sys.stdin.buffer,"
+    " sys.stdout.buffer)"
+)
 
 What = Literal["pdf", "html", "pages"]
 
@@ -98,7 +103,9 @@ def made(what: What, report: Report, own: Path | None, ppi: int = 0) -> list[byt
 
 
 def answer(asked: BinaryIO, out: BinaryIO) -> None:
-    """Make what the program asks for, in the process apart: a line with mistake and lengths, then the files."""
+    """Make what the program asks for, in the process apart: a line with mistake and lengths, then the
+    files.
+    """
     most_memory, *wanted = pickle.load(asked)  # noqa: S301  # the program itself has written it
     if most_memory:
         _bound_memory(most_memory)

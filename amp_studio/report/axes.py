@@ -7,7 +7,9 @@ from amp_studio.schema import Address
 
 
 def printed_axes(file: ParameterFile) -> tuple[str, ...]:
-    """Return the axes a report prints: the fitted ones with inputs that something else uses, or all if the file does not say."""
+    """Return the axes a report prints: the fitted ones with inputs that something else uses,
+    or all if the file does not say.
+    """
     return shown_axes(file) if file.schema.family.fits_axes else axis_instances(file)
 
 
@@ -18,7 +20,9 @@ def scope_of(file: ParameterFile, address: Address) -> str:
 
 
 def axis_label(file: ParameterFile, axis: str) -> str:
-    """Return ``X``; ``X (axis 1)`` where several printed axes have that letter, ``Axis 1`` without a letter."""
+    """Return ``X``; ``X (axis 1)`` where several printed axes have that letter, ``Axis 1`` without a
+    letter.
+    """
     letter, label = axis_letter(file, axis), file.schema.family.scopes["axis"].label.format(i=axis)
     if not letter:
         return label

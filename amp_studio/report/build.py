@@ -56,8 +56,9 @@ def build_report(
 ) -> Report:
     """Return the report of a file as it is in memory; secrets are masked.
 
-    ``source`` is its path on disk, ``project`` what its project has about the machine; ``date`` is printed, the present
-    time if left out. ``motion`` are drawings of the simulator, ``exchanges`` what the record has of this file.
+    ``source`` is its path on disk, ``project`` what its project has about the machine; ``date`` is printed,
+    the present time if left out. ``motion`` are drawings of the simulator,
+    ``exchanges`` what the record has of this file.
     """
     contents = contents or Contents()
     found = rows_of(file, contents.units)
@@ -106,7 +107,9 @@ def _is_wanted(row: ReportRow, contents: Contents) -> bool:
 
 
 def _power_up(file: ParameterFile) -> Iterator[ProgramState]:
-    """Yield what is active in part programs after power-up; nothing for a family of which no page prints it."""
+    """Yield what is active in part programs after power-up; nothing for a family of which no page prints
+    it.
+    """
     if not file.schema.program.page:
         return
     from amp_studio.programs import power_up

@@ -1,4 +1,6 @@
-"""What a report contains, in which order, units, language and on which paper: the choices of the person who prints it."""
+"""What a report contains, in which order, units, language and on which paper:
+the choices of the person who prints it.
+"""
 
 from __future__ import annotations
 
@@ -6,7 +8,8 @@ from dataclasses import dataclass
 from typing import Literal
 
 Sort = Literal["axis", "number", "group", "steps"]
-"""The three orders of a report (9/PC CNC AMP Reference Manual, Documenting AMP Files), and that of commissioning."""
+"""The three orders of a report (9/PC CNC AMP Reference Manual, Documenting AMP Files),
+and that of commissioning."""
 
 SORTS: dict[Sort, str] = {
     "axis": "by axis, then non-axis parameters",
@@ -18,7 +21,8 @@ SORTS: dict[Sort, str] = {
 Chapter = Literal["pictures", "motion", "power-up", "exchanges", "signatures"]
 
 CHAPTERS: tuple[Chapter, ...] = ("pictures", "motion", "power-up", "exchanges", "signatures")
-"""Chapters that can be left out of a PDF and of a web page; text and tables have only the last three, or none."""
+"""Chapters that can be left out of a PDF and of a web page; text and tables have only the last three,
+or none."""
 
 UnitChoice = Literal["file", "metric", "inch", "both"]
 """The units of a report: those of the file, one system, or the file's with the other system's beside them."""

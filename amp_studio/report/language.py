@@ -1,6 +1,8 @@
-"""The languages of documents, and in the window of what is made below it: the words of the program's own frame.
+"""The languages of documents, and in the window of what is made below it:
+the words of the program's own frame.
 
-The texts are in ``amp_studio/languages``, each under its id; what is made in English is found by the English text of its id. Names, choices, help and findings stay as they are.
+The texts are in ``amp_studio/languages``, each under its id; what is made in English is found by the English
+text of its id. Names, choices, help and findings stay as they are.
 """
 
 from __future__ import annotations
@@ -49,7 +51,9 @@ class Language:
         return self.phrases.get(f"help: {title}") or self.text(title)
 
     def title(self, english: str) -> str:
-        """Return what the program itself calls something: the title of a step or a picture, a heading, a note of a picture."""
+        """Return what the program itself calls something: the title of a step or a picture, a heading,
+        a note of a picture.
+        """
         known = self.titles.get(english)
         if known is not None:
             return known

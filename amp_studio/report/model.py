@@ -39,7 +39,8 @@ _OWN_FACTS = frozenset(
 """Facts in words of the report."""
 _MANY_AXES = 4
 _LONGEST_NOTE = 160
-"""Characters of a note that are printed beside its value; all notes are printed whole in a chapter of their own."""
+"""Characters of a note that are printed beside its value;
+all notes are printed whole in a chapter of their own."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -62,7 +63,8 @@ class ReportRow:
     unit: str
     """Of ``value`` and ``plain_default``, in the spelling of the database (``mm/s2``)."""
     figure: str
-    """Label, or number without its unit, as printed: in the one unit that a report has for the parameter; ``≈`` when rounded."""
+    """Label, or number without its unit, as printed: in the one unit that a report has for the parameter;
+    ``≈`` when rounded."""
     shown_unit: str
     """Of ``figure`` and ``default``, in the printed spelling (``mm/s²``)."""
     also: str
@@ -83,7 +85,8 @@ class ReportRow:
     why: str
     """Why it is inactive; empty when it is active."""
     state_mark: str
-    """``i2`` for the second reason in this report why a value is ignored, ``u1`` for not available; empty when active."""
+    """``i2`` for the second reason in this report why a value is ignored, ``u1`` for not available;
+    empty when active."""
     forced: str
     """When and by whom it was forced out of range; empty when it was not."""
     note: str = ""
@@ -293,7 +296,8 @@ class Report:
     remarks: str
     """What a person noted about the machine."""
     remarked: tuple[tuple[str, str], ...]
-    """(group or value, what a person noted about it) of all that have a note, also where the value is not printed."""
+    """(group or value, what a person noted about it) of all that have a note,
+    also where the value is not printed."""
     axis_heads: tuple[str, ...]
     axes: tuple[tuple[str, ...], ...]
     notes: tuple[Note, ...]
@@ -337,7 +341,9 @@ class Report:
                 yield from part.rows
 
     def severities(self) -> dict[NoteKind, tuple[Note, ...]]:
-        """Return the findings by severity, errors first, suppressed ones last; empty severities are left out."""
+        """Return the findings by severity, errors first, suppressed ones last; empty severities are left
+        out.
+        """
         names: tuple[NoteKind, ...] = ("error", "warning", "advice", "suppressed")
         found = {name: tuple(n for n in self.notes if n.severity == name) for name in names}
         return {name: notes for name, notes in found.items() if notes}

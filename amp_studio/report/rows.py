@@ -24,7 +24,8 @@ from .contents import UnitChoice
 from .model import ReportRow
 
 _EXACT = 9
-"""Most digits of a converted figure that is exact; with more of them it would be the same figure by chance."""
+"""Most digits of a converted figure that is exact; with more of them it would be the same figure by
+chance."""
 _ROUNDED = 7
 """Digits of a converted figure that is not exact."""
 
@@ -77,9 +78,11 @@ def row_of(
     units: UnitChoice = "file",
     place: str | None = None,
 ) -> ReportRow:
-    """Return the row of one value; ``state_mark`` is the mark of the reason why it is inactive, ``place`` is ``place_of`` where it is known.
+    """Return the row of one value; ``state_mark`` is the mark of the reason why it is inactive,
+    ``place`` is ``place_of`` where it is known.
 
-    Secrets are masked. The row of a secret has no default: together with the mark of a change it would reveal the value.
+    Secrets are masked. The row of a secret has no default:
+    together with the mark of a change it would reveal the value.
     """
     schema, here, evaluation = file.schema, file.machine_schema, file.evaluation
     parameter = schema.parameters[address[0]]
@@ -175,7 +178,9 @@ def _converted(value: Value | None, unit: str) -> Value | None:
 
 
 def _bits(parameter: Parameter, value: Value | None) -> str:
-    """Return the meaning of the set bits and the fields of a packed word; bits of one lost figure have it once."""
+    """Return the meaning of the set bits and the fields of a packed word;
+    bits of one lost figure have it once.
+    """
     if not parameter.bits or value is None or isinstance(value.value, (str, bool)):
         return ""
     word, parts = int(value.value), []

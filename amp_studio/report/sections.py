@@ -23,7 +23,9 @@ _WIDEST_GRID = 8
 def sections_of(
     file: ParameterFile, rows: Sequence[ReportRow], sort: Sort, language: Language = ENGLISH
 ) -> tuple[Section, ...]:
-    """Return the rows in one of the orders, steps with their titles in a language; empty sections are left out."""
+    """Return the rows in one of the orders, steps with their titles in a language;
+    empty sections are left out.
+    """
     if sort == "number":
         return _by_number(rows)
     if sort == "steps":
@@ -174,7 +176,8 @@ def _line_unit(present: list[ReportRow]) -> str:
 def numbers_of(rows: Sequence[ReportRow]) -> str:
     """Return the numbers of one parameter's values: ``1300``, ``20020, 21020``, ``1300, 2300 … 5300, 8300``.
 
-    Never a range: between two of them there are numbers of other parameters. Those with … between them go on in equal steps.
+    Never a range: between two of them there are numbers of other parameters.
+    Those with … between them go on in equal steps.
     """
     numbers = list(dict.fromkeys(row.number for row in rows))
     runs: list[list[str]] = []

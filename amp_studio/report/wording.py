@@ -26,7 +26,9 @@ def counted(number: int, noun: str, none: str = "0") -> str:
 
 
 def delivered_text(findings: Sequence[Finding], steps: Sequence[int]) -> str:
-    """Return what is as delivered, and in which steps it is set: ``as delivered, to be set in step 3 of commissioning: 6 errors``; "" for nothing."""
+    """Return what is as delivered, and in which steps it is set: ``as delivered, to be set in step 3 of
+    commissioning: 6 errors``; "" for nothing.
+    """
     counts = [(s, sum(f.severity == s for f in findings)) for s in SEVERITIES]
     text = ", ".join(counted(count, severity) for severity, count in counts if count)
     numbers = f"step{'' if len(steps) == 1 else 's'} {', '.join(map(str, steps))}"

@@ -50,11 +50,13 @@ def print_report(
 ) -> bool:
     """Write the documentation of a file, whole or not at all; the file extension of ``path`` sets the format.
 
-    ``source`` is the path of the file on disk, from beside which the project's information is taken; ``date`` is printed
-    (now when left out), ``own`` are the builder's rules; ``notify`` is called with each attribute of a replaced file that
-    could not be kept, and with the mistake of a project's template. Returns whether the project's own template was used, where it has
-    one: False is the standard report in its place. ``motion`` and ``exchanges`` are those of ``build_report``. Raises ValueError for an unknown file extension, ParameterFileError for a project that cannot be
-    read, SaveError when it cannot be written.
+    ``source`` is the path of the file on disk, from beside which the project's information is taken; ``date``
+    is printed (now when left out), ``own`` are the builder's rules; ``notify`` is called with each attribute
+    of a replaced file that could not be kept, and with the mistake of a project's template. Returns whether
+    the project's own template was used, where it has
+    one: False is the standard report in its place. ``motion`` and ``exchanges`` are those of
+    ``build_report``. Raises ValueError for an unknown file extension, ParameterFileError for a project that
+    cannot be read, SaveError when it cannot be written.
     """
     path, source = Path(path), Path(source) if source else None
     if path.suffix.lower() not in FORMATS:
@@ -82,7 +84,8 @@ def set_report(
     exchanges: Sequence[ExchangeLine] = (),
     notify: Notify = lambda _note: None,
 ) -> SetReport:
-    """Return the pages of what ``print_report`` writes as PDF, as pictures with ``ppi`` pixels to the inch: for the eye and for a printer.
+    """Return the pages of what ``print_report`` writes as PDF, as pictures with ``ppi`` pixels to the inch:
+    for the eye and for a printer.
 
     Raises ReportNotMadeError, and ParameterFileError for a project that cannot be read.
     """
@@ -105,7 +108,9 @@ def set_report(
 
 
 def _rendered(report: Report, ending: str, folder: Path | None) -> tuple[bytes, TemplateMistakeError | None]:
-    """Return the report in a format, by the project's template where it has one, else, or after its mistake, the standard one."""
+    """Return the report in a format, by the project's template where it has one, else, or after its mistake,
+    the standard one.
+    """
     form = _WITH_TEMPLATES.get(ending)
     own = own_template(folder, form[1]) if form else None
     mistake = None
@@ -119,6 +124,8 @@ def _rendered(report: Report, ending: str, folder: Path | None) -> tuple[bytes, 
 
 
 def project_beside(source: Path | None) -> ProjectInfo | None:
-    """Return the content of ``project.yaml`` beside a file; None where there is none. Raises ParameterFileError."""
+    """Return the content of ``project.yaml`` beside a file; None where there is none.
+    Raises ParameterFileError.
+    """
     folder = real_path(source).parent if source else None
     return Project.open(folder).info if folder and (folder / "project.yaml").exists() else None

@@ -1,4 +1,6 @@
-"""By which words the values of a family are known: parameter id and instance, written ``home.calibration@1``."""
+"""By which words the values of a family are known: parameter id and instance, written
+``home.calibration@1``.
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,5 @@
-"""What a person means by a number, an id or the letter of an axis: the one place where every verb looks it up.
+"""What a person means by a number, an id or the letter of an axis:
+the one place where every verb looks it up.
 
     1300                 the manual's own number, here of axis 1
     61                   a number without the letters before it (Pr61, R3, $130)
@@ -8,8 +9,8 @@
     home.calibration@X   the axis by the letter that the file gives it
     1300@X               the parameter that has this number on any axis, on axis X
 
-Case does not matter. A number that is printed for several parameters means one that exists for the file's machine;
-where that leaves more than one, the first in the manual's order, so that every verb takes the same.
+Case does not matter. A number that is printed for several parameters means one that exists for the file's
+machine; where that leaves more than one, the first in the manual's order, so that every verb takes the same.
 """
 
 from __future__ import annotations
@@ -35,7 +36,9 @@ _LONGEST_NUMBER = 16
 
 
 class FileState(Protocol):
-    """What the meaning of a text depends on in a file: its machine type, and the values and states of its parameters."""
+    """What the meaning of a text depends on in a file: its machine type,
+    and the values and states of its parameters.
+    """
 
     @property
     def schema(self) -> Schema: ...
@@ -60,7 +63,9 @@ class ResolvedAddress(NamedTuple):
     """Further instances that the manual prints this number for."""
 
     def remark(self, schema: Schema) -> str:
-        """Return a message with the parameter that an ambiguous number means; empty where there is but one."""
+        """Return a message with the parameter that an ambiguous number means; empty where there is but
+        one.
+        """
         if not self.others:
             return ""
 
@@ -76,7 +81,9 @@ class ResolvedAddress(NamedTuple):
 
 
 def resolve_address(evaluation: FileState, text: str) -> ResolvedAddress:
-    """Return the one instance, or the bit of it, that a text addresses; raises UnknownParameterError with one sentence."""
+    """Return the one instance, or the bit of it, that a text addresses;
+    raises UnknownParameterError with one sentence.
+    """
     try:
         return _whole(evaluation, text)
     except UnknownParameterError:
@@ -97,7 +104,8 @@ def resolve_all(evaluation: FileState, text: str) -> list[ResolvedAddress]:
 
 
 def resolve_addresses(evaluation: FileState, text: str) -> list[Address]:
-    """Return the values that a text means where several are welcome: an id alone means all its instances, a bit its word.
+    """Return the values that a text means where several are welcome: an id alone means all its instances,
+    a bit its word.
 
     Raises UnknownParameterError.
     """
@@ -143,11 +151,13 @@ def _words(evaluation: FileState, text: str) -> list[Address]:
     return [a for a in words if evaluation.state(a).state != "hidden"] or words
 
 
-# -- instances ---------------------------------------------------------------------------------------------------
+# -- instances
 
 
 def _instance(evaluation: FileState, parameter: Parameter, instance: str, text: str) -> str:
-    """Return the instance that is named by itself, or by the letter of its axis; raises UnknownParameterError."""
+    """Return the instance that is named by itself, or by the letter of its axis;
+    raises UnknownParameterError.
+    """
     instances = evaluation.machine_schema.instances(parameter)
     if instance in instances:
         return instance
@@ -213,7 +223,9 @@ def _axis_names(evaluation: FileState) -> Iterator[tuple[str, str]]:
 
 
 def _naming(evaluation: FileState) -> tuple[str, int | None] | None:
-    """Return the parameter that names an axis, and the field of its word where it is one; None in a family without."""
+    """Return the parameter that names an axis, and the field of its word where it is one;
+    None in a family without.
+    """
     family = evaluation.schema.family
     declared = family.declared_axes.name if family.declared_axes else None
     named_by = family.axes.name if family.axes else declared.param if declared else None
@@ -221,7 +233,9 @@ def _naming(evaluation: FileState) -> tuple[str, int | None] | None:
 
 
 def _label(evaluation: FileState, parameter_id: str, bit: int | None, axis: str) -> str:
-    """Return the label of an axis' choice, or of the choice in a field of its word; "" where there is none."""
+    """Return the label of an axis' choice, or of the choice in a field of its word; "" where there is
+    none.
+    """
     parameter, value = evaluation.schema.parameters[parameter_id], evaluation.canonical((parameter_id, axis))
     if bit is None:
         return label_of(parameter, value) if isinstance(value, str) else ""
@@ -261,7 +275,7 @@ def _offered(instances: tuple[str, ...]) -> str:
     return f"has {span}" + (", and one without '@'" if "" in instances else "")
 
 
-# -- unknown names -----------------------------------------------------------------------------------------------
+# -- unknown names
 
 
 def unknown(schema: Schema, text: str) -> tuple[str, partial[list[str]]]:

@@ -1,7 +1,7 @@
 """The fields of a packed word, one by one or given by what its bits are called: ``Enable, Override locks``.
 
-A bit is set by its label, a field of several bits by ``label: choice`` or ``label: number``; whatever is not named is
-0, and ``none`` is no bit at all.
+A bit is set by its label, a field of several bits by ``label: choice`` or ``label: number``; whatever is not
+named is 0, and ``none`` is no bit at all.
 """
 
 from __future__ import annotations
@@ -123,7 +123,8 @@ def _only(parameter: Parameter, entry: str, fields: list[Bit]) -> Bit:
 
 
 def field_at(parameter: Parameter, bit: int) -> Bit:
-    """Return the field that begins at a bit of a word; one that the database does not name is a bit by itself.
+    """Return the field that begins at a bit of a word;
+    one that the database does not name is a bit by itself.
 
     Raises InvalidValueError for a parameter without bits, and beyond its last bit.
     """
@@ -144,7 +145,9 @@ def field_value(field: Bit, word: int) -> int:
 
 
 def with_field(field: Bit, word: int, text: str) -> int:
-    """Return a word with one field changed to what a person wrote; every other bit stays. Raises InvalidValueError."""
+    """Return a word with one field changed to what a person wrote; every other bit stays.
+    Raises InvalidValueError.
+    """
     typed = plain(text)
     for choice in field.choices or ():
         names = [plain(name) for name in (choice.label, choice.code, choice.key) if name]

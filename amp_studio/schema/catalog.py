@@ -43,7 +43,8 @@ class Schema:
     further_text: str = ""
     """``FurtherFacts`` as they were compiled, until somebody asks for one of them."""
     description: bytes = b""
-    """The description that a control gave of itself, from which this schema was made; empty for the facts of the database."""
+    """The description that a control gave of itself, from which this schema was made;
+    empty for the facts of the database."""
 
     def __repr__(self) -> str:
         return f"Schema({self.family.family!r})"
@@ -168,7 +169,9 @@ class Schema:
 
     @cached_property
     def signature(self) -> str:
-        """Checksum over instances, numbers, names, types, units, storage, choices and bits; travels with every file."""
+        """Checksum over instances, numbers, names, types, units, storage, choices and bits;
+        travels with every file.
+        """
         lines = []
         machines = [m.key for m in self.family.machines if m.in_signature]
         for parameter in self.parameters.values():
@@ -232,7 +235,9 @@ def load_schema(family_id: str) -> Schema:
 
 
 def schema_of(compiled: Compiled, description: bytes = b"") -> Schema:
-    """Return the schema of compiled facts, which were made from the ``description`` of a control where there is one."""
+    """Return the schema of compiled facts, which were made from the ``description``
+    of a control where there is one.
+    """
     return Schema(
         family=compiled.family,
         groups=compiled.groups,

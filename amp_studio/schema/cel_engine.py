@@ -42,8 +42,8 @@ _FAULTS = ("AttributeError", "NameError", "UnboundLocalError", "AssertionError",
 def _reports_a_fault(record: logging.LogRecord) -> bool:
     """Return whether what CEL logs is worth a line.
 
-    It warns of every function that raises. Most only make no sense of their arguments, which ends the expression and
-    is all there is to say.
+    It warns of every function that raises. Most only make no sense of their arguments, which ends the
+    expression and is all there is to say.
     """
     return record.levelno > logging.WARNING or any(
         f" failed: {fault}" in record.getMessage() for fault in _FAULTS
@@ -78,7 +78,9 @@ _WIDEST = 64
 
 
 def _bit(word: float | None, n: float) -> bool | None:
-    """Return whether a bit of a word is set; null for a word that is not set, which ends an expression like any other null."""
+    """Return whether a bit of a word is set; null for a word that is not set,
+    which ends an expression like any other null.
+    """
     return None if word is None else int(word) >> int(n) & 1 == 1
 
 

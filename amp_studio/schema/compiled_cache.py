@@ -1,7 +1,7 @@
 """Where a compiled family is kept: JSON below a digest over it, which is rebuilt where it is anything else.
 
-JSON and not pickle: a cache must not be able to run code. What lies there and cannot be used is named in a warning of
-the log, once a start; a cache that cannot be written costs time only.
+JSON and not pickle: a cache must not be able to run code. What lies there and cannot be used is named in a
+warning of the log, once a start; a cache that cannot be written costs time only.
 """
 
 from __future__ import annotations

@@ -1,7 +1,7 @@
 """What the conditions of a family read on one machine type: worked out once, for all its files.
 
-Nothing here depends on a value. What needs to know what an expression reads asks here: an edit, to forget what hung on
-it, and the plan of all checks.
+Nothing here depends on a value. What needs to know what an expression reads asks here: an edit, to forget
+what hung on it, and the plan of all checks.
 """
 
 from __future__ import annotations
@@ -21,7 +21,8 @@ Asked = tuple[str, str, str | None]
 """What is asked (a condition, an entry of ``reads``), for which instance, of which scope."""
 
 Reach = Literal["all", "whole", "each"]
-"""For what a condition has the same answer: for all instances, for the parts of one, or for each by itself."""
+"""For what a condition has the same answer: for all instances, for the parts of one, or for each by
+itself."""
 
 
 class Reference(NamedTuple):
@@ -176,7 +177,9 @@ class Conditions:
     # -- what is read ----------------------------------------------------------
 
     def state_reads(self, address: Address) -> frozenset[Address]:
-        """Return every address whose value can change the state, the unit or the choice of the range of this one."""
+        """Return every address whose value can change the state,
+        the unit or the choice of the range of this one.
+        """
         parameter, family = self._schema.parameters[address[0]], self._schema.family
         names = [r.when or r.unless or "" for r in parameter.states]
         names += [v.when for v in parameter.range_variants]
@@ -196,7 +199,9 @@ class Conditions:
         return frozenset(found)
 
     def range_reads(self, address: Address) -> frozenset[Address]:
-        """Return every address whose value can change the range of this one, where other parameters set its bounds too."""
+        """Return every address whose value can change the range of this one,
+        where other parameters set its bounds too.
+        """
         found = self.state_reads(address)
         for source in self.bound_sources(address):
             found |= {source} | self.state_reads(source)
@@ -214,7 +219,9 @@ class Conditions:
         )
 
     def asked(self, name: str, instance: str, scope: str | None) -> Asked:
-        """Return what to ask for a condition to be true for an instance: the same for all with the same answer."""
+        """Return what to ask for a condition to be true for an instance:
+        the same for all with the same answer.
+        """
         reach = self.reaches.get(name)
         if reach == "all":
             return name, "", None
@@ -258,7 +265,9 @@ class Conditions:
         return [known((text, instance, scope)) or self.reference(text, instance, scope) for text in texts]
 
     def _named(self, text: str, scope: str | None) -> tuple[str, str, dict[str, int], bool]:
-        """Return the parameter and the instances that a text means, its own instances in order, and whether it is kin."""
+        """Return the parameter and the instances that a text means, its own instances in order,
+        and whether it is kin.
+        """
         found = self._names.get((text, scope))
         if found is None:
             parameter_id, which = read_address(text)

@@ -9,17 +9,7 @@ from pathlib import Path
 from typing import NamedTuple
 
 from .cel_engine import WORD_FUNCTIONS, compile_expression, functions_called
-from .model import (
-    BoundRef,
-    Commissioning,
-    Family,
-    Group,
-    Messages,
-    Parameter,
-    Plausible,
-    Rule,
-    StateRule,
-)
+from .model import BoundRef, Commissioning, Family, Group, Messages, Parameter, Plausible, Rule, StateRule
 from .quoting import quoted
 from .yaml_reader import KeyPath
 
@@ -57,7 +47,9 @@ def faults_between(family: Family, groups: tuple[Group, ...]) -> Iterator[Incons
 def faults_of_messages(
     files: Mapping[Path, Messages], groups: tuple[Group, ...], rules: tuple[Rule, ...]
 ) -> Iterator[tuple[Path, KeyPath, str]]:
-    """Yield each parameter or rule that a message names and that does not exist, and each duplicate message."""
+    """Yield each parameter or rule that a message names and that does not exist, and each duplicate
+    message.
+    """
     known = {
         "params": {p.id for group in groups for p in group.parameters},
         "rules": {rule.id for rule in rules},
@@ -76,7 +68,9 @@ def faults_of_messages(
 
 
 def faults_of_experience(plausible: Plausible, groups: tuple[Group, ...]) -> Iterator[tuple[KeyPath, str]]:
-    """Yield each parameter that the facts of experience name and that does not exist, and each pattern without any."""
+    """Yield each parameter that the facts of experience name and that does not exist,
+    and each pattern without any.
+    """
     known = {p.id for group in groups for p in group.parameters}
     for key, patterns in (("unlike", plausible.unlike), ("may_differ", plausible.may_differ)):
         for n, pattern in enumerate(patterns):
@@ -157,7 +151,9 @@ def _axis_faults(family: Family, ids: set[str]) -> Iterator[Inconsistency]:
 
 
 def _in_group_states(family: Family, group: Group) -> Iterator[Inconsistency]:
-    """Yield what is wrong with the states of a group: an unknown condition, and one that no parameter gets."""
+    """Yield what is wrong with the states of a group: an unknown condition, and one that no parameter
+    gets.
+    """
     ids = {p.id for p in group.parameters}
     scopes = {scope for p in group.parameters for scope in p.scopes}
     for key in ("states", "last_states"):

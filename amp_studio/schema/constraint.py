@@ -88,7 +88,9 @@ def _storable(parameter: Parameter, unit: str) -> tuple[float, float] | None:
 
 
 def _printed(ranges: dict[str, Range], unit: str) -> tuple[str | None, bool]:
-    """Return the printed unit to compare in: the same, one of the same dimension, or metric figures as degrees."""
+    """Return the printed unit to compare in: the same, one of the same dimension,
+    or metric figures as degrees.
+    """
     if unit in ranges:
         return unit, False
     for printed in ranges:
@@ -147,7 +149,9 @@ def fault(evaluation: Evaluation, address: Address, value: Value) -> str | None:
 
 
 def bounding(evaluation: Evaluation, address: Address, value: Value) -> tuple[Address, ...]:
-    """Return the parameter whose value is the bound that a number lies beyond; empty where no other one sets it."""
+    """Return the parameter whose value is the bound that a number lies beyond;
+    empty where no other one sets it.
+    """
     if isinstance(value.value, (str, bool)):
         return ()
     allowed = limits(evaluation, address, value.unit)
@@ -162,7 +166,9 @@ def _beyond(found: float, allowed: Limits) -> tuple[tuple[float | None, Address 
 
 
 def _format_fault(evaluation: Evaluation, address: Address, form: str) -> str | None:
-    """Return why a word format is not allowed; its digits before and behind the point each have their own bounds."""
+    """Return why a word format is not allowed; its digits before
+    and behind the point each have their own bounds.
+    """
     low, high = ranges_of(evaluation, address).get("", (None, None))
     for index in (0, 1):
         digits = digits_of(form)[index]
@@ -174,7 +180,9 @@ def _format_fault(evaluation: Evaluation, address: Address, form: str) -> str | 
 
 
 def _bits_fault(parameter: Parameter, word: int) -> str | None:
-    """Return why a word of bits is not allowed: too wide for the control, or a code that a field does not have."""
+    """Return why a word of bits is not allowed: too wide for the control,
+    or a code that a field does not have.
+    """
     width = parameter.word_width
     if word < 0 or (width is not None and word >> width):
         return f"{parameter.name} {word} does not fit {f'its {width} bits' if width else 'a word of bits'}"

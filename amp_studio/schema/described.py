@@ -1,7 +1,8 @@
-"""The schema of a control that describes itself: made by its family from that description, the same from the same one.
+"""The schema of a control that describes itself: made by its family from that description,
+the same from the same one.
 
-The description is data of outside: it is bounded, and no expression or path is taken from it. A file contains it, so that
-it opens without the control, on this machine and on any other.
+The description is data of outside: it is bounded, and no expression or path is taken from it. A file contains
+it, so that it opens without the control, on this machine and on any other.
 """
 
 from __future__ import annotations

@@ -1,9 +1,10 @@
-"""Makes the schema of one control of what it describes and of what is known of the same parameters by their numbers.
+"""Makes the schema of one control of what it describes and of what is known
+of the same parameters by their numbers.
 
-The description counts: which parameters there are, their names, types, labels, bounds and marks. What is known of a number adds
-the id, which stays the same for every control, our own help, and the conditions and rules that go by the id. A parameter
-that nobody knows gets an id of its group and its name. How a description is written is a matter of its family, which hands
-over DescribedParameters.
+The description counts: which parameters there are, their names, types, labels, bounds and marks. What is
+known of a number adds the id, which stays the same for every control, our own help, and the conditions and
+rules that go by the id. A parameter that nobody knows gets an id of its group and its name. How a description
+is written is a matter of its family, which hands over DescribedParameters.
 """
 
 from __future__ import annotations
@@ -70,7 +71,8 @@ class DescribedGroup:
 class DescribedParameter:
     """One parameter as a control describes it; what it does not state is empty.
 
-    ``number``  its own; ``base`` that of the first axis, by which it is known: the same for a parameter of the control
+    ``number``  its own; ``base`` that of the first axis, by which it is known: the same for a parameter of
+    the control
     ``axis``    the letter of its axis; ``name`` is without it, ``whole_name`` with it
     ``kind``    its type: boolean, bits, choice, integer, real or text
     ``labels``  of its choices or bits, in the order of what is stored; "" for one that is not used
@@ -130,7 +132,9 @@ class DescribedControl:
 
 
 class DescribedSchema:
-    """Makes the schema; ``first`` are parameters that come before those of the description, by their group."""
+    """Makes the schema; ``first`` are parameters that come before those of the description, by their
+    group.
+    """
 
     def __init__(self, described: DescribedControl, first: Mapping[str, tuple[Parameter, ...]]) -> None:
         self._described, self._known = described, described.known
@@ -142,7 +146,9 @@ class DescribedSchema:
         self._groups = {key: list(parameters) for key, parameters in first.items()}
 
     def made(self, family: Family, messages: Iterable[Messages], description: bytes) -> Schema:
-        """Return the schema with the facts of the family as this control has them; raises DescriptionError."""
+        """Return the schema with the facts of the family as this control has them; raises
+        DescriptionError.
+        """
         for alike in self._quantities():
             self._add(alike[0].group, self._parameter(alike))
         for parameter in self._of_this.values():
@@ -182,7 +188,9 @@ class DescribedSchema:
         self._groups.setdefault(group.key, []).append(parameter)
 
     def _quantities(self) -> Iterable[list[DescribedParameter]]:
-        """Yield each parameter of the control, and those of the axes that are one quantity together, in its order."""
+        """Yield each parameter of the control, and those of the axes that are one quantity together,
+        in its order.
+        """
         found: dict[object, list[DescribedParameter]] = {}
         for each in sorted(self._described.parameters, key=lambda p: p.number):
             found.setdefault(each.quantity, []).append(each)
@@ -233,7 +241,8 @@ class DescribedSchema:
         return Layout(scope="axis", instances=tuple(listed), numbers=Numbers(listed=listed, format=form))
 
     def _absent(self, parameter: Parameter) -> Parameter:
-        """Return a known parameter that the control does not list: hidden and without a number, so that rules find nothing.
+        """Return a known parameter that the control does not list: hidden and without a number,
+        so that rules find nothing.
 
         One that comes with another parameter keeps its number, and its state.
         """
@@ -311,7 +320,9 @@ def _help(described: DescribedParameter, known: Parameter | None) -> Help:
 
 
 def _by_base(known: Schema, parameters: Mapping[str, Parameter]) -> dict[int, list[Parameter]]:
-    """Return the number of the first instance -> known parameters with it, those of the first machine type before others."""
+    """Return the number of the first instance -> known parameters with it,
+    those of the first machine type before others.
+    """
     found: dict[int, list[Parameter]] = {}
     for machine in known.family.machines:
         for parameter in parameters.values():

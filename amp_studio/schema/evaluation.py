@@ -72,13 +72,16 @@ class Evaluation:
         return value_of(self.keys[address])  # type: ignore[return-value]  # a list has no address
 
     def scope(self, address: Address) -> Scope | None:
-        """Return what an instance is one of (an axis, a process); None where this machine type does not have it."""
+        """Return what an instance is one of (an axis, a process);
+        None where this machine type does not have it.
+        """
         return self._conditions.scopes[address[0]]
 
     def reference(self, text: str, instance: str, scope: str | None = None) -> Reference:
         """Resolve one entry of ``reads`` for an instance; raises UnknownParameterError.
 
-        With the ``scope`` of the instance, axis 1 is not taken for process 1; without it equal names are enough.
+        With the ``scope`` of the instance, axis 1 is not taken for process 1;
+        without it equal names are enough.
         """
         return self._conditions.reference(text, instance, scope)
 
@@ -96,7 +99,9 @@ class Evaluation:
             raise UnknownParameterError(f"the family has no condition '{name}'") from None
 
     def is_true(self, name: str, instance: str, scope: str | None = None) -> bool:
-        """Return whether a named condition is true for an instance (of a ``scope``); false for a condition over a value that is not set."""
+        """Return whether a named condition is true for an instance (of a ``scope``);
+        false for a condition over a value that is not set.
+        """
         return self._answer(self._conditions.asked(name, instance, scope))
 
     def _answer(self, asked: Asked) -> bool:
@@ -203,7 +208,9 @@ class Evaluation:
     # -- addressing ------------------------------------------------------------
 
     def find(self, text: str) -> Address:
-        """Return the instance that a text means (see ``addressing``); raises UnknownParameterError with one clear sentence."""
+        """Return the instance that a text means (see ``addressing``);
+        raises UnknownParameterError with one clear sentence.
+        """
         found = resolve_address(self, text)
         if found.bit is not None:
             raise UnknownParameterError(f"{quoted(text.strip())} is a bit, and the whole word is wanted")

@@ -1,4 +1,5 @@
-"""The one evaluator of conditions and rules: an expression in CEL, given the values that it reads, comes to a verdict.
+"""The one evaluator of conditions and rules: an expression in CEL, given the values that it reads,
+comes to a verdict.
 
 What an expression came to for equal values is remembered: most machines have most values in common.
 """
@@ -17,7 +18,8 @@ from .units import canonical
 from .value import Value
 
 Canonical = float | str | bool | None
-"""A value as expressions see it: a double in canonical units, the key of a choice, a bool, a text; None is not set."""
+"""A value as expressions see it: a double in canonical units, the key of a choice, a bool, a text;
+None is not set."""
 
 ALWAYS_THERE = ("machine", "application", "instance", "part")
 """Names that need not be read: machine type and model of the control, the instance at hand, its part."""
@@ -28,8 +30,8 @@ EVALUATION_ERRORS = (TypeError, ValueError, RuntimeError, ArithmeticError, Looku
 Key = float | str | object | None
 """By what results are looked up: the key of a value, or a tuple of keys for a list.
 
-It is the value itself but for true, false and minus zero: Python takes 1 and True for equal, and 0 and -0 too, by which
-CEL divides with different results.
+It is the value itself but for true, false and minus zero: Python takes 1 and True for equal, and 0 and -0
+too, by which CEL divides with different results.
 """
 _TRUE, _FALSE = object(), object()
 
@@ -37,8 +39,8 @@ NO_RESULT = object()
 """What an expression comes to that makes no sense of its values."""
 
 MOST_REMEMBERED = 5_000
-"""Results of one expression before all are forgotten: those of 700 machines with seven axes and no value in common. Such
-machines take 0.2 MB each."""
+"""Results of one expression before all are forgotten: those of 700 machines with seven axes and no value in
+common. Such machines take 0.2 MB each."""
 
 
 def key_of(value: Value | None) -> Key:
@@ -125,9 +127,11 @@ class Expression:
     def result(
         self, keys: tuple[Key, ...], circumstances: Circumstances, context: Callable[[], Context]
     ) -> Any:
-        """Return what it comes to for values, given by their keys, in a ``context`` that is made when it is needed.
+        """Return what it comes to for values, given by their keys,
+        in a ``context`` that is made when it is needed.
 
-        ``NO_RESULT`` if it makes no sense of them: neither CEL nor the functions make any of a value that is not set.
+        ``NO_RESULT`` if it makes no sense of them: neither CEL nor the functions make any
+        of a value that is not set.
         """
         asked: Hashable = keys
         if self._always is not None:
@@ -144,13 +148,12 @@ class Expression:
 
 
 class Decision(Expression):
-    """An expression that is true or not; of lists that are ``counted`` it asks nothing but what functions count in them."""
+    """An expression that is true or not; of lists that are ``counted`` it asks nothing but what functions
+    count in them.
+    """
 
     def __init__(
-        self,
-        compiled: Program,
-        functions: Mapping[str, Callable[..., Any]],
-        counted: Collection[str] = (),
+        self, compiled: Program, functions: Mapping[str, Callable[..., Any]], counted: Collection[str] = ()
     ) -> None:
         super().__init__(compiled, functions)
         self._counted = counted
@@ -185,7 +188,9 @@ class Decision(Expression):
 
 
 def _counting(function: Callable[..., Any], lists: Mapping[bytes, Any]) -> Callable[..., Any]:
-    """Return a function that gets ``lists`` by their names: CEL would copy thousands of points in, and out again for each call."""
+    """Return a function that gets ``lists`` by their names: CEL would copy thousands of points in,
+    and out again for each call.
+    """
     if not lists:
         return function
     bare = inspect.unwrap(function)  # what is in a list are doubles already

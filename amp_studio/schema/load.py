@@ -87,7 +87,8 @@ class Compiled(Model):
     rules: tuple[Rule, ...]
     plausible: Plausible = Plausible.model_construct()
     further: str
-    """``FurtherFacts`` as JSON: to read them takes a twentieth of a start, and most starts never ask for them."""
+    """``FurtherFacts`` as JSON: to read them takes a twentieth of a start,
+    and most starts never ask for them."""
 
 
 def family_ids() -> tuple[str, ...]:
@@ -100,7 +101,9 @@ def _own_ids() -> set[str]:
 
 
 def _folder_of(family_id: str) -> Path:
-    """Return the folder of a family's facts; the other packages are searched for one that the program does not have."""
+    """Return the folder of a family's facts; the other packages are searched for one
+    that the program does not have.
+    """
     if family_id in _own_ids():
         return database_folder() / family_id
     if (folder := added_facts().get(family_id)) is None:
@@ -112,8 +115,8 @@ def _folder_of(family_id: str) -> Path:
 def load_compiled(family_id: str) -> Compiled:
     """Return the compiled facts of a family; raises UnknownFamilyError, DatabaseError for a bad fact.
 
-    Only the id of a family that is there becomes a part of a path: what a file, an image or a person calls a family
-    may be anything.
+    Only the id of a family that is there becomes a part of a path: what a file, an image or a person calls a
+    family may be anything.
     """
     folder = _folder_of(family_id)
     cached = cache_folder() / f"{family_id}-{_content_key(sorted(folder.rglob('*.yaml')))}.json"
@@ -186,7 +189,9 @@ def compile_family(folder: Path) -> Compiled:
 
 
 def _of(family: Family, folder: Path) -> list[Path]:
-    """Return the files of a folder in the order of the groups they are called after; others come after them."""
+    """Return the files of a folder in the order of the groups they are called after; others come after
+    them.
+    """
     order = {key: n for n, key in enumerate(family.groups)}
     return sorted(folder.glob("*.yaml"), key=lambda path: (order.get(path.stem, len(order)), path.name))
 
@@ -270,7 +275,9 @@ def _error_of(path: Path, document: YamlDocument, found: list[Slip]) -> Database
 
 
 def _entry(data: Any, place: KeyPath) -> tuple[KeyPath, str]:
-    """Return where the innermost entry with an id begins that a place lies in, and the id; else the whole file."""
+    """Return where the innermost entry with an id begins that a place lies in, and the id;
+    else the whole file.
+    """
     entry: KeyPath = ()
     name = ""
     for n in range(len(place) + 1):

@@ -1,4 +1,6 @@
-"""A schema on one machine type: which instances its parameters have there, and by which numbers they are addressed."""
+"""A schema on one machine type: which instances its parameters have there,
+and by which numbers they are addressed.
+"""
 
 from __future__ import annotations
 
@@ -59,7 +61,9 @@ class MachineSchema:
         return {address: n for n, address in enumerate(self.addresses)}
 
     def kin(self, scope: str | None, other: str | None) -> bool:
-        """Return whether instances of two scopes belong together: the same scope, or one has the parts of the other."""
+        """Return whether instances of two scopes belong together: the same scope,
+        or one has the parts of the other.
+        """
         return scope == other or bool(
             scope and other and (self._wholes.get(scope) == other or self._wholes.get(other) == scope)
         )
@@ -109,12 +113,16 @@ class MachineSchema:
         return clear or claims
 
     def claims(self, number: str) -> list[Address]:
-        """Return every instance that the manual prints a number for, with or without the letters before it."""
+        """Return every instance that the manual prints a number for, with or without the letters before
+        it.
+        """
         text = number.strip().casefold()
         return self._claims.get(text) or self._claims.get(self._bare_numbers.get(text, ""), [])
 
     def words(self, number: str) -> list[Address]:
-        """Return the words of a number of which each has a separate one: those of ``P21`` are ``P21N0``, ``P21N1``, …."""
+        """Return the words of a number of which each has a separate one: those of ``P21`` are ``P21N0``,
+        ``P21N1``, ….
+        """
         return self._words.get(number.strip().casefold(), [])
 
     @cached_property
@@ -159,7 +167,9 @@ class MachineSchema:
         return number if number and self.addressed_by(number) == [address] else written(address)
 
     def named(self, address: Address) -> str:
-        """Return the label and, where that has no number by which the instance is addressed, its address too."""
+        """Return the label and, where that has no number by which the instance is addressed, its address
+        too.
+        """
         label, short = self.label(address), self.short(address)
         return label if label.startswith(f"{short} ") else f"{label} ({short})"
 

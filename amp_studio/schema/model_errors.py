@@ -1,4 +1,6 @@
-"""What is wrong with data that do not fit a model, in plain words: the one place where pydantic's errors become sentences."""
+"""What is wrong with data that do not fit a model, in plain words:
+the one place where pydantic's errors become sentences.
+"""
 
 from __future__ import annotations
 
@@ -96,7 +98,10 @@ def _sentence(error: ErrorDetails) -> str:
         case "string_pattern_mismatch" if details["pattern"] == PAGE_PATTERN:
             return f"{quoted(given)} is no page: written like 7-20, A-5 or 102"
         case "string_pattern_mismatch" if "\\." in details["pattern"]:
-            return f"{quoted(given)} is no id: small letters and digits with a point between, like works.lathe-rapid"
+            return (
+                f"{quoted(given)} is no id: small letters and digits with a point between, like"
+                " works.lathe-rapid"
+            )
         case "string_pattern_mismatch":
             return f"{quoted(given)} is no key: small letters, digits and _ . + - without a blank"
         case "string_too_short":

@@ -31,7 +31,9 @@ def did_you_mean(word: str, known: Iterable[str], *, found: Callable[[str], str]
 
 
 def unknown_name(what: str, name: str, known: Iterable[str]) -> str:
-    """Return the message for an unknown name: the names that come near, and all of them where they are few."""
+    """Return the message for an unknown name: the names that come near, and all of them where they are
+    few.
+    """
     names = list(dict.fromkeys(known))
     by_small = {known_name.casefold(): known_name for known_name in reversed(names)}
     near = close_matches(name.strip().casefold()[:_LONGEST], by_small, _SHOWN, 0.6)

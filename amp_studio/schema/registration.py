@@ -1,8 +1,10 @@
-"""How the code of a control family is found: one record a family, whose parts are loaded when somebody asks for them.
+"""How the code of a control family is found: one record a family,
+whose parts are loaded when somebody asks for them.
 
-Facts are data and need no record. What a family does differently is code in ``amp_studio/families`` or in another package,
-which imports the rooms below it; they find it by name alone (``amp_studio/family_places.py``), so that no room names a
-family and a start loads nothing of one that is not used. ``register`` adds one more to this process: that of a test.
+Facts are data and need no record. What a family does differently is code in ``amp_studio/families`` or in
+another package, which imports the rooms below it; they find it by name alone
+(``amp_studio/family_places.py``), so that no room names a family and a start loads nothing of one that is not
+used. ``register`` adds one more to this process: that of a test.
 """
 
 from __future__ import annotations
@@ -29,17 +31,23 @@ class Registration:
     """What one family brings in code. Parts are named ``module:NAME``; each may be missing.
 
     ``formulas``  a mapping of names to functions: the published formulas, for rules and calculators
-    ``formats``   the text formats (``TextFormat``) the family alone has, in the order in which they are tried on a text
+    ``formats``   the text formats (``TextFormat``) the family alone has, in the order in which they are tried
+    on a text
     ``drivers``   protocol name -> a ``DriverFactory``: ways to speak to a control, the usual one first
     ``contents``  first line of what a control contains -> the ``ContentKind`` class that reads it
     ``emulators`` protocol name -> an ``Emulate``: an emulated control that speaks it
-    ``recognised``  a ``Recognised`` (transfer/driver.py): how its controls are known where nobody has named their family
+    ``recognised``  a ``Recognised`` (transfer/driver.py): how its controls are known where nobody has named
+    their family
     ``law``       the servo law (``Law``) of its axes, for the simulator
     ``sheet``     how values are keyed in at its controls (``Keying``); without it the plain way
-    ``curve``     how a compensation table that is one text is read and written (``CurveText`` of the room pictures)
-    ``compensation``  what it has against the errors of an axis, and what is tuned at the machine (``Compensation``)
-    ``describe``  description of a control -> its schema (``described``), for a family whose controls describe themselves
-    ``migrate``   a machine description and answers -> what a control of the family gets (``WrittenMachine`` of the room meaning)
+    ``curve``     how a compensation table that is one text is read and written (``CurveText`` of the room
+    pictures)
+    ``compensation``  what it has against the errors of an axis, and what is tuned at the machine
+    (``Compensation``)
+    ``describe``  description of a control -> its schema (``described``), for a family whose controls describe
+    themselves
+    ``migrate``   a machine description and answers -> what a control of the family gets (``WrittenMachine``
+    of the room meaning)
     ``facts``     the folder of its facts; None where it is ``parameter_db/<family>``
     """
 
@@ -90,7 +98,9 @@ def registration_of(family: str) -> Registration:
 
 @cache
 def _installed() -> dict[str, Registration]:
-    """Return the records of other packages. One that cannot be loaded is reported and left out, so the others work."""
+    """Return the records of other packages. One that cannot be loaded is reported and left out,
+    so the others work.
+    """
     records = {}
     for family, place in installed_places().items():
         try:

@@ -1,7 +1,9 @@
-"""The one gate through which a named path is read: a file of bounded size, or an error with what it is instead.
+"""The one gate through which a named path is read: a file of bounded size,
+or an error with what it is instead.
 
-A named pipe would be waited for, /dev/zero would fill the memory, and opening a serial port moves its lines. So the kind
-is checked before anything is opened, and again on the open handle: the name may mean something else by then.
+A named pipe would be waited for, /dev/zero would fill the memory, and opening a serial port moves its lines.
+So the kind is checked before anything is opened, and again on the open handle:
+the name may mean something else by then.
 """
 
 from __future__ import annotations
@@ -22,7 +24,8 @@ _KINDS = {
     stat.S_IFBLK: "Is a device, not a file",
     stat.S_IFLNK: "Is a link, not a file",
 }
-# Neither waiting for the other end of a pipe, nor made the terminal of this program, nor changing line ends on Windows.
+# Neither waiting for the other end of a pipe, nor made the terminal of this program, nor changing line ends
+# on Windows.
 HARMLESS = getattr(os, "O_NONBLOCK", 0) | getattr(os, "O_NOCTTY", 0) | getattr(os, "O_BINARY", 0)
 NO_LINK = getattr(os, "O_NOFOLLOW", 0)
 
@@ -30,8 +33,9 @@ NO_LINK = getattr(os, "O_NOFOLLOW", 0)
 def read_file(path: Path, limit: int = MOST_BYTES, *, follow: bool = True, tail: bool = False) -> bytes:
     """Return the content of a file.
 
-    With ``follow=False`` the path itself must not be a link; with ``tail`` the end of a file longer than ``limit`` bytes
-    is returned. Raises OSError with the path and one sentence: for what cannot be read, is not a file or is too large.
+    With ``follow=False`` the path itself must not be a link; with ``tail`` the end of a file longer than
+    ``limit`` bytes is returned. Raises OSError with the path and one sentence: for what cannot be read,
+    is not a file or is too large.
     """
     try:
         demand_file(path.stat(follow_symlinks=follow))
@@ -52,7 +56,9 @@ def read_file(path: Path, limit: int = MOST_BYTES, *, follow: bool = True, tail:
 
 
 def read_table_text(path: Path) -> str:
-    """Return the text of a table that an instrument or a spreadsheet wrote, in the encoding that it has; raises OSError."""
+    """Return the text of a table that an instrument or a spreadsheet wrote, in the encoding that it has;
+    raises OSError.
+    """
     content = read_file(path)
     wide = content[:2] in (b"\xff\xfe", b"\xfe\xff")  # "Unicode text" of a spreadsheet
     try:

@@ -1,4 +1,6 @@
-"""What is wrong with the roles of a family's pictures, and of the words of its programs: parameters and choices that there are not."""
+"""What is wrong with the roles of a family's pictures, and of the words of its programs:
+parameters and choices that there are not.
+"""
 
 from __future__ import annotations
 

@@ -1,7 +1,8 @@
 """Units whose size another parameter sets: internal units, the basic length unit.
 
-A value in such a unit keeps it, and is compared in it. What it is in mm or degrees follows from the ``scales`` of the
-family and from the value of the parameter that sets the size; a length that is entered instead is counted exactly.
+A value in such a unit keeps it, and is compared in it. What it is in mm or degrees follows from the
+``scales`` of the family and from the value of the parameter that sets the size;
+a length that is entered instead is counted exactly.
 """
 
 from __future__ import annotations
@@ -33,7 +34,9 @@ class Size(NamedTuple):
 
 
 def size_of(evaluation: Evaluation, address: Address, unit: str) -> Size | None:
-    """Return the size of a unit for one instance; None for a unit that has none, or whose size is not set or known."""
+    """Return the size of a unit for one instance; None for a unit that has none,
+    or whose size is not set or known.
+    """
     scale = evaluation.schema.family.scales.get(unit)
     if scale is None or (scale.angle is not None and evaluation.scope(address) != "axis"):
         return None  # of a value that no axis has nobody knows whether it is a length or an angle
@@ -52,7 +55,9 @@ def size_of(evaluation: Evaluation, address: Address, unit: str) -> Size | None:
 
 
 def unit_size(entry: UnitSize, value: Value) -> tuple[Fraction, str] | None:
-    """Return the size, with its unit, that a value of the parameter sets: one of the list, or the value itself."""
+    """Return the size, with its unit, that a value of the parameter sets: one of the list,
+    or the value itself.
+    """
     if entry.sizes:
         number = value.value
         key = choice_key(value) if isinstance(number, (str, bool)) else write_number(number)
@@ -67,7 +72,9 @@ def unit_size(entry: UnitSize, value: Value) -> tuple[Fraction, str] | None:
 
 
 def real_value(evaluation: Evaluation, address: Address, value: Value | None) -> Value | None:
-    """Return what a value in a unit with a size is in mm or degrees, exact before one rounding; None for any other."""
+    """Return what a value in a unit with a size is in mm or degrees, exact before one rounding;
+    None for any other.
+    """
     if value is None or isinstance(value.value, (str, bool)) or not math.isfinite(value.value):
         return None
     size = size_of(evaluation, address, value.unit)

@@ -1,8 +1,9 @@
 """What a control stores for a value, and the value that a stored number means: the one codec between the two.
 
-A choice is stored as its code; a number as the value in the unit of its storage times its scale. Both ways are exact
-until the one rounding at the end: to a double, to the printed decimals, or to the whole number of a register (a half to
-the even one). How a control spells the number (hexadecimal words, bare figures) is a matter of its format.
+A choice is stored as its code; a number as the value in the unit of its storage times its scale. Both ways
+are exact until the one rounding at the end: to a double, to the printed decimals, or to the whole number of a
+register (a half to the even one). How a control spells the number (hexadecimal words, bare figures)
+is a matter of its format.
 """
 
 from __future__ import annotations
@@ -31,7 +32,9 @@ class StorageError(InvalidValueError):
 
 
 def exact(number: float) -> Fraction:
-    """Return the number that a person reads, not the double that approximates it: 65.536 is 65536 thousandths."""
+    """Return the number that a person reads, not the double that approximates it:
+    65.536 is 65536 thousandths.
+    """
     return Fraction(Decimal(repr(number)))
 
 
@@ -39,14 +42,18 @@ def exact(number: float) -> Fraction:
 
 
 def stored_unit(parameter: Parameter, otherwise: str = "", *, turns: bool = False) -> str:
-    """Return the unit of what the control stores: its storage's, else ``otherwise``; degrees where the axis turns."""
+    """Return the unit of what the control stores: its storage's, else ``otherwise``;
+    degrees where the axis turns.
+    """
     storage = parameter.storage
     unit = otherwise if storage is None or storage.unit is None else storage.unit
     return angular(unit) if turns else unit
 
 
 def to_stored(parameter: Parameter, value: Value, unit: str) -> Fraction:
-    """Return what is stored for a value where numbers are kept in ``unit``, before it is rounded; raises StorageError."""
+    """Return what is stored for a value where numbers are kept in ``unit``, before it is rounded;
+    raises StorageError.
+    """
     if parameter.choices:
         return Fraction(code_of(parameter, value))
     if isinstance(value.value, str):
@@ -102,7 +109,8 @@ def stored_number(parameter: Parameter, value: Value, *, turns: bool) -> float |
 
 
 def value_of_stored(parameter: Parameter, number: float, *, turns: bool) -> Value:
-    """Return the value that a number keyed in at the control means; ``stored_number`` in the opposite direction.
+    """Return the value that a number keyed in at the control means;
+    ``stored_number`` in the opposite direction.
 
     Raises StorageError for a fraction where the control stores whole numbers.
     """
@@ -116,7 +124,9 @@ def shown_number(parameter: Parameter, number: Fraction) -> float:
 
 
 def single(number: float) -> float:
-    """Return the number that a control keeps as a 32-bit float, by its shortest digits: 0.1 and not 0.10000000149."""
+    """Return the number that a control keeps as a 32-bit float, by its shortest digits:
+    0.1 and not 0.10000000149.
+    """
     try:
         kept = struct.unpack("<f", struct.pack("<f", number))[0]
     except OverflowError:
@@ -161,7 +171,9 @@ def choice_of(parameter: Parameter, number: int) -> Value:
 
 
 def stored_range(parameter: Parameter) -> tuple[int, int]:
-    """Return the smallest and the largest number that the bits, or else the registers, of a parameter can store."""
+    """Return the smallest and the largest number that the bits, or else the registers,
+    of a parameter can store.
+    """
     storage = _storage(parameter)
     numbers = 1 << (storage.bits or WORD * storage.words)
     return (-numbers // 2, numbers // 2 - 1) if is_signed(parameter) else (0, numbers - 1)
@@ -196,9 +208,11 @@ def is_low_first(parameter: Parameter) -> bool:
 
 
 def register_number(parameter: Parameter, value: Value, unit: str) -> int:
-    """Return the whole number that registers store for a value; ``unit`` is that of a storage which names none.
+    """Return the whole number that registers store for a value;
+    ``unit`` is that of a storage which names none.
 
-    Raises StorageError. The value that comes back differs by at most half a count, and is stored as the same number.
+    Raises StorageError. The value that comes back differs by at most half a count,
+    and is stored as the same number.
     """
     return fitting(parameter, round(to_stored(parameter, value, stored_unit(parameter, unit))))
 
@@ -206,8 +220,8 @@ def register_number(parameter: Parameter, value: Value, unit: str) -> int:
 def value_of_register(parameter: Parameter, number: int, unit: str) -> Value:
     """Return the value that a whole number in the registers means; raises StorageError.
 
-    One of many digits is the shortest of all that are stored as this number, which a person is likely to have entered: 1600 and
-    not 1600.006103515625.
+    One of many digits is the shortest of all that are stored as this number, which a person is likely to have
+    entered: 1600 and not 1600.006103515625.
     """
     value = from_stored(parameter, fitting(parameter, number), stored_unit(parameter, unit))
     if isinstance(value.value, float) and value.value != float(f"{value.value:.{_ENTERED}g}"):

@@ -40,7 +40,8 @@ def define_unit(
 ) -> None:
     """Make a unit known: what it measures, the factor to the canonical unit of that, and how people write it.
 
-    Raises UnitError for one that is known already with another meaning, and for a dimension without a canonical unit.
+    Raises UnitError for one that is known already with another meaning,
+    and for a dimension without a canonical unit.
     """
     meaning = (measures, _ONE if factor == 1 else factor)
     known = UNITS.get(unit)
@@ -98,7 +99,9 @@ def dimension(unit: str) -> str:
 
 
 def canonical(value: float, unit: str) -> float:
-    """Return ``value`` in the canonical unit of its dimension, exact before one rounding: 0.3 in is 7.62 mm."""
+    """Return ``value`` in the canonical unit of its dimension, exact before one rounding: 0.3 in is 7.62
+    mm.
+    """
     return float(value) if UNITS[unit][1] is _ONE else _converted(value, unit, None)
 
 
@@ -113,7 +116,8 @@ def convert(value: float, unit: str, to: str) -> float:
 
 @lru_cache(maxsize=10_000)  # exact and slow; the same bounds and values come up again and again
 def _converted(value: float, unit: str, to: str | None) -> float:
-    """Return the double nearest to the exact product; infinite where no double is that large, no number as it is.
+    """Return the double nearest to the exact product; infinite where no double is that large,
+    no number as it is.
 
     Without ``to`` it is the canonical unit.
     """
@@ -134,7 +138,9 @@ def canonical_unit(unit: str) -> str:
 
 
 def angular(unit: str) -> str:
-    """Return the unit in degrees used when an axis turns (mm/min gives deg/min, steps/mm steps/deg if there is that)."""
+    """Return the unit in degrees used when an axis turns (mm/min gives deg/min,
+    steps/mm steps/deg if there is that).
+    """
     head, _, tail = unit.partition("/")
     if head in ("mm", "in"):
         return "deg/" + tail if tail else "deg"

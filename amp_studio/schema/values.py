@@ -19,7 +19,9 @@ MASKED = "•••• (secret)"
 
 
 def is_mask(parameter: Parameter, text: str) -> bool:
-    """Return whether a text is what is shown in place of a secret, so that an export that comes back changes nothing."""
+    """Return whether a text is what is shown in place of a secret,
+    so that an export that comes back changes nothing.
+    """
     return parameter.secret and text.strip().startswith("••••")
 
 
@@ -61,7 +63,9 @@ def read_number(text: str) -> tuple[float, str]:
 
 
 def _digits(text: str) -> tuple[str, str]:
-    """Return a number with decimal point and exponent as Python writes it, and what follows; raises InvalidValueError."""
+    """Return a number with decimal point and exponent as Python writes it, and what follows;
+    raises InvalidValueError.
+    """
     if len(text) > LONGEST_NUMBER:
         raise InvalidValueError(f"{quoted(text)} is too long for a number")
     text = text.replace(_MINUS, "-")
@@ -80,7 +84,9 @@ def _digits(text: str) -> tuple[str, str]:
 
 
 def _decimal(digits: str, exponent: str) -> str:
-    """Return the number that digits with points and commas mean, with a decimal point; raises InvalidValueError."""
+    """Return the number that digits with points and commas mean, with a decimal point;
+    raises InvalidValueError.
+    """
     if "," in digits and "." in digits:
         decimal = max(digits.rfind(","), digits.rfind("."))
         whole, fraction = digits[:decimal], digits[decimal + 1 :]
@@ -125,7 +131,8 @@ def read_value(parameter: Parameter, text: str, unit: str) -> Value:
 
 
 def checked(parameter: Parameter, value: Value) -> Value:
-    """Return a value that a file can contain: written, and read back as the same; raises InvalidValueError for any other.
+    """Return a value that a file can contain: written, and read back as the same;
+    raises InvalidValueError for any other.
 
     Every value passes here that is made of something from outside: a text, a number of a control, a journal.
     """
@@ -197,7 +204,8 @@ def _read(parameter: Parameter, text: str, unit: str) -> Value:
     if parameter.bits and not text.isdecimal() and (word := _labelled(parameter, text)) is not None:
         return Value(word, unit)
     if _is_hex(parameter) and re.fullmatch("[0-9a-fA-F]+", text):
-        # A control and its manual write such a word without a sign of its notation: 00000044 has bits 2 and 6.
+        # A control and its manual write such a word without a sign of its notation: 00000044 has bits 2 and
+        # 6.
         if not text.isdecimal():
             raise InvalidValueError(f"{quoted(text)} is not a decimal number: write 0x{short(text)}")
         if text.startswith("0") and int(text, 16) != int(text):
@@ -225,7 +233,9 @@ def _read(parameter: Parameter, text: str, unit: str) -> Value:
 
 
 def read_exact(text: str) -> tuple[Fraction, str]:
-    """Read a number as ``read_number`` does, exactly; returns it and the rest of the text. Raises InvalidValueError."""
+    """Read a number as ``read_number`` does, exactly; returns it and the rest of the text.
+    Raises InvalidValueError.
+    """
     number, rest = read_number(text)
     return Fraction(Decimal(_digits(text)[0])) if number else Fraction(0), rest
 
@@ -242,7 +252,9 @@ def exact_number(text: str) -> Fraction:
 
 
 def _labelled(parameter: Parameter, text: str) -> int | None:
-    """Return the word that the labels of its bits mean; None for what may be a number. Raises InvalidValueError."""
+    """Return the word that the labels of its bits mean; None for what may be a number.
+    Raises InvalidValueError.
+    """
     word = word_of_labels(parameter, text)
     if word is None and not re.match("[+-]?[0-9.,]|[0-9a-fA-F]+$", text):
         raise InvalidValueError(no_label(parameter, text))
@@ -259,11 +271,14 @@ def _is_hex(parameter: Parameter) -> bool:
 
 
 def _read_format(parameter: Parameter, text: str) -> Value:
-    """Read a word format, digits before and behind the point: 6.0 and 3.10 are no fractions and stay as they are."""
+    """Read a word format, digits before and behind the point:
+    6.0 and 3.10 are no fractions and stay as they are.
+    """
     found = re.fullmatch(r"([0-9]{1,2})[.,]([0-9]{1,2})", text)
     if not found:
         raise InvalidValueError(
-            f"{quoted(text)} is not a format: {parameter.name} takes digits before and behind the point, as 3.4"
+            f"{quoted(text)} is not a format: {parameter.name} takes digits before and behind the point,"
+            " as 3.4"
         )
     return Value(f"{int(found[1])}.{int(found[2])}")
 
@@ -292,7 +307,9 @@ def _read_choice(parameter: Parameter, text: str) -> Value:
 
 
 def _read_raw(parameter: Parameter, text: str) -> Value:
-    """Read a choice by what the control stores, ``raw:-1``; a code that is not one of the parameter's is kept."""
+    """Read a choice by what the control stores, ``raw:-1``;
+    a code that is not one of the parameter's is kept.
+    """
     if not _RAW.fullmatch(digits := text[4:].strip()) or abs(raw := int(digits)) > EXACT:
         raise InvalidValueError(f"{quoted(text)} is not 'raw:' and a whole number")
     for choice in parameter.choices or ():

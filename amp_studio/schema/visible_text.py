@@ -10,7 +10,8 @@ _STEERING = (
     "\ud800-\udfff\ufeff\ufff9-\ufffb\U000110bd\U000110cd\U00013430-\U00013438\U0001bca0-\U0001bca3"
     "\U0001d173-\U0001d17a\U000e0001\U000e0020-\U000e007f]"
 )
-"""Unicode's categories Cc, Cf, Cs, Zl and Zp: control signs, marks of writing direction, line separators, surrogates."""
+"""Unicode's categories Cc, Cf, Cs, Zl and Zp: control signs, marks of writing direction, line separators,
+surrogates."""
 
 
 def visible(text: str, keep: str = "") -> str:

@@ -1,9 +1,10 @@
 """The one reader of YAML: facts, rules, projects and parameter files all pass here.
 
-It reads the parser's events and makes dict, list and scalars of them by itself, because a general loader does more
-than any of these files needs: it follows references (a short file that fills the memory), makes objects of tags and
-dates of texts, and raises whatever the part that it stumbles over raises. Here there are none of these, depth and size
-are bounded, keys are unique, a file is one document, and every failure is one ``YamlError`` with its line.
+It reads the parser's events and makes dict, list and scalars of them by itself, because a general loader does
+more than any of these files needs: it follows references (a short file that fills the memory), makes objects
+of tags and dates of texts, and raises whatever the part that it stumbles over raises. Here there are none of
+these, depth and size are bounded, keys are unique, a file is one document,
+and every failure is one ``YamlError`` with its line.
 """
 
 from __future__ import annotations
@@ -77,7 +78,8 @@ class YamlDocument:
         return found
 
 
-# U+0085, U+2028 and U+2029 end a line for some readers of YAML and for no editor: they are written as escapes.
+# U+0085, U+2028 and U+2029 end a line for some readers of YAML and for no editor: they are written as
+# escapes.
 _UNREADABLE = re.compile("[\x00-\x08\x0b\x0c\x0e-\x1f\x7f-\x9f\u2028\u2029\ud800-\udfff\ufeff\ufffe\uffff]")
 _BREAK = "\n\r"
 _BLANK = re.compile(rf"(?:[ \t]*(?:#[^{_BREAK}]*)?(?:[{_BREAK}]|$))*")
@@ -88,8 +90,9 @@ def read_yaml(
 ) -> YamlDocument:
     """Read the one document of a text; an empty one is None.
 
-    ``scalar`` returns what a plain scalar means, ``typed_scalar`` does where none is given. With ``spans`` every entry has its
-    place. ``references`` are for facts of our own, which give a list once. Raises YamlError.
+    ``scalar`` returns what a plain scalar means, ``typed_scalar`` does where none is given. With ``spans``
+    every entry has its place. ``references`` are for facts of our own, which give a list once.
+    Raises YamlError.
     """
     text = text.removeprefix("\ufeff")
     if len(text) > LARGEST:
@@ -224,7 +227,7 @@ class _YamlParser:
         return YamlError(what, _line_at(self.document.text, event.start_mark.index))
 
 
-# -- what plain scalars mean ---------------------------------------------------------------------------------------
+# -- what plain scalars mean
 
 _NULLS = frozenset(("", "~", "null", "Null", "NULL"))
 _TRUTHS = {"true": True, "True": True, "TRUE": True, "false": False, "False": False, "FALSE": False}

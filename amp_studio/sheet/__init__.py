@@ -1,4 +1,5 @@
-"""The sheet for keying values in at a control by hand: what differs, in the control's own words, in a safe order.
+"""The sheet for keying values in at a control by hand: what differs, in the control's own words,
+in a safe order.
 
 ``make_sheet`` compares a file with what a control contains; ``Ticks`` remembers how far somebody has come;
 ``read_back`` compares what the control's screen shows afterwards. How a family's control is keyed into is its

@@ -42,8 +42,9 @@ def make_sheet(
 ) -> Sheet:
     """Return what has to be keyed in at a control that contains ``present`` so that it contains ``wanted``.
 
-    Values that ``wanted`` does not set stay as they are. ``of`` and ``against`` name the two sides; ``own`` are a builder's
-    rules. Secrets are on the sheet only with ``secrets``. Raises SheetError where the two are of different families or machine types.
+    Values that ``wanted`` does not set stay as they are. ``of`` and ``against`` name the two sides; ``own``
+    are a builder's rules. Secrets are on the sheet only with ``secrets``. Raises SheetError where the two are
+    of different families or machine types.
     """
     _check_sides(wanted, present)
     there, present = present.schema, by_schema(present, wanted.schema)
@@ -89,8 +90,9 @@ def _check_sides(wanted: ParameterFile, present: ParameterFile) -> None:
         )
     if wanted.machine != present.machine:
         raise SheetError(
-            f"the file is for the machine type {wanted.machine}, and the control contains one for {present.machine}: "
-            "numbers may mean something else there, so it has to be downloaded as a whole"
+            f"the file is for the machine type {wanted.machine}, and the control contains one for"
+            f" {present.machine}: numbers may mean something else there, so it has to be downloaded as a"
+            " whole"
         )
 
 
@@ -101,7 +103,9 @@ def _absent(wanted: ParameterFile, difference: Difference) -> LeftOut:
 def _line(
     keying: Keying, wanted: ParameterFile, present: ParameterFile, difference: Difference, secrets: bool
 ) -> _Line | LeftOut | None:
-    """Return the line of a difference, or why there is none; None where the control shows the same for both."""
+    """Return the line of a difference, or why there is none; None where the control shows the same for
+    both.
+    """
     address, value = difference.address, difference.a
     parameter = wanted.schema.parameters.get(address[0])
     if parameter is None:
@@ -133,8 +137,8 @@ def _same_in_control(
 ) -> tuple[list[_Line], list[LeftOut]]:
     """Part the lines into those that mean in the control what they mean in the file, and the others.
 
-    What cannot be keyed in stays as it is there: the type of an axis, for one, by which a number is another parameter, or
-    the same figure degrees instead of millimetres.
+    What cannot be keyed in stays as it is there: the type of an axis, for one, by which a number is another
+    parameter, or the same figure degrees instead of millimetres.
     """
     otherwise: list[LeftOut] = []
     while True:
@@ -152,7 +156,8 @@ def _same_in_control(
         otherwise += [
             LeftOut(
                 *_number_and_name(wanted, line.step.address),
-                "the control is configured otherwise than the file, so that it would mean something else there",
+                "the control is configured otherwise than the file, so that it would mean something else"
+                " there",
             )
             for line in wrong
         ]
@@ -195,7 +200,9 @@ def _explain(
     own: BuilderRules,
     allowed: dict[Hashable, Finding],
 ) -> None:
-    """Walk the order once more: this is the proof, and it shows why a line waits and what is broken on the way."""
+    """Walk the order once more: this is the proof,
+    and it shows why a line waits and what is broken on the way.
+    """
     interim = Interim(present, own)
     wish = {line.step: n for n, line in enumerate(wished)}
     read_by = {line.step: interim.checks_of(line.step.address) for line in order}
@@ -231,7 +238,9 @@ def _short(finding: Finding) -> str:
 
 
 def _warnings(lines: Sequence[_Line], present: ParameterFile, own: BuilderRules) -> tuple[str, ...]:
-    """Return the errors that the control has when all is keyed in; those of the file itself are among them."""
+    """Return the errors that the control has when all is keyed in; those of the file itself are among
+    them.
+    """
     after = _broken_after(lines, present, own)
     before = Interim(present, own).broken
     errors = [(key, finding) for key, finding in after.items() if finding.severity == "error"]

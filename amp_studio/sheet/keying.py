@@ -1,4 +1,6 @@
-"""How values are keyed in at a control: what it takes, how it spells them, and what a person does before and after."""
+"""How values are keyed in at a control: what it takes, how it spells them,
+and what a person does before and after.
+"""
 
 from __future__ import annotations
 
@@ -31,7 +33,9 @@ NOT_OFFERED = "it cannot be keyed in at the control"
 
 @dataclass(frozen=True)
 class Keyed:
-    """What a person keys in for a value, or reads on the screen: the text, its unit as it is shown, the base of its digits."""
+    """What a person keys in for a value, or reads on the screen: the text, its unit as it is shown,
+    the base of its digits.
+    """
 
     text: str
     unit: str = ""
@@ -40,7 +44,9 @@ class Keyed:
     """The value itself has more decimals than the control shows."""
 
     def number(self, text: str) -> Fraction | None:
-        """Return the number that a text on the screen is, where this value is shown as one; None for a text that is none."""
+        """Return the number that a text on the screen is, where this value is shown as one;
+        None for a text that is none.
+        """
         shown = text.strip()
         if self.base == 16:
             return Fraction(int(shown, 16)) if re.fullmatch("[0-9A-Fa-f]{1,16}", shown) else None
@@ -59,7 +65,9 @@ class Keyed:
 
 @dataclass(frozen=True)
 class Instruction:
-    """What a person does before or after; ``page`` of the family's manual, "" where it prints nothing about it."""
+    """What a person does before or after; ``page`` of the family's manual,
+    "" where it prints nothing about it.
+    """
 
     text: str
     page: str = ""
@@ -75,7 +83,9 @@ class Stage:
 
 
 def plain_text(file: ParameterFile, address: Address, value: Value) -> Keyed | None:
-    """Return the number a control stores, where the manual prints its form, else the value in the file's own unit system."""
+    """Return the number a control stores, where the manual prints its form,
+    else the value in the file's own unit system.
+    """
     parameter, turns = file.schema.parameters[address[0]], file.evaluation.turns(address)
     stored = stored_number(parameter, value, turns=turns)
     if stored is not None:
@@ -114,9 +124,10 @@ class Keying:
 
     ``title``   of the sheet
     ``obstacle`` the reason why a value cannot be keyed in at the control, "" where it can
-    ``text``    what is keyed in for a value, which the screen shows afterwards; None where the manual prints no form
-    ``stages``, ``stage``  the order in which values are keyed in where no rule needs another one: the stage of a value by
-    what the control contains before and after
+    ``text``    what is keyed in for a value, which the screen shows afterwards; None where the manual prints
+    no form
+    ``stages``, ``stage``  the order in which values are keyed in where no rule needs another one: the stage
+    of a value by what the control contains before and after
     ``before``, ``after``  what a person does around it
     """
 

@@ -1,8 +1,10 @@
-"""An order in which values can be set one after the other so that no state in between breaks more rules than before.
+"""An order in which values can be set one after the other so that no state
+in between breaks more rules than before.
 
-Values that no check reads together do not matter to each other, so each group that hangs together is searched alone:
-first for an order without a new error or warning, then for one without a new error, at last the least bad step after
-the other. The validator judges each state; what is broken in the end anyway is no reason against a step.
+Values that no check reads together do not matter to each other, so each group that hangs together is searched
+alone: first for an order without a new error or warning, then for one without a new error, at last the least
+bad step after the other. The validator judges each state;
+what is broken in the end anyway is no reason against a step.
 """
 
 from __future__ import annotations
@@ -69,7 +71,9 @@ def _ordered(start: Interim, steps: list[NewValue], allowed: Collection[Hashable
 def _without_new(
     start: Interim, steps: list[NewValue], allowed: Collection[Hashable], severities: Collection[str]
 ) -> list[NewValue] | None:
-    """Search, depth first, an order in which no step brings anything new; None where there is none or it takes too long."""
+    """Search, depth first, an order in which no step brings anything new;
+    None where there is none or it takes too long.
+    """
     before = {step: NewValue(step.address, start.file.get(step.address)) for step in steps}
     everything = (1 << len(steps)) - 1
     done, path, nexts, hopeless = 0, list[int](), [0], set[int]()

@@ -1,4 +1,6 @@
-"""What the control's screen shows after the values have been keyed in, typed in by a person and compared exactly."""
+"""What the control's screen shows after the values have been keyed in,
+typed in by a person and compared exactly.
+"""
 
 from __future__ import annotations
 
@@ -59,8 +61,8 @@ class ReadBack:
 def read_shown(text: str) -> list[Shown]:
     """Return what somebody has read on the screen, of lines ``1750 203.20000``; raises ReadBackError.
 
-    Number and value are parted by blanks, a tab, or one of ``= ; : ,``; what begins with ``#`` is for the reader. The sheet's own
-    CSV is taken too, with its column ``read back`` filled in.
+    Number and value are parted by blanks, a tab, or one of ``= ; : ,``; what begins with ``#`` is for the
+    reader. The sheet's own CSV is taken too, with its column ``read back`` filled in.
     """
     if len(text) > _MOST:
         raise ReadBackError(f"the text has more than {_MOST} characters", 1)

@@ -1,7 +1,8 @@
-"""How far somebody has come with a sheet: kept beside the file, so that the work can be interrupted and taken up again.
+"""How far somebody has come with a sheet: kept beside the file,
+so that the work can be interrupted and taken up again.
 
-A tick belongs to a number with the old and the new text. Where one of them has changed since, the value has to be keyed in
-again and the tick is gone.
+A tick belongs to a number with the old and the new text. Where one of them has changed since, the value has
+to be keyed in again and the tick is gone.
 """
 
 from __future__ import annotations

@@ -1,10 +1,11 @@
 """The simulation: how an axis moves with its parameters, before the machine moves.
 
-`run.simulate` is the single call from an open file to a trace. A family brings its law (`law.py`: two sample functions and
-the figures of an axis, bound from a file); the rest knows no family: what is commanded (`command/`), machine and loop over
-both (`engine/`), axes that run or are stepped (`axis/`), the scenarios, gains (`tuning/`), a machine out of a record
-(`identification/`), and what is drawn and written (`picture.py`, `write.py`). Every assumption is documented where it is made, is
-part of each trace, and is listed in docs/simulation.md and its pages.
+`run.simulate` is the single call from an open file to a trace. A family brings its law (`law.py`: two sample
+functions and the figures of an axis, bound from a file); the rest knows no family: what is commanded
+(`command/`), machine and loop over both (`engine/`), axes that run or are stepped (`axis/`), the scenarios,
+gains (`tuning/`), a machine out of a record (`identification/`), and what is drawn and written (`picture.py`,
+`write.py`). Every assumption is documented where it is made, is part of each trace,
+and is listed in docs/simulation.md and its pages.
 """
 
 from typing import TYPE_CHECKING

@@ -49,8 +49,8 @@ class AxisParameters:
         return parameter in self._used
 
     def value(self, parameter: str, *, everywhere: bool = False, at: str | None = None) -> ParameterValue:
-        """Return a value or None; ``everywhere`` for a parameter that does not belong to an axis, ``at`` for an instance
-        that is not the axis.
+        """Return a value or None; ``everywhere`` for a parameter that does not belong to an axis, ``at`` for
+        an instance that is not the axis.
         """
         if parameter in self._overrides:
             self._used.add(parameter)
@@ -72,11 +72,14 @@ class AxisParameters:
         return None if figure is None else self._float(parameter, figure)
 
     def within(self, parameter: str, least: float, most: float, *, everywhere: bool = False) -> float:
-        """Return a number from ``least`` to ``most``; raises SimulationError for one that no motion could be computed with."""
+        """Return a number from ``least`` to ``most``;
+        raises SimulationError for one that no motion could be computed with.
+        """
         figure = self.number(parameter, everywhere=everywhere)
         if not least <= figure <= most:
             raise SimulationError(
-                f"{parameter} of axis {self.axis} is {figure:g}; it can be simulated from {least:g} to {most:g}",
+                f"{parameter} of axis {self.axis} is {figure:g}; it can be simulated from {least:g} to"
+                f" {most:g}",
                 parameter,
             )
         return figure

@@ -20,10 +20,11 @@ def bind_axis(
     overrides: Mapping[str, ParameterValue] | None = None,
     note: Callable[[Address], None] = lambda _address: None,
 ) -> AxisLaw:
-    """Return one axis of a file, named by itself or its letter, with its machine; ``overrides`` are values by parameter id or ``model.*``, ``note`` is called
-    with each address that is read.
+    """Return one axis of a file, named by itself or its letter, with its machine; ``overrides`` are values by
+    parameter id or ``model.*``, ``note`` is called with each address that is read.
 
-    Raises SimulationError for an axis that is not fitted, a value that is missing, an override that is not used.
+    Raises SimulationError for an axis that is not fitted, a value that is missing,
+    an override that is not used.
     """
     fitted = tuple(law.axes(file))
     if not fitted:

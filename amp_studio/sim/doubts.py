@@ -1,4 +1,6 @@
-"""What is wrong or doubtful about the values that a simulated axis was made of: shown with the result, not refused."""
+"""What is wrong or doubtful about the values that a simulated axis was made of: shown with the result,
+not refused.
+"""
 
 from __future__ import annotations
 
@@ -14,7 +16,8 @@ MOST = 8
 
 
 def doubts(file: ParameterFile, read: Iterable[Address], overridden: Iterable[str] = ()) -> tuple[str, ...]:
-    """Return a sentence for each value that is outside its range, inactive or not set, and for a file with errors.
+    """Return a sentence for each value that is outside its range, inactive or not set,
+    and for a file with errors.
 
     ``read`` are the addresses that the axis was made of; those in ``overridden`` came from elsewhere.
     """
@@ -31,7 +34,8 @@ def doubts(file: ParameterFile, read: Iterable[Address], overridden: Iterable[st
     )
     if others:
         said.append(
-            f"The file has {others} other error{'s' if others > 1 else ''}: validate it before this result is trusted"
+            f"The file has {others} other error{'s' if others > 1 else ''}: validate it before this result is"
+            " trusted"
         )
     return (*said, *_states(file, addresses))
 

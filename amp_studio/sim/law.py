@@ -1,7 +1,7 @@
 """What a family brings so that its axes can be simulated, found by its registration.
 
-A law is two functions at most, at the top of a module of the family, over flat float64 arrays, so that they run as plain
-Python and as machine code with equal results:
+A law is two functions at most, at the top of a module of the family, over flat float64 arrays, so that they
+run as plain Python and as machine code with equal results:
 
     from math import floor
     from amp_studio.sim.engine.signals import COMMAND, FEED_SHARE, MONITOR, MOTOR, OUTPUT, POSITION, STOP
@@ -16,13 +16,15 @@ Python and as machine code with equal results:
         s[LAST] = p[GAIN] * error       # what the velocity loop shall do
         io[MONITOR] = s[LAST]           # an own column, named in AxisLaw.monitors
 
-    def velocity_sample(p, s, io):      # every velocity period, at once after position_sample when both are due
+    def velocity_sample(p, s, io):      # every velocity period, at once after position_sample when both are
+    due
         io[OUTPUT] = ...
 
-They may call other functions at the top of a module and use its constants; ``math`` is fine, objects, strings, exceptions,
-default arguments and numpy are not. ``s`` is all zeros at rest and belongs to the law alone: what a law needs of earlier samples (a
-position to take a difference of) it keeps there. ``math.floor`` and ``int`` give integers: multiply by 1.0 where a float
-is meant. Divide by nothing that can be 0. The modes of `signals.MODE` are served by the law too: the scenario
+They may call other functions at the top of a module and use its constants; ``math`` is fine, objects,
+strings, exceptions, default arguments and numpy are not. ``s`` is all zeros at rest and belongs to the law
+alone: what a law needs of earlier samples (a position to take a difference of) it keeps there. ``math.floor``
+and ``int`` give integers: multiply by 1.0 where a float is meant. Divide by nothing that can be 0. The modes
+of `signals.MODE` are served by the law too: the scenario
 ``velocity`` and the tuning procedures need VELOCITY_LOOP, the commands of a tune OUTPUT_TEST.
 
 Units: the axis unit u (mm or deg) and s everywhere inside; the parameters p are the law's own business.
@@ -119,7 +121,8 @@ class AxisLaw:
     output_unit: str
     """Unit of the output: %, V, points ..."""
     position_rate: float
-    """1/s: commanded velocity for a following error at rest; what times to wait and settle are measured by."""
+    """1/s: commanded velocity for a following error at rest; what times to wait and settle are measured
+    by."""
     feedrate: float | None
     """u/s of a move when none is given: the rapid feedrate. None where it is not set."""
     inposition_band: float = 0.0
@@ -133,17 +136,22 @@ class AxisLaw:
     alarms: Mapping[int, AlarmText] = field(default_factory=dict)
     """Number in STOP -> the alarm."""
     predict: Callable[[float], Mapping[str, Prediction]] = lambda _feedrate: {}
-    """predict(feedrate in u/s) -> figures by name; ``steady_following_error`` and others that the motion is compared with."""
+    """predict(feedrate in u/s) -> figures by name;
+    ``steady_following_error`` and others that the motion is compared with."""
     circle_feedrate: Callable[[float], float | None] = lambda _radius: None
-    """circle_feedrate(radius in u) -> the highest feedrate in u/s that the control allows on a circle; None for no limit."""
+    """circle_feedrate(radius in u) -> the highest feedrate in u/s that the control allows on a circle;
+    None for no limit."""
     manual_ramp: Callable[[bool], Ramp] | None = None
-    """manual_ramp(whether the axis is being homed) -> the ramp of homing and jogging; None for that of positioning."""
+    """manual_ramp(whether the axis is being homed) -> the ramp of homing and jogging;
+    None for that of positioning."""
     homing: Callable[[], Homing] | None = None
     jogging: Callable[[], Jogging] | None = None
     travel: Callable[[], Travel] | None = None
-    """Read when a scenario asks for it; raises SimulationError naming what is missing. None where no manual prints it."""
+    """Read when a scenario asks for it; raises SimulationError naming what is missing.
+    None where no manual prints it."""
     undamped: str = ""
-    """What to do first if the loop is not stable, a sentence; "" where the law knows nothing better than lower gains."""
+    """What to do first if the loop is not stable, a sentence;
+    "" where the law knows nothing better than lower gains."""
     limits: Mapping[str, float] = field(default_factory=dict)
     """Limits of the following error in u, to draw beside the curves."""
     sources: Mapping[str, Source] = field(default_factory=dict)
@@ -155,12 +163,14 @@ class AxisLaw:
     assumptions: tuple[str, ...] = ()
     """What is assumed about the control, each a sentence with its page."""
     assumed: Mapping[str, str] = field(default_factory=dict)
-    """Figure of the machine that no parameter gives -> why it has its value; dropped when it is set by ``model.*``."""
+    """Figure of the machine that no parameter gives -> why it has its value;
+    dropped when it is set by ``model.*``."""
     after: Callable[[AxisLaw, Leader], AxisLaw] | None = None
-    """after(axis, run) -> the axis, for one that goes by the motion of another: run(other) moves that one first under the same
-    command, and returns its columns at the servo samples."""
+    """after(axis, run) -> the axis, for one that goes by the motion of another: run(other) moves that one
+    first under the same command, and returns its columns at the servo samples."""
     push: Sequence[float] = ()
-    """Torque on the load at each servo sample, from outside of the axis; the last one goes on. () for none."""
+    """Torque on the load at each servo sample, from outside of the axis; the last one goes on. () for
+    none."""
     sweep_parameters: Sequence[float] | None = None
     """The ``p`` of a swept sine, without the faults that its start would raise; None for the same."""
     linear_parameters: Sequence[float] | None = None
@@ -178,12 +188,15 @@ class Law:
     ``bind``       one axis from a file; raises SimulationError naming the parameter
     ``axes``       the axes of a file that can be simulated
     ``without_axes``  what to do about a file that has none, in a sentence
-    ``settings``   figures that are no parameters and not of every machine (`model.py`), ``model.*`` -> what they are
+    ``settings``   figures that are no parameters and not of every machine (`model.py`), ``model.*`` -> what
+    they are
     ``scenarios``  those that the manual of the family carries
     ``advise``     the family's own recommendations after a scenario
     ``own``        scenarios of the family alone, by name
-    ``spindle``    spindle(values of the machine, its number) -> the spindle; None where no output to one is printed
-    ``tapping``    tapping(machine, spindle, gear, axis, pitch) -> how both follow each other; None where it is not printed
+    ``spindle``    spindle(values of the machine, its number) -> the spindle; None where no output to one is
+    printed
+    ``tapping``    tapping(machine, spindle, gear, axis, pitch) -> how both follow each other; None where it
+    is not printed
     ``probing``    probing(values of the machine, axis, which cycle) -> how a probe is met
     ``machine_tests``  machine_tests(machine, axis) -> programs and procedures that try an axis out
     ``zones``      zones(machine, axes) -> areas that axes must not enter or leave
@@ -205,7 +218,9 @@ class Law:
 
 @dataclass(frozen=True)
 class BoundMachine:
-    """A machine of a file for scenarios that are not about one axis: its axes, made when they are asked for, and its other values."""
+    """A machine of a file for scenarios that are not about one axis: its axes, made when they are asked for,
+    and its other values.
+    """
 
     law: Law
     chosen: tuple[str, ...]
@@ -223,7 +238,9 @@ class BoundMachine:
         return self.read("")
 
     def axis(self, name: str | None = None) -> AxisLaw:
-        """Return an axis: that of the name or letter, else the first one that was asked for, else the first of the machine."""
+        """Return an axis: that of the name or letter, else the first one that was asked for,
+        else the first of the machine.
+        """
         chosen = name or (self.chosen[0] if self.chosen else None)
         if chosen is not None and chosen not in self.fitted:
             chosen = next((each for each in self.fitted if self.letter(each) == chosen.upper()), chosen)

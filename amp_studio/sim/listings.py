@@ -42,7 +42,9 @@ def known_settings(law: Law, scenario: str) -> dict[str, str]:
 
 
 def listing(file: ParameterFile, system: str | None = None) -> SimulationListing:
-    """Return what can be simulated with a file, settings in a unit system (None: that of the file); raises SimulationError for a family without a law."""
+    """Return what can be simulated with a file, settings in a unit system (None: that of the file); raises
+    SimulationError for a family without a law.
+    """
     law, length = law_of(file.schema.family.family), length_unit(file, system)
     scenarios = [*(SCENARIOS[name] for name in law.scenarios), *law.own.values()]
     entries = [ScenarioEntry(each.name, each.title, _described(each.settings, length)) for each in scenarios]

@@ -34,12 +34,7 @@ _FIGURES: dict[str, tuple[str, float, str, str]] = {
     ),
     "model.coulomb_friction": ("coulomb_friction", 1.0, "{torque}", "dry friction in motion (torque)"),
     "model.static_friction": ("static_friction", 1.0, "{torque}", "dry friction at rest (torque)"),
-    "model.motor_friction": (
-        "motor_friction",
-        1.0,
-        "",
-        "share of the friction on the motor's side, 0 to 1",
-    ),
+    "model.motor_friction": ("motor_friction", 1.0, "", "share of the friction on the motor's side, 0 to 1"),
     "model.backlash": ("backlash", 1.0, "{u}", "backlash (mm or deg)"),
     "model.resonance": ("resonance", 1.0, "Hz", "resonance of motor and load (Hz); 0 for a rigid axis"),
     "model.damping": ("damping", 1.0, "", "damping ratio of the resonance"),
@@ -76,7 +71,8 @@ _FIGURES: dict[str, tuple[str, float, str, str]] = {
     ),
     "model.delay": ("delay", 1e-3, "ms", "time from a sample to its effect on the drive (ms)"),
 }
-"""Setting -> figure of the machine, factor to it, its unit ({u} the axis' own, {torque} that of its torque), what it is."""
+"""Setting -> figure of the machine, factor to it, its unit ({u} the axis' own, {torque} that of its torque),
+what it is."""
 
 
 def model_settings() -> dict[str, str]:
@@ -100,8 +96,8 @@ def with_model(axis: AxisLaw, read: AxisParameters) -> AxisLaw:
     if "inertia_ratio" in changes and not machine.two_masses:
         name = "model.inertia_ratio"
         raise SimulationError(
-            f"{name} divides an axis in motor and load, and axis {axis.axis} is one rigid mass: give model.resonance or model.backlash"
-            " too",
+            f"{name} divides an axis in motor and load, and axis {axis.axis} is one rigid mass: give"
+            " model.resonance or model.backlash too",
             name,
         )
     if machine.two_masses:
@@ -110,7 +106,9 @@ def with_model(axis: AxisLaw, read: AxisParameters) -> AxisLaw:
 
 
 def _coupled(machine: Machine, assumed: dict[str, str]) -> Machine:
-    """Return a machine of two masses with the figures that it is simulated with; those that are not given go to ``assumed``."""
+    """Return a machine of two masses with the figures that it is simulated with;
+    those that are not given go to ``assumed``.
+    """
     frequency, damping, ratio = machine.coupling
     if machine.resonance == 0.0:
         assumed["resonance"] = (
@@ -134,12 +132,16 @@ def present_setting(axis: AxisLaw, name: str) -> tuple[float, str]:
 
 
 def torque_unit(axis: AxisLaw) -> str:
-    """Return the unit of a torque of the machine: that of the output, % of rated torque behind a drive with a velocity loop."""
+    """Return the unit of a torque of the machine: that of the output,
+    % of rated torque behind a drive with a velocity loop.
+    """
     return "%" if axis.machine.velocity_per_output > 0.0 else axis.output_unit
 
 
 def assumptions(axis: AxisLaw) -> tuple[str, ...]:
-    """Return all that is assumed about an axis: the control, then the figures of its machine with the way to set them."""
+    """Return all that is assumed about an axis: the control,
+    then the figures of its machine with the way to set them.
+    """
     return (*axis.assumptions, *(_assumption(axis, figure, why) for figure, why in axis.assumed.items()))
 
 

@@ -1,4 +1,6 @@
-"""Every scenario that a file allows, run at once: what is good, what is doubtful, what is bad, with the control's own words."""
+"""Every scenario that a file allows, run at once: what is good, what is doubtful, what is bad,
+with the control's own words.
+"""
 
 from __future__ import annotations
 
@@ -116,7 +118,10 @@ def _verdict(trace: Trace) -> tuple[Verdict, str]:
     if "home_grid" in figure and not NEAR_GRID[0] <= figure["home_grid"] <= NEAR_GRID[1]:
         return (
             "doubtful",
-            f"The marker is {figure['home_grid']:.0f} % of a turn from the switch: it may be another one each time",
+            (
+                f"The marker is {figure['home_grid']:.0f} % of a turn from the switch: it may be another one"
+                " each time"
+            ),
         )
     if figure.get("phase_margin", LEAST_PHASE) < LEAST_PHASE:
         return "doubtful", f"The phase margin is {figure['phase_margin']:.0f} deg, below {LEAST_PHASE:g}"

@@ -1,6 +1,7 @@
 """What a picture of a trace shows: panels with curves, limits and marks, as the room `drawing` draws them.
 
-A time picture has linked axes and a close look at the settling; a frequency picture is a Bode plot, a circle a ball-bar picture.
+A time picture has linked axes and a close look at the settling; a frequency picture is a Bode plot,
+a circle a ball-bar picture.
 """
 
 from __future__ import annotations
@@ -130,7 +131,9 @@ def _motion(trace: Trace, before: Trace | None) -> Picture:
 
 
 def _has_own_output(trace: Trace) -> bool:
-    """Return whether the output is another thing than the torque: the input of a drive with a velocity loop."""
+    """Return whether the output is another thing than the torque: the input of a drive with a velocity
+    loop.
+    """
     return trace.units.get("output", "") != trace.units.get("torque", "")
 
 
@@ -147,9 +150,15 @@ _WORDS: dict[str, tuple[str, ShapeSort]] = {
 
 
 def _panel(
-    trace: Trace, before: Trace | None, alarms: Sequence[NamedPlace], title: str, names: Iterable[str], share: float,
-    levels: Sequence[NamedPlace] = (), subtitle: str = "",
-) -> Scene | None:  # fmt: skip
+    trace: Trace,
+    before: Trace | None,
+    alarms: Sequence[NamedPlace],
+    title: str,
+    names: Iterable[str],
+    share: float,
+    levels: Sequence[NamedPlace] = (),
+    subtitle: str = "",
+) -> Scene | None:
     present = [name for name in names if name in trace.columns]
     if not present:
         return None
@@ -161,9 +170,14 @@ def _panel(
 def _curve(trace: Trace, name: str) -> Curve:
     words, sort = _WORDS.get(name, (name.replace("_", " "), "outside"))
     return Curve(
-        words, trace.columns["time_s"], trace.columns[name], sort, dashed=sort == "dim", held=name == "command_velocity",
+        words,
+        trace.columns["time_s"],
+        trace.columns[name],
+        sort,
+        dashed=sort == "dim",
+        held=name == "command_velocity",
         dense=sort == "output" or name == "following_error",
-    )  # fmt: skip
+    )
 
 
 def _before(before: Trace | None, name: str) -> list[Curve]:
@@ -173,7 +187,9 @@ def _before(before: Trace | None, name: str) -> list[Curve]:
 
 
 def _error(trace: Trace, before: Trace | None, alarms: Sequence[NamedPlace]) -> Scene | None:
-    """Return the following error with the limits that are near it as lines, and those that are not in words."""
+    """Return the following error with the limits that are near it as lines, and those that are not in
+    words.
+    """
     error = trace.columns.get("following_error")
     if error is None:
         return None
@@ -201,8 +217,8 @@ def _error(trace: Trace, before: Trace | None, alarms: Sequence[NamedPlace]) -> 
 def settling_span(trace: Trace) -> tuple[float, float] | None:
     """Return the times in s between which the axis settles, None if the command does not end.
 
-    From where it is within ten inposition bands of the end (without a band: from the end of the command) to some
-    time after it has settled.
+    From where it is within ten inposition bands of the end (without a band: from the end of the command) to
+    some time after it has settled.
     """
     columns = trace.columns
     if (
@@ -263,11 +279,17 @@ def _fit(trace: Trace) -> Picture:
         Curve(words, time, np.nan_to_num(trace.columns[name]), "output" if words == "measured" else "now")
         for name, words in names.items()
     )
-    return Picture("", (), linked([
-        panel_of("torque", (measured, predicted), _TIME, unit, share=2.0),
-        panel_of("measured less predicted, where used", (rest,), _TIME, unit, share=0.8),
-        panel_of("velocity", (speed,), _TIME, trace.units["velocity"], share=0.9),
-    ]))  # fmt: skip
+    return Picture(
+        "",
+        (),
+        linked(
+            [
+                panel_of("torque", (measured, predicted), _TIME, unit, share=2.0),
+                panel_of("measured less predicted, where used", (rest,), _TIME, unit, share=0.8),
+                panel_of("velocity", (speed,), _TIME, trace.units["velocity"], share=0.9),
+            ]
+        ),
+    )
 
 
 def _plan(trace: Trace) -> Picture:
@@ -306,15 +328,27 @@ _LOOPS: tuple[tuple[str, str, ShapeSort], ...] = (
 def _bode(trace: Trace, before: Trace | None) -> Picture:
     along = ("frequency", "Hz")
     gain = panel_of(
-        "gain", tuple(_frequency_curves(trace, before, "gain_db")), along, "dB", log=True, share=1.5,
+        "gain",
+        tuple(_frequency_curves(trace, before, "gain_db")),
+        along,
+        "dB",
+        log=True,
+        share=1.5,
         levels=(NamedPlace("−3 dB", -3.0103), NamedPlace("", 0.0)),
         marks=_frequency_marks(trace, ("bandwidth", "phase_margin_frequency")),
-    )  # fmt: skip
+    )
     phase = panel_of(
-        "phase", tuple(_frequency_curves(trace, before, "phase_deg")), along, "deg", log=True, share=1.5, step=(0.0, 90.0),
-        levels=(NamedPlace("−180 deg", -180.0),), marks=_frequency_marks(trace, ("gain_margin_frequency",)),
+        "phase",
+        tuple(_frequency_curves(trace, before, "phase_deg")),
+        along,
+        "deg",
+        log=True,
+        share=1.5,
+        step=(0.0, 90.0),
+        levels=(NamedPlace("−180 deg", -180.0),),
+        marks=_frequency_marks(trace, ("gain_margin_frequency",)),
         without_zero=True,
-    )  # fmt: skip
+    )
     return Picture("", (), linked((gain, phase)))
 
 
@@ -337,11 +371,7 @@ def _known(trace: Trace, name: str) -> tuple[Series, Series]:
     return trace.columns["frequency_hz"][known], trace.columns[name][known]
 
 
-_MARKS = {
-    "bandwidth": "bandwidth",
-    "phase_margin_frequency": "gain 1",
-    "gain_margin_frequency": "−180 deg",
-}
+_MARKS = {"bandwidth": "bandwidth", "phase_margin_frequency": "gain 1", "gain_margin_frequency": "−180 deg"}
 
 
 def _frequency_marks(trace: Trace, names: Iterable[str]) -> tuple[NamedPlace, ...]:
@@ -402,5 +432,7 @@ def limits_outside(trace: Trace) -> Mapping[str, str]:
 def plot_svg(
     trace: Trace, before: Trace | None = None, *, width: int = 960, unit: int = 132, small_print: bool = True
 ) -> str:
-    """Return the SVG text of a trace, with the trace before a change under it; the rest as ``picture_svg`` takes it."""
+    """Return the SVG text of a trace, with the trace before a change under it;
+    the rest as ``picture_svg`` takes it.
+    """
     return picture_svg(picture_of(trace, before), width=width, unit=unit, small_print=small_print)

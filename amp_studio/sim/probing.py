@@ -32,7 +32,8 @@ class Probing:
     ramp: Ramp | None = None
     """How it stops; None for the axis' ramp of positioning."""
     after: Literal["stays", "returns", "goes on"] = "stays"
-    """Where the axis is at the end: where it stopped, back where the signal came, or on its way as if nothing was."""
+    """Where the axis is at the end: where it stopped, back where the signal came,
+    or on its way as if nothing was."""
     alternatives: Mapping[str, float] = field(default_factory=dict)
     """Other latencies that the manual prints, by page."""
     page: str = ""

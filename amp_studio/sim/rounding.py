@@ -29,7 +29,9 @@ def rounded(value: float, digits: int) -> float:
 
 
 def shown(value: float, unit: str = "", digits: int = 4) -> str:
-    """Return a value with this number of digits and its unit, without trailing zeros and without an exponent."""
+    """Return a value with this number of digits and its unit, without trailing zeros and without an
+    exponent.
+    """
     near = rounded(value, digits)
     text = format(Decimal(repr(float(near))), "f") if math.isfinite(near) else repr(near)
     if "." in text:

@@ -40,12 +40,14 @@ def simulate(
     like: Trace | None = None,
     way: Way | None = None,
 ) -> Trace:
-    """Run a scenario with the present values of a file; ``axis`` None means the first axis that can be simulated.
+    """Run a scenario with the present values of a file;
+    ``axis`` None means the first axis that can be simulated.
 
-    ``settings`` are settings of the scenario and of the model (``move.feedrate``): numbers in the units that `listing.py` names,
-    or texts with a unit. ``system`` is the unit system of settings and trace, None for that of the file. Without ``advise`` the trace has
-    neither recommendations nor doubts, which takes a third of the time. ``like`` is a trace whose move is made again, but for what is set.
-    Raises SimulationError with the parameter that is missing or impossible.
+    ``settings`` are settings of the scenario and of the model (``move.feedrate``): numbers in the units that
+    `listing.py` names, or texts with a unit. ``system`` is the unit system of settings and trace, None for
+    that of the file. Without ``advise`` the trace has neither recommendations nor doubts, which takes a third
+    of the time. ``like`` is a trace whose move is made again, but for what is set. Raises SimulationError
+    with the parameter that is missing or impossible.
     """
     law = law_of(file.schema.family.family)
     if scenario not in {**SCENARIOS, **law.own}:
@@ -102,7 +104,9 @@ def simulate(
 
 
 def _whole_run(scenario: str, axis: str | None) -> Callable[[BoundMachine, Settings], Trace] | None:
-    """Return how a scenario is run that is not about one axis; None for one that is. Raises SimulationError for several axes of such a one."""
+    """Return how a scenario is run that is not about one axis; None for one that is.
+    Raises SimulationError for several axes of such a one.
+    """
     chosen = SCENARIOS.get(scenario)
     if chosen is not None and chosen.of_machine:
         return chosen.run
@@ -163,7 +167,9 @@ def _trial(file: ParameterFile, law: Law, axis: str, model: Mapping[str, Paramet
 
 
 def _alike(file: ParameterFile, law: Law, first: AxisLaw, model: Mapping[str, ParameterValue]) -> list[Trial]:
-    """Return the axes that make contours with one, itself too: those that can be simulated and move in the same unit."""
+    """Return the axes that make contours with one, itself too:
+    those that can be simulated and move in the same unit.
+    """
     found = []
     for name in law.axes(file):
         try:
@@ -184,7 +190,9 @@ def _named(trace: Trace, letter: str) -> Trace:
 def _second(
     file: ParameterFile, law: Law, first: AxisLaw, name: ParameterValue, model: Mapping[str, ParameterValue]
 ) -> AxisLaw | None:
-    """Return the second axis: the one of that name, else the next one that can be simulated and moves in the same unit."""
+    """Return the second axis: the one of that name,
+    else the next one that can be simulated and moves in the same unit.
+    """
     if name is not None:
         second = bind_axis(file, law, f"{name:g}" if isinstance(name, float) else str(name), model)
         if second.axis == first.axis:

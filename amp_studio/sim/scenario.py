@@ -24,13 +24,16 @@ class Scenario:
     settings: Mapping[str, str]
     """Settings of the scenario -> what they are."""
     run: Callable[..., Trace]
-    """run(axis, settings in canonical units) -> Trace, with the second axis after them if there is one; raises SimulationError."""
+    """run(axis, settings in canonical units) -> Trace, with the second axis after them if there is one;
+    raises SimulationError."""
     gains: bool = True
     """Whether gains are recommended after it; a homing or a stop asks for its own figures."""
     tried: bool = False
-    """Whether it tries other values: run(trial, settings, trials of the axes that make contours with this one)."""
+    """Whether it tries other values: run(trial, settings,
+    trials of the axes that make contours with this one)."""
     second: bool = False
-    """Whether a second axis takes part: the one of ``move.second_axis``, else the next that can be simulated."""
+    """Whether a second axis takes part: the one of ``move.second_axis``, else the next that can be
+    simulated."""
     of_machine: bool = False
     """Whether it is not about one axis: run(machine, settings) with a `BoundMachine`."""
     several: Callable[..., Trace] | None = None

@@ -1,6 +1,7 @@
 """Settings of a scenario and of the machine as a person writes them: ``50 mm``, ``0.5 s``, ``linear``.
 
-The unit of a setting is in its description, in brackets: "(mm or deg)", "(s)". A number without a unit is in that unit.
+The unit of a setting is in its description, in brackets: "(mm or deg)", "(s)".
+A number without a unit is in that unit.
 """
 
 from __future__ import annotations
@@ -27,9 +28,11 @@ def units_of(description: str) -> tuple[str, ...]:
 def read_settings(
     given: Mapping[str, ParameterValue], known: Mapping[str, str], unit: str = "mm"
 ) -> tuple[dict[str, ParameterValue], dict[str, str]]:
-    """Return the settings as numbers in their units, other texts as they are; and the unit that each was written in.
+    """Return the settings as numbers in their units, other texts as they are;
+    and the unit that each was written in.
 
-    ``known`` are the descriptions; a length without a unit is in the ``unit`` of the axis. Raises SimulationError for a unit that does not fit.
+    ``known`` are the descriptions; a length without a unit is in the ``unit`` of the axis. Raises
+    SimulationError for a unit that does not fit.
     """
     values: dict[str, ParameterValue] = {}
     written: dict[str, str] = {}

@@ -1,4 +1,6 @@
-"""A spindle as plain figures, which a family fills in: gears, output, ramp, speed watch, orient and tapping."""
+"""A spindle as plain figures, which a family fills in: gears, output, ramp, speed watch, orient and
+tapping.
+"""
 
 from __future__ import annotations
 
@@ -64,7 +66,9 @@ class Orient:
 
 @dataclass(frozen=True)
 class SpeedWatch:
-    """Compares the measured speed with an expected one: a ramp of ``time`` s to the command, within ``tolerance`` (share of it)."""
+    """Compares the measured speed with an expected one: a ramp of ``time`` s to the command,
+    within ``tolerance`` (share of it).
+    """
 
     tolerance: float
     time: float
@@ -99,7 +103,8 @@ class Spindle:
     def gear_for(
         self, speed: float, present: str | None, *, programmed: bool = False
     ) -> tuple[Gear | None, str]:
-        """Return the gear for a speed and a note about the choice; None where none has it, or the ``programmed`` one has it not.
+        """Return the gear for a speed and a note about the choice; None where none has it,
+        or the ``programmed`` one has it not.
 
         The manuals do not print which gear is taken where ranges overlap.
         """
@@ -116,7 +121,10 @@ class Spindle:
             return None, ""
         if len(fitting) > 1:
             names = ", ".join(gear.name for gear in fitting)
-            note = f"ASSUMED: of the gears {names}, which all have this speed, the present one stays, else the lowest is taken; it is not printed."
+            note = (
+                f"ASSUMED: of the gears {names}, which all have this speed, the present one stays, else the"
+                " lowest is taken; it is not printed."
+            )
             return (held if held in fitting else fitting[0]), note
         return fitting[0], ""
 

@@ -11,7 +11,8 @@ SPEED = 1e-3
 
 
 def error_at_speed(trace: Trace) -> float | None:
-    """Return the mean following error in the second half of the rows at full speed, above 0 for an axis that is behind.
+    """Return the mean following error in the second half of the rows at full speed,
+    above 0 for an axis that is behind.
 
     None where the scenario found no steady error.
     """

@@ -1,4 +1,6 @@
-"""The picture of a sweep: a map of two values with a cut through the present point, a curve over one, or a distribution of samples."""
+"""The picture of a sweep: a map of two values with a cut through the present point, a curve over one,
+or a distribution of samples.
+"""
 
 from __future__ import annotations
 
@@ -44,8 +46,14 @@ def _map(trace: Trace, x: Series, y: Series) -> Picture:
     if row is not None:
         points.append(("best", (float(trace.columns[one][row]), float(trace.columns[two][row])), "outside"))
     above = map_scene(
-        _words(trace.figure), trace.units[trace.figure], (*_axis(trace, one), x), (*_axis(trace, two), y), values, safe, points
-    )  # fmt: skip
+        _words(trace.figure),
+        trace.units[trace.figure],
+        (*_axis(trace, one), x),
+        (*_axis(trace, two), y),
+        values,
+        safe,
+        points,
+    )
     nearest = int(np.argmin(np.abs(y - (y[len(y) // 2] if at[1] is None else at[1]))))
     cut = f"{_words(trace.figure)} at {_words(two)} {shown(float(y[nearest]), trace.units[two])}"
     panel = _panel(trace, cut, one, x, values[nearest], safe[nearest], at[0])

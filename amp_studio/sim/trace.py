@@ -74,7 +74,8 @@ class Trace:
     letter: str = ""
     """The letter that the file gives the axis, where it is another than ``axis``."""
     move: Mapping[str, float] = field(default_factory=dict)
-    """Settings that the scenario chose by the axis or was given, in mm or deg: with them another axis makes the same move."""
+    """Settings that the scenario chose by the axis or was given, in mm or deg:
+    with them another axis makes the same move."""
     areas: tuple[PlaneArea, ...] = ()
     """Zones to draw in the plane of the first two axes."""
     doubts: tuple[str, ...] = ()

@@ -1,6 +1,8 @@
-"""The unit of length that a simulation is shown in and its settings are given in: that of the file, or one that is asked for.
+"""The unit of length that a simulation is shown in and its settings are given in: that of the file,
+or one that is asked for.
 
-Inside everything is in mm or deg; a family whose file is in inches sees inches in figures, columns, limits, recommendations and sentences.
+Inside everything is in mm or deg; a family whose file is in inches sees inches in figures, columns, limits,
+recommendations and sentences.
 """
 
 from __future__ import annotations

@@ -23,7 +23,9 @@ ENDINGS = (".csv", ".svg", ".png")
 
 
 def trace_csv(trace: Trace) -> str:
-    """Return the trace as CSV: column names, then one line for each row with exact numbers, empty where nothing was measured."""
+    """Return the trace as CSV: column names, then one line for each row with exact numbers,
+    empty where nothing was measured.
+    """
     lines = [",".join(_heading(trace))]
     columns = [column.tolist() for column in trace.columns.values()]
     lines += [",".join(map(_cell, row)) for row in zip(*columns, strict=True)]
@@ -75,7 +77,8 @@ def trace_text(trace: Trace) -> str:
         (
             "Recommendations",
             [
-                f"{a.parameter} = {shown(a.value, a.unit, 9)}: {a.why}{f' Price: {a.price}' if a.price else ''}"
+                f"{a.parameter} = {shown(a.value, a.unit, 9)}:"
+                f" {a.why}{f' Price: {a.price}' if a.price else ''}"
                 for a in trace.recommendations
             ],
         ),
@@ -89,7 +92,8 @@ def trace_text(trace: Trace) -> str:
 def write_trace(
     trace: Trace, path: Path, notify: Notify = lambda _note: None, *, before: Trace | None = None
 ) -> None:
-    """Write ``.csv``, ``.svg`` or ``.png``, whole or not at all; ``notify`` is called with each lost file attribute.
+    """Write ``.csv``, ``.svg`` or ``.png``, whole or not at all;
+    ``notify`` is called with each lost file attribute.
 
     Raises SimulationError for another ending, SaveError where it cannot.
     """
@@ -108,7 +112,9 @@ def write_trace(
 
 
 def with_uncertainty(summary: dict[str, Any]) -> dict[str, Any]:
-    """Return what `trace_summary` gives of `identify` with the standard error of a figure in it too, as its ``uncertainty``."""
+    """Return what `trace_summary` gives of `identify` with the standard error of a figure in it too,
+    as its ``uncertainty``.
+    """
     result = summary["result"]
     for name, figure in result.items():
         error = result.get(f"{name}_standard_error")
@@ -118,7 +124,9 @@ def with_uncertainty(summary: dict[str, Any]) -> dict[str, Any]:
 
 
 def trace_summary(trace: Trace, named: Callable[[str], str] = str) -> dict[str, Any]:
-    """Return the result without the curves, in the form of ``simulate --json``; ``named`` names a parameter by its id."""
+    """Return the result without the curves, in the form of ``simulate --json``;
+    ``named`` names a parameter by its id.
+    """
     return {
         "scenario": trace.scenario,
         "axis": trace.axis,

@@ -1,4 +1,6 @@
-"""Areas over one or more axes that a control guards: outside of which, or inside of which, the axes have to stay."""
+"""Areas over one or more axes that a control guards: outside of which, or inside of which,
+the axes have to stay.
+"""
 
 from __future__ import annotations
 
@@ -40,7 +42,9 @@ class Zone:
     """Whether every motion that would break it is not begun."""
 
     def contains(self, point: Mapping[str, float]) -> bool:
-        """Return whether a point is in the box, its edges not; an axis that the point does not have counts as in it."""
+        """Return whether a point is in the box, its edges not;
+        an axis that the point does not have counts as in it.
+        """
         return all(
             low + EPSILON < point[axis] < high - EPSILON
             for axis, (low, high) in self.sides.items()

@@ -14,8 +14,8 @@ def state_after_break(
 ) -> tuple[AtControl, tuple[str, ...]]:
     """Return what the control contains, and the numbers of what is new already if that is a part of it.
 
-    ``held`` is what it contained, ``wanted`` what it was to contain, ``now`` what it was read to contain. Something that
-    is neither old nor new is not known for either.
+    ``held`` is what it contained, ``wanted`` what it was to contain, ``now`` what it was read to contain.
+    Something that is neither old nor new is not known for either.
     """
     names = sorted({*held, *wanted, *now}, key=_by_numbers)
     changed = [name for name in names if held.get(name) != wanted.get(name)]

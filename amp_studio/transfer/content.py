@@ -1,7 +1,7 @@
 """What the bytes mean that a control contains: each kind is recognised by its first line.
 
-A copy that was kept years ago is so read, shown and put back without asking over which protocol it came. Nothing here
-talks to a control.
+A copy that was kept years ago is so read, shown and put back without asking over which protocol it came.
+Nothing here talks to a control.
 """
 
 from __future__ import annotations
@@ -30,27 +30,36 @@ class ContentKind(Protocol):
     def encode(self, file: ParameterFile, held: bytes) -> bytes:
         """Return what a control that contains ``held`` contains after a download of ``file``.
 
-        What the file does not set stays as ``held`` has it, where single values are sent. Raises ImageError, which names
-        what the control cannot take.
+        What the file does not set stays as ``held`` has it, where single values are sent. Raises ImageError,
+        which names what the control cannot take.
         """
 
     def left_out(self, file: ParameterFile, held: bytes) -> str:
-        """Return what of a file a control that contains ``held`` does not have, and what is sent without it; "" for nothing."""
+        """Return what of a file a control that contains ``held`` does not have, and what is sent without it;
+        "" for nothing.
+        """
 
     def stays(self, file: ParameterFile, held: bytes) -> str:
-        """Return which parts of the values that a file sets stay as ``held`` has them: bits of axes it does not have; "" for none."""
+        """Return which parts of the values that a file sets stay as ``held`` has them:
+        bits of axes it does not have; "" for none.
+        """
 
     def lacks(self, content: bytes, earlier: bytes) -> str:
-        """Return what of an ``earlier`` content of the same control is not in this one, which may be read short; "" for nothing.
+        """Return what of an ``earlier`` content of the same control is not in this one,
+        which may be read short; "" for nothing.
 
         Raises ImageError.
         """
 
     def refit(self, content: bytes, held: bytes) -> bytes:
-        """Return what a control that contains ``held`` contains once ``content`` is put back; raises ImageError."""
+        """Return what a control that contains ``held`` contains once ``content`` is put back;
+        raises ImageError.
+        """
 
     def difference(self, content: bytes, found: bytes) -> str:
-        """Return where a control that contains ``found`` is not proved to contain ``content``: "from byte 7 on"; "" if it is."""
+        """Return where a control that contains ``found`` is not proved to contain ``content``:
+        "from byte 7 on"; "" if it is.
+        """
 
 
 class TakesAllOrRefuses:
@@ -102,7 +111,9 @@ class HouseContent(WholeContent):
 
 
 def kind_of(content: bytes) -> ContentKind:
-    """Return how a content is read; as an image of the house where its first line names no kind that is known."""
+    """Return how a content is read; as an image of the house
+    where its first line names no kind that is known.
+    """
     family, first = family_of(content), _first_line(content)
     place = registration_of(family).contents[first] if family else GENERAL[MAGIC]
     kind: ContentKind = load_part(place)()
@@ -110,7 +121,9 @@ def kind_of(content: bytes) -> ContentKind:
 
 
 def family_of(content: bytes) -> str:
-    """Return the family whose own kind a content is; "" for the image of the house, which every family has."""
+    """Return the family whose own kind a content is; "" for the image of the house, which every family
+    has.
+    """
     first = _first_line(content)
     return next((f for f in registered_families() if first in registration_of(f).contents), "")
 

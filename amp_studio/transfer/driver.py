@@ -1,7 +1,9 @@
-"""What every way of speaking to a control can be asked for: who is there, what does it contain, take this instead.
+"""What every way of speaking to a control can be asked for: who is there, what does it contain,
+take this instead.
 
-A driver moves contents as bytes and is of the kind (``content``) that knows what they mean. It opens its own link, bounds
-its peer and its waiting, and ends every exchange with a TransferError that names what the control contains, or with success.
+A driver moves contents as bytes and is of the kind (``content``) that knows what they mean. It opens its own
+link, bounds its peer and its waiting, and ends every exchange with a TransferError that names what the
+control contains, or with success.
 """
 
 from __future__ import annotations
@@ -22,11 +24,14 @@ class Abilities:
     """What a way of speaking to a control can do.
 
     ``can_send``        it takes a download
-    ``remembers``       it knows by itself what the control has contained before, and takes that back whatever it is
+    ``remembers``       it knows by itself what the control has contained before, and takes that back whatever
+    it is
     ``all_or_nothing``  a download that breaks off leaves the old content or the new one, never some of both
     ``maps_numbers``    a file of another schema of the family is sent as well: each parameter by its number
-    ``lasting_states``  the states, in the control's own words, in which a write lasts; in any other its driver refuses before
-                        anything is written. Empty where the control keeps nothing without power; None where no source states it
+    ``lasting_states``  the states, in the control's own words, in which a write lasts; in any other its
+    driver refuses before
+                        anything is written. Empty where the control keeps nothing without power;
+                        None where no source states it
     """
 
     can_send: bool = True
@@ -36,7 +41,9 @@ class Abilities:
     lasting_states: tuple[str, ...] | None = None
 
     def check_lasts(self, state: str, why: str) -> None:
-        """Refuse a state in which a write does not last, before anything is written; ``why`` is the reason and what to do."""
+        """Refuse a state in which a write does not last, before anything is written;
+        ``why`` is the reason and what to do.
+        """
         if state not in (self.lasting_states or ()):
             raise TransferError(f"the control is in the state {state[:20]}: {why}")
 
@@ -55,7 +62,8 @@ class Abilities:
 class ControlIdentity:
     """What answers.
 
-    ``signature``       of the schema it numbers its parameters by, in hexadecimal; "" where it does not name one
+    ``signature``       of the schema it numbers its parameters by, in hexadecimal; "" where it does not name
+    one
     ``axes``            their names, where it names them before it is read
     ``size``, ``sha256``  of what it contains: bytes and digest; None if that is known only once it is fetched
     ``in_estop``        None where there is no such state, or it cannot be asked
@@ -81,7 +89,8 @@ class Receipt:
     ``restarting``      whether it restarts now; ``incarnation`` is the number of the start that ends
     ``restart_needed``  whether a restart by hand makes it current, where it does not restart by itself
     ``notes``           sentences that the person has to know
-    ``is_answered``     whether the control itself has answered that it took it; without, only reading it back shows it
+    ``is_answered``     whether the control itself has answered that it took it; without,
+    only reading it back shows it
     """
 
     restarting: bool = False
@@ -92,7 +101,9 @@ class Receipt:
 
 
 class ControlDriver(ContentKind, Protocol):
-    """One way of speaking to one control. Everything may raise TransferError; a driver belongs to one thread."""
+    """One way of speaking to one control. Everything may raise TransferError; a driver belongs to one
+    thread.
+    """
 
     @property
     def abilities(self) -> Abilities:
@@ -102,12 +113,15 @@ class ControlDriver(ContentKind, Protocol):
         """Return who answers; connects where there is no connection yet."""
 
     def fetch(self, exchange: Exchange = QUIET, stage: str = "upload") -> bytes:
-        """Return all that the control contains, whole and undamaged; the same bytes while it contains the same."""
+        """Return all that the control contains, whole and undamaged;
+        the same bytes while it contains the same.
+        """
 
     def send(self, replacement: Replacement, exchange: Exchange = QUIET) -> Receipt:
         """Have the control contain one content instead of another.
 
-        A driver that sends single values sends those that differ. ``at_control`` of an error is what the control contains then.
+        A driver that sends single values sends those that differ.
+        ``at_control`` of an error is what the control contains then.
         """
 
     def close(self) -> None:
@@ -119,7 +133,9 @@ class RestartsItself(Protocol):
     """A driver whose control restarts after a download without anybody's doing."""
 
     def wait_restarted(self, receipt: Receipt, seconds: float, exchange: Exchange = QUIET) -> bool:
-        """Wait up to so many seconds for the restart after ``send``; returns whether the control has come back."""
+        """Wait up to so many seconds for the restart after ``send``;
+        returns whether the control has come back.
+        """
 
 
 @runtime_checkable
@@ -142,7 +158,8 @@ class TakesLiveValues(Protocol):
 class Recognised:
     """How a control is known by its answer, where nobody has named its family.
 
-    ``question`` is sent to whatever is there, so it must do nothing to any machine; ``answer`` is looked for in what comes.
+    ``question`` is sent to whatever is there, so it must do nothing to any machine;
+    ``answer`` is looked for in what comes.
     """
 
     protocol: str
@@ -151,4 +168,5 @@ class Recognised:
 
 
 DriverFactory = Callable[[Endpoint, str], ControlDriver]
-"""Make the driver of an endpoint; the text is the family the control must be of, "" for any. Connects to nothing yet."""
+"""Make the driver of an endpoint; the text is the family the control must be of, "" for any.
+Connects to nothing yet."""

@@ -1,4 +1,6 @@
-"""What can end an exchange early: every error reports in a sentence what happened and what the control contains."""
+"""What can end an exchange early: every error reports in a sentence what happened
+and what the control contains.
+"""
 
 from __future__ import annotations
 
@@ -8,8 +10,8 @@ from typing import Literal
 from amp_studio.errors import AmpStudioError
 from amp_studio.schema import visible
 
-# "old": what it contained before this exchange; "new": the content that was sent; "mixed": some of both; "defaults": it has
-# lost its memory and starts again; "": nothing was to be sent.
+# "old": what it contained before this exchange; "new": the content that was sent; "mixed": some of both;
+# "defaults": it has lost its memory and starts again; "": nothing was to be sent.
 AtControl = Literal["", "old", "new", "mixed", "defaults", "unknown"]
 
 AT_CONTROL_TEXT: dict[AtControl, str] = {
@@ -18,18 +20,26 @@ AT_CONTROL_TEXT: dict[AtControl, str] = {
     "new": "the control contains the new image, which was not read back",
     "mixed": "the control contains some of the new values and the old ones of the rest",
     "defaults": "the control has lost its memory and contains its defaults",
-    "unknown": "whether the control contains the old or the new image is not known: verify before you go on "
-    "(amp-studio verify FILE --with ADDRESS)",
+    "unknown": (
+        "whether the control contains the old or the new image is not known: verify before you go on "
+        "(amp-studio verify FILE --with ADDRESS)"
+    ),
 }
 
 
-WHICH_IS_NOT_KNOWN = "which of the new values the control contains is not known: verify before you go on (amp-studio verify FILE --with ADDRESS)"
-"""Instead of "the old or the new image" for a control that takes single values: only one that commits all or nothing has one of two."""
+WHICH_IS_NOT_KNOWN = (
+    "which of the new values the control contains is not known: verify before you go on (amp-studio verify"
+    " FILE --with ADDRESS)"
+)
+"""Instead of "the old or the new image" for a control that takes single values:
+only one that commits all or nothing has one of two."""
 
 
 @dataclass(frozen=True)
 class Confirmed:
-    """How far a download of single values came: ``count`` of ``of`` are confirmed, ``unanswered`` names the one under way."""
+    """How far a download of single values came: ``count`` of ``of`` are confirmed,
+    ``unanswered`` names the one under way.
+    """
 
     count: int
     of: int
@@ -43,9 +53,9 @@ class Confirmed:
 class TransferError(AmpStudioError, OSError):
     """An exchange that did not reach its end.
 
-    ``what`` happened; ``at_control`` is what the control contains now; ``kept`` the place where the image it contained
-    before was kept, if it was; ``new`` the numbers of the parameters that are new already, where some are; ``confirmed`` how far
-    a download of single values came.
+    ``what`` happened; ``at_control`` is what the control contains now; ``kept`` the place where the image it
+    contained before was kept, if it was; ``new`` the numbers of the parameters that are new already, where
+    some are; ``confirmed`` how far a download of single values came.
     """
 
     confirmed: Confirmed | None = None
@@ -74,7 +84,10 @@ class TransferError(AmpStudioError, OSError):
     def _now(self) -> str:
         """Return what the control contains now, in words."""
         if self.at_control == "mixed" and self.new:
-            return f"the control contains the new {', '.join(map(visible, self.new))} and the old values of the rest"
+            return (
+                f"the control contains the new {', '.join(map(visible, self.new))} and the old values of the"
+                " rest"
+            )
         if self.at_control == "new" and self.new:
             return "the control contains the new content, as it was read since"
         if self.at_control == "unknown" and self.confirmed:

@@ -1,4 +1,6 @@
-"""What goes along with one exchange with a control: who watches it, who may stop it, where it is kept and recorded."""
+"""What goes along with one exchange with a control: who watches it, who may stop it,
+where it is kept and recorded.
+"""
 
 from __future__ import annotations
 
@@ -18,7 +20,8 @@ class Exchange:
 
     ``progress``  is called for steps and silences
     ``cancel``    breaks off what waits; may be set from another thread
-    ``keep``      where a copy of what is replaced is kept: its folder takes the copies, its stem begins their names
+    ``keep``      where a copy of what is replaced is kept: its folder takes the copies, its stem begins their
+    names
     ``record``    the file in whose folder the exchange is recorded
     ``notify``    is called with what does not end the exchange: that it could not be recorded
     """

@@ -173,7 +173,9 @@ def _schema(head: dict[str, str]) -> Schema:
 
 
 def _check_form(file: ParameterFile, image: bytes) -> None:
-    """Refuse an image that is not the one of the file it was read as: another order, number, unit sign, escape."""
+    """Refuse an image that is not the one of the file it was read as: another order, number, unit sign,
+    escape.
+    """
     known = set(file.addresses())
     for address in file.values:
         if address not in known:
@@ -225,7 +227,9 @@ def _field(parameter: Parameter, value: Value) -> str:
 
 
 def _value(schema: Schema, parameter: Parameter, entry: str, field: str) -> Value:
-    """Return the value a field means, by the same reading as a file's; raises ImageError, which names the entry."""
+    """Return the value a field means, by the same reading as a file's; raises ImageError,
+    which names the entry.
+    """
     is_text = parameter.type in ("text", "format")
     if is_text != field.startswith("text:") or (len(field) > _LONGEST and parameter.type != "text"):
         shown = MASKED if parameter.secret else f"'{_short(field)}'"
@@ -238,7 +242,8 @@ def _value(schema: Schema, parameter: Parameter, entry: str, field: str) -> Valu
         return _choice(parameter, field)
     except InvalidValueError as error:
         raise ImageError(
-            f"the control image contains {_short(entry)} with a value it cannot have: {not_readable(parameter, error)}"
+            f"the control image contains {_short(entry)} with a value it cannot have:"
+            f" {not_readable(parameter, error)}"
         ) from None
 
 
@@ -252,7 +257,8 @@ def _choice(parameter: Parameter, field: str) -> Value:
 
 
 def patch_image(image: bytes, number: str, text: str) -> bytes:
-    """Key one value into an image as at the control: by number, in the control's own unit, its range unchecked.
+    """Key one value into an image as at the control: by number, in the control's own unit,
+    its range unchecked.
 
     Raises PatchError for a number the control does not offer and for text that is no value of it, ImageError
     where the image cannot be read.

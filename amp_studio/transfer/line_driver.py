@@ -1,4 +1,6 @@
-"""What the drivers have in common that speak to a control over one line in its own way: values are sent, and read back after a break."""
+"""What the drivers have in common that speak to a control over one line in its own way: values are sent,
+and read back after a break.
+"""
 
 from __future__ import annotations
 
@@ -19,7 +21,8 @@ from .waiting import OpenLink, Waiting
 
 
 class LineDriver(ABC):
-    """One way of speaking to the controls of one family; with the family's kind of content it is a ControlDriver.
+    """One way of speaking to the controls of one family;
+    with the family's kind of content it is a ControlDriver.
 
     A subclass identifies, reads and writes the control. What every such driver does is here: of which family
     it is, whom it obeys while it waits, and that every error of a download names what the control contains.
@@ -47,7 +50,9 @@ class LineDriver(ABC):
 
     @classmethod
     def at(cls, endpoint: Endpoint, family: str = "") -> Self:
-        """Return the driver of an endpoint; ``family`` is the one the control must be of, "" for any. Raises WrongFamilyError."""
+        """Return the driver of an endpoint; ``family`` is the one the control must be of, "" for any.
+        Raises WrongFamilyError.
+        """
         if family not in ("", cls.family):
             raise WrongFamilyError(
                 f"the protocol {cls.protocol} is that of the family {cls.family}, not of {family}", ""
@@ -66,7 +71,9 @@ class LineDriver(ABC):
         return self._fetched(stage)
 
     def send(self, replacement: Replacement, exchange: Exchange = QUIET) -> Receipt:
-        """Send what differs; after a break the control is read again, so that the error names what it contains."""
+        """Send what differs; after a break the control is read again,
+        so that the error names what it contains.
+        """
         self._waiting.begin(exchange)
         sent = SentValues()
         try:

@@ -6,7 +6,8 @@ from .errors import AtControl, Confirmed
 
 
 class SentValues:
-    """The values of one download by their names; ``total`` is how many there are, 0 where the control confirms none alone.
+    """The values of one download by their names; ``total`` is how many there are,
+    0 where the control confirms none alone.
 
     ``when_stopped`` is what a person who stops the download now has to know beside what the control contains.
     """
@@ -19,7 +20,9 @@ class SentValues:
         self._under_way: list[str] = []
 
     def begin(self, name: str) -> None:
-        """Take notice of a value that is about to be sent, maybe once more: until it is answered it may be there or not."""
+        """Take notice of a value that is about to be sent, maybe once more:
+        until it is answered it may be there or not.
+        """
         if name not in self._under_way:
             self._under_way.append(name)
 

@@ -1,4 +1,6 @@
-"""What a control states of itself now: positions, following errors, states and faults; asked for without changing anything."""
+"""What a control states of itself now: positions, following errors, states and faults;
+asked for without changing anything.
+"""
 
 from __future__ import annotations
 

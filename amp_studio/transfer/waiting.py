@@ -1,4 +1,6 @@
-"""Waiting on a line to a control that is no frame protocol: every wait has an end, silence is shown, Ctrl-C ends it at once."""
+"""Waiting on a line to a control that is no frame protocol: every wait has an end, silence is shown,
+Ctrl-C ends it at once.
+"""
 
 from __future__ import annotations
 

@@ -12,7 +12,9 @@ PRINT_SHEET = "print what to key in with amp-studio sheet FILE --against OTHER"
 
 
 def in_order_of_ways(family: str, own: Mapping[str, str], of_gateway: str) -> dict[str, str]:
-    """Return protocol -> its part, the usual way first: those that a family registers, and ``of_gateway`` if it has one."""
+    """Return protocol -> its part, the usual way first: those that a family registers,
+    and ``of_gateway`` if it has one.
+    """
     offered = {name: own.get(name, of_gateway) for name in _protocols(family) if name in own or name == HOUSE}
     return {**offered, **{name: place for name, place in own.items() if name not in offered}}
 

@@ -30,7 +30,9 @@ if has_display():
 
 
 def main(arguments: Sequence[str] | None = None, emulate: bool = False) -> int:
-    """Open the desktop program, on files if some are named, else on those of the last time; ``emulate`` starts an emulated control. Returns the exit code."""
+    """Open the desktop program, on files if some are named, else on those of the last time; ``emulate``
+    starts an emulated control. Returns the exit code.
+    """
     if not has_display():
         print(f"amp-studio: {MISSING}", file=sys.stderr, flush=True)
         return 2
@@ -66,10 +68,11 @@ def main(arguments: Sequence[str] | None = None, emulate: bool = False) -> int:
 
 
 def _hook(window: QWidget):  # type: ignore[no-untyped-def]  # the type of sys.excepthook has no name
-    """Return the hook that shows an internal error as a message; the traceback goes to the terminal and into the log folder.
+    """Return the hook that shows an internal error as a message;
+    the traceback goes to the terminal and into the log folder.
 
-    One error is reported once: what fails while the window is painted fails again at once. Its message waits for the event loop,
-    because a box that is opened while Qt paints ends the process.
+    One error is reported once: what fails while the window is painted fails again at once. Its message waits
+    for the event loop, because a box that is opened while Qt paints ends the process.
     """
     from PySide6.QtCore import QTimer
 

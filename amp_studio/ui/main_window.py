@@ -224,9 +224,12 @@ class MainWindow(PartsWindow):
 
     def closeEvent(self, event: QCloseEvent) -> None:
         if self.control.is_sending and ask(
-            self, self.tr("Sending"), self.tr("Values are being sent to a control. Closing stops at the next safe point."),
-            self.tr("&Stop and Close"), self.tr("Cancel"),
-        ) != self.tr("&Stop and Close"):  # fmt: skip
+            self,
+            self.tr("Sending"),
+            self.tr("Values are being sent to a control. Closing stops at the next safe point."),
+            self.tr("&Stop and Close"),
+            self.tr("Cancel"),
+        ) != self.tr("&Stop and Close"):
             event.ignore()
             return
         if not all(self.may_leave(page) for page in self.tabs.pages()):
@@ -256,7 +259,9 @@ class MainWindow(PartsWindow):
             event.acceptProposedAction()
 
     def dropEvent(self, event: QDropEvent) -> None:
-        """Open what was dropped: parameter files, projects by their folder, and texts of controls by an import."""
+        """Open what was dropped: parameter files, projects by their folder,
+        and texts of controls by an import.
+        """
         event.acceptProposedAction()
         for url in event.mimeData().urls():
             if url.isLocalFile():
@@ -266,7 +271,9 @@ class MainWindow(PartsWindow):
                 )
 
     def _open_anything(self, path: Path) -> None:
-        """Open a parameter file, or a project by its folder; import the text of a control. Raises ValueError, OSError."""
+        """Open a parameter file, or a project by its folder; import the text of a control.
+        Raises ValueError, OSError.
+        """
         if path.is_dir():
             project.open_folder(self, path)
         elif path.suffix.lower() == ENDING:

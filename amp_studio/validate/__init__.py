@@ -1,6 +1,7 @@
 """Findings: range, choice, state and cross-parameter rules, each with its page and its suggested fix.
 
-What calculates, explains, makes fixes and reads a builder's rules is loaded when it is first asked for: most files are only checked.
+What calculates, explains, makes fixes and reads a builder's rules is loaded when it is first asked for:
+most files are only checked.
 """
 
 from typing import TYPE_CHECKING

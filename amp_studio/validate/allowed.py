@@ -12,11 +12,14 @@ from .plan import Place, Plan
 
 _SAMPLES = 12
 _HALVINGS, _NEAR = 32, 1e-4
-"""Most halvings of a part between two samples, and how near its ends come: then the shortest number between them is tried."""
+"""Most halvings of a part between two samples, and how near its ends come:
+then the shortest number between them is tried."""
 
 
 class AllowedByRules:
-    """Finds the part of a range that breaks no rule. Takes a copy of the file when it is made, so it may run in another thread."""
+    """Finds the part of a range that breaks no rule. Takes a copy of the file when it is made,
+    so it may run in another thread.
+    """
 
     def __init__(
         self, file: ParameterFile, plan: Plan, places: Mapping[str, str], address: Address, unit: str
@@ -29,10 +32,11 @@ class AllowedByRules:
         self._tried: dict[float, frozenset[Place]] = {}
 
     def around(self, low: float, high: float, near: Iterable[float]) -> tuple[float, float] | None:
-        """Return the ends of the part of ``low`` to ``high`` around the first of ``near`` that breaks no rule, or None.
+        """Return the ends of the part of ``low`` to ``high`` around the first of ``near``
+        that breaks no rule, or None.
 
-        Rules that only recommend do not count, nor those that this value alone cannot meet. The range is sampled: a gap in
-        that part that is narrower than a twelfth of the range may not be seen.
+        Rules that only recommend do not count, nor those that this value alone cannot meet. The range is
+        sampled: a gap in that part that is narrower than a twelfth of the range may not be seen.
         """
         if not self._rules:
             return low, high

@@ -1,4 +1,6 @@
-"""What lies beside a parameter file and counts when it is checked: rules, and what the file was and others are."""
+"""What lies beside a parameter file and counts when it is checked: rules,
+and what the file was and others are.
+"""
 
 from __future__ import annotations
 
@@ -50,7 +52,8 @@ def axes_by_letter(file: ParameterFile) -> dict[str, str]:
 
 
 def earlier_beside(path: Path, file: ParameterFile) -> tuple[Earlier, ...]:
-    """Return what a file is compared with: its backup, its last download, what it was made from, other machines in its folder.
+    """Return what a file is compared with: its backup, its last download, what it was made from,
+    other machines in its folder.
 
     What cannot be read, or is of another family, is left out: none of it is needed to check the file.
     """
@@ -75,7 +78,9 @@ def _earlier(path: Path, file: ParameterFile) -> Iterator[Earlier]:
 
 
 def companions_of(path: Path) -> list[Path]:
-    """Return what ``earlier_beside`` reads beside what a file names itself; not all of it is there. Raises OSError."""
+    """Return what ``earlier_beside`` reads beside what a file names itself; not all of it is there.
+    Raises OSError.
+    """
     real = real_path(path)
     return [backup_path(real), history_path(real), real.with_name(RECORD), *fleet_of(real)]
 
@@ -86,12 +91,16 @@ def companion_names(name: str, machines: Iterable[str]) -> list[str]:
 
 
 def machines_of(folder: Path) -> tuple[str, ...]:
-    """Return the names of the parameter files of a folder; none where there are too few or too many. Raises OSError."""
+    """Return the names of the parameter files of a folder; none where there are too few or too many.
+    Raises OSError.
+    """
     return _machines_in(folder, folder.stat().st_mtime_ns)
 
 
 def fleet_of(path: Path) -> list[Path]:
-    """Return the other parameter files in the folder of a file; none where there are too few or too many. Raises OSError."""
+    """Return the other parameter files in the folder of a file; none where there are too few or too many.
+    Raises OSError.
+    """
     return [path.with_name(name) for name in machines_of(path.parent) if name != path.name]
 
 

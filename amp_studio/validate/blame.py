@@ -25,7 +25,8 @@ class Given(Protocol):
 
 
 def about(check: RuleCheck, given: Given) -> tuple[tuple[Address, ...], tuple[Address, ...]]:
-    """Return what is wrong, in the order of ``blames``, and what that was compared with, in that of ``compares``.
+    """Return what is wrong, in the order of ``blames``, and what that was compared with,
+    in that of ``compares``.
 
     Where no value answers to a condition of ``blames``, all that it names are wrong.
     """
@@ -55,7 +56,9 @@ def _met(check: RuleCheck, named: _Named, given: Given) -> Iterator[Address]:
 
 
 def _is_met(condition: Program, given: Given, value: Any, at: int) -> bool:
-    """Return whether a value answers to a condition; one that is not set, or of a kind that it does not name, does not."""
+    """Return whether a value answers to a condition; one that is not set,
+    or of a kind that it does not name, does not.
+    """
     given.context.update({"it": value, "at": at})
     try:
         return condition.execute(given.context) is True

@@ -42,7 +42,9 @@ class Suppressed(NamedTuple):
 def sort_out(
     findings: tuple[Finding, ...], suppressions: tuple[Suppression, ...], evaluation: Evaluation
 ) -> tuple[tuple[Finding, ...], tuple[Suppressed, ...], tuple[Suppression, ...]]:
-    """Return the findings that stay, those that are suppressed, and the suppressions that meet nothing any more."""
+    """Return the findings that stay, those that are suppressed,
+    and the suppressions that meet nothing any more.
+    """
     by_rule: dict[str, list[tuple[Suppression, list[set[Address]]]]] = {}
     for s in suppressions:
         addresses = [_addresses_of(evaluation, text) for text in s.params]

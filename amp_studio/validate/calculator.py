@@ -1,4 +1,6 @@
-"""The published formulas as calculators: what they ask for, read as a person writes it, and what comes out."""
+"""The published formulas as calculators: what they ask for, read as a person writes it, and what comes
+out.
+"""
 
 from __future__ import annotations
 
@@ -99,8 +101,8 @@ def _calculator(name: str, function: Any) -> Calculator:
 def calculate(family: str, name: str, texts: Mapping[str, str]) -> Any:
     """Return what a formula gives for arguments as a person writes them.
 
-    Raises ValueError with one sentence: an unknown formula or argument, one that is missing, a text that is none, or
-    an argument that makes no sense to the formula.
+    Raises ValueError with one sentence: an unknown formula or argument, one that is missing, a text that is
+    none, or an argument that makes no sense to the formula.
     """
     calculator = calculators(family).get(name)
     if calculator is None:
@@ -145,10 +147,11 @@ def _read(argument: Argument, text: str) -> Any:
 
 
 def _several(kind: Any, text: str) -> Any:
-    """Return the values of a text with commas and brackets: ``[REAL,1],[INT,4]``, ``X,X,Z``, ``1.5,2``; raises ValueError.
+    """Return the values of a text with commas and brackets: ``[REAL,1],[INT,4]``, ``X,X,Z``, ``1.5,2``;
+    raises ValueError.
 
-    Words need no quotes; where the formula takes words, what looks like a number is one too (the name of axis 1). What is
-    one value, or none, stays as it is written.
+    Words need no quotes; where the formula takes words, what looks like a number is one too (the name of axis
+    1). What is one value, or none, stays as it is written.
     """
     if get_origin(kind) in (None, Union, UnionType, Literal):
         return None if text.casefold() == "none" else text

@@ -1,9 +1,11 @@
-"""What is typed for a value where it is more than a value: ``25.4/5``, ``=rapid*0.8``, ``=X``, ``="Excess Error"@Y / 2``.
+"""What is typed for a value where it is more than a value: ``25.4/5``, ``=rapid*0.8``, ``=X``,
+``="Excess Error"@Y / 2``.
 
-A name is an id or its end (``rapid``), the beginning or the whole of a parameter's name in quotes, a number of the manual in
-quotes or after ``#``, or the letter of another axis for the same parameter there. Without ``@`` the axis at hand is meant. The
-text is parsed by the reader of the builder's rules, with its bounds on length and depth, and calculated in fractions: one
-rounding, at the end. What does not measure what the parameter does is refused, never converted in silence.
+A name is an id or its end (``rapid``), the beginning or the whole of a parameter's name in quotes, a number
+of the manual in quotes or after ``#``, or the letter of another axis for the same parameter there. Without
+``@`` the axis at hand is meant. The text is parsed by the reader of the builder's rules, with its bounds on
+length and depth, and calculated in fractions: one rounding, at the end. What does not measure what the
+parameter does is refused, never converted in silence.
 """
 
 from __future__ import annotations
@@ -42,7 +44,8 @@ LONGEST = 300
 """Characters of an expression in a cell."""
 _SHOWN_CANDIDATES = 4
 _LIKE_A_NUMBER = 4
-"""Digits of a whole number from which it is taken for the number of a parameter where one has it; 25, 100 and 1000 are figures."""
+"""Digits of a whole number from which it is taken for the number of a parameter where one has it; 25,
+100 and 1000 are figures."""
 
 UnitOf = Callable[[Address], str]
 """The unit in which the value of an address is shown and typed."""
@@ -81,7 +84,9 @@ _FUNCTIONS: Mapping[str, int] = {"min": 0, "max": 0, "abs": 1, "round": 1, "figu
 
 
 def is_expression(text: str) -> bool:
-    """Return whether a text may be an expression: it begins with ``=``, or has an operator between two operands."""
+    """Return whether a text may be an expression: it begins with ``=``,
+    or has an operator between two operands.
+    """
     text = text.strip()
     return text.startswith("=") or bool(_LOOKS_LIKE.search(text) and not _ONE_VALUE.fullmatch(text))
 
@@ -89,8 +94,8 @@ def is_expression(text: str) -> bool:
 def enter(file: ParameterFile, address: Address, text: str, unit_of: UnitOf) -> Entered:
     """Read what a person typed for an address: a value, nothing, or an expression; raises InvalidValueError.
 
-    A text of a value is a value, whatever else it could be: ``10 mm/min`` is no division. A parameter that is a text takes
-    every text as it is.
+    A text of a value is a value, whatever else it could be: ``10 mm/min`` is no division. A parameter that is
+    a text takes every text as it is.
     """
     parameter = file.schema.parameters[address[0]]
     if not text.strip():
@@ -106,7 +111,9 @@ def enter(file: ParameterFile, address: Address, text: str, unit_of: UnitOf) -> 
 
 
 def read_plain(file: ParameterFile, address: Address, text: str, unit_of: UnitOf) -> Value:
-    """Read a value that was pasted, which is no expression: ``2026-10-06`` is a date. Raises InvalidValueError."""
+    """Read a value that was pasted, which is no expression: ``2026-10-06`` is a date.
+    Raises InvalidValueError.
+    """
     unit = unit_of(address)
     counted = read_real(file.evaluation, address, text, unit)
     return counted or read_value(file.schema.parameters[address[0]], text, unit)
@@ -128,8 +135,8 @@ def _result(file: ParameterFile, address: Address, text: str, unit_of: UnitOf) -
     if found.unit:
         if dimension(found.unit) != dimension(unit):
             raise InvalidValueError(
-                f"the result is in {shown(found.unit)}, and {parameter.name} is given in {shown(unit) or 'a bare number'}; "
-                f"figure(…) takes a number without its unit"
+                f"the result is in {shown(found.unit)}, and {parameter.name} is given in"
+                f" {shown(unit) or 'a bare number'}; figure(…) takes a number without its unit"
             )
         found = _in_unit(found, unit)
     figure = _figure(found.number)
@@ -142,7 +149,9 @@ def _result(file: ParameterFile, address: Address, text: str, unit_of: UnitOf) -
 
 
 def _figure(number: Fraction) -> str:
-    """Return the nearest double in digits; raises InvalidValueError where there is none, or only 0 for what is not 0."""
+    """Return the nearest double in digits; raises InvalidValueError where there is none,
+    or only 0 for what is not 0.
+    """
     try:
         if (nearest := float(number)) or not number:
             return write_number(nearest)
@@ -160,7 +169,9 @@ class _Reader:
         """Name for the parser -> the text in its place, and what that is."""
 
     def reference_alone(self, text: str) -> Value | None:
-        """Return the value that a text names as it is, of any kind; None where the text is more than a name."""
+        """Return the value that a text names as it is, of any kind; None where the text is more than a
+        name.
+        """
         token = _TOKEN.fullmatch(text)
         if token is None or token.lastgroup != "name":
             return None
@@ -232,14 +243,17 @@ class _Reader:
         return _Quantity(number), at
 
     def _ask_about(self, digits: str) -> None:
-        """Refuse a bare whole number that is the number of a parameter; raises InvalidValueError with both ways to write it."""
+        """Refuse a bare whole number that is the number of a parameter;
+        raises InvalidValueError with both ways to write it.
+        """
         try:
             address = resolve_address(self._file.evaluation, digits).address
         except UnknownParameterError:
             return
         label = self._file.machine_schema.label(address)
         raise InvalidValueError(
-            f"{digits} is also the number of {label}: write #{digits} for its value, or {digits}.0 for the figure"
+            f"{digits} is also the number of {label}: write #{digits} for its value, or {digits}.0 for the"
+            " figure"
         )
 
     def _referred(self, name: str) -> _Quantity:
@@ -295,7 +309,9 @@ class _Reader:
         return self._file.evaluation.scope(self._here)
 
     def _parameter(self, name: str, text: str) -> str:
-        """Return the id of the parameter whose id, name, or end of the id this is, or which alone begins with it."""
+        """Return the id of the parameter whose id, name, or end of the id this is,
+        or which alone begins with it.
+        """
         word, known = name.casefold(), self._file.schema.parameters.values()
         here = [p for p in known if self._file.machine_schema.instances(p)]
         ways: tuple[Callable[[Parameter], bool], ...] = (
@@ -315,7 +331,9 @@ class _Reader:
         raise InvalidValueError(f"{quoted(text)} is no parameter")
 
     def _at(self, parameter_id: str, instance: str) -> Address:
-        """Return the instance of a parameter that is meant: the one named, the one at hand, or the only one."""
+        """Return the instance of a parameter that is meant: the one named, the one at hand, or the only
+        one.
+        """
         instances = self._file.machine_schema.instances(self._file.schema.parameters[parameter_id])
         if instance:
             try:
@@ -363,7 +381,9 @@ def _in_unit(quantity: _Quantity, unit: str) -> _Quantity:
 
 
 def _alike(a: _Quantity, b: _Quantity) -> tuple[_Quantity, _Quantity]:
-    """Return two quantities in one unit; a bare number takes the unit of the other. Raises InvalidValueError."""
+    """Return two quantities in one unit; a bare number takes the unit of the other. Raises
+    InvalidValueError.
+    """
     if b.unit in (a.unit, ""):
         return a, _Quantity(b.number, a.unit)
     if a.unit == "":

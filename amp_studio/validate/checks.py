@@ -61,7 +61,9 @@ class Checks:
                     yield check.place, finding
 
     def of_value(self, address: Address) -> Finding | None:
-        """Return what is wrong with a value by itself; one without effect is checked only if it was forced."""
+        """Return what is wrong with a value by itself; one without effect is checked only if it was
+        forced.
+        """
         value = self._file.values.get(address)
         if value is None:
             return None

@@ -1,9 +1,10 @@
 """What an expression of a builder's rule gives and costs, worked out before it ever runs.
 
-The language has no loops but those over lists, so the largest size of every value and the most steps it takes follow
-from the text and from how many instances the parameters have. The engine itself has no bounds: an expression that
-doubles a list thirty times would take all memory. The same walk finds what can never be meant: a choice compared with a
-text that is not one of its keys, a number with a text, a whole number added to a decimal one.
+The language has no loops but those over lists, so the largest size of every value and the most steps it takes
+follow from the text and from how many instances the parameters have. The engine itself has no bounds: an
+expression that doubles a list thirty times would take all memory. The same walk finds what can never be
+meant: a choice compared with a text that is not one of its keys, a number with a text,
+a whole number added to a decimal one.
 """
 
 from __future__ import annotations
@@ -54,7 +55,9 @@ _PIECES: Mapping[str, Callable[[str, str], bool]] = {
 
 
 class ExpressionCheck:
-    """Walks one expression: ``slips`` are what can never be meant, ``cost`` is what one evaluation costs at most."""
+    """Walks one expression: ``slips`` are what can never be meant,
+    ``cost`` is what one evaluation costs at most.
+    """
 
     def __init__(self, names: Mapping[str, Worth], functions: Mapping[str, Signature]) -> None:
         self._names, self._functions = dict(names), functions
@@ -132,8 +135,8 @@ class ExpressionCheck:
             )
         elif of.kind == "list" and index.kind in ("decimal", "text", "yes/no"):
             self._slip(
-                f"{shown(node.parts[1].text)} is {_CALLED[index.kind]}, and items are counted by whole numbers"
-                + (f": write int({node.parts[1].text})" if index.kind == "decimal" else "")
+                f"{shown(node.parts[1].text)} is {_CALLED[index.kind]}, and items are counted by whole"
+                " numbers" + (f": write int({node.parts[1].text})" if index.kind == "decimal" else "")
             )
         elif of.kind == "table":
             self._compare_choice(node.parts[1], index, of.literals)
@@ -155,7 +158,8 @@ class ExpressionCheck:
         for place in sorted(signature.numbers):
             if place < len(given) and given[place].kind in ("text", "list", "table", "yes/no"):
                 self._slip(
-                    f"{name} takes a number, not {shown(node.parts[place].text)}, {_CALLED[given[place].kind]}"
+                    f"{name} takes a number, not {shown(node.parts[place].text)},"
+                    f" {_CALLED[given[place].kind]}"
                 )
         if name == "matches":
             cost += self._pattern(node.parts[1], given)
@@ -182,7 +186,9 @@ class ExpressionCheck:
                 )
 
     def _matched_choice(self, node: Node, of: Worth) -> None:
-        """Refuse a pattern on a choice: the message shows its label, and the pattern would be compared with its key."""
+        """Refuse a pattern on a choice: the message shows its label,
+        and the pattern would be compared with its key.
+        """
         if of.choices:
             self._slip(
                 f"{shown(node.parts[0].text)} is a choice, which has a key and is shown by its label: "
@@ -291,7 +297,8 @@ class ExpressionCheck:
         if choice and hint:
             hint = f": {nearest_choice(one.text if left.kind == 'yes/no' else other.text, choice)}"
         self._slip(
-            f"{shown(one.text)} is {_CALLED[left.kind]} and {how} {there}{shown(other.text)}, {_CALLED[right.kind]}{hint}"
+            f"{shown(one.text)} is {_CALLED[left.kind]} and {how} {there}{shown(other.text)},"
+            f" {_CALLED[right.kind]}{hint}"
         )
 
     def _compare_choice(self, node: Node, worth: Worth, literals: tuple[str, ...]) -> None:

@@ -1,8 +1,8 @@
 """The expressions of a builder's rule as trees, read before the engine sees them.
 
-The engine takes any text: thousands of brackets end the interpreter, and its message about a slip is no sentence for a
-person. So an expression is read here first, by a grammar that is a part of the engine's, with bounds on length and
-depth. What this does not read, the engine never gets.
+The engine takes any text: thousands of brackets end the interpreter, and its message about a slip is no
+sentence for a person. So an expression is read here first, by a grammar that is a part of the engine's, with
+bounds on length and depth. What this does not read, the engine never gets.
 """
 
 from __future__ import annotations
@@ -18,7 +18,8 @@ from amp_studio.errors import AmpStudioError
 LONGEST = 4000
 """Characters of an expression; the longest of our own has 1030."""
 DEEPEST_BRACKETS = 24
-"""Brackets and alternatives in each other: the engine needs some 10 kB of stack for each, and a thread has 512 kB."""
+"""Brackets and alternatives in each other: the engine needs some 10 kB of stack for each,
+and a thread has 512 kB."""
 DEEPEST = 100
 """Operations in each other; a sum of 100 numbers is so deep."""
 LARGEST_WHOLE = 2**63 - 1
@@ -120,7 +121,10 @@ def _unreadable(text: str, at: int) -> str:
     if sign in _OPERATORS:
         return f"'{sign}' is no operator: write {_OPERATORS[sign]}"
     if sign in "'\"":
-        return f"the text that begins with {shown(text[at : at + 20])} has no end in its line, or a \\ that means nothing"
+        return (
+            f"the text that begins with {shown(text[at : at + 20])} has no end in its line, or a \\ that"
+            " means nothing"
+        )
     return f"{shown(sign)} has no place in an expression"
 
 

@@ -1,4 +1,6 @@
-"""What the parts of an expression can give at most: their kinds, sizes, and which choices and texts they can be."""
+"""What the parts of an expression can give at most: their kinds, sizes,
+and which choices and texts they can be.
+"""
 
 from __future__ import annotations
 

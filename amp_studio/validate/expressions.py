@@ -92,9 +92,9 @@ class _Part:
 class Expressions:
     """The expressions of a rule that may call ``functions``.
 
-    Each is compiled when it is first asked for: whether the rule applies when it is first decided, its ``check`` where it
-    does, and ``finding`` when it is first broken, since most rules of a file do not apply or are satisfied. A rule that cannot
-    be used raises RuleError then; ``check_rule`` does at once.
+    Each is compiled when it is first asked for: whether the rule applies when it is first decided, its
+    ``check`` where it does, and ``finding`` when it is first broken, since most rules of a file do not apply
+    or are satisfied. A rule that cannot be used raises RuleError then; ``check_rule`` does at once.
     """
 
     def __init__(
@@ -112,9 +112,11 @@ class Expressions:
         """Keys of the values of the rule -> whether it is broken, where that hangs on nothing else."""
 
     def verdict(self, keys: tuple[Key, ...], circumstances: Circumstances) -> bool | None:
-        """Return whether values break the rule: it applies and is not satisfied; None where it makes no sense of them.
+        """Return whether values break the rule: it applies and is not satisfied;
+        None where it makes no sense of them.
 
-        ``keys`` are those of the single values, then of the lists. What is not asked separately comes to what CEL makes of
+        ``keys`` are those of the single values, then of the lists. What is not asked separately comes to what
+        CEL makes of
         ``when && !check``.
         """
         applies = True if self._rule.when == "true" else self._when.result(keys, circumstances)
@@ -142,7 +144,9 @@ class Expressions:
 
     @cached_property
     def _broken(self) -> _Part:
-        """Both, for what makes no sense of the values: an error on one side is none where the other one decides."""
+        """Both, for what makes no sense of the values:
+        an error on one side is none where the other one decides.
+        """
         return self._part(f"({self._rule.when}\n) && !({self._rule.check}\n)")
 
     def _part(self, text: str) -> _Part:
@@ -262,7 +266,9 @@ def is_list(read: str) -> bool:
 
 
 def _check_names(rule: Rule) -> set[str]:
-    """Check the names a rule uses outside its expressions; returns those its message shows, raises RuleError."""
+    """Check the names a rule uses outside its expressions; returns those its message shows, raises
+    RuleError.
+    """
     lists = {name for name, text in rule.reads.items() if is_list(text)}
     named = {f: getattr(rule, f) for f in ("optional", "any_state", "blames", "compares")}
     for place, names in named.items():

@@ -11,6 +11,8 @@ _NOT_SET = "schema.unset"
 
 
 def new_findings(before: Iterable[Finding], after: Iterable[Finding]) -> list[Finding]:
-    """Return the findings that were not there before, or were less severe; of the same rule for the same instance they are one."""
+    """Return the findings that were not there before, or were less severe;
+    of the same rule for the same instance they are one.
+    """
     known = {(f.key, f.severity) for f in before}
     return [f for f in after if f.rule != _NOT_SET and (f.key, f.severity) not in known]

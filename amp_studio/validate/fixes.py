@@ -24,10 +24,11 @@ class Fixed:
 
 
 def apply_fixes(validator: Validator, wanted: Callable[[Finding], bool]) -> list[Fixed]:
-    """Apply the fixes of the findings that are ``wanted``, until no such fix is offered; returns what was changed.
+    """Apply the fixes of the findings that are ``wanted``, until no such fix is offered;
+    returns what was changed.
 
-    The most severe finding comes first, then the manual's order; each fix is offered in the light of those before it.
-    The findings are up to date before and after.
+    The most severe finding comes first, then the manual's order; each fix is offered in the light of those
+    before it. The findings are up to date before and after.
     """
     done: list[Fixed] = []
     for _ in range(_MOST):

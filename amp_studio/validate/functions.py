@@ -42,7 +42,8 @@ def _round(a: float, digits: float) -> float:
     return round(a, int(digits))
 
 
-# CEL copies what filter() found so far with each value it finds: to count those of a table takes the square of its length.
+# CEL copies what filter() found so far with each value it finds: to count those of a table takes the square
+# of its length.
 
 
 def _count_set(values: list[Any]) -> float:
@@ -88,8 +89,8 @@ def rule_functions(family: str) -> Mapping[str, Callable[..., Any]]:
 def _guarded(function: Callable[..., Any]) -> Callable[..., Any]:
     """Return a function that takes for numbers nothing but doubles.
 
-    A rule may hand over anything: Python would repeat a text a billion times for a whole number, and reckon a power of
-    ten with a billion digits.
+    A rule may hand over anything: Python would repeat a text a billion times for a whole number, and reckon a
+    power of ten with a billion digits.
     """
 
     @cache

@@ -1,6 +1,7 @@
 """A file on its way from one content to another, value by value: what each value newly breaks.
 
-A person who keys values in at a control may be interrupted after each of them; these are the states in between.
+A person who keys values in at a control may be interrupted after each of them;
+these are the states in between.
 """
 
 from __future__ import annotations

@@ -29,7 +29,8 @@ from .expressions import Expressions, RuleError, check_rule, is_list
 from .functions import rule_functions
 
 Place = Address | int
-"""Where a finding is filed: under the value that is wrong, or under the place of the rule's check in the plan."""
+"""Where a finding is filed: under the value that is wrong,
+or under the place of the rule's check in the plan."""
 
 
 class Single(NamedTuple):
@@ -43,7 +44,9 @@ class Single(NamedTuple):
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Listed:
-    """Instances that rules read as a list: one object for all that read the same, so that it is quick to look up."""
+    """Instances that rules read as a list: one object for all that read the same,
+    so that it is quick to look up.
+    """
 
     addresses: tuple[Address, ...]
 
@@ -98,10 +101,7 @@ class RuleCheck:
     @cached_property
     def addresses(self) -> tuple[Address, ...]:
         """Every address the rule reads here, single values first."""
-        return (
-            *self.reads,
-            *(a for _, listed in self.lists for a in listed.addresses),
-        )
+        return (*self.reads, *(a for _, listed in self.lists for a in listed.addresses))
 
     def address_of(self, name: str) -> Address:
         """Return what a name of a single value means."""
@@ -125,7 +125,9 @@ class Plan:
 
     @cached_property
     def needed(self) -> tuple[tuple[Address, ...], ...]:
-        """The addresses without which a file is not complete where they are active, those of the same state together."""
+        """The addresses without which a file is not complete where they are active,
+        those of the same state together.
+        """
         parameters, found = self.evaluation.schema.parameters, dict[object, list[Address]]()
         for address in self.addresses:
             if not parameters[address[0]].optional:
@@ -218,7 +220,8 @@ def _make(schema: Schema, machine: str, further: _Further) -> Plan:
 def checks_of(evaluation: Evaluation, rules: tuple[Rule, ...], late: int = 0) -> tuple[RuleCheck, ...]:
     """Return the checks of rules on one machine type; raises RuleError.
 
-    The expressions of the first ``late`` rules, those of the family, are compiled and checked when they are needed.
+    The expressions of the first ``late`` rules, those of the family,
+    are compiled and checked when they are needed.
     """
     functions = rule_functions(evaluation.schema.family.family)
     seen: set[str] = set()
@@ -247,7 +250,9 @@ def checks_of(evaluation: Evaluation, rules: tuple[Rule, ...], late: int = 0) ->
 def _resolved(
     evaluation: Evaluation, rule: Rule, names: Iterable[str]
 ) -> Iterator[tuple[str, list[Reference]]]:
-    """Yield the instances a rule runs for, each with what the names mean there; none where that does not exist."""
+    """Yield the instances a rule runs for, each with what the names mean there;
+    none where that does not exist.
+    """
     for text in rule.reads.values():
         _check_read(evaluation.schema, rule, text)
     scope, instances = _runs_for(evaluation, rule)

@@ -29,7 +29,8 @@ from amp_studio.schema import (
 from .finding import Finding, Setting
 
 _NEAR = 0.1
-"""Part of a bound by which a value may miss it for the bound to be a fix: more than rounding and the step from a power of two."""
+"""Part of a bound by which a value may miss it for the bound to be a fix:
+more than rounding and the step from a power of two."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -113,17 +114,18 @@ class ValueChecks:
         if message is None:
             facts.fine[key] = True
             return None
-        # Of a code that nobody has printed the control alone knows what it does: no choice is the nearest to it.
+        # Of a code that nobody has printed the control alone knows what it does: no choice is the nearest to
+        # it.
         return self._finding(address, value, message, None if facts.keys else self._nearest(address, value))
 
     def _nearest(self, address: Address, value: Value) -> Value | None:
         """Return the nearest allowed value; None where nobody can say that it is the one that is meant.
 
-        What lies far beyond a printed bound is a slip of the hand or has another unit, and the bound is often the highest
-        gain or speed that there is. 0 is never the nearest to another number: a speed or a limit of 0 means something else.
-        A bound that another parameter sets may be what is wrong: of a positive and a negative limit that are reversed,
-        neither belongs at the edge of the other, which leaves an axis without travel, nor does a bound that leaves a single
-        value say which value is meant.
+        What lies far beyond a printed bound is a slip of the hand or has another unit, and the bound is often
+        the highest gain or speed that there is. 0 is never the nearest to another number: a speed or a limit
+        of 0 means something else. A bound that another parameter sets may be what is wrong: of a positive and
+        a negative limit that are reversed, neither belongs at the edge of the other, which leaves an axis
+        without travel, nor does a bound that leaves a single value say which value is meant.
         """
         other = None
         allowed = limits(self._file.evaluation, address, value.unit)
@@ -162,7 +164,9 @@ class ValueChecks:
         return *variants, *hidden, *[evaluation.keys[source] for source in sources]
 
     def _within(self, facts: _Facts, address: Address, value: Value) -> bool:
-        """Return quickly whether a value lies in a range that depends on nothing; False means that it has to be asked."""
+        """Return quickly whether a value lies in a range that depends on nothing;
+        False means that it has to be asked.
+        """
         found = value.value
         if facts.parameter.access == "read":
             return False
@@ -208,7 +212,9 @@ def _is_near(value: Value, bound: Value) -> bool:
 
 
 def _rounded_inwards(parameter: Parameter, value: Value, allowed: Limits | None) -> Value:
-    """Return a bound with the decimals that the parameter takes; one that came from another unit may have more."""
+    """Return a bound with the decimals that the parameter takes;
+    one that came from another unit may have more.
+    """
     decimals, number = parameter.decimals, value.value
     if allowed is None or decimals is None or not isinstance(number, float) or not math.isfinite(number):
         return value
@@ -230,7 +236,9 @@ def _bounds(parameter: Parameter, other: str) -> bool:
 
 
 def _measures_right(facts: _Facts, value: Value, turns: bool) -> bool:
-    """Return whether a number is in degrees where the axis turns, in a length where it does not, and so on."""
+    """Return whether a number is in degrees where the axis turns, in a length where it does not, and so
+    on.
+    """
     if isinstance(value.value, (str, bool)):
         return True
     return dimension(value.unit) in (facts.turning if turns and facts.turning else facts.measures)

@@ -1,4 +1,6 @@
-"""What would be found about the result of a merge, kept up to date choice by choice, before anything is changed."""
+"""What would be found about the result of a merge, kept up to date choice by choice,
+before anything is changed.
+"""
 
 from __future__ import annotations
 
@@ -24,7 +26,9 @@ class ResultCheck:
         """Errors, warnings and recommendations that the file does not have now."""
 
     def update(self, merge: Merge, most: int | None = None) -> bool:
-        """Follow the choices of a merge of the same sources; returns False, with nothing done, if over ``most`` values changed."""
+        """Follow the choices of a merge of the same sources; returns False, with nothing done,
+        if over ``most`` values changed.
+        """
         wanted, file = merge.result(), self._result
         changed = [a for a in {*wanted.values, *file.values} if wanted.get(a) != file.get(a)]
         if most is not None and len(changed) > most:

@@ -1,4 +1,6 @@
-"""The entries of a file of a builder's rules as models, and what is wrong with their keys and texts in plain words."""
+"""The entries of a file of a builder's rules as models,
+and what is wrong with their keys and texts in plain words.
+"""
 
 from __future__ import annotations
 
@@ -48,9 +50,7 @@ def entry_model(data: Any, model: type[T]) -> tuple[T | None, list[Slip]]:
     ]
     long = {place[0] for place, _ in found}
     data = {key: value for key, value in data.items() if key not in long}
-    from amp_studio.schema import (
-        read_model,  # most files have no rules beside them, and need no pydantic
-    )
+    from amp_studio.schema import read_model  # most files have no rules beside them, and need no pydantic
 
     try:
         return read_model(model, data), found

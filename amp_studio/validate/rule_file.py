@@ -1,8 +1,8 @@
 """A machine builder's own rules: ``rules.yaml`` beside his files.
 
-It contains ``rules`` in the form of the database's own, and ``suppressions``: findings that somebody has checked and
-leaves as they are, with his name and the reason. What cannot be used in it is a finding itself, with file and line,
-and keeps nothing else from being checked.
+It contains ``rules`` in the form of the database's own, and ``suppressions``: findings that somebody has
+checked and leaves as they are, with his name and the reason. What cannot be used in it is a finding itself,
+with file and line, and keeps nothing else from being checked.
 """
 
 from __future__ import annotations
@@ -139,7 +139,9 @@ class _RuleFileReader:
             self._fault(entry, place, what)
 
     def _by_number(self, data: Any) -> Any:
-        """Return an entry whose ``reads`` have the axes of the schema in place of their letters in this file."""
+        """Return an entry whose ``reads`` have the axes of the schema in place of their letters in this
+        file.
+        """
         if not self._axes or not isinstance(data, dict) or not isinstance(data.get("reads"), dict):
             return data
         reads = {name: self._address(text) for name, text in data["reads"].items()}
@@ -270,8 +272,8 @@ def suppress(
 ) -> None:
     """Add a suppression to a file of rules, which is made where there is none; no other byte of it changes.
 
-    ``notify`` is called with what the save could not keep. Raises ValueError where reason or name is missing or the file
-    cannot be read, SaveError where it cannot be written.
+    ``notify`` is called with what the save could not keep. Raises ValueError where reason or name is missing
+    or the file cannot be read, SaveError where it cannot be written.
     """
     try:
         entry = Suppression(rule=rule, params=tuple(params), reason=reason.strip(), by=by.strip())
@@ -282,7 +284,9 @@ def suppress(
 
 
 def _with_suppression(path: Path, previous: bytes, item: dict[str, Any]) -> bytes:
-    """Return the content of a file of rules with one more suppression, read back; raises ValueError, SaveError."""
+    """Return the content of a file of rules with one more suppression, read back; raises ValueError,
+    SaveError.
+    """
     try:
         document = read_yaml(previous.decode("utf-8"), spans=True)
         data = {} if document.data is None else document.data

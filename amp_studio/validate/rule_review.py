@@ -79,7 +79,10 @@ def review(rule: Rule, schema: Schema, *, any_family: bool) -> Review:
     found.cost = found.once * _runs(rule, schema)
     if found.cost > MOST_STEPS:
         steps = f"{found.cost:,}" if found.cost < 10**12 else "far too many"
-        message = f"the rule can take {steps} steps in a file, and {MOST_STEPS:,} are the most: let it go over fewer lists"
+        message = (
+            f"the rule can take {steps} steps in a file, and {MOST_STEPS:,} are the most: let it go over"
+            " fewer lists"
+        )
         found.slips.append((("check",), message))
     return found
 

@@ -59,7 +59,9 @@ class _Given:
 
 
 class _Active(dict[Address, Key]):
-    """The keys of the values that are active, and None for the others; each looked up when it is first asked for."""
+    """The keys of the values that are active, and None for the others;
+    each looked up when it is first asked for.
+    """
 
     def __init__(self, evaluation: Evaluation) -> None:
         self._evaluation, self._keys, self._states = evaluation, evaluation.keys, evaluation.known_states()
@@ -94,7 +96,8 @@ class RuleChecks:
         self._lists.clear()
 
     def look_at(self, read: Mapping[Address, None], seen: Iterable[tuple[Address, Key]]) -> None:
-        """Take the keys of values that are active, and None for the others: quicker than to look at one by one.
+        """Take the keys of values that are active, and None for the others:
+        quicker than to look at one by one.
 
         Of what is ``read``, that which is not among the values is not set.
         """
@@ -131,7 +134,8 @@ class RuleChecks:
     def _broken_by(self, check: RuleCheck, keys: tuple[Key, ...]) -> bool | None:
         """Return whether a rule is broken by values; what it came to for equal ones before is remembered.
 
-        None where a builder's rule makes no sense of values that are all there. Our own are tried with all that there are.
+        None where a builder's rule makes no sense of values that are all there.
+        Our own are tried with all that there are.
         """
         found = check.expressions.verdict(keys, self._circumstances(check))
         return None if found is None and check.is_own and not _is_any_missing(keys) else found is True
@@ -192,8 +196,9 @@ class RuleChecks:
         rule, is_secret = check.rule, self._reads_secret(check)
         given = [f"{s.name} = {MASKED if is_secret else self._shown(s.address)}" for s in check.singles]
         message = (
-            f"{self._places.get(rule.id, 'A rule')}: {rule.id}: it cannot be calculated"
-            f"{f' with {_listed(given)}' if given else ''}: a number is too large, divided by zero or no number."
+            f"{self._places.get(rule.id, 'A rule')}: {rule.id}: it cannot be"
+            f" calculated{f' with {_listed(given)}' if given else ''}: a number is too large, divided by zero"
+            " or no number."
         )
         return Finding(
             OWN_FAULT, "error", (), message, compared=check.addresses, instance=f"{rule.id} {check.instance}"
@@ -270,7 +275,9 @@ class RuleChecks:
         return expression.result(given.keys, self._circumstances(check), lambda: given.context)
 
     def _text(self, found: Any, unit: str, entered: set[str]) -> str:
-        """Return what was worked out: a figure in inches where the file, or a value it comes from, is; a list in commas."""
+        """Return what was worked out: a figure in inches where the file, or a value it comes from, is;
+        a list in commas.
+        """
         if found is NO_RESULT:
             return "?"
         if isinstance(found, list):
@@ -285,7 +292,9 @@ class RuleChecks:
         return f"{number}{sign}" if sign == "°" else f"{number} {sign}".rstrip()
 
     def _fix(self, check: RuleCheck, given: _Given) -> tuple[Setting, ...]:
-        """Return what the rule would change; nothing if it would not help. Whether it does harm is for a trial."""
+        """Return what the rule would change; nothing if it would not help.
+        Whether it does harm is for a trial.
+        """
         fixes = check.expressions.finding.fixes
         fix = tuple(self._set(check, given, fixes)) if fixes else ()
         return fix if fix and self._mends(check, given, fix) else ()
@@ -293,7 +302,9 @@ class RuleChecks:
     def _set(
         self, check: RuleCheck, given: _Given, assignments: tuple[tuple[str, Expression], ...]
     ) -> Iterator[Setting]:
-        """Yield what the rule sets, if that is another value than the present one; no secret goes elsewhere."""
+        """Yield what the rule sets, if that is another value than the present one; no secret goes
+        elsewhere.
+        """
         is_secret = self._reads_secret(check)
         for name, expression in assignments:
             address = check.address_of(name)
@@ -304,7 +315,9 @@ class RuleChecks:
                 yield Setting(address, value)
 
     def _mends(self, check: RuleCheck, given: _Given, fix: tuple[Setting, ...]) -> bool:
-        """Return whether the rule is satisfied with its own suggested fixes, which were rounded as the parameter needs it."""
+        """Return whether the rule is satisfied with its own suggested fixes,
+        which were rounded as the parameter needs it.
+        """
         mended = {setting.address: key_of(setting.value) for setting in fix}
         after = list(given.keys)
         for n, single in enumerate(check.singles):
@@ -316,7 +329,9 @@ class RuleChecks:
         return check.expressions.verdict(tuple(after), self._circumstances(check)) is False
 
     def _value(self, address: Address, found: Any) -> Value | None:
-        """Return what was worked out as the parameter stores it, in the unit of the present value; None where there is none."""
+        """Return what was worked out as the parameter stores it, in the unit of the present value;
+        None where there is none.
+        """
         parameter = self._file.schema.parameters[address[0]]
         if isinstance(found, (bool, str)):
             return Value(found)
@@ -342,7 +357,9 @@ def _listed(given: list[str]) -> str:
 
 
 def _too_long(keys: Iterable[Key]) -> bool:
-    """Return whether a text is longer than a builder's rule was found to bear; its own check reports that it is too long."""
+    """Return whether a text is longer than a builder's rule was found to bear;
+    its own check reports that it is too long.
+    """
     return any(
         len(key) > LONGEST_TEXT if isinstance(key, str) else isinstance(key, tuple) and _too_long(key)
         for key in keys

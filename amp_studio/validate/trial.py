@@ -1,11 +1,14 @@
 """A fix is tried against the whole file before it is offered.
 
-It is offered only if with it its finding is gone and whatever comes up instead is less severe: never an error, a
-warning only for an error, a recommendation for either. So each fix that is made leaves fewer findings or lesser ones, and
-making one after the other comes to an end. Values that nobody gave (``schema.unset``) do not count.
+It is offered only if with it its finding is gone and whatever comes up instead is less severe: never an
+error, a warning only for an error, a recommendation for either. So each fix that is made leaves fewer
+findings or lesser ones, and making one after the other comes to an end.
+Values that nobody gave (``schema.unset``) do not count.
 
-A fix that brings a warning has its message. One that would make a speed less than a thirtieth of itself is not
-offered: then another value is wrong, and nobody cuts a rapid to a sixtieth for a resolution that is a sixtieth.
+A fix that brings a warning has its message. One that would make a speed less than a thirtieth of itself is
+not
+offered: then another value is wrong, and nobody cuts a rapid to a sixtieth for a resolution
+that is a sixtieth.
 """
 
 from __future__ import annotations
@@ -33,7 +36,8 @@ _ASKED = 1000
 class _Tried(NamedTuple):
     """What came of a trial, and the checks that would have to be another for it to come to something else.
 
-    A good fix is good by every check that it can change, a bad one is bad by a single one, whatever the others say.
+    A good fix is good by every check that it can change, a bad one is bad by a single one,
+    whatever the others say.
     """
 
     is_good: bool
@@ -46,7 +50,8 @@ class _Tried(NamedTuple):
 class Trials:
     """Fixes of the findings of one file, tried on a copy of it.
 
-    A copy, because the file itself notifies everyone who listens of its changes, and may just be saved by another thread.
+    A copy, because the file itself notifies everyone who listens of its changes,
+    and may just be saved by another thread.
     """
 
     def __init__(self, file: ParameterFile, plan: Plan, own: BuilderRules) -> None:
@@ -57,7 +62,9 @@ class Trials:
         self._tried: dict[Place, _Tried] = {}
 
     def changed(self, addresses: Iterable[Address], asked: Iterable[Place]) -> None:
-        """Take over values that changed, and forget the trials that the checks ``asked`` again have a part in."""
+        """Take over values that changed, and forget the trials
+        that the checks ``asked`` again have a part in.
+        """
         if self._file is not None:
             for address in addresses:
                 self._file.set(address, self._original.values.get(address))
@@ -156,11 +163,12 @@ class Trials:
         return _Tried(True, asked, brings)
 
     def _bad_by(self, mended: Finding, places: Iterable[Place], asked: frozenset[Place]) -> frozenset[Place]:
-        """Return the checks that leave a fix bad while they, and that of the finding itself, are not asked again.
+        """Return the checks that leave a fix bad while they, and that of the finding itself,
+        are not asked again.
 
-        These are all that were ``asked`` where a builder suppresses findings, since the number he gives may come to mean
-        another parameter, and where the fix may make an axis turn, since further values get other units with it; unless
-        nothing but the value that it sets decides that.
+        These are all that were ``asked`` where a builder suppresses findings, since the number he gives may
+        come to mean another parameter, and where the fix may make an axis turn, since further values get
+        other units with it; unless nothing but the value that it sets decides that.
         """
         turning = self._original.schema.turning_parameters
         turned = len(turning) > 1 and any(setting.address[0] in turning for setting in mended.fix)
@@ -186,7 +194,9 @@ class Trials:
         return self._plan.checks[place]
 
     def _are_lesser(self, new: Iterable[Finding], mended: Finding) -> bool:
-        """Return whether new findings may be taken for the one that is mended; those the builder suppresses may."""
+        """Return whether new findings may be taken for the one that is mended;
+        those the builder suppresses may.
+        """
         assert self._file is not None
         limit, suppressions = SEVERITIES.index(mended.severity), self._own.suppressions
         bad = (found for found in new if SEVERITIES.index(found.severity) <= limit)

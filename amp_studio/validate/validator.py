@@ -24,8 +24,8 @@ class Validator:
     """Checks ranges, choices, states and rules of one file.
 
     ``run`` checks everything, ``update`` only what read the changed addresses;
-    both leave the same findings. Asked for findings of values that it has not seen yet, it runs by itself. Any value whatever
-    may be in the file.
+    both leave the same findings. Asked for findings of values that it has not seen yet, it runs by itself.
+    Any value whatever may be in the file.
     ``own`` are a machine builder's rules; ``earlier`` is what the file was, and what others like it are.
     """
 
@@ -83,7 +83,9 @@ class Validator:
         return self.findings()
 
     def recheck(self, changed: Iterable[Address]) -> None:
-        """Check again what reads the changed addresses; whether a fix is still good is tried when it is asked for."""
+        """Check again what reads the changed addresses;
+        whether a fix is still good is tried when it is asked for.
+        """
         if self._circumstances != self._present_circumstances():
             self._file_all()
             return
@@ -100,7 +102,8 @@ class Validator:
         self._trials.changed(edited, (*addresses, *checks))
 
     def first_fix(self, wanted: Callable[[Finding], bool]) -> Finding | None:
-        """Return the first of the present ``findings`` that is ``wanted`` and has a fix; later fixes are not tried.
+        """Return the first of the present ``findings`` that is ``wanted`` and has a fix;
+        later fixes are not tried.
 
         One whose fix brings a warning is returned only where no other one is left.
         """
@@ -173,14 +176,18 @@ class Validator:
         return tuple({check.rule.id: check.rule for check in readers if address in check.addresses}.values())
 
     def check_of(self, finding: Finding) -> RuleCheck | None:
-        """Return the rule and the instance that a present finding is of; None for a range, a choice and the like."""
+        """Return the rule and the instance that a present finding is of; None for a range,
+        a choice and the like.
+        """
         if self._checks_of is None:
             places = (place for place in self._filed if isinstance(place, int))
             self._checks_of = {self._filed[place][1].key: self._plan.checks[place] for place in places}
         return self._checks_of.get(finding.key)
 
     def allowed(self, address: Address, unit: str) -> AllowedByRules:
-        """Return what finds the values of an address, in ``unit``, that the rules allow now, all others as they are."""
+        """Return what finds the values of an address, in ``unit``, that the rules allow now,
+        all others as they are.
+        """
         return AllowedByRules(self.file, self._plan, self.own.places, address, unit)
 
     def context_of(self, check: RuleCheck) -> Context:
@@ -245,7 +252,10 @@ class Validator:
             message = (
                 f"{unknown[0]} is no parameter of this schema; it is kept as it is."
                 if len(unknown) == 1
-                else f"{len(unknown)} entries are no parameters of this schema; they are kept as they are: {', '.join(unknown)}."
+                else (
+                    f"{len(unknown)} entries are no parameters of this schema; they are kept as they are:"
+                    f" {', '.join(unknown)}."
+                )
             )
             finding = Finding("schema.unknown", "warning", (), message)
             found.append((self._order(finding), finding))

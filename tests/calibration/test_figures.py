@@ -1,4 +1,6 @@
-"""Figures by ISO 230-2, against numpy, against figures worked out by hand, and against a machine whose truth is known."""
+"""Figures by ISO 230-2, against numpy, against figures worked out by hand,
+and against a machine whose truth is known.
+"""
 
 from __future__ import annotations
 
@@ -44,8 +46,9 @@ def by_numpy(up: np.ndarray, down: np.ndarray) -> dict[str, float]:
         "repeatability": np.max([2 * su + 2 * sd + np.abs(b), 4 * su, 4 * sd]),
         "accuracy_rising": (mu + 2 * su).max() - (mu - 2 * su).min(),
         "accuracy_falling": (md + 2 * sd).max() - (md - 2 * sd).min(),
-        "accuracy": max((mu + 2 * su).max(), (md + 2 * sd).max())
-        - min((mu - 2 * su).min(), (md - 2 * sd).min()),
+        "accuracy": (
+            max((mu + 2 * su).max(), (md + 2 * sd).max()) - min((mu - 2 * su).min(), (md - 2 * sd).min())
+        ),
     }
 
 

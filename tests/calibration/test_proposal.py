@@ -1,4 +1,6 @@
-"""From measured points to the table and the reversal error of a 9/PC axis, on machines whose errors are known."""
+"""From measured points to the table and the reversal error of a 9/PC axis,
+on machines whose errors are known.
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,6 @@
-"""Measured points as people and lasers write them: every shape gives the same runs, and nothing is guessed."""
+"""Measured points as people and lasers write them: every shape gives the same runs, and nothing is
+guessed.
+"""
 
 from __future__ import annotations
 
@@ -39,13 +41,16 @@ THERE_AND_BACK = [
         "run,position,deviation\n1,0,0\n1,100,4\n1,200,7\n2,200,12\n2,100,9\n2,0,5\n",
         "Target [mm],Measured [mm]\n0,0\n100,100.004\n200,200.007\n200,200.012\n100,100.009\n0,0.005\n",
         "Target [mm],Correction [um]\n0,0\n100,-4\n200,-7\n200,-12\n100,-9\n0,-5\n",
-        'Machine,"XYZ, 3"\nDate,3 May\n"Target","Run 1 +","Run 1 -"\n"0","0","5"\n"100","4","9"\n"200","7","12"\n',
+        (
+            'Machine,"XYZ, 3"\nDate,3 May\n"Target","Run 1 +","Run 1'
+            ' -"\n"0","0","5"\n"100","4","9"\n"200","7","12"\n'
+        ),
         "Position;Vorwärts +;Rückwärts -;Mittelwert;Std Dev\n0;0;5;2.5;1\n100;4;9;6.5;1\n200;7;12;9.5;1\n",
         "Soll [mm]\tIst [mm]\n0\t0\n100\t100.004\n200\t200.007\n200\t200.012\n100\t100.009\n0\t0.005\n",
         "Position,up,down\n[mm],[um],[um]\n0,0,5\n100,4,9\n200,7,12\n",
         "\ufeffposition [in],error [um]\r\n0,0\r\n3.937007874015748,4\r\n",
     ],
-)  # fmt: skip
+)
 def test_every_shape_of_a_pass_there_and_back_gives_the_same_runs(text: str) -> None:
     answers = KNOWN if "[" not in text or "[um]" in text.split("\n")[1] else MeasurementAnswers()
     if "[in]" in text:

@@ -48,7 +48,9 @@ def amp(capsys: pytest.CaptureFixture[str]) -> Callable[..., Said]:
 
 @pytest.fixture(scope="session")
 def new_mill(tmp_path_factory: pytest.TempPathFactory) -> bytes:
-    """Return the content of a new mill with the axes X, Y, A and S; of the axes it does not have nothing is set."""
+    """Return the content of a new mill with the axes X, Y, A and S;
+    of the axes it does not have nothing is set.
+    """
     path = tmp_path_factory.mktemp("new") / "mill.amp"
     assert cli.run(["new", "9pc", str(path), "--machine", "mill", "--axes", "X,Y,A,S"]) == 0
     return re.sub(rb"\n  [^\n]*@[5-8]:[^\n]*", b"", path.read_bytes())

@@ -23,7 +23,8 @@ os.close(int(sys.argv.pop(1)))
 from amp_studio.cli import main
 main()
 """
-"""The program from its first statement on: what Python prints about a Ctrl-C while it starts itself is not the program's."""
+"""The program from its first statement on: what Python prints about a Ctrl-C while it starts itself is not
+the program's."""
 
 
 @contextlib.contextmanager

@@ -1,4 +1,5 @@
-"""Stops downloads and emulated controls at moments that chance chooses, and compares the exit code with the truth.
+"""Stops downloads and emulated controls at moments that chance chooses,
+and compares the exit code with the truth.
 
 The programs are real ones and so are the signals; a campaign can run many seeds.
 """
@@ -19,9 +20,11 @@ from typing import Any
 from .stopped import started
 
 LONGEST = 2.0
-"""Seconds after the start within which a download is stopped; it takes about as long on a line of this speed."""
+"""Seconds after the start within which a download is stopped; it takes about as long on a line of this
+speed."""
 LATEST = 15.0
-"""Seconds after the signal by which it has ended, on a busy machine too: it ends within 5, and would wait for 20 without."""
+"""Seconds after the signal by which it has ended, on a busy machine too: it ends within 5,
+and would wait for 20 without."""
 
 FAULTS: list[dict[str, Any]] = [{}, {}, {"drop_after_bytes": 20_000}, {"lose_every": 4_001}, {"silent": True}]
 
@@ -74,7 +77,8 @@ def download_while_stopped(path: Path, folder: Path, *, seed: int, rounds: int) 
         }.get(code, False)
         if not fits or "Traceback" in err or "ignored" in err or took > LATEST:
             faults.append(
-                f"seed {seed}, round {number}, after {delay:.3f} s, {took:.1f} s: {code}, {changed}, {out!r}, {err!r}"
+                f"seed {seed}, round {number}, after {delay:.3f} s, {took:.1f} s: {code}, {changed}, {out!r},"
+                f" {err!r}"
             )
     return faults
 
@@ -107,6 +111,7 @@ def control_while_stopped(folder: Path, *, seed: int, rounds: int) -> list[str]:
         fits = program.returncode == 0 or (program.returncode in (2, -signal.SIGINT) and not out)
         if not fits or err.strip() or (out and not out.endswith("bye\n")):
             faults.append(
-                f"seed {seed}, round {number}, {streams!r}, after {delay:.3f} s: {program.returncode}, {out!r}, {err!r}"
+                f"seed {seed}, round {number}, {streams!r}, after {delay:.3f} s: {program.returncode},"
+                f" {out!r}, {err!r}"
             )
     return faults

@@ -19,12 +19,20 @@ def test_the_verbs_print_the_same_in_json(amp, tmp_path: Path) -> None:
         "why": "there is no place for it in this format (ACR command script)",
     }
     assert {**account, "not_representable": []} == {
-        "written": 43, "kept": [], "not_representable": [], "rounded": [], "unknown": []
-    }  # fmt: skip
+        "written": 43,
+        "kept": [],
+        "not_representable": [],
+        "rounded": [],
+        "unknown": [],
+    }
     plain = amp("export", router, "-o", tmp_path / "z.acr")
     assert "z.acr: ACR command script, 43 of 308 values" in plain.out
     assert "265 values not written, there is no place for it in this format" in plain.err
     read = amp("import", tmp_path / "z.acr", "--family", "acromill", "-o", tmp_path / "z.amp", "--json")
     assert json.loads(read.out) == {
-        "written": 43, "kept": [], "not_representable": [], "rounded": [], "unknown": []
-    }  # fmt: skip
+        "written": 43,
+        "kept": [],
+        "not_representable": [],
+        "rounded": [],
+        "unknown": [],
+    }

@@ -1,4 +1,6 @@
-"""A family whose controls take values at their screens only: each exchange with one offers the sheet, in one sentence."""
+"""A family whose controls take values at their screens only: each exchange with one offers the sheet,
+in one sentence.
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,6 @@
-"""calibrate: what an axis has, what measured points would make of it, and points changed by hand; all or nothing."""
+"""calibrate: what an axis has, what measured points would make of it, and points changed by hand;
+all or nothing.
+"""
 
 from __future__ import annotations
 
@@ -116,7 +118,10 @@ def test_points_are_changed_by_hand_as_at_the_screen(amp, mill: Path) -> None:
     ("arguments", "named"),
     [
         (["--insert", "50=0.001"], "has the deviation 0"),
-        (["--insert", "0=0", "--insert", "10=0.3", "--input", "deviation", "--start", "negative"], "PARAMETER OUT OF RANGE"),
+        (
+            ["--insert", "0=0", "--insert", "10=0.3", "--input", "deviation", "--start", "negative"],
+            "PARAMETER OUT OF RANGE",
+        ),
         (["--insert", "0"], "is not POSITION=FIGURE"),
         (["--insert", "0 mm=0"], "bare number"),
         (["--insert", "x=0"], "is not a number"),
@@ -124,7 +129,7 @@ def test_points_are_changed_by_hand_as_at_the_screen(amp, mill: Path) -> None:
         (["--insert", "0=0", "--from", "laser.csv"], "measured (--from) or changed by hand"),
         (["--from", "nothing.csv"], "nothing.csv"),
     ],
-)  # fmt: skip
+)
 def test_what_cannot_be_done_is_refused_in_one_line(
     amp, mill: Path, arguments: list[str], named: str
 ) -> None:

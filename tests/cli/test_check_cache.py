@@ -1,4 +1,6 @@
-"""validate keeps the results of many files: a run that finds them prints the same, and checks again whatever may have changed."""
+"""validate keeps the results of many files: a run that finds them prints the same,
+and checks again whatever may have changed.
+"""
 
 from __future__ import annotations
 
@@ -178,11 +180,13 @@ BREAKS: dict[str, Callable[[Path], object]] = {
     "is something else": lambda path: path.write_bytes(b"no database" * 1000),
     "is cut off": lambda path: path.write_bytes(path.read_bytes()[:5000]),
     "has another table": lambda path: (path.unlink(), altered(path, "CREATE TABLE result (id INTEGER)")),
-    "has another's result": lambda path: altered(path, "UPDATE result SET kept = (SELECT max(kept) FROM result)"),
+    "has another's result": lambda path: altered(
+        path, "UPDATE result SET kept = (SELECT max(kept) FROM result)"
+    ),
     "has texts": lambda path: altered(path, "UPDATE result SET kept = 'text'"),
     "has an altered result": lambda path: altered(path, "UPDATE result SET kept = x'5b302c2022225d'"),
     "is a folder": lambda path: (path.unlink(), path.mkdir()),
-}  # fmt: skip
+}
 """What is wrong with a cache -> what makes it so."""
 
 
@@ -275,7 +279,9 @@ def test_a_file_alone_is_not_kept(amp, cache: Path, machines: Path) -> None:
 
 @pytest.fixture
 def opened_files() -> Iterator[list[str]]:
-    """Return a list that gets every path that Python opens during the test; a hook stays until the end of the process."""
+    """Return a list that gets every path that Python opens during the test;
+    a hook stays until the end of the process.
+    """
     paths: list[str] = []
     is_on = [True]
 
@@ -289,7 +295,9 @@ def opened_files() -> Iterator[list[str]]:
 
 
 def test_a_check_reads_nothing_that_is_not_in_its_key(amp, machines: Path, opened_files: list[str]) -> None:
-    """With all that may lie beside a file: backup, unsaved work, project, record of exchanges. The key has them all."""
+    """With all that may lie beside a file: backup, unsaved work, project, record of exchanges.
+    The key has them all.
+    """
     change_the_rules(machines)
     (machines / "project.yaml").write_text("machines: [0.amp, 1.amp]\n", encoding="utf-8")
     with Document.open(machines / "0.amp") as document:
@@ -308,7 +316,9 @@ def test_a_check_reads_nothing_that_is_not_in_its_key(amp, machines: Path, opene
 def test_a_folder_is_listed_once_for_all_of_its_files(
     amp, cache: Path, machines: Path, checked: list[str], monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    """The way to each of thousands of files, and what lies beside it, took half the time of a run with all results kept."""
+    """The way to each of thousands of files, and what lies beside it,
+    took half the time of a run with all results kept.
+    """
     first = amp("validate", machines)
     real, followed = check_cache.real_path, list[Path]()
 

@@ -1,7 +1,7 @@
 """validate --format: SARIF 2.1.0, GitHub's workflow commands and JUnit's XML have what text and JSON have.
 
-The schema is what the SARIF 2.1.0 standard (OASIS, 27 March 2020) demands of the properties that are written here; the sections
-are its own. The whole schema of the standard is not part of the project.
+The schema is what the SARIF 2.1.0 standard (OASIS, 27 March 2020) demands of the properties that are written
+here; the sections are its own. The whole schema of the standard is not part of the project.
 """
 
 from __future__ import annotations
@@ -24,8 +24,11 @@ TEXT = {"type": "string", "minLength": 1}
 
 def closed(required: tuple[str, ...], **properties: object) -> dict[str, object]:
     return {
-        "type": "object", "additionalProperties": False, "required": list(required), "properties": properties,
-    }  # fmt: skip
+        "type": "object",
+        "additionalProperties": False,
+        "required": list(required),
+        "properties": properties,
+    }
 
 
 def listed(of: object) -> dict[str, object]:
@@ -47,25 +50,40 @@ PLACE = {
 LOCATIONS = listed(closed(("physicalLocation",), **PLACE))  # 3.28
 RULE = closed(  # 3.49
     ("id",),
-    id=TEXT, shortDescription=MESSAGE, fullDescription=MESSAGE, help=MESSAGE,
+    id=TEXT,
+    shortDescription=MESSAGE,
+    fullDescription=MESSAGE,
+    help=MESSAGE,
     defaultConfiguration=closed(("level",), level=LEVEL),
-)  # fmt: skip
+)
 RESULT = closed(  # 3.27
     ("ruleId", "level", "message", "locations"),
-    ruleId=TEXT, level=LEVEL, message=MESSAGE, locations=LOCATIONS,
+    ruleId=TEXT,
+    level=LEVEL,
+    message=MESSAGE,
+    locations=LOCATIONS,
     partialFingerprints={"type": "object", "additionalProperties": TEXT},
     properties={"type": "object"},
-    suppressions=listed(closed(("kind",), kind={"enum": ["inSource", "external"]}, justification=TEXT)),  # 3.35
-)  # fmt: skip
+    suppressions=listed(
+        closed(("kind",), kind={"enum": ["inSource", "external"]}, justification=TEXT)
+    ),  # 3.35
+)
 NOTICE = closed(("message",), level=LEVEL, message=MESSAGE, locations=LOCATIONS)  # 3.58
 RUN = closed(  # 3.14
     ("tool",),
-    tool=closed(("driver",), driver=closed(("name",), name=TEXT, version=TEXT, rules={**listed(RULE), "uniqueItems": True})),
+    tool=closed(
+        ("driver",),
+        driver=closed(("name",), name=TEXT, version=TEXT, rules={**listed(RULE), "uniqueItems": True}),
+    ),
     invocations=listed(
-        closed(("executionSuccessful",), executionSuccessful={"type": "boolean"}, toolExecutionNotifications=listed(NOTICE))
+        closed(
+            ("executionSuccessful",),
+            executionSuccessful={"type": "boolean"},
+            toolExecutionNotifications=listed(NOTICE),
+        )
     ),
     results=listed(RESULT),
-)  # fmt: skip
+)
 SARIF = closed(  # 3.13
     ("version", "runs"),
     version={"const": "2.1.0"},
@@ -239,8 +257,9 @@ def test_a_letter_that_xml_does_not_have_is_shown(amp, mill: Path, tmp_path: Pat
 
 
 def test_reasons_are_for_text_and_json(amp, mill: Path) -> None:
-    assert amp("validate", mill, "--why", "--format", "sarif").err == (
-        "amp-studio: --why is for the formats text and json\n"
+    assert (
+        amp("validate", mill, "--why", "--format", "sarif").err
+        == "amp-studio: --why is for the formats text and json\n"
     )
 
 

@@ -11,7 +11,7 @@ from amp_studio import cli
 from amp_studio.files import open_file
 from amp_studio.schema import Value
 
-# -- validate --------------------------------------------------------------------------------------------------
+# -- validate
 
 
 @pytest.fixture
@@ -43,9 +43,12 @@ def test_a_finding_has_the_promised_shape_and_ends_with_1(amp, mill: Path) -> No
         assert all({"param", "value"} <= setting.keys() for setting in finding["fix"])
         assert "{" not in finding["message"]
     (ours,) = [f for f in found["findings"] if f["params"] == ["1300"]]
-    assert (
-        ours["rule"], ours["severity"], ours["fix"], ours["source"],
-    ) == ("schema.range", "error", [{"param": "1300", "value": "999999.99 mm"}], "5-10")  # fmt: skip
+    assert (ours["rule"], ours["severity"], ours["fix"], ours["source"]) == (
+        "schema.range",
+        "error",
+        [{"param": "1300", "value": "999999.99 mm"}],
+        "5-10",
+    )
 
 
 def test_the_fix_of_a_finding_can_be_given_to_set(amp, mill: Path) -> None:
@@ -173,8 +176,8 @@ def test_rules_that_cannot_be_used_are_a_finding_beside_the_others(
     amp, plain: Path, tmp_path: Path, old: str, new: str, said: str
 ) -> None:
     text = (
-        "rules:\n  - id: ours.one\n    title: One\n    severity: error\n    reads: {groups: zone.group_count}\n"
-        '    check: groups > 5.0\n    message: no\n    page: "1"\n'
+        "rules:\n  - id: ours.one\n    title: One\n    severity: error\n    reads: {groups:"
+        ' zone.group_count}\n    check: groups > 5.0\n    message: no\n    page: "1"\n'
     )
     rules = tmp_path / "ours.yaml"
     assert old in text
@@ -197,9 +200,9 @@ def test_rules_that_are_not_there_are_a_slip_of_the_hand(amp, plain: Path, tmp_p
 def test_findings_are_suppressed_with_a_reason_and_a_name_beside_the_file(amp, plain: Path) -> None:
     amp("set", plain, "20=1")
     (plain.parent / "rules.yaml").write_text(
-        "rules:\n  - {id: ours.one, title: One, severity: error, reads: {groups: zone.group_count}, check: groups > 5.0,"
-        ' message: "Groups: {groups}."}\n'
-        "suppressions:\n  - {rule: ours.one, params: ['20'], reason: no zones here, by: J. Doe}\n"
+        "rules:\n  - {id: ours.one, title: One, severity: error, reads: {groups: zone.group_count}, check:"
+        " groups > 5.0, message: \"Groups: {groups}.\"}\nsuppressions:\n  - {rule: ours.one, params: ['20'],"
+        " reason: no zones here, by: J. Doe}\n"
     )
     told = amp("validate", plain, "--json")
     assert told.code == 0
@@ -211,7 +214,7 @@ def test_findings_are_suppressed_with_a_reason_and_a_name_beside_the_file(amp, p
     assert "Suppressed by J. Doe: no zones here" in " ".join(report.read_text().split())
 
 
-# -- diff ---------------------------------------------------------------------------------------------------------
+# -- diff
 
 
 @pytest.fixture
@@ -256,8 +259,9 @@ def test_differences_for_a_person_are_one_line_each_and_counted(amp, mill: Path,
 def test_what_the_manual_calls_dangerous_about_a_difference_is_one_line(amp, mill: Path, twin: Path) -> None:
     assert amp("set", twin, "1300=1.5", "1595=Minus", "2595=Minus").code == 0
     said = amp("diff", mill, twin)
-    assert said.err == (
-        "danger: Sign of Position Feedback (X, Y): A wrong sign can make the axis run away. (page 7-36)\n"
+    assert (
+        said.err
+        == "danger: Sign of Position Feedback (X, Y): A wrong sign can make the axis run away. (page 7-36)\n"
     )
     assert len(said.out.splitlines()) == 4, "three differences and their count"
 
@@ -268,7 +272,7 @@ def test_diff_writes_nothing(amp, mill: Path, twin: Path, folder) -> None:
     assert before == folder()
 
 
-# -- merge ----------------------------------------------------------------------------------------------------------
+# -- merge
 
 
 @pytest.fixture
@@ -315,7 +319,7 @@ def test_a_merge_does_not_overwrite(amp, three, folder) -> None:
     assert before == folder()
 
 
-# -- report, simulate ---------------------------------------------------------------------------------------------------
+# -- report, simulate
 
 
 @pytest.mark.parametrize(

@@ -1,4 +1,6 @@
-"""verify --all: every known control of a folder against its file, what drifted since when, and one exit code."""
+"""verify --all: every known control of a folder against its file, what drifted since when, and one exit
+code.
+"""
 
 from __future__ import annotations
 
@@ -60,8 +62,9 @@ def test_a_control_is_known_with_the_file_that_was_last_put_into_it(tmp_path: Pa
         files=("old.amp", "new.amp", "two.amp"),
     )
     assert shown(known_controls(tmp_path)) == [
-        ("tcp://10.0.0.1:9600", "new.amp"), ("tcp://10.0.0.2:9600", "two.amp"),
-    ]  # fmt: skip
+        ("tcp://10.0.0.1:9600", "new.amp"),
+        ("tcp://10.0.0.2:9600", "two.amp"),
+    ]
 
 
 def test_a_control_of_two_folders_belongs_to_the_later_download(tmp_path: Path) -> None:
@@ -99,8 +102,19 @@ def test_a_file_that_is_gone_is_a_fault(
 def control(tmp_path: Path) -> Iterator[str]:
     """Return the address of an emulated 9/PC in a separate process."""
     with ExitStack() as running:
-        command = [sys.executable, "-m", "amp_studio.cli", "emulate", "9pc", "--listen", "tcp://127.0.0.1:0",
-                   "--state", str(tmp_path / "state"), "--machine", "mill"]  # fmt: skip
+        command = [
+            sys.executable,
+            "-m",
+            "amp_studio.cli",
+            "emulate",
+            "9pc",
+            "--listen",
+            "tcp://127.0.0.1:0",
+            "--state",
+            str(tmp_path / "state"),
+            "--machine",
+            "mill",
+        ]
         process = running.enter_context(
             subprocess.Popen(command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True)
         )
@@ -157,8 +171,9 @@ def test_what_drifted_in_the_file_and_what_is_not_reached_is_one_page(
     found = json.loads(capsys.readouterr().out)
     assert (found["same"], found["differs"], found["not_reached"]) == (0, 1, 1)
     by_address = {each["address"]: each for each in found["controls"]}
-    assert by_address[control]["since"] == (
-        "the file was changed after 2026-03-02 11:00; the control is as it was left then"
+    assert (
+        by_address[control]["since"]
+        == "the file was changed after 2026-03-02 11:00; the control is as it was left then"
     )
     assert by_address[DEAD]["result"] == "not reached"
     text = page.read_text("utf-8")

@@ -1,4 +1,6 @@
-"""How the program ends: the exit code is the truth about the disk, whatever becomes of its streams and however it is stopped."""
+"""How the program ends: the exit code is the truth about the disk,
+whatever becomes of its streams and however it is stopped.
+"""
 
 from __future__ import annotations
 
@@ -52,9 +54,10 @@ def test_a_value_that_is_in_the_file_is_no_refusal_where_the_result_cannot_be_pr
 ) -> None:
     code, said = start("set", mill, "1300=1.5", stdout=full)
     assert (code, b"home.calibration@1: 1.5 mm" in mill.read_bytes()) == (3, True)
-    assert said == (
-        f"amp-studio: the results cannot be written: No space left on device; {mill} has been changed and contains the "
-        f"new content; its previous content is in {mill}.bak\n"
+    assert (
+        said
+        == f"amp-studio: the results cannot be written: No space left on device; {mill} has been changed and"
+        f" contains the new content; its previous content is in {mill}.bak\n"
     )
 
 

@@ -58,7 +58,7 @@ def test_a_question_without_an_answer_names_the_other_families_and_where_everyth
     assert said.out == "Nothing found for 'debounce'\n"
     assert "In another family: grblhal: $26 Homing switch debounce delay" in said.err
     assert "amp-studio guide syntec" in said.err
-    (first, *_) = json.loads(amp("find", "syntec", "debounce", "--json").out)["elsewhere"]
+    first, *_ = json.loads(amp("find", "syntec", "debounce", "--json").out)["elsewhere"]
     assert first == {
         "family": "grblhal",
         "id": "homing.debounce",
@@ -67,7 +67,7 @@ def test_a_question_without_an_answer_names_the_other_families_and_where_everyth
 
 
 def test_a_german_word_finds_what_the_manual_calls_otherwise(amp) -> None:
-    (best, *_) = json.loads(amp("find", "9pc", "Schleppfehler", "--json").out)["hits"]
+    best, *_ = json.loads(amp("find", "9pc", "Schleppfehler", "--json").out)["hits"]
     assert (best["id"], best["why"]) == ("servo.excess_error", "'schleppfehler' as 'excess error'")
 
 
@@ -88,8 +88,9 @@ def test_the_number_of_hits_is_bounded(amp) -> None:
 
 
 def test_what_cannot_be_searched_is_refused(amp, tmp_path: Path) -> None:
-    assert amp("find", "9pc").err == (
-        "amp-studio: Nothing to find: give a number, a word, a value or a message of the control\n"
+    assert (
+        amp("find", "9pc").err
+        == "amp-studio: Nothing to find: give a number, a word, a value or a message of the control\n"
     )
     assert amp("find", "--family", "9pcc", "x").code == 2
     assert amp("find", tmp_path / "no.amp", "x").code == 2

@@ -55,13 +55,26 @@ def test_the_json_has_the_changes_and_what_is_left(broken: Path, amp) -> None:
     assert said.json == {
         "file": str(broken),
         "changes": [
-            {"param": "1750", "id": "servo.excess_error", "instance": "1", "old": "8 mm", "new": "11 mm", "rule": rule},
-            {"param": "1740", "id": "servo.feedrate_suppression", "instance": "1", "old": "8 mm", "new": "11 mm",
-             "rule": rule},
+            {
+                "param": "1750",
+                "id": "servo.excess_error",
+                "instance": "1",
+                "old": "8 mm",
+                "new": "11 mm",
+                "rule": rule,
+            },
+            {
+                "param": "1740",
+                "id": "servo.feedrate_suppression",
+                "instance": "1",
+                "old": "8 mm",
+                "new": "11 mm",
+                "rule": rule,
+            },
         ],
         "left": {key: checked[key] for key in ("errors", "warnings", "advice")},
         "dry_run": False,
-    }  # fmt: skip
+    }
     assert said.code == int(checked["errors"] > 0)
 
 
@@ -130,12 +143,16 @@ def test_only_safe_fixes_leave_the_motion_alone(broken: Path, amp) -> None:
 @pytest.mark.parametrize(
     ("option", "text", "told"),
     [
-        ("--rule", "9pc.servo.excess-margins", "Unknown rule '9pc.servo.excess-margins'. Did you mean: 9pc.servo.excess-margin"),
+        (
+            "--rule",
+            "9pc.servo.excess-margins",
+            "Unknown rule '9pc.servo.excess-margins'. Did you mean: 9pc.servo.excess-margin",
+        ),
         ("--rule", "", "Unknown rule ''"),
         ("--param", "servo.exces_error@1", "servo.excess_error"),
         ("--param", "99999", "99999"),
     ],
-)  # fmt: skip
+)
 def test_an_unknown_name_is_refused_with_the_nearest(
     broken: Path, amp, folder, option: str, text: str, told: str
 ) -> None:

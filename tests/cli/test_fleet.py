@@ -39,8 +39,19 @@ def start_control(tmp_path: Path) -> Iterator[Callable[[], str]]:
 
         def start() -> str:
             state = tmp_path / f"control-{len(list(tmp_path.glob('control-*')))}"
-            command = [sys.executable, "-m", "amp_studio.cli", "emulate", "9pc", "--listen", "tcp://127.0.0.1:0",
-                       "--state", str(state), "--machine", "mill"]  # fmt: skip
+            command = [
+                sys.executable,
+                "-m",
+                "amp_studio.cli",
+                "emulate",
+                "9pc",
+                "--listen",
+                "tcp://127.0.0.1:0",
+                "--state",
+                str(state),
+                "--machine",
+                "mill",
+            ]
             process = running.enter_context(
                 subprocess.Popen(command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True)
             )
@@ -78,11 +89,7 @@ def test_a_control_that_does_not_answer_is_in_the_table_and_the_others_go_on(
     first, second = sent.out.splitlines()
     assert first.split()[:2] == [DEAD, "failed"]
     assert second.split()[:2] == [control, "done"]
-    heads, *rows = csv.reader(
-        table.open(
-            encoding="utf-8-sig",
-        )
-    )
+    heads, *rows = csv.reader(table.open(encoding="utf-8-sig"))
     assert heads[:2] == ["Address", "Result"]
     assert [row[:2] for row in rows] == [[DEAD, "failed"], [control, "done"]]
 

@@ -50,9 +50,15 @@ def test_the_json_has_every_step_with_its_parameters_and_open_values(amp, fresh:
     first = next(value for step in said["steps"] for value in step["open"])
     assert said["next"] == first
     assert first == {
-        "param": "185", "id": "axis.integrand_name", "instance": "1", "name": "Axis Integrand Name", "step": 2, "unit": "",
-        "allowed": "I / J / K / None", "page": "4-3",
-    }  # fmt: skip
+        "param": "185",
+        "id": "axis.integrand_name",
+        "instance": "1",
+        "name": "Axis Integrand Name",
+        "step": 2,
+        "unit": "",
+        "allowed": "I / J / K / None",
+        "page": "4-3",
+    }
     tuning = next(step for step in said["steps"] if step["id"] == "tuning")
     assert "servo.reversal_error" in tuning["again"]
 
@@ -153,15 +159,16 @@ def test_the_check_list_is_written_in_the_format_of_its_ending(amp, fresh: Path,
         assert (tmp_path / name).read_bytes().startswith(start)
 
 
-# -- new --like ---------------------------------------------------------------------------------------------------------
+# -- new --like
 
 
 def test_a_file_is_started_like_an_example_and_what_it_lacks_is_named(amp, tmp_path: Path) -> None:
     said = amp("new", "9pc", tmp_path / "second.amp", "--like", "mill-1394")
     assert said.code == 0
-    assert said.err == (
-        "Not taken over, because true of that machine alone: Probe Length Compensation, Probe Radius Compensation, "
-        "Characters of the Password\n"
+    assert (
+        said.err
+        == "Not taken over, because true of that machine alone: Probe Length Compensation, Probe Radius"
+        " Compensation, Characters of the Password\n"
     )
     assert amp("validate", tmp_path / "second.amp").code == 0
 

@@ -56,7 +56,9 @@ def drive_record() -> str:
 
 @pytest.fixture(scope="module")
 def prepared(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """Return a folder with a copy of the example machine, another one that differs, a table of values, and a screen's."""
+    """Return a folder with a copy of the example machine, another one that differs, a table of values,
+    and a screen's.
+    """
     folder = tmp_path_factory.mktemp("examples")
     mill, other = (Path(shutil.copy(EXAMPLE, folder / name)) for name in (MILL, "other.amp"))
     assert cli.run(["set", str(other), "1300=2"]) == 0
@@ -79,14 +81,14 @@ def here(prepared: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Pat
     return tmp_path
 
 
-# -- help -------------------------------------------------------------------------------------------------------
+# -- help
 
 
 @pytest.mark.parametrize("arguments", ["--version", "--help", "validate --help", "simulate --help"])
 def test_neither_the_version_nor_help_loads_a_schema(arguments: str) -> None:
     code = (
-        "import sys; from amp_studio import cli; cli.run(sys.argv[1:]);"
-        "print([m for m in ('pydantic', 'ruamel.yaml', 'amp_studio.schema', 'amp_studio.sim') if m in sys.modules])"
+        "import sys; from amp_studio import cli; cli.run(sys.argv[1:]);print([m for m in ('pydantic',"
+        " 'ruamel.yaml', 'amp_studio.schema', 'amp_studio.sim') if m in sys.modules])"
     )
     told = subprocess.run(
         [sys.executable, "-c", code, *arguments.split()], capture_output=True, text=True, check=True
@@ -95,8 +97,16 @@ def test_neither_the_version_nor_help_loads_a_schema(arguments: str) -> None:
 
 
 def test_checking_a_file_loads_nothing_of_printing_saving_and_explaining() -> None:
-    names = ["typst", "jinja2", "email", "amp_studio.report.build", "amp_studio.files.yaml_text", "amp_studio.files.document",
-             "amp_studio.validate.explanation", "amp_studio.validate.rule_file"]  # fmt: skip
+    names = [
+        "typst",
+        "jinja2",
+        "email",
+        "amp_studio.report.build",
+        "amp_studio.files.yaml_text",
+        "amp_studio.files.document",
+        "amp_studio.validate.explanation",
+        "amp_studio.validate.rule_file",
+    ]
     load_schema("9pc")  # compiled by now, as after the first start of a program
     code = (
         f"import atexit, sys; atexit.register(lambda: print([m for m in {names} if m in sys.modules]));"
@@ -211,7 +221,7 @@ def test_the_examples_of_plain_files_work_word_for_word(here: Path) -> None:
     assert (here / "received.txt").read_bytes() == b"N1"
 
 
-# -- wrong names ------------------------------------------------------------------------------------------------
+# -- wrong names
 
 
 @pytest.mark.parametrize(
@@ -225,23 +235,14 @@ def test_the_examples_of_plain_files_work_word_for_word(here: Path) -> None:
             "report a -o b.pdf --sort axes",
             "Unknown sort 'axes'. Known: axis, number, group, steps. Did you mean: axis",
         ),
-        (
-            "new 9PC x.amp",
-            f"Unknown family '9PC'. Known: {KNOWN}. Did you mean: 9pc",
-        ),
+        ("new 9PC x.amp", f"Unknown family '9PC'. Known: {KNOWN}. Did you mean: 9pc"),
         ("new 9pc x.amp --machine mil", "Unknown machine type 'mil'. Known: lathe, mill. Did you mean: mill"),
         (
             "schema 9pc --group=home-parameters",
             "Unknown group 'home-parameters'. Did you mean: Home Parameters",
         ),
-        (
-            "form 9PC -o form.pdf",
-            f"Unknown family '9PC'. Known: {KNOWN}.",
-        ),
-        (
-            "guide nmu",
-            f"Unknown family 'nmu'. Known: {KNOWN}. Did you mean: num",
-        ),
+        ("form 9PC -o form.pdf", f"Unknown family '9PC'. Known: {KNOWN}."),
+        ("guide nmu", f"Unknown family 'nmu'. Known: {KNOWN}. Did you mean: num"),
         ("form nmu.amp -o form.pdf", "nmu.amp: "),
         ("tables 9pc accdec-code", "Unknown table 'accdec-code'. Did you mean: accdec-codes"),
         (
@@ -266,7 +267,7 @@ def test_all_slips_of_a_set_are_told_at_once_and_nothing_is_changed(amp, here: P
     assert "'1300' is not PARAM=VALUE; '=5' is not PARAM=VALUE" in amp("set", MILL, "1300", "=5").err
 
 
-# -- findings and counts ----------------------------------------------------------------------------------------
+# -- findings and counts
 
 
 def test_what_is_said_alike_of_several_axes_is_said_once_and_json_has_each(amp, here: Path) -> None:
@@ -289,7 +290,7 @@ def test_one_is_one_and_two_are_several(amp, here: Path) -> None:
     assert re.search(r": 1 error, 1 warning, ", amp("validate", MILL).out), amp("validate", MILL).out
 
 
-# -- man page ---------------------------------------------------------------------------------------------------
+# -- man page
 
 
 def test_the_man_page_has_every_verb_and_troff_finds_nothing_wrong_in_it() -> None:
@@ -304,7 +305,7 @@ def test_the_man_page_has_every_verb_and_troff_finds_nothing_wrong_in_it() -> No
     assert (done.stderr, "amp-studio validate MILL_1394.amp" in done.stdout) == ("", True)
 
 
-# -- completion -------------------------------------------------------------------------------------------------
+# -- completion
 
 LINES = [
     ("amp-studio vali", ["validate"]),
@@ -325,8 +326,8 @@ LINES = [
 def asked_of_bash(line: str, folder: Path) -> list[str]:
     """Return what bash completes a line with, by the script that the program prints."""
     script = (
-        'source <("$PROGRAM" completion bash); COMP_LINE=$1; COMP_POINT=${#1}; COMP_WORDS=("$PROGRAM" x); COMP_CWORD=1;'
-        "compopt() { :; }; _amp_studio; printf '%s\\n' \"${COMPREPLY[@]}\""
+        'source <("$PROGRAM" completion bash); COMP_LINE=$1; COMP_POINT=${#1}; COMP_WORDS=("$PROGRAM" x);'
+        " COMP_CWORD=1;compopt() { :; }; _amp_studio; printf '%s\\n' \"${COMPREPLY[@]}\""
     )
     return shell(["bash", "--norc", "-c", script, "bash", line], folder).split()
 
@@ -372,8 +373,9 @@ def test_fish_completes(line: str, expected: list[str], here: Path) -> None:
 def test_zsh_completes(line: str, expected: list[str], here: Path) -> None:
     words = shlex.join(line.split())
     script = (
-        "compdef() { :; }; compadd() { shift; [[ $1 == '' || $1 == -- ]] && shift; [[ $1 == -- ]] && shift; print -l -- $@; };"
-        f"source <(amp-studio completion zsh); words=({words}); CURRENT=$#words; _amp_studio"
+        "compdef() { :; }; compadd() { shift; [[ $1 == '' || $1 == -- ]] && shift; [[ $1 == -- ]] &&"
+        f" shift; print -l -- $@; }};source <(amp-studio completion zsh); words=({words}); CURRENT=$#words;"
+        " _amp_studio"
     )
     assert shell(["zsh", "-f", "-c", script], here).split() == expected
 

@@ -70,10 +70,20 @@ def test_json_has_each_figure_its_standard_error_and_the_settings(amp, mill: Pat
     }
     assert found["result"]["gravity_standard_error"]["value"] < 0.001
     assert found["result"]["rows_used"]["value"] > 1000
-    assert found["machine"].keys() == {f"model.{name}" for name in ("acceleration_per_output", "viscous_friction", "coulomb_friction", "gravity")}  # fmt: skip
+    assert found["machine"].keys() == {
+        f"model.{name}"
+        for name in ("acceleration_per_output", "viscous_friction", "coulomb_friction", "gravity")
+    }
 
 
-@pytest.mark.parametrize(("name", "begin"), [("fit.svg", b"<svg"), ("fit.png", b"\x89PNG"), ("fit.csv", b"time_s,velocity [mm/min],torque [%],predicted_torque [%],residual [%]")])  # fmt: skip
+@pytest.mark.parametrize(
+    ("name", "begin"),
+    [
+        ("fit.svg", b"<svg"),
+        ("fit.png", b"\x89PNG"),
+        ("fit.csv", b"time_s,velocity [mm/min],torque [%],predicted_torque [%],residual [%]"),
+    ],
+)
 def test_the_fit_is_a_picture_or_a_table(amp, mill: Path, record: Path, name: str, begin: bytes) -> None:
     assert amp("simulate", mill, "identify", record, "--axis", "X", "-o", mill.with_name(name)).code == 0
     assert mill.with_name(name).read_bytes().startswith(begin)
@@ -84,7 +94,10 @@ def test_the_fit_is_a_picture_or_a_table(amp, mill: Path, record: Path, name: st
     [
         (["identify"], "Name the record: amp-studio simulate "),
         (["identify", "gone.csv"], "No such file"),
-        (["identify", "record.csv", "--set", "model.gravity=1"], "identify takes neither --set nor --machine"),
+        (
+            ["identify", "record.csv", "--set", "model.gravity=1"],
+            "identify takes neither --set nor --machine",
+        ),
         (["identify", "record.csv", "--machine", "record.csv"], "identify takes neither --set nor --machine"),
         (["identify", "record.csv", "--axis", "B"], "the axis moves in deg"),
         (["identify", "record.csv", "-o", "fit.txt"], "unknown format of a trace"),
@@ -96,7 +109,7 @@ def test_the_fit_is_a_picture_or_a_table(amp, mill: Path, record: Path, name: st
         (["step", "--machine", "mill.amp"], "describes no machine"),
         (["step", "--machine", "gone.yaml"], "gone.yaml"),
     ],
-)  # fmt: skip
+)
 def test_what_cannot_be_used_is_told_in_one_line_and_nothing_is_written(
     amp, mill: Path, record: Path, monkeypatch: pytest.MonkeyPatch, arguments: list[str], words: str
 ) -> None:

@@ -1,4 +1,6 @@
-"""``get`` by marks: changed, unlike on the axes, with findings, newer than the last download; together they are all demanded."""
+"""``get`` by marks: changed, unlike on the axes, with findings, newer than the last download;
+together they are all demanded.
+"""
 
 from __future__ import annotations
 
@@ -59,9 +61,18 @@ def record_download(path: Path) -> None:
     image = encode_image(open_file(path).file)
     add_exchange(
         path,
-        exchange_now("download", path, "9pc", "tcp://cnc:9600", before="", after=hashlib.sha256(image).hexdigest(),
-                     state="new", kept="", changes=changes_of(b"", image)),
-    )  # fmt: skip
+        exchange_now(
+            "download",
+            path,
+            "9pc",
+            "tcp://cnc:9600",
+            before="",
+            after=hashlib.sha256(image).hexdigest(),
+            state="new",
+            kept="",
+            changes=changes_of(b"", image),
+        ),
+    )
 
 
 def test_what_is_newer_than_the_last_download_is_listed(amp, mill: Path) -> None:

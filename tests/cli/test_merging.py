@@ -27,8 +27,7 @@ def three(amp, mill: Path) -> tuple[Path, Path, Path]:
 
 
 @pytest.mark.parametrize(
-    ("take", "value"),
-    [(["theirs"], 7.0), (["ours"], 1.0), (["base"], 0.0), (["theirs", "1300=ours"], 1.0)],
+    ("take", "value"), [(["theirs"], 7.0), (["ours"], 1.0), (["base"], 0.0), (["theirs", "1300=ours"], 1.0)]
 )
 def test_a_conflict_is_settled_by_taking_a_side(amp, three, take: list[str], value: float) -> None:
     out = three[0].with_name("merged.amp")
@@ -74,8 +73,16 @@ def test_a_dry_run_lists_the_conflicts_and_writes_nothing(amp, three, folder) ->
 def test_a_merge_as_json_has_conflicts_changes_and_new_findings(amp, three) -> None:
     out = three[0].with_name("merged.amp")
     said = amp("merge", *three, "-o", out, "--json")
-    conflict = {"param": "1300", "id": "home.calibration", "instance": "1",
-                "base": "0 mm", "ours": "1 mm", "theirs": "7 mm", "taken": None, "result": "1 mm"}  # fmt: skip
+    conflict = {
+        "param": "1300",
+        "id": "home.calibration",
+        "instance": "1",
+        "base": "0 mm",
+        "ours": "1 mm",
+        "theirs": "7 mm",
+        "taken": None,
+        "result": "1 mm",
+    }
     assert (said.code, said.json["conflicts"], said.json["output"]) == (1, [conflict], str(out))
     changes = {each["param"]: each["taken"] for each in said.json["changes"]}
     assert changes == {"1320": "theirs", "1350": "theirs"}
@@ -111,7 +118,7 @@ def test_remarks_of_ours_stay_in_the_result(amp, three) -> None:
     assert "# measured by J. Doe" in out.read_text()
 
 
-# -- git ---------------------------------------------------------------------------------------------------------------
+# -- git
 
 
 @pytest.fixture
@@ -186,7 +193,7 @@ def test_a_file_that_both_branches_added_is_merged_without_a_base(amp, git, mill
     assert "1300" not in said.stdout
 
 
-# -- diff --------------------------------------------------------------------------------------------------------------
+# -- diff
 
 
 def test_a_file_is_compared_with_its_defaults_and_with_its_backup(amp, mill: Path) -> None:
@@ -263,5 +270,7 @@ def test_many_machines_are_compared_by_groups_that_agree(amp, mill: Path, tmp_pa
     ]
     groups = amp("compare", *paths, "--json").json["groups"]
     assert [[Path(name).stem for name in group] for group in groups] == [
-        ["line1", "line2", "line6", "line7", "line8", "line9"], ["line4", "line5"], ["line3"],
-    ]  # fmt: skip
+        ["line1", "line2", "line6", "line7", "line8", "line9"],
+        ["line4", "line5"],
+        ["line3"],
+    ]

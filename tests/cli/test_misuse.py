@@ -1,4 +1,6 @@
-"""A command line that cannot be used is answered in plain words, with the nearest name, and changes nothing."""
+"""A command line that cannot be used is answered in plain words, with the nearest name, and changes
+nothing.
+"""
 
 from __future__ import annotations
 
@@ -12,7 +14,13 @@ import pytest
     [
         ("show 9pc 1300 1301", "Unexpected argument: 1301 (see 'amp-studio show --help')"),
         ("show 9pc 1300 1301 1302", "Unexpected arguments: 1301 1302 (see 'amp-studio show --help')"),
-        ("validate mill.amp -x", "Unknown option '-x'. Known: -h, --help, --jobs, --rules, --motion, --why, --no-cache, --format, --json, --family, --machine"),
+        (
+            "validate mill.amp -x",
+            (
+                "Unknown option '-x'. Known: -h, --help, --jobs, --rules, --motion, --why, --no-cache,"
+                " --format, --json, --family, --machine"
+            ),
+        ),
         ("validate mill.amp --jsn", "Did you mean: --json, --jobs (see"),
         ("validate", "Missing: PATH (see 'amp-studio validate --help')"),
         ("set mill.amp", "Missing: PARAM=VALUE (see 'amp-studio set --help')"),
@@ -21,12 +29,15 @@ import pytest
         ("validate mill.amp --rules", "--rules needs a value (see"),
         ("validate mill.amp --jobs two", "--jobs: two is no number from 1 to 100000 (see"),
         ("validate mill.amp --jobs ²", "--jobs: ² is no number from 1 to 100000 (see"),
-        ("report mill.amp -o mill.txt --sort axs", "Unknown sort 'axs'. Known: axis, number, group, steps. Did you mean: axis"),
+        (
+            "report mill.amp -o mill.txt --sort axs",
+            "Unknown sort 'axs'. Known: axis, number, group, steps. Did you mean: axis",
+        ),
         ("nwe 9pc", "Unknown verb 'nwe'. Did you mean: new (see 'amp-studio --help')"),
         ("import notes.txt -o new.amp", "notes.txt: Unrecognised file format. Known: csv, patch, num, "),
         ("import notes.txt -o new.amp --format nun", "Did you mean: num"),
     ],
-)  # fmt: skip
+)
 def test_a_command_line_that_cannot_be_used(
     amp, mill: Path, monkeypatch: pytest.MonkeyPatch, line: str, message: str
 ) -> None:

@@ -1,4 +1,6 @@
-"""A control with TLS and a password is reached from the command line, and nothing of the password is shown anywhere."""
+"""A control with TLS and a password is reached from the command line,
+and nothing of the password is shown anywhere.
+"""
 
 from __future__ import annotations
 
@@ -21,9 +23,23 @@ PASSWORD = "correct horse"
 def control(tmp_path: Path) -> Iterator[str]:
     """Start an emulated control with TLS and a password; give its address."""
     (tmp_path / "password").write_text(f"{PASSWORD}\n", encoding="utf-8")
-    command = [sys.executable, "-m", "amp_studio.cli", "emulate", "57c422b", "--listen", "tls://127.0.0.1:0",
-               "--certificate", str(CERTIFICATES / "control.pem"), "--key", str(CERTIFICATES / "control.key"),
-               "--password-file", str(tmp_path / "password"), "--state", str(tmp_path / "state")]  # fmt: skip
+    command = [
+        sys.executable,
+        "-m",
+        "amp_studio.cli",
+        "emulate",
+        "57c422b",
+        "--listen",
+        "tls://127.0.0.1:0",
+        "--certificate",
+        str(CERTIFICATES / "control.pem"),
+        "--key",
+        str(CERTIFICATES / "control.key"),
+        "--password-file",
+        str(tmp_path / "password"),
+        "--state",
+        str(tmp_path / "state"),
+    ]
     with subprocess.Popen(command, stdout=subprocess.PIPE, text=True) as process:
         assert process.stdout is not None
         yield process.stdout.readline().removeprefix("listening on ").strip()

@@ -57,7 +57,7 @@ def test_a_new_file_that_cannot_be_is_not_made(
     assert list(tmp_path.iterdir()) == []
 
 
-# -- get ------------------------------------------------------------------------------------------------------
+# -- get
 
 
 def test_a_value_is_given_as_promised(amp, mill: Path) -> None:
@@ -129,7 +129,7 @@ def test_a_person_sees_what_was_changed_and_what_is_inactive(amp, mill: Path) ->
     assert re.fullmatch(r"1009 Programmable Zone Group Axis +not set", lines[3])
 
 
-# -- set --------------------------------------------------------------------------------------------------------
+# -- set
 
 
 def test_a_value_is_set_and_the_previous_file_becomes_the_backup(amp, mill: Path) -> None:
@@ -233,7 +233,10 @@ def test_who_sets_what_is_inactive_is_told(amp, mill: Path) -> None:
     said = amp("set", mill, "1320=5")
     assert (said.code, said.err) == (
         0,
-        "1320 Positive Software Overtravel is inactive (ignored): software overtravel is not used on this axis\n",
+        (
+            "1320 Positive Software Overtravel is inactive (ignored): software overtravel is not used on this"
+            " axis\n"
+        ),
     )
 
 

@@ -10,7 +10,7 @@ from amp_studio.schema import load as loading
 from amp_studio.schema import load_schema
 from amp_studio.schema.load import load_compiled
 
-# -- words of bits ------------------------------------------------------------------------------------------------
+# -- words of bits
 
 FAMILY = """
 family: words

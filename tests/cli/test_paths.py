@@ -1,4 +1,6 @@
-"""Paths that are no files, outputs that are inputs, folders that cannot be read: one sentence, exit 2, nothing changed."""
+"""Paths that are no files, outputs that are inputs, folders that cannot be read: one sentence, exit 2,
+nothing changed.
+"""
 
 from __future__ import annotations
 
@@ -39,11 +41,19 @@ def odd(request: pytest.FixtureRequest, tmp_path: Path) -> Path:
 @pytest.mark.parametrize(
     "verb",
     [
-        "get IT", "set IT 1300=1", "validate IT", "validate MILL --rules IT", "diff MILL IT", "merge MILL IT MILL -o NEW",
-        "report IT -o NEW.csv", "import IT -o NEW", "import IT -o NEW --family 9pc --format csv", "export IT -o NEW.csv",
+        "get IT",
+        "set IT 1300=1",
+        "validate IT",
+        "validate MILL --rules IT",
+        "diff MILL IT",
+        "merge MILL IT MILL -o NEW",
+        "report IT -o NEW.csv",
+        "import IT -o NEW",
+        "import IT -o NEW --family 9pc --format csv",
+        "export IT -o NEW.csv",
         "simulate IT step -o NEW.csv",
     ],
-)  # fmt: skip
+)
 def test_a_path_that_is_no_file_is_no_input(amp, mill: Path, odd: Path, folder, verb: str) -> None:
     before = folder()
     words = {"IT": odd, "MILL": mill, "NEW": mill.with_name("new.amp"), "NEW.csv": mill.with_name("new.csv")}
@@ -55,9 +65,16 @@ def test_a_path_that_is_no_file_is_no_input(amp, mill: Path, odd: Path, folder, 
 
 @pytest.mark.parametrize(
     "verb",
-    ["report MILL -o IT", "export MILL -o IT", "simulate MILL step -o IT", "merge MILL MILL MILL -o IT",
-     "import MILL -o IT", "new 9pc IT", "upload --from tcp://127.0.0.1:1 -o IT"],
-)  # fmt: skip
+    [
+        "report MILL -o IT",
+        "export MILL -o IT",
+        "simulate MILL step -o IT",
+        "merge MILL MILL MILL -o IT",
+        "import MILL -o IT",
+        "new 9pc IT",
+        "upload --from tcp://127.0.0.1:1 -o IT",
+    ],
+)
 def test_a_path_that_is_no_file_is_no_output(amp, mill: Path, odd: Path, folder, verb: str) -> None:
     before, kind = folder(), odd.lstat().st_mode
     said = amp(*[{"IT": odd, "MILL": mill}.get(word, word) for word in verb.split()])
@@ -137,7 +154,7 @@ def test_a_report_that_does_not_fit_on_the_disk_leaves_the_old_one(
     assert said.err == f"amp-studio: {report} cannot be written: No space left on device\n"
 
 
-# -- folders --------------------------------------------------------------------------------------------------------
+# -- folders
 
 
 def test_what_is_no_file_in_a_folder_is_told_and_the_rest_is_checked(amp, mill: Path, tmp_path: Path) -> None:
@@ -182,7 +199,7 @@ def _validated(folder: Path) -> tuple[int, list[str], str]:
     return code, [Path(line.split(": ")[1]).name for line in told], out.getvalue()
 
 
-# -- names --------------------------------------------------------------------------------------------------------------
+# -- names
 
 
 def test_a_name_that_is_no_text_is_worked_with_and_shown(tmp_path: Path) -> None:
@@ -227,8 +244,19 @@ def test_an_empty_path_is_not_the_folder_one_stands_in(amp, verb: str) -> None:
     assert "the path is empty" in amp(verb, "", *more).err
 
 
-@pytest.mark.parametrize("name", [".other.amp.lock", ".other.amp.holder", ".other.amp.unsaved", "other.amp.bak", "other.amp.history",
-                                  "project.yaml", "rules.yaml", "RULES.YAML"])  # fmt: skip
+@pytest.mark.parametrize(
+    "name",
+    [
+        ".other.amp.lock",
+        ".other.amp.holder",
+        ".other.amp.unsaved",
+        "other.amp.bak",
+        "other.amp.history",
+        "project.yaml",
+        "rules.yaml",
+        "RULES.YAML",
+    ],
+)
 def test_nothing_is_written_under_a_name_that_the_program_keeps_for_itself(
     amp, mill: Path, name: str
 ) -> None:

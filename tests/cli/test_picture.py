@@ -23,8 +23,14 @@ def test_the_pictures_of_a_file_are_listed_with_their_parts(amp, machine: Path) 
     assert "travel       Travel: X Y, X Z, Y Z" in said.out.splitlines()
     listed = amp("picture", machine, "--json").json["pictures"]
     assert [each["picture"] for each in listed] == [
-        "travel", "ramps", "gears", "jog", "increments", "error", "calibration",
-    ]  # fmt: skip
+        "travel",
+        "ramps",
+        "gears",
+        "jog",
+        "increments",
+        "error",
+        "calibration",
+    ]
 
 
 def test_a_picture_is_written_as_svg_and_the_file_left_alone(amp, machine: Path) -> None:

@@ -123,11 +123,17 @@ def few(tmp_path: Path) -> Path:
 @pytest.mark.parametrize(
     "verb",
     [
-        ("validate", "FEW"), ("get", "FEW", "$110"), ("report", "FEW", "-o", "report.txt"), ("export", "FEW", "-o", "table.csv"),
-        ("diff", "FEW", "FEW"), ("compare", "FEW", "FEW"), ("merge", "FEW", "FEW", "FEW", "-o", "merged.amp"),
-        ("verify", "FEW", "--with", "tcp://127.0.0.1:1"), ("download", "FEW", "--to", "tcp://127.0.0.1:1"),
+        ("validate", "FEW"),
+        ("get", "FEW", "$110"),
+        ("report", "FEW", "-o", "report.txt"),
+        ("export", "FEW", "-o", "table.csv"),
+        ("diff", "FEW", "FEW"),
+        ("compare", "FEW", "FEW"),
+        ("merge", "FEW", "FEW", "FEW", "-o", "merged.amp"),
+        ("verify", "FEW", "--with", "tcp://127.0.0.1:1"),
+        ("download", "FEW", "--to", "tcp://127.0.0.1:1"),
     ],
-)  # fmt: skip
+)
 def test_every_verb_takes_the_machine_type_of_a_text(
     few: Path, verb: tuple[str, ...], monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:

@@ -29,8 +29,8 @@ VERBS = {
 
 HEAD = b"amp_studio: 1\nfamily: 9pc\n"
 GOOD = (
-    HEAD
-    + b"values:\n  control.type: Mill\n  axis.type@1: linear\n  axis.name@1: X\n  home.calibration@1: 0 mm\n...\n"
+    HEAD + b"values:\n  control.type: Mill\n  axis.type@1: linear\n  axis.name@1: X\n  home.calibration@1: 0"
+    b" mm\n...\n"
 )
 BAD = {
     "empty": b"",
@@ -76,10 +76,7 @@ def test_the_good_file_of_these_stories_is_good(amp, tmp_path: Path) -> None:
         ("newer", "bad.amp, line 1: was written by a newer AMP Studio (file format 9, known: 1)"),
         ("no end mark", "ends without its end mark '...': it has been cut off"),
         ("no number", "bad.amp, line 4: home.calibration@1: 'five mm' is not a number"),
-        (
-            "another family",
-            f"bad.amp, line 2: Unknown family 'fanuc'. Known: {KNOWN}",
-        ),
+        ("another family", f"bad.amp, line 2: Unknown family 'fanuc'. Known: {KNOWN}"),
         ("not text", "bad.amp, line 3: is not UTF-8 text"),
     ],
 )

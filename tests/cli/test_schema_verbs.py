@@ -157,7 +157,10 @@ def test_the_steps_of_the_guides_stand_on_the_page_of_what_they_set(amp) -> None
 
 def test_the_step_of_commissioning_is_on_the_page_and_the_one_that_looks_again(amp) -> None:
     said = amp("show", "9pc", "servo.velocity_integral_gain").out
-    steps = "\nCommissioning\n  Step 7 of 23: Velocity loop (page 7-46)\n  Step 22 of 23: Tuning at the machine (page 36-1)\n"
+    steps = (
+        "\nCommissioning\n  Step 7 of 23: Velocity loop (page 7-46)\n  Step 22 of 23: Tuning at the machine"
+        " (page 36-1)\n"
+    )
     assert steps in said
 
 
@@ -221,7 +224,7 @@ def test_what_does_not_exist_is_refused(amp, arguments, said: str) -> None:
     assert (refused.code, said in refused.err) == (2, True), refused.err
 
 
-# -- tables ----------------------------------------------------------------------------------------------------
+# -- tables
 
 
 def test_tables_are_listed_and_one_is_printed_with_its_parameters(amp) -> None:
@@ -242,21 +245,26 @@ def test_tables_as_json_are_all_there(amp) -> None:
 
 
 def test_a_table_that_there_is_not_is_refused(amp) -> None:
-    assert amp("tables", "syntec", "mot-999").err == (
-        "amp-studio: Unknown table 'mot-999'. Did you mean: mot-029, mot-019; without a name all are listed\n"
+    assert (
+        amp("tables", "syntec", "mot-999").err
+        == "amp-studio: Unknown table 'mot-999'. Did you mean: mot-029, mot-019; without a name all are"
+        " listed\n"
     )
 
 
-# -- one number, one answer ------------------------------------------------------------------------------------------
+# -- one number, one answer
 
 
 def test_a_number_that_belongs_to_another_parameter_is_listed_under_that_one(amp, definitions, mill) -> None:
-    """1020 is Software Overtravel Used (pages 6-10 and 37-3), though page 7-46 prints it for the velocity port."""
+    """1020 is Software Overtravel Used (pages 6-10 and 37-3),
+    though page 7-46 prints it for the velocity port.
+    """
     owners = {n: i for i, d in definitions.items() for n in d["numbers"].values()}
     said = amp("get", mill, "1020", "--json")
     assert said.json["values"][0]["id"] == owners["1020"] == "zone.overtravel_used"
-    assert said.err == (
-        "1020 is printed for two parameters: taken is Software Overtravel Used (zone.overtravel_used@1); "
+    assert (
+        said.err
+        == "1020 is printed for two parameters: taken is Software Overtravel Used (zone.overtravel_used@1); "
         "the other is Velocity Loop Feedback Port (servo.velocity_port@1)\n"
     )
     port = definitions["servo.velocity_port"]
@@ -305,7 +313,7 @@ def test_values_of_one_parameter_are_named_once_by_their_numbers(amp, tmp_path) 
     )
 
 
-# -- what a definition has -------------------------------------------------------------------------------------------
+# -- what a definition has
 
 
 def test_defaults_of_instances_are_whole_where_the_parameter_is(amp, definitions) -> None:
@@ -331,21 +339,31 @@ def test_every_instance_is_listed_and_every_default_of_one(amp, family: str) -> 
             assert not any(isinstance(v, float) for v in found["default"].values())
 
 
-@pytest.mark.parametrize(("param", "span", "instances"), [
-    ("fov.position", "@1…@16", "fov.position@1 to fov.position@16 (Pos 1 to Pos 16)"),
-    ("sov.position", "@1…@16", "sov.position@1 to sov.position@16 (Pos 1 to Pos 16)"),
-    ("rov.position", "@1…@16", "rov.position@1 to rov.position@16 (Pos 1 to Pos 16)"),
-])  # fmt: skip
+@pytest.mark.parametrize(
+    ("param", "span", "instances"),
+    [
+        ("fov.position", "@1…@16", "fov.position@1 to fov.position@16 (Pos 1 to Pos 16)"),
+        ("sov.position", "@1…@16", "sov.position@1 to sov.position@16 (Pos 1 to Pos 16)"),
+        ("rov.position", "@1…@16", "rov.position@1 to rov.position@16 (Pos 1 to Pos 16)"),
+    ],
+)
 def test_instances_without_a_number_are_seen(amp, param: str, span: str, instances: str) -> None:
     assert f"Instances      {instances}\n" in amp("show", "acromill", param).out
     (line,) = [n for n in amp("schema", "acromill").out.splitlines() if f" {param} " in n]
     assert line.startswith(span)
 
 
-@pytest.mark.parametrize(("param", "unit"), [
-    ("Pr461", "mm/min or deg/min"), ("Pr821", "mm/min or deg/min"), ("841", "mm/min or deg/min"),
-    ("Pr521", "mm/min or deg/min"), ("Pr661", "mm/min"), ("Pr410", "ms"),
-])  # fmt: skip
+@pytest.mark.parametrize(
+    ("param", "unit"),
+    [
+        ("Pr461", "mm/min or deg/min"),
+        ("Pr821", "mm/min or deg/min"),
+        ("841", "mm/min or deg/min"),
+        ("Pr521", "mm/min or deg/min"),
+        ("Pr661", "mm/min"),
+        ("Pr410", "ms"),
+    ],
+)
 def test_a_speed_of_syntec_says_its_unit_where_a_person_looks(amp, tmp_path, param: str, unit: str) -> None:
     """Page 4.1 prints mm/min; an axis that turns has degrees."""
     assert f"Range          no bounds printed, in {unit}\n" in amp("show", "syntec", param).out
@@ -363,12 +381,19 @@ def test_a_speed_of_syntec_says_its_unit_where_a_person_looks(amp, tmp_path, par
 
 
 def test_a_wrong_name_is_answered_with_the_nearest_by_every_verb(amp, mill) -> None:
-    for arguments in (("get", mill, "home.calibrtion@1"), ("set", mill, "home.calibrtion@1=2"),
-                      ("show", "9pc", "home.calibrtion@1"),
-                      ("simulate", mill, "step", "--set", "home.calibrtion@1=2")):  # fmt: skip
+    for arguments in (
+        ("get", mill, "home.calibrtion@1"),
+        ("set", mill, "home.calibrtion@1=2"),
+        ("show", "9pc", "home.calibrtion@1"),
+        ("simulate", mill, "step", "--set", "home.calibrtion@1=2"),
+    ):
         refused = amp(*arguments)
-        assert (refused.code, refused.err.startswith("amp-studio: Unknown parameter 'home.calibrtion@1'. "
-                                                     "Did you mean: home.calibration@1")) == (2, True)  # fmt: skip
+        assert (
+            refused.code,
+            refused.err.startswith(
+                "amp-studio: Unknown parameter 'home.calibrtion@1'. Did you mean: home.calibration@1"
+            ),
+        ) == (2, True)
 
 
 def test_a_number_of_several_words_shows_them_all(amp, tmp_path) -> None:

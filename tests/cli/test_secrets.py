@@ -62,24 +62,51 @@ def test_the_nine_pc_has_a_password_and_its_signature_is_what_it_was() -> None:
     assert load_schema("9pc").signature.startswith("ce5702f60c5ac7f7"), "files in the field carry it"
 
 
-@pytest.mark.parametrize("arguments", [
-    ("get", "FILE"), ("get", "FILE", "--all"), ("get", "FILE", "--json"), ("get", "FILE", "--all", "--json"),
-    ("get", "FILE", "NUMBER"), ("get", "FILE", "NUMBER", "--json"),
-    ("validate", "FILE"), ("validate", "FILE", "--why"), ("validate", "FILE", "--json"),
-    ("validate", "FILE", "--json", "--why"), ("validate", "FOLDER", "--json"),
-    ("diff", "FILE", "OTHER"), ("diff", "OTHER", "FILE", "--json"), ("diff", "FILE", "UNSET"),
-    ("diff", "UNSET", "FILE", "--json"), ("diff", "FILE", "UNREADABLE"), ("get", "UNREADABLE"),
-    ("set", "UNREADABLE", "NUMBER=66"), ("merge", "UNSET", "FILE", "OTHER", "-o", "NEW"),
-    ("merge", "UNSET", "FILE", "OTHER", "--dry-run", "--json"), ("diff", "FILE", "OTHER", "--base", "UNSET", "--json"),
-    ("diff", "FILE", "OTHER", "--base", "UNSET"), ("diff", "FILE", "--defaults"),
-    ("set", "FILE", "NUMBER=66"), ("set", "FILE", "NUMBER=not-set"), ("set", "FILE", "NUMBER=1"),
-    ("set", "FILE", "NUMBER=7654321x"), ("set", "OTHER", "NUMBER=7654321", "--force"),
-], ids=" ".join)  # fmt: skip
+@pytest.mark.parametrize(
+    "arguments",
+    [
+        ("get", "FILE"),
+        ("get", "FILE", "--all"),
+        ("get", "FILE", "--json"),
+        ("get", "FILE", "--all", "--json"),
+        ("get", "FILE", "NUMBER"),
+        ("get", "FILE", "NUMBER", "--json"),
+        ("validate", "FILE"),
+        ("validate", "FILE", "--why"),
+        ("validate", "FILE", "--json"),
+        ("validate", "FILE", "--json", "--why"),
+        ("validate", "FOLDER", "--json"),
+        ("diff", "FILE", "OTHER"),
+        ("diff", "OTHER", "FILE", "--json"),
+        ("diff", "FILE", "UNSET"),
+        ("diff", "UNSET", "FILE", "--json"),
+        ("diff", "FILE", "UNREADABLE"),
+        ("get", "UNREADABLE"),
+        ("set", "UNREADABLE", "NUMBER=66"),
+        ("merge", "UNSET", "FILE", "OTHER", "-o", "NEW"),
+        ("merge", "UNSET", "FILE", "OTHER", "--dry-run", "--json"),
+        ("diff", "FILE", "OTHER", "--base", "UNSET", "--json"),
+        ("diff", "FILE", "OTHER", "--base", "UNSET"),
+        ("diff", "FILE", "--defaults"),
+        ("set", "FILE", "NUMBER=66"),
+        ("set", "FILE", "NUMBER=not-set"),
+        ("set", "FILE", "NUMBER=1"),
+        ("set", "FILE", "NUMBER=7654321x"),
+        ("set", "OTHER", "NUMBER=7654321", "--force"),
+    ],
+    ids=" ".join,
+)
 def test_no_verb_says_a_secret(machine: Path, amp, tmp_path: Path, arguments: tuple[str, ...]) -> None:
     file = open_file(machine).file
     first = secret_values(file)[0]
-    named = {"FILE": machine, "FOLDER": tmp_path, "NEW": tmp_path / "new.amp", "OTHER": tmp_path / "other.amp",
-             "UNSET": tmp_path / "unset.amp", "UNREADABLE": tmp_path / "unreadable.amp"}  # fmt: skip
+    named = {
+        "FILE": machine,
+        "FOLDER": tmp_path,
+        "NEW": tmp_path / "new.amp",
+        "OTHER": tmp_path / "other.amp",
+        "UNSET": tmp_path / "unset.amp",
+        "UNREADABLE": tmp_path / "unreadable.amp",
+    }
     for name in ("OTHER", "UNREADABLE"):
         shutil.copy(machine, named[name])
     with_password(named["OTHER"], OTHER)
@@ -196,8 +223,17 @@ def test_the_printed_password_is_warned_of_and_not_written(amp, tmp_path: Path) 
 @pytest.fixture
 def control(tmp_path: Path) -> Iterator[str]:
     """Return the address of an emulated control in a separate process."""
-    command = [sys.executable, "-m", "amp_studio.cli", "emulate", "9pc", "--listen", "tcp://127.0.0.1:0",
-               "--state", str(tmp_path / "control")]  # fmt: skip
+    command = [
+        sys.executable,
+        "-m",
+        "amp_studio.cli",
+        "emulate",
+        "9pc",
+        "--listen",
+        "tcp://127.0.0.1:0",
+        "--state",
+        str(tmp_path / "control"),
+    ]
     with subprocess.Popen(command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True) as process:
         assert process.stdout is not None
         yield process.stdout.readline().removeprefix("listening on ").strip()

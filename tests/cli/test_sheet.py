@@ -43,8 +43,9 @@ def test_a_kept_copy_is_a_side_as_good_as_a_file(amp, sides, tmp_path: Path) -> 
     of_copy, of_file = (amp("sheet", sides[0], "--against", side, "--json").json for side in (copy, sides[1]))
     assert of_copy["entries"] == of_file["entries"]
     assert [(e["param"], e["old"], e["new"], e["unit"]) for e in of_copy["entries"]] == [
-        ("1750", "11", "40", "mm"), ("1740", "11", "39", "mm"),
-    ]  # fmt: skip
+        ("1750", "11", "40", "mm"),
+        ("1740", "11", "39", "mm"),
+    ]
 
 
 @pytest.mark.parametrize("ending", [".pdf", ".html", ".txt", ".csv"])
@@ -73,7 +74,10 @@ def test_what_the_screen_shows_is_compared_and_each_difference_is_named(amp, sid
     said = amp("sheet", sides[0], "--against", sides[1], "--check", screen)
     assert said.code == 1
     assert said.out.splitlines() == [
-        "1740 Feedrate Suppression Point Axis 1: still the old value: the screen shows 11.00000, it should be 39 mm",
+        (
+            "1740 Feedrate Suppression Point Axis 1: still the old value: the screen shows 11.00000, it"
+            " should be 39 mm"
+        ),
         "1 as keyed in, 1 still the old value",
     ]
     screen.write_text("1750 40.00000\n1740 39\n")

@@ -49,9 +49,9 @@ def test_no_sign_of_a_file_steers_the_terminal(tmp_path: Path) -> None:
     path = tmp_path / "mill.amp"
     path.write_text(
         f'{HEAD}name: {escaped}\nvalues:\n  "axis.type@1": linear\n  "no.such{escaped[1:-1]}@1": {escaped}\n'
-        f'  axis.name@1: {escaped}\n...\n',
+        f"  axis.name@1: {escaped}\n...\n",
         encoding="utf-8",
-    )  # fmt: skip
+    )
     other = tmp_path / "other.amp"
     other.write_text(f"{HEAD}family: {escaped}\n...\n", encoding="utf-8")
     named = tmp_path / f"x{sign}.amp"

@@ -1,4 +1,6 @@
-"""Real programs and real signals: whatever is stopped and when, the exit code and the sentence are the truth."""
+"""Real programs and real signals: whatever is stopped and when, the exit code and the sentence are the
+truth.
+"""
 
 from __future__ import annotations
 

@@ -15,8 +15,25 @@ from amp_studio.cli.verb import Verb
 
 ROOT = Path(__file__).parents[2]
 PROGRAMS = ("amp-studio", ".venv/bin/amp-studio")
-SHELL = ("cp", "make", "pipx", "uv", "git", "py", "python", "python3", "pip", "echo", "keyring", ".", "source", "mkdir", "cd", "export",
-         r".venv\Scripts\python")  # fmt: skip
+SHELL = (
+    "cp",
+    "make",
+    "pipx",
+    "uv",
+    "git",
+    "py",
+    "python",
+    "python3",
+    "pip",
+    "echo",
+    "keyring",
+    ".",
+    "source",
+    "mkdir",
+    "cd",
+    "export",
+    r".venv\Scripts\python",
+)
 """First words of the other commands that documents have."""
 PLACEHOLDER = re.compile(r"\b(VERB|FILE|PATH|OTHER|COPY|ADDRESS|NAME|FOLDER|TARGET|SHA256)\b|…")
 """Marks a form that a person fills in; it is no command that could be run."""

@@ -23,7 +23,9 @@ OF_A_PLANT = "192.168.0.5"
 
 
 class Stage:
-    """The present folder, and what is put in the place of an address or a device that is not here: a free port, a pseudo terminal."""
+    """The present folder, and what is put in the place of an address or a device that is not here:
+    a free port, a pseudo terminal.
+    """
 
     def __init__(self, folder: Path) -> None:
         self.folder = folder
@@ -66,7 +68,9 @@ class Stage:
         return subprocess.run([shutil.which("bash") or "sh", "-c", line], env=env, check=False).returncode
 
     def _listen(self, words: list[str]) -> None:
-        """Start the control of a document at its address; where the port is taken, at a free one, which the next commands get."""
+        """Start the control of a document at its address; where the port is taken, at a free one,
+        which the next commands get.
+        """
         place = urlsplit(words[words.index("--listen") + 1])
         control, at = self.control(words)
         if not at:  # somebody else listens there

@@ -1,6 +1,8 @@
-"""Every command of README, CONTRIBUTING, the pages of docs and the examples is run here word for word, one after the other.
+"""Every command of README, CONTRIBUTING, the pages of docs and the examples is run here word for word,
+one after the other.
 
-Only an address or a device that is not here is replaced: a port that somebody has, a serial line, a host of a plant.
+Only an address or a device that is not here is replaced: a port that somebody has, a serial line,
+a host of a plant.
 """
 
 from __future__ import annotations
@@ -42,23 +44,44 @@ CANNOT_RUN = {
     r".venv\Scripts\python -m pytest -n 2 --dist worksteal": "Windows",
     ". .venv/bin/activate": "the tests have their own environment; make run has made this one",
     "keyring set amp-studio tls://192.168.0.5:9643": "asks for a password, for the keyring of the person",
-    "git mergetool --tool=amp": "a window in which a person settles a conflict; tests/ui/test_merge_program.py",
-    "amp-studio send A.txt B.txt --to rfc2217://192.168.0.9:2217 --protocol ymodem": "a device server; tests/transfer/links/test_rfc2217.py",
+    "git mergetool --tool=amp": (
+        "a window in which a person settles a conflict; tests/ui/test_merge_program.py"
+    ),
+    "amp-studio send A.txt B.txt --to rfc2217://192.168.0.9:2217 --protocol ymodem": (
+        "a device server; tests/transfer/links/test_rfc2217.py"
+    ),
 }
 """Command that is not run, and why."""
 
 COPIES = {
     "docs/commissioning.md": {"mill.amp": MILL},
-    "docs/reports.md": {"mill.amp": MILL, "a.amp": MILL, "b.amp": MILL, "c.amp": MILL, "old.amp": MILL, "other.amp": MILL},
-    "docs/merging.md": {"mill.amp": MILL, "other.amp": MILL, "base.amp": MILL, "ours.amp": MILL, "theirs.amp": MILL},
+    "docs/reports.md": {
+        "mill.amp": MILL,
+        "a.amp": MILL,
+        "b.amp": MILL,
+        "c.amp": MILL,
+        "old.amp": MILL,
+        "other.amp": MILL,
+    },
+    "docs/merging.md": {
+        "mill.amp": MILL,
+        "other.amp": MILL,
+        "base.amp": MILL,
+        "ours.amp": MILL,
+        "theirs.amp": MILL,
+    },
     "docs/protocols/acr-terminal.md": {"router.amp": EXAMPLES / "acromill-router/ROUTER.amp"},
     "docs/protocols/num-table.md": {"mill.amp": EXAMPLES / "num-1060-mill/MILL_1060.amp"},
     "docs/protocols/plain-files.md": {"PROGRAM.txt": MILL},
     "docs/protocols/password.md": {
         name: ROOT / "tests/transfer/links/certificates" / source
-        for name, source in {"control.pem": "control.pem", "control.key": "control.key", "plant.pem": "authority.pem"}.items()
+        for name, source in {
+            "control.pem": "control.pem",
+            "control.key": "control.key",
+            "plant.pem": "authority.pem",
+        }.items()
     },
-}  # fmt: skip
+}
 """Document -> the files that are there before its first command."""
 
 CONTROLS = {
@@ -87,19 +110,41 @@ FINDS = {
 """(document, command) that shows errors or conflicts and so may end with 1."""
 
 SEEN = {
-    "docs/howto/first-download.md": ("0 errors", "Download complete and read back equal", "0 differ", "download .* verify "),
+    "docs/howto/first-download.md": (
+        "0 errors",
+        "Download complete and read back equal",
+        "0 differ",
+        "download .* verify ",
+    ),
     "docs/howto/num-table.md": ("0 differ", "0 errors"),
     "docs/howto/grblhal-board.md": ("301.5", "1 differ"),
     "docs/howto/compare-machines.md": ("1 differ",),
     "docs/howto/repository.md": ("line2.amp: 0 errors", "line2.amp: 0 errors"),
     "docs/howto/own-rules.md": ("0 errors, 3 warnings", "0 errors, 0 warnings, 4 rec"),
-    "docs/howto/tune-an-axis.md": ("steady following error +9.99", "bandwidth", "steady following error +9.09", "0 errors"),
-    "docs/howto/identify-friction.md": (r"viscous friction +0\.(399|400)\d* ±", r"Coulomb friction +3\.\d* ±", r"gravity +2\.\d* ±"),
-    "docs/howto/add-family.md": ("ld2 +LD2 step drive +3 parameters", "Travel per Turn", "slide.amp: 0 errors, 0 warnings"),
+    "docs/howto/tune-an-axis.md": (
+        "steady following error +9.99",
+        "bandwidth",
+        "steady following error +9.09",
+        "0 errors",
+    ),
+    "docs/howto/identify-friction.md": (
+        r"viscous friction +0\.(399|400)\d* ±",
+        r"Coulomb friction +3\.\d* ±",
+        r"gravity +2\.\d* ±",
+    ),
+    "docs/howto/add-family.md": (
+        "ld2 +LD2 step drive +3 parameters",
+        "Travel per Turn",
+        "slide.amp: 0 errors, 0 warnings",
+    ),
     "docs/howto/add-parameter.md": ("Highest Speed", "20 mm/s", "table.amp: 0 errors, 0 warnings", "P4"),
-    "docs/howto/add-rule.md": ("the motor gets 64000 steps a second", "-> 8437 mm/min", "fast.amp: 0 errors, 0 warnings, 0 rec"),
+    "docs/howto/add-rule.md": (
+        "the motor gets 64000 steps a second",
+        "-> 8437 mm/min",
+        "fast.amp: 0 errors, 0 warnings, 0 rec",
+    ),
     "docs/howto/write-template.md": ("mill.pdf", "mill.html"),
-}  # fmt: skip
+}
 """Document -> what its commands print, one after the other, as it promises."""
 
 
@@ -214,12 +259,7 @@ def send(name: str) -> Callable[[ByteLine], None]:
     return lambda line: send_batch(BlockSender(line, long_blocks=True), [PlainFile(name, b"N1")])
 
 
-OTHER_ENDS = (
-    receive,
-    send_one,
-    send("came.txt"),
-    read_tape,
-)
+OTHER_ENDS = (receive, send_one, send("came.txt"), read_tape)
 """What is at the other end of each line of the page, in its order."""
 
 

@@ -1,4 +1,6 @@
-"""The pictures of README and the pages: each is there, small, drawn by ``make screenshots``, and shown somewhere."""
+"""The pictures of README and the pages: each is there, small, drawn by ``make screenshots``,
+and shown somewhere.
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,6 @@
-"""In which states a write lasts: what each driver has is what the page of the protocols states, and where nothing is known it is so there."""
+"""In which states a write lasts: what each driver has is what the page of the protocols states,
+and where nothing is known it is so there.
+"""
 
 from __future__ import annotations
 

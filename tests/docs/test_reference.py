@@ -1,4 +1,6 @@
-"""The generated reference: everything is on it once, its links lead somewhere, and the check of links sees what is broken."""
+"""The generated reference: everything is on it once, its links lead somewhere,
+and the check of links sees what is broken.
+"""
 
 from __future__ import annotations
 
@@ -102,8 +104,12 @@ def test_a_message_without_a_printed_cause_leads_to_its_parameters_and_their_rul
 
 def test_a_page_of_the_printed_manual_leads_to_what_is_taken_from_it(pages: dict[str, str]) -> None:
     (row,) = re.findall(' id="page-7-20">.*?(?= id=)', pages["9pc/pages.md"], re.DOTALL)
-    for said in ("servo.excess_error", "messages-amp-messages.html#excess-following-error", "9pc.servo.excess-margin",
-                 "e-1750-range"):  # fmt: skip
+    for said in (
+        "servo.excess_error",
+        "messages-amp-messages.html#excess-following-error",
+        "9pc.servo.excess-margin",
+        "e-1750-range",
+    ):
         assert said in row
     assert 'page <a href="pages.html#page-7-20">7-20</a>' in pages["9pc/group-servo_position.md"]
 
@@ -184,8 +190,14 @@ def test_a_number_leads_to_its_parameter(pages: dict[str, str]) -> None:
     assert "2750</td><td>" in pages["9pc/numbers.md"]  # the search drops a word that is only a number
     position = pages["9pc/group-servo_position.md"]
     (section,) = re.findall(r"^## 1750 Excess Error\n.*?(?=^## )", position, re.MULTILINE | re.DOTALL)
-    for said in ("0 to 214.1 mm", "page 7-20", "messages-amp-messages.html#excess-following-error",
-                 "rules.html#9pc.servo.excess-margin", "commissioning.html#step-6", "minimum_excess_error("):  # fmt: skip
+    for said in (
+        "0 to 214.1 mm",
+        "page 7-20",
+        "messages-amp-messages.html#excess-following-error",
+        "rules.html#9pc.servo.excess-margin",
+        "commissioning.html#step-6",
+        "minimum_excess_error(",
+    ):
         assert said in section, said
 
 

@@ -1,4 +1,6 @@
-"""The search of the site, asked in a real Chromium on file://: the right page and anchor come first, without a server."""
+"""The search of the site, asked in a real Chromium on file://: the right page and anchor come first,
+without a server.
+"""
 
 from __future__ import annotations
 
@@ -85,7 +87,9 @@ def test_what_people_type_has_the_right_place_first(field: Browser) -> None:
 
 
 def _is(address: str, family: str, wanted: str) -> bool:
-    """Whether an address is that of a parameter (``p:``), a message (``m:``) or a group (``g:``) of a family."""
+    """Whether an address is that of a parameter (``p:``), a message (``m:``) or a group (``g:``) of a
+    family.
+    """
     schema = load_schema(family)
     kind, key = wanted.split(":", 1)
     page, _, anchor = address.removeprefix(f"reference/{family}/").partition("#")

@@ -24,7 +24,8 @@ SOURCE = re.compile(
 
 
 def entries(path: Path) -> list[tuple[str, str]]:
-    """Return (key, comment) of every value as it is written: the comment beside it, else that above its parameter's block.
+    """Return (key, comment) of every value as it is written: the comment beside it,
+    else that above its parameter's block.
 
     A block is the lines of one parameter; what is between two blocks belongs to the one below.
     """

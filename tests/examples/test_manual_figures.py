@@ -1,6 +1,7 @@
 """What the 9/PC manual prints is in the examples as it is printed, and its formulas lead to their limits.
 
-The figures are typed here from the manual, not taken from the files. A page is that on which the section begins.
+The figures are typed here from the manual, not taken from the files.
+A page is that on which the section begins.
 """
 
 from __future__ import annotations

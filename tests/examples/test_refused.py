@@ -36,8 +36,9 @@ REFUSED = {
     "tab": ", line 8: is not readable: found a tab character that violates indentation",
     "two-ways-to-read": ", line 8: home.calibration@1: '1,234' can be read two ways: write 1234 or 1.234",
     "unit-of-something-else": ", line 8: home.calibration@1: Home Calibration is given in mm, not in ms",
-    "unknown-choice": ", line 8: servo.sercos_baud: '8 MHz' is not a choice of Baud Rate for SERCOS: "
-    "2 MHz (a), 4 MHz (b)",
+    "unknown-choice": (
+        ", line 8: servo.sercos_baud: '8 MHz' is not a choice of Baud Rate for SERCOS: 2 MHz (a), 4 MHz (b)"
+    ),
     "unknown-family": f", line 2: Unknown family '9/series'. Known: {KNOWN}",
     "unknown-machine": ", line 4: machine is 'saw'; known here: lathe, mill",
     "unknown-unit": ", line 8: home.calibration@1: 'furlong' is not a unit; Home Calibration is given in mm",

@@ -101,7 +101,7 @@ def test_a_package_that_cannot_be_loaded_is_named_and_left_out(
 
 
 def test_a_package_cannot_replace_a_family_of_the_program(site: Path, tmp_path: Path) -> None:
-    (own, *_) = family_ids()
+    own, *_ = family_ids()
     install(site, "other", "raise OSError('loaded')", f"{own} = other:REGISTRATION")
     done = program(site, "new", own, tmp_path / "own.amp")
     assert (done.returncode, done.stderr) == (0, "")

@@ -1,4 +1,6 @@
-"""Spindles, tapping, probes and zones of NUM, Syntec, AcroMill, Grbl and the 57C422B: the figures that their manuals print."""
+"""Spindles, tapping, probes and zones of NUM, Syntec, AcroMill, Grbl and the 57C422B:
+the figures that their manuals print.
+"""
 
 from __future__ import annotations
 
@@ -43,7 +45,9 @@ def test_an_s_word_becomes_an_output(
 
 
 def test_a_speed_above_the_limit_of_the_programmed_range_is_error_29() -> None:
-    """Page 8-16: above the limit and below the highest speed of the range it is refused where the range is programmed."""
+    """Page 8-16: above the limit and below the highest speed of the range it is refused
+    where the range is programmed.
+    """
     file = example(NUM)
     file.set(("spindle.limit_speed", "1.41"), Value(450, "rpm"))
     programmed = simulate(file, "spindle", None, {"move.speed": 480.0, "move.gear": 41.0})
@@ -60,7 +64,9 @@ def test_an_indexing_of_a_num_is_clipped_to_p43_and_ends_in_p44() -> None:
 
 
 def test_a_tap_of_a_num_slows_down_in_pitch_times_s2_over_2a() -> None:
-    """Page 8-32: D = pitch x S2 / (2 x A x 60 x 60), here of 500 rpm with 10 revolutions/s2; 100 mV are 5 of 500 rpm."""
+    """Page 8-32: D = pitch x S2 / (2 x A x 60 x 60), here of 500 rpm with 10 revolutions/s2;
+    100 mV are 5 of 500 rpm.
+    """
     move = {"move.pitch": 1.0, "move.speed": 400.0, "move.gear": 41.0}
     result = simulate(example(NUM), "tap", None, move).result
     assert result["deceleration_distance_at_limit"][0] == pytest.approx(500.0**2 / (2 * 10 * 3600))

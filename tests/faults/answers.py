@@ -1,4 +1,6 @@
-"""Damaged files of answers to the questions of a migration: each is refused in one line, or its answers are texts."""
+"""Damaged files of answers to the questions of a migration: each is refused in one line,
+or its answers are texts.
+"""
 
 from __future__ import annotations
 

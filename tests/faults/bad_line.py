@@ -1,4 +1,6 @@
-"""A line that does to its bytes what a seed chooses: it changes, loses, repeats, reorders and delays them, pauses and is cut."""
+"""A line that does to its bytes what a seed chooses: it changes, loses, repeats, reorders and delays them,
+pauses and is cut.
+"""
 
 from __future__ import annotations
 
@@ -25,8 +27,9 @@ class Seconds(Protocol):
 class BadLine:
     """A link with faults, by name: one byte or piece in so many, or the byte at which it happens, once.
 
-    ``change``, ``lose``, ``repeat`` and ``swap`` are of single bytes, ``delay`` is of pieces that come late; at ``pause`` nothing passes for
-    a while, at ``cut`` the line breaks, at ``kill`` the control loses its power too (``die``).
+    ``change``, ``lose``, ``repeat`` and ``swap`` are of single bytes, ``delay`` is of pieces that come late;
+    at ``pause`` nothing passes for a while, at ``cut`` the line breaks,
+    at ``kill`` the control loses its power too (``die``).
     """
 
     def __init__(
@@ -111,15 +114,21 @@ class BadLine:
 
 
 def choose_faults(chance: random.Random, size: int, without: tuple[str, ...] = ()) -> dict[str, int]:
-    """Return what goes wrong on one line and at its control; ``size`` is about what a whole download moves in bytes.
+    """Return what goes wrong on one line and at its control;
+    ``size`` is about what a whole download moves in bytes.
 
-    ``power`` is the step on the control's disk at which its power goes, ``forget`` the write that the control acknowledges and
-    does not do, ``stop`` the call of the progress that is Ctrl-C.
+    ``power`` is the step on the control's disk at which its power goes, ``forget`` the write that the control
+    acknowledges and does not do, ``stop`` the call of the progress that is Ctrl-C.
     """
     once: Mapping[str, range] = {
-        "cut": range(1, size), "kill": range(1, size), "pause": range(1, size), "power": range(1, 12), "forget": range(1, 6),
-        "stop": range(1, 400), "delay": range(3, 60),
-    }  # fmt: skip
+        "cut": range(1, size),
+        "kill": range(1, size),
+        "pause": range(1, size),
+        "power": range(1, 12),
+        "forget": range(1, 6),
+        "stop": range(1, 400),
+        "delay": range(3, 60),
+    }
     ways = {**once, **dict.fromkeys(("lose", "change", "repeat", "swap"), range(60, 4_000))}
     names = [name for name in ways if name not in without]
     return {name: chance.choice(ways[name]) for name in chance.sample(names, chance.choice([0, 1, 1, 1, 2]))}

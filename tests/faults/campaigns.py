@@ -1,4 +1,5 @@
-"""The fault campaigns: each does a thing many times under faults that a seed chooses, and names every violation.
+"""The fault campaigns: each does a thing many times under faults that a seed chooses,
+and names every violation.
 
 ``make faults`` runs them whole and prints one table; the tests run a short part of each.
 """
@@ -57,9 +58,10 @@ EXAMPLE = Path(__file__).resolve().parents[2] / "examples" / "mill-1394" / "MILL
 class Campaign:
     """One kind of fault.
 
-    ``run`` gets a seed, how many runs it is to make, and an empty folder; it returns one sentence a violation.
-    ``whole`` and ``short`` are the runs of ``make faults`` and of the tests (0: it has no part that takes seconds), ``at_once`` those
-    made with one seed.
+    ``run`` gets a seed, how many runs it is to make, and an empty folder; it returns one sentence a
+    violation.
+    ``whole`` and ``short`` are the runs of ``make faults`` and of the tests (0: it has no part that takes
+    seconds), ``at_once`` those made with one seed.
     """
 
     name: str
@@ -99,7 +101,9 @@ def _damaged_in(fuzz: Callable[[Path, int, int], list[str]], seed: int, runs: in
 
 
 def _clicked(seed: int, runs: int, folder: Path) -> list[str]:
-    """Click and type in the window of one family for as many seconds as there are runs; a seed after another goes through the families."""
+    """Click and type in the window of one family for as many seconds as there are runs;
+    a seed after another goes through the families.
+    """
     family = monkey.FAMILIES[seed % len(monkey.FAMILIES)]
     log = folder / f"{family}.jsonl"
     command = [sys.executable, "-m", "tests.faults.monkey", family, str(seed), str(runs), str(log)]
@@ -109,7 +113,10 @@ def _clicked(seed: int, runs: int, folder: Path) -> list[str]:
     kept = Path(tempfile.gettempdir()) / f"amp-studio-monkey-{family}-{seed}.jsonl"
     shutil.copy(log, kept)
     return [
-        f"{family}: {done.stdout}{done.stderr[-2000:]}done again by: python -m tests.faults.monkey {family} --replay {kept}"
+        (
+            f"{family}: {done.stdout}{done.stderr[-2000:]}done again by: python -m tests.faults.monkey {family}"
+            f" --replay {kept}"
+        )
     ]
 
 
@@ -169,11 +176,7 @@ CAMPAIGNS = (
         "NUM table over a bad line, power off in the load", _own(own_protocols.table_run), 2_000, 3, 100
     ),
     Campaign(
-        "ACR terminal over a bad line, power off in the save",
-        _own(own_protocols.terminal_run),
-        2_000,
-        3,
-        100,
+        "ACR terminal over a bad line, power off in the save", _own(own_protocols.terminal_run), 2_000, 3, 100
     ),
     Campaign("57C422B registers over a bad line", _own(own_protocols.registers_run), 2_000, 2, 100),
     Campaign(

@@ -1,4 +1,6 @@
-"""Odd command lines: each ends with a code of the contract and one line, and refuses without having changed a file."""
+"""Odd command lines: each ends with a code of the contract and one line,
+and refuses without having changed a file.
+"""
 
 from __future__ import annotations
 
@@ -21,18 +23,64 @@ from .stored import contents
 from .texts import NUMBERS, RULES, SMALL, TOKENS, mutants, violations
 
 LINES = (
-    "families --json", "schema 57c422b --group gains --json", "show 57c422b R3", "show 57c422b gain.integral --machine module",
-    "tables 57c422b --json", "calculate 57c422b encoder_lines x=1", "new 57c422b new.amp --machine module", "set a.amp R3=5 --force",
-    "set a.amp gain.integral@X=7 setup.encoder@X.3=yes", "get a.amp R3 gain.integral --all --json", "validate a.amp b.amp --json --why",
-    "validate . --jobs 1", "validate a.amp --rules rules.yaml", "fix a.amp --param R3 --safe --dry-run --json", "diff a.amp b.amp --json",
-    "merge a.amp b.amp c.amp -o out.amp", "report a.amp -o out.csv --sort axis --changed-only", "report a.amp -o out.txt",
-    "import x.csv -o out.amp --family 57c422b --format csv --keep-unknown --on-fault keep", "export a.amp -o out.csv --format csv",
-    "verify a.amp --with serial:/dev/none", "upload --from serial:/dev/none -o out.img", "restore a.img --to serial:/dev/none",
-    "simulate a.amp step --axis X --set programmed=1 -o out.csv", "completion bash", "--version", "ports --json",
-    "find a.amp gain integrl --json --limit 3", "find 57c422b overtravel", "get a.amp --changed --axes-differ --with-findings --json",
-)  # fmt: skip
-WORDS = ("--", "-", "-o", "--json", "--help", "--axes", "--sort", "a.amp", "rules.yaml", "x.csv", ".", "/dev/null", "/dev/full",
-         "/dev/stdin", "folder", "a.amp.bak", ".a.amp.lock", "", " ", "R3=5", "=", "@X", "57c422b", "9pc", "../a.amp")  # fmt: skip
+    "families --json",
+    "schema 57c422b --group gains --json",
+    "show 57c422b R3",
+    "show 57c422b gain.integral --machine module",
+    "tables 57c422b --json",
+    "calculate 57c422b encoder_lines x=1",
+    "new 57c422b new.amp --machine module",
+    "set a.amp R3=5 --force",
+    "set a.amp gain.integral@X=7 setup.encoder@X.3=yes",
+    "get a.amp R3 gain.integral --all --json",
+    "validate a.amp b.amp --json --why",
+    "validate . --jobs 1",
+    "validate a.amp --rules rules.yaml",
+    "fix a.amp --param R3 --safe --dry-run --json",
+    "diff a.amp b.amp --json",
+    "merge a.amp b.amp c.amp -o out.amp",
+    "report a.amp -o out.csv --sort axis --changed-only",
+    "report a.amp -o out.txt",
+    "import x.csv -o out.amp --family 57c422b --format csv --keep-unknown --on-fault keep",
+    "export a.amp -o out.csv --format csv",
+    "verify a.amp --with serial:/dev/none",
+    "upload --from serial:/dev/none -o out.img",
+    "restore a.img --to serial:/dev/none",
+    "simulate a.amp step --axis X --set programmed=1 -o out.csv",
+    "completion bash",
+    "--version",
+    "ports --json",
+    "find a.amp gain integrl --json --limit 3",
+    "find 57c422b overtravel",
+    "get a.amp --changed --axes-differ --with-findings --json",
+)
+WORDS = (
+    "--",
+    "-",
+    "-o",
+    "--json",
+    "--help",
+    "--axes",
+    "--sort",
+    "a.amp",
+    "rules.yaml",
+    "x.csv",
+    ".",
+    "/dev/null",
+    "/dev/full",
+    "/dev/stdin",
+    "folder",
+    "a.amp.bak",
+    ".a.amp.lock",
+    "",
+    " ",
+    "R3=5",
+    "=",
+    "@X",
+    "57c422b",
+    "9pc",
+    "../a.amp",
+)
 
 
 def _odd(chance: random.Random) -> list[str]:

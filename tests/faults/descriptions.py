@@ -1,4 +1,6 @@
-"""Damaged descriptions of a control: each gives a whole schema or one plain refusal, and a file of it opens again."""
+"""Damaged descriptions of a control: each gives a whole schema or one plain refusal,
+and a file of it opens again.
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,6 @@
-"""What a power loss would leave of what was written: every write, fsync and rename of this process, as the disk may see them."""
+"""What a power loss would leave of what was written: every write, fsync and rename of this process,
+as the disk may see them.
+"""
 
 from __future__ import annotations
 
@@ -16,7 +18,8 @@ Inode = tuple[int, int]
 class Disk:
     """Which files and folders have changes that no fsync has forced to the disk yet.
 
-    ``faults`` are the names that a power loss could have left without a content: a file is forced to the disk before it gets one.
+    ``faults`` are the names that a power loss could have left without a content:
+    a file is forced to the disk before it gets one.
     """
 
     def __init__(self) -> None:
@@ -50,10 +53,12 @@ class Disk:
             remove(path, **options)
 
         with (
-            mock.patch.object(os, "write", written), mock.patch.object(os, "fsync", synced),
+            mock.patch.object(os, "write", written),
+            mock.patch.object(os, "fsync", synced),
             mock.patch.object(os, "replace", partial(named, replace)),
-            mock.patch.object(os, "link", partial(named, link)), mock.patch.object(os, "unlink", removed),
-        ):  # fmt: skip
+            mock.patch.object(os, "link", partial(named, link)),
+            mock.patch.object(os, "unlink", removed),
+        ):
             yield self
 
     def unsafe(self, *paths: Path) -> list[str]:

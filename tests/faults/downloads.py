@@ -1,7 +1,8 @@
 """One download under faults, whatever way of speaking, and what is checked afterwards.
 
-Each value is old or new, what the program reports of it is true, and what the control contained is kept whole on the disk before the
-first value is sent. What a control contains is read from its memory, not over the driver, which may leave something out.
+Each value is old or new, what the program reports of it is true, and what the control contained is kept whole
+on the disk before the first value is sent. What a control contains is read from its memory, not over the
+driver, which may leave something out.
 """
 
 from __future__ import annotations
@@ -53,7 +54,9 @@ class FaultBench(Protocol):
         """Return what a content contains, as ``present``."""
 
     def arm(self, faults: Mapping[str, int]) -> None:
-        """Have the control do wrong what the faults name: ``forget`` is the write that it acknowledges and does not do."""
+        """Have the control do wrong what the faults name:
+        ``forget`` is the write that it acknowledges and does not do.
+        """
 
     def power_cycle(self) -> None:
         """Take the control's power away and give it back."""
@@ -106,15 +109,20 @@ def download_under_faults(
     if bench.memory is not None:
         bench.power_cycle()
         saved = bench.present()
-        found += [f"{name} is saved as {saved.get(name)}" for name in {**present, **wanted}
-                  if saved.get(name) not in (present.get(name), wanted.get(name))]  # fmt: skip
+        found += [
+            f"{name} is saved as {saved.get(name)}"
+            for name in {**present, **wanted}
+            if saved.get(name) not in (present.get(name), wanted.get(name))
+        ]
         if isinstance(ended, Outcome) and ended.verified and saved != now:
             found.append("what is active is not saved")
     return [*found, *false_copies(folder, bench.names, present, is_needed=now != present)]
 
 
 def _downloaded(bench: FaultBench, file: ParameterFile, folder: Path, stop_at: int) -> Outcome | Exception:
-    """Return the outcome of a download, or the error it ended with; ``stop_at`` is the call of the progress that is Ctrl-C."""
+    """Return the outcome of a download, or the error it ended with;
+    ``stop_at`` is the call of the progress that is Ctrl-C.
+    """
     calls, cancel = 0, threading.Event()
 
     def progress(stage: str, done: int, total: int) -> None:
@@ -133,8 +141,11 @@ def _downloaded(bench: FaultBench, file: ParameterFile, folder: Path, stop_at: i
 
 def untrue(ended: Outcome | Exception, now: Values, old: Values, new: Values) -> list[str]:
     """Return what does not fit of how a download ended and what the control contains."""
-    found = [f"{name} is {now.get(name)}, neither {old.get(name)} nor {new.get(name)}"
-             for name in {**old, **new} if now.get(name) not in (old.get(name), new.get(name))]  # fmt: skip
+    found = [
+        f"{name} is {now.get(name)}, neither {old.get(name)} nor {new.get(name)}"
+        for name in {**old, **new}
+        if now.get(name) not in (old.get(name), new.get(name))
+    ]
     changed = {name for name in {**old, **new} if now.get(name) != old.get(name)}
     wanted = {name for name in {**old, **new} if new.get(name) != old.get(name)}
     if not isinstance(ended, (Outcome, TransferError)):
@@ -159,7 +170,9 @@ def untrue(ended: Outcome | Exception, now: Values, old: Values, new: Values) ->
 def false_copies(
     folder: Path, names: Callable[[bytes], Values], contained: Values, *, is_needed: bool
 ) -> list[str]:
-    """Return what is wrong with the copies in a folder: each is all that the control contained, with its digest."""
+    """Return what is wrong with the copies in a folder: each is all that the control contained,
+    with its digest.
+    """
     copies = sorted(folder.glob("*.img"))
     found = ["what the control contained was not kept"] if is_needed and not copies else []
     for path in copies:
@@ -177,7 +190,9 @@ def false_copies(
 
 
 def forgetting(faults: Mapping[str, int], act: Callable[..., Any]) -> Callable[..., Any]:
-    """Return a function that does what ``act`` does, but not the call whose number, from 1, is the fault ``forget``."""
+    """Return a function that does what ``act`` does, but not the call whose number, from 1,
+    is the fault ``forget``.
+    """
     left = faults.get("forget", 0)
 
     def called(*arguments: Any, **options: Any) -> Any:

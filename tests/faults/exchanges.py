@@ -1,6 +1,8 @@
-"""Fails every call of the system that a verb makes in its folder while it exchanges with a control, one run a call.
+"""Fails every call of the system that a verb makes in its folder while it exchanges with a control,
+one run a call.
 
-Afterwards the exit code is true of the control and of the folder, and what was kept or fetched is whole or not there.
+Afterwards the exit code is true of the control and of the folder,
+and what was kept or fetched is whole or not there.
 """
 
 from __future__ import annotations
@@ -40,16 +42,23 @@ def fail_calls_of_exchanges(seed: int, runs: int, folder: Path) -> list[str]:
 
 
 def _ready(folder: Path, address: str) -> dict[str, bytes]:
-    """Return the files of the verbs: two parameter files that differ in one value, and their images with digests."""
+    """Return the files of the verbs: two parameter files that differ in one value,
+    and their images with digests.
+    """
     folder.mkdir()
     for name in NAMES:
         shutil.copy(EXAMPLES / "mill-1394" / "MILL_1394.amp", folder / f"{name}.amp")
     for arguments in (
         ("set", folder / "other.amp", "1300=3"),
-        *(command for name in NAMES for command in (
-            ("download", folder / f"{name}.amp", "--to", address, "--keep", folder.parent),
-            ("upload", "--from", address, "-o", folder / f"{name}.img"))),
-    ):  # fmt: skip
+        *(
+            command
+            for name in NAMES
+            for command in (
+                ("download", folder / f"{name}.amp", "--to", address, "--keep", folder.parent),
+                ("upload", "--from", address, "-o", folder / f"{name}.img"),
+            )
+        ),
+    ):
         code, text = _program(*arguments)
         assert code == 0, text
     wanted = {f"{name}.{ending}" for name in NAMES for ending in ("amp", "img", "img.sha256")}
@@ -67,7 +76,9 @@ def _program(*arguments: object, **env: str) -> tuple[int, str]:
 def _fail_each(
     verb: str, seed: int, folder: Path, ready: dict[str, bytes], address: str
 ) -> tuple[int, list[str]]:
-    """Run a verb with its first call failing, its second, and so on; returns how many runs, and what was not true of them."""
+    """Run a verb with its first call failing, its second, and so on; returns how many runs,
+    and what was not true of them.
+    """
     found, active = list[str](), folder / "control" / "active.img"
     for at in range(1, MOST):
         chance = random.Random(f"{seed} {verb} {at}")
@@ -83,8 +94,13 @@ def _fail_each(
             "upload as image": (("upload", "--from", address, "-o", work / "x.img"), "x.img"),
             "upload as file": (("upload", "--from", address, "-o", work / "x.amp"), "x.amp"),
         }[verb]
-        env = {"LD_PRELOAD": library(), "FAULT_FOLDER": str(work), "FAULT_AT": str(at), "FAULT_LOG": str(log),
-               "FAULT_ERRNO": str(chance.choice(ERRORS))} | ({"FAULT_FOREVER": "1"} if chance.random() < 0.3 else {})  # fmt: skip
+        env = {
+            "LD_PRELOAD": library(),
+            "FAULT_FOLDER": str(work),
+            "FAULT_AT": str(at),
+            "FAULT_LOG": str(log),
+            "FAULT_ERRNO": str(chance.choice(ERRORS)),
+        } | ({"FAULT_FOREVER": "1"} if chance.random() < 0.3 else {})
         code, text = _program(*command, **env)
         failed = [line.split(" ", 2)[1:] for line in log.read_text().splitlines()] if log.exists() else []
         faults = _violations(code, text, old, active.read_bytes(), ready, contents(work), made, failed)
@@ -97,8 +113,15 @@ def _fail_each(
 
 
 def _violations(
-    code: int, text: str, old: bytes, now: bytes, ready: dict[str, bytes], after: dict[str, bytes], made: str, failed: list[list[str]]
-) -> Iterator[str]:  # fmt: skip
+    code: int,
+    text: str,
+    old: bytes,
+    now: bytes,
+    ready: dict[str, bytes],
+    after: dict[str, bytes],
+    made: str,
+    failed: list[list[str]],
+) -> Iterator[str]:
     """Yield what is not as promised."""
     is_changed = now != old
     copies = [name for name in after if ".before-" in name and name.endswith(".img")]
@@ -116,8 +139,15 @@ def _violations(
     if (code == 0 and not done) or (code == 2 and done) or (code == 3 and not done):
         yield f"exit {code}, and {made or 'the control'} is {'' if done else 'not '}changed: {text}"
     kept_by = {Path(path).name for call, path in failed if call == "unlink" or path.endswith(LOCKS)}
-    may_be_new = {*ready, "exchanges.jsonl", made, f"{made}.sha256", *copies, *(f"{name}.sha256" for name in copies),
-                  *(name.replace(".img", ".amp") for name in copies)}  # fmt: skip
+    may_be_new = {
+        *ready,
+        "exchanges.jsonl",
+        made,
+        f"{made}.sha256",
+        *copies,
+        *(f"{name}.sha256" for name in copies),
+        *(name.replace(".img", ".amp") for name in copies),
+    }
     if left := set(after) - may_be_new - kept_by:
         yield f"left behind: {sorted(left)}"
     if code == 2 and (left := set(after) - set(ready) - kept_by - {"exchanges.jsonl"}):

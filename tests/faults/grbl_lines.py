@@ -1,4 +1,6 @@
-"""Grbl controls under faults: downloads, damaged copies of their settings, answers of any kind, odd bytes at the emulated one."""
+"""Grbl controls under faults: downloads, damaged copies of their settings, answers of any kind,
+odd bytes at the emulated one.
+"""
 
 from __future__ import annotations
 
@@ -23,12 +25,25 @@ from tests.families.grblhal.faulty_grbl import download_with_faults
 from .texts import violations
 from .wire import damaged
 
-KEYS = ("state Run", "state Idle", "state Alarm", "alarm 1", "alarm 999", "message hello", "message \x1b[2J", "power", "status", "",
-        "state Off")  # fmt: skip
+KEYS = (
+    "state Run",
+    "state Idle",
+    "state Alarm",
+    "alarm 1",
+    "alarm 999",
+    "message hello",
+    "message \x1b[2J",
+    "power",
+    "status",
+    "",
+    "state Off",
+)
 
 
 def settings_under_faults(seed: int, runs: int, folder: Path) -> list[str]:
-    """Download to emulated controls whose line, power and memory fail; what is reported afterwards is true of each setting."""
+    """Download to emulated controls whose line, power and memory fail;
+    what is reported afterwards is true of each setting.
+    """
     found = []
     for n in range(runs):
         place = folder / str(n)
@@ -75,7 +90,9 @@ _VALUES = ("identity", "settings", "offsets", "startup")
 
 
 def fuzz_answers(seed: int, count: int) -> list[str]:
-    """Upload from a control that answers anything: it ends in time, with a content or with a transfer error."""
+    """Upload from a control that answers anything: it ends in time, with a content or with a transfer
+    error.
+    """
     chance = random.Random(seed)
 
     def look(seed: int) -> None:
@@ -99,7 +116,9 @@ def fuzz_answers(seed: int, count: int) -> list[str]:
 
 
 def fuzz_devices(folder: Path, seed: int, count: int) -> list[str]:
-    """Send odd bytes and commands to emulated controls, damage their memory; they go on, and answer no more than they are asked."""
+    """Send odd bytes and commands to emulated controls, damage their memory; they go on,
+    and answer no more than they are asked.
+    """
     chance = random.Random(seed)
     memories = [Memory(folder / name) for name in ("hal", "classic")]
     devices = [

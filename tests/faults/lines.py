@@ -1,4 +1,6 @@
-"""Downloads over bad lines: real programs, a real TCP connection or pseudo terminal, and faults that a seed chooses."""
+"""Downloads over bad lines: real programs, a real TCP connection or pseudo terminal,
+and faults that a seed chooses.
+"""
 
 from __future__ import annotations
 
@@ -19,7 +21,9 @@ DOWNLOADER = (sys.executable, "-m", "amp_studio.cli")
 
 
 def _faults(chance: random.Random) -> dict[str, Any]:
-    """Return what goes wrong on one line: cuts, lost and changed bytes, silence, a slow or delayed control."""
+    """Return what goes wrong on one line: cuts, lost and changed bytes, silence, a slow or delayed
+    control.
+    """
     ways: list[dict[str, Any]] = [
         {"drop_after_bytes": chance.randrange(1, 9_000)},
         {"drop_after_bytes": chance.randrange(200, 3_000), "drops": chance.choice([1, 2, 5])},
@@ -57,8 +61,14 @@ def _one(chance: random.Random, work: Path) -> list[str]:
     if listen.startswith("tcp") and chance.random() < 0.5:
         (work / "password").write_text(PASSWORD, encoding="utf-8")
         listen = listen.replace("tcp", "tls")
-        secured = ["--certificate", CERTIFICATES / "control.pem", "--key", CERTIFICATES / "control.key",
-                   "--password-file", work / "password"]  # fmt: skip
+        secured = [
+            "--certificate",
+            CERTIFICATES / "control.pem",
+            "--key",
+            CERTIFICATES / "control.key",
+            "--password-file",
+            work / "password",
+        ]
     command = _program(
         "emulate", "57c422b", "--listen", listen, "--state", state, "--faults", json.dumps(faults), *secured
     )
@@ -71,9 +81,12 @@ def _one(chance: random.Random, work: Path) -> list[str]:
             kept = _kept_name(address)
             ended = subprocess.run(
                 [*DOWNLOADER, "download", str(path), "--to", address, "--accept-errors"],
-                capture_output=True, text=True, check=False, timeout=180,
+                capture_output=True,
+                text=True,
+                check=False,
+                timeout=180,
                 env=os.environ | ({"AMP_STUDIO_PASSWORD": PASSWORD} if secured else {}),
-            )  # fmt: skip
+            )
             held = (state / "active.img").read_bytes()
         finally:
             control.kill()
@@ -83,14 +96,18 @@ def _one(chance: random.Random, work: Path) -> list[str]:
 
 
 def _kept_name(address: str) -> int | None:
-    """Hold a pseudo terminal, so that its name goes to no other control while the program waits for a dead one."""
+    """Hold a pseudo terminal, so that its name goes to no other control while the program waits for a dead
+    one.
+    """
     if not address.startswith("serial:"):
         return None
     return os.open(address.removeprefix("serial:").partition("?")[0], os.O_RDWR | os.O_NOCTTY | os.O_NONBLOCK)
 
 
 def _untrue(code: int, said: str, old: bytes, held: bytes, work: Path, how: str) -> list[str]:
-    """Return what does not fit: the exit code and what the control contains, which is whole; what it contained is kept."""
+    """Return what does not fit: the exit code and what the control contains, which is whole;
+    what it contained is kept.
+    """
     found = []
     if not held.endswith(b"\n") or b"\nend " not in held:
         found.append("the control holds half an image")

@@ -1,9 +1,10 @@
 """Types and clicks at random in the window: ``python -m tests.faults.monkey FAMILY SEED SECONDS [LOG]``.
 
-The same seed makes the same choices; what they meet depends on how fast work in the background is. Each action is written to the log as it
-is done, one JSON list a line; ``python -m tests.faults.monkey FAMILY --replay LOG`` does them again, and leaves out what is not there.
-Prints each error with the actions before it, then how much was done; ends with 1 where an error was found: an exception, a message of Qt,
-an action that takes longer than a minute, more memory than the budget, a connection to another machine.
+The same seed makes the same choices; what they meet depends on how fast work in the background is. Each
+action is written to the log as it is done, one JSON list a line; ``python -m tests.faults.monkey FAMILY
+--replay LOG`` does them again, and leaves out what is not there. Prints each error with the actions before
+it, then how much was done; ends with 1 where an error was found: an exception, a message of Qt, an action
+that takes longer than a minute, more memory than the budget, a connection to another machine.
 """
 
 from __future__ import annotations
@@ -191,8 +192,19 @@ class Monkey:
         kinds = (
             ["button", "button", "text", "close", "key"]
             if front is not self.window
-            else ["trigger", "trigger", "trigger", "text", "key", "mouse", "mouse", "resize", "clipboard", "open"]
-        )  # fmt: skip
+            else [
+                "trigger",
+                "trigger",
+                "trigger",
+                "text",
+                "key",
+                "mouse",
+                "mouse",
+                "resize",
+                "clipboard",
+                "open",
+            ]
+        )
         kind = self.random.choice(kinds)
         return [kind, *getattr(self, f"_any_{kind}")(front)]
 

@@ -1,4 +1,6 @@
-"""Damaged contents of the families' own kinds, damaged unloads, and odd keys and bytes at their emulated controls."""
+"""Damaged contents of the families' own kinds, damaged unloads,
+and odd keys and bytes at their emulated controls.
+"""
 
 from __future__ import annotations
 
@@ -23,12 +25,31 @@ from .texts import violations
 from .wire import damaged
 
 SCRIPT = (
-    b"ACR script 1\nREM units inch\nPPU X4096\nPPU Y1000.5\nDAC0 GAIN -3276.8\nEXC AXIS0 0.25\nLOPASS X\nNOTCH X(500, 50)\n"
-    b"PGAIN X0.00244\nFFACC X0.000000199\nBSC X0E.00325\nBSC X1E-.00250\nend 10\n"
+    b"ACR script 1\nREM units inch\nPPU X4096\nPPU Y1000.5\nDAC0 GAIN -3276.8\nEXC AXIS0 0.25\nLOPASS"
+    b" X\nNOTCH X(500, 50)\nPGAIN X0.00244\nFFACC X0.000000199\nBSC X0E.00325\nBSC X1E-.00250\nend 10\n"
 )
 CONTENT = b"NUM table 1\n" + TABLE
-KEYS = ("load", "unload", "verify", "enter", "start", "reference 00000001", "comment \x1b[2J", "exit", "parity odd", "parity none",
-        "patch P9N0=FF", "patch P9N99=0", "reset", "status", "power", "patch PPU X5", "patch BSC X0E.1", "echo off", "")  # fmt: skip
+KEYS = (
+    "load",
+    "unload",
+    "verify",
+    "enter",
+    "start",
+    "reference 00000001",
+    "comment \x1b[2J",
+    "exit",
+    "parity odd",
+    "parity none",
+    "patch P9N0=FF",
+    "patch P9N99=0",
+    "reset",
+    "status",
+    "power",
+    "patch PPU X5",
+    "patch BSC X0E.1",
+    "echo off",
+    "",
+)
 
 
 def _cases(seed: int, count: int) -> Iterator[bytes]:
@@ -73,12 +94,16 @@ def fuzz_unloads(seed: int, count: int) -> list[str]:
     chance = random.Random(seed)
     even = bytes(byte | 0x80 if byte.bit_count() % 2 else byte for byte in TABLE)
     return violations(
-        (damaged(chance.choice((TABLE, even)), chance) for _ in range(count)), _unload, (ImageDamagedError, ImageError)
-    )  # fmt: skip
+        (damaged(chance.choice((TABLE, even)), chance) for _ in range(count)),
+        _unload,
+        (ImageDamagedError, ImageError),
+    )
 
 
 def fuzz_devices(folder: Path, seed: int, count: int) -> list[str]:
-    """Press odd keys at the emulated controls and send them odd bytes; they go on, and answer no more than they are asked."""
+    """Press odd keys at the emulated controls and send them odd bytes; they go on,
+    and answer no more than they are asked.
+    """
     chance = random.Random(seed)
     (folder / "cnc").mkdir()
     (folder / "cnc" / "table").write_bytes(TABLE)

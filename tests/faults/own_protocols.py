@@ -1,4 +1,6 @@
-"""Downloads in the families' ways of speaking and in the house protocol, over lines and to controls on which a seed puts every fault."""
+"""Downloads in the families' ways of speaking and in the house protocol,
+over lines and to controls on which a seed puts every fault.
+"""
 
 from __future__ import annotations
 
@@ -36,9 +38,10 @@ from .bad_line import choose_faults
 from .downloads import DAMAGE, FaultBench, Values, download_under_faults, forgetting
 
 TABLE = (
-    b"%00000000;09\nP0N0:t6n1;09\n#00000000;09\nP9N0:t0n32;0A\n#0 1 2 FF FF FF FF FF FF FF;1B\n"
-    b"P9N10:t0n32;0B\n#FF FF FF FF FF FF FF FF FF FF;1E\nP9N20:t0n32;0B\n#FF FF FF FF FF FF FF FF FF FF;1E\n"
-    b"P9N30:t0n32;0B\n#FF FF;06\nP13N0:t5n18;0B\n#0 0 0 0 0 0 0 0 0 0;14\nP13N10:t5n18;0C\n#0 0 0 0 0 0 0 0;10\n\x13"
+    b"%00000000;09\nP0N0:t6n1;09\n#00000000;09\nP9N0:t0n32;0A\n#0 1 2 FF FF FF FF FF FF"
+    b" FF;1B\nP9N10:t0n32;0B\n#FF FF FF FF FF FF FF FF FF FF;1E\nP9N20:t0n32;0B\n#FF FF FF FF FF FF FF FF FF"
+    b" FF;1E\nP9N30:t0n32;0B\n#FF FF;06\nP13N0:t5n18;0B\n#0 0 0 0 0 0 0 0 0 0;14\nP13N10:t5n18;0C\n#0 0 0 0 0"
+    b" 0 0 0;10\n\x13"
 )
 
 Run = Callable[[random.Random, Path, "Mapping[str, int] | None"], list[str]]
@@ -59,8 +62,13 @@ def repeated(run: Run, seed: int, runs: int, folder: Path) -> list[str]:
 
 
 def _tried(
-    bench: FaultBench, file: ParameterFile, faults: Mapping[str, int], chance: random.Random, folder: Path, what: str = ""
-) -> list[str]:  # fmt: skip
+    bench: FaultBench,
+    file: ParameterFile,
+    faults: Mapping[str, int],
+    chance: random.Random,
+    folder: Path,
+    what: str = "",
+) -> list[str]:
     found = download_under_faults(bench, file, faults, chance, folder / "copies")
     return [f"{what}{dict(faults)}: {each}" for each in found]
 
@@ -109,8 +117,13 @@ def _figures(figures: Any) -> str:
 def card_file(chance: random.Random) -> ParameterFile:
     """Return some values for a card."""
     file = ParameterFile(load_schema("acromill"))
-    for name, unit in (("axes.pulses_per_unit", "counts/in"), ("servo.p_gain", "V/count"), ("servo.torque_limits", "V"),
-                       ("servo.i_gain", "V/count/s"), ("axes.excess_error_band", "in")):  # fmt: skip
+    for name, unit in (
+        ("axes.pulses_per_unit", "counts/in"),
+        ("servo.p_gain", "V/count"),
+        ("servo.torque_limits", "V"),
+        ("servo.i_gain", "V/count/s"),
+        ("axes.excess_error_band", "in"),
+    ):
         for axis in chance.sample("XYZ", chance.randrange(3)):
             text = f"{chance.uniform(0.001, 9):.5f}"
             file.take({(name, axis): read_value(file.schema.parameters[name], text, unit)})
@@ -174,7 +187,8 @@ class TableFaults(NumBench):
 def table_run(chance: random.Random, folder: Path, faults: Mapping[str, int] | None) -> list[str]:
     """Load the table of a NUM control."""
     if faults is None:
-        # A table has lengths and parity, which two characters in the other order leave as they are; no serial line does that.
+        # A table has lengths and parity, which two characters in the other order leave as they are; no serial
+        # line does that.
         faults = choose_faults(chance, 1_500, without=("swap",))
         if chance.random() < 0.2:
             faults[chance.choice(("unload", "load"))] = 1  # which the person does not do
@@ -202,8 +216,11 @@ class RackFaults(RackBench):
         """Nobody is asked for anything."""
 
     def present(self) -> Values:
-        return {f"R{r}": str(word) for r, word in enumerate(self.words)
-                if word and r % AXIS_Y not in _LIVE and r % AXIS_Y not in READ_ONLY}  # fmt: skip
+        return {
+            f"R{r}": str(word)
+            for r, word in enumerate(self.words)
+            if word and r % AXIS_Y not in _LIVE and r % AXIS_Y not in READ_ONLY
+        }
 
     def names(self, content: bytes) -> Values:
         return {f"R{register}": str(word) for register, word in words_of_content(content).items() if word}

@@ -1,4 +1,6 @@
-"""What a person writes where there is no file: addresses, digests, names, formulas, commands; odd and damaged, by a seed."""
+"""What a person writes where there is no file: addresses, digests, names, formulas, commands;
+odd and damaged, by a seed.
+"""
 
 from __future__ import annotations
 
@@ -28,15 +30,27 @@ from amp_studio.validate.expression_tree import ExpressionError, read_expression
 from .texts import NUMBERS, TOKENS, mutants, violations
 
 ENDPOINTS = (
-    "tcp://192.168.0.5:7090", "tcp://[fe80::1%eth0]:7090", "tcp://host:65535?protocol=house", "serial:/dev/ttyUSB0?baud=9600",
-    "serial:COM3?baud=115200&protocol=house", "/dev/ttyUSB0?baud=9600", "COM12", "pty:", "tcp://h:1/?protocol=steps",
-    "serial:/dev/ttyUSB0?baud=9600&bits=7&parity=even&stop=2&flow=xonxoff&protocol=house", "rfc2217://h:2217?flow=rtscts&parity=mark",
-    "tls://h:1?fingerprint=sha256:" + "ab:" * 31 + "AB&protocol=house", "tls://h:1?ca=/etc/a%20b%26.pem", "pty:?protocol=house",
-)  # fmt: skip
+    "tcp://192.168.0.5:7090",
+    "tcp://[fe80::1%eth0]:7090",
+    "tcp://host:65535?protocol=house",
+    "serial:/dev/ttyUSB0?baud=9600",
+    "serial:COM3?baud=115200&protocol=house",
+    "/dev/ttyUSB0?baud=9600",
+    "COM12",
+    "pty:",
+    "tcp://h:1/?protocol=steps",
+    "serial:/dev/ttyUSB0?baud=9600&bits=7&parity=even&stop=2&flow=xonxoff&protocol=house",
+    "rfc2217://h:2217?flow=rtscts&parity=mark",
+    "tls://h:1?fingerprint=sha256:" + "ab:" * 31 + "AB&protocol=house",
+    "tls://h:1?ca=/etc/a%20b%26.pem",
+    "pty:?protocol=house",
+)
 
 
 def fuzz_endpoints(seed: int, count: int) -> list[str]:
-    """Read damaged addresses of controls; what is taken means the same when it is written again, and opens nothing."""
+    """Read damaged addresses of controls; what is taken means the same when it is written again,
+    and opens nothing.
+    """
 
     def look(text: str) -> None:
         is_endpoint(text)
@@ -58,8 +72,12 @@ def fuzz_digests(seed: int, count: int) -> list[str]:
     return violations(mutants(["0123456789abcdef" * 4, "F" * 64], seed, count), look, (ValueError,))
 
 
-FAULTS = ('{"drop_after_bytes": 9000, "drops": 0}', '{"silent": true}', '{"lose_every": 4001, "disk_full_at": 100}',
-          '{"die_at_commit_step": 3, "corrupt_every": 7}')  # fmt: skip
+FAULTS = (
+    '{"drop_after_bytes": 9000, "drops": 0}',
+    '{"silent": true}',
+    '{"lose_every": 4001, "disk_full_at": 100}',
+    '{"die_at_commit_step": 3, "corrupt_every": 7}',
+)
 
 
 def fuzz_practice_faults(seed: int, count: int) -> list[str]:
@@ -124,15 +142,81 @@ def fuzz_formulas(seed: int, count: int) -> list[str]:
 
 
 EXPRESSIONS = (
-    "rapid < 10000.0", "gains.all(g, g > 0.0 && g < 65535.0)", "field(word, 0.0, 4.0) == 3.0 || bit(word, 2.0)",
-    "gains.filter(g, g != null).map(g, g * 2.0).exists(g, g > 5.0)", "int(rapid / 1e300) > 3", "min([a, b]) <= max([1.0, 2.0])",
-    "kind == 'x' ? rapid > 1.0 : !(rapid > 2.0)", "round(rapid, 2.0) % 7 == 1", "rapid in [1.0, 2.5, 0x1F]", "string(rapid) == '1'",
-    "size(gains) > 0 && gains[0] > 1.0", "double(int(rapid) * 9223372036854775807) > 0.0", "'a' + \"b\\n\" == 'ab'",
-)  # fmt: skip
-PARTS = ("&&", "||", "!", "?", ":", "(", ")", "[", "]", "{", "}", ".", ",", "<", ">=", "==", "+", "-", "*", "/", "%", "in", "null",
-         "true", "int(", "double(", "string(", "size(", "has(", ".map(g, ", ".all(g, ", ".filter(g, ", "g", "rapid", "gains", "1e300",
-         "-1e300", "9223372036854775807", "0.0", "1e-320", "'", '"', "\\", "type(", "timestamp(", "duration('1s')", "b'x'", "1u",
-         "matches('(a+)+$')", "dyn(", "sqrt(", "pow(", "(" * 300, "[" * 300, "!" * 3000, "-" * 3000, "a.b.c", "1 / 0", "rapid / 0.0")  # fmt: skip
+    "rapid < 10000.0",
+    "gains.all(g, g > 0.0 && g < 65535.0)",
+    "field(word, 0.0, 4.0) == 3.0 || bit(word, 2.0)",
+    "gains.filter(g, g != null).map(g, g * 2.0).exists(g, g > 5.0)",
+    "int(rapid / 1e300) > 3",
+    "min([a, b]) <= max([1.0, 2.0])",
+    "kind == 'x' ? rapid > 1.0 : !(rapid > 2.0)",
+    "round(rapid, 2.0) % 7 == 1",
+    "rapid in [1.0, 2.5, 0x1F]",
+    "string(rapid) == '1'",
+    "size(gains) > 0 && gains[0] > 1.0",
+    "double(int(rapid) * 9223372036854775807) > 0.0",
+    "'a' + \"b\\n\" == 'ab'",
+)
+PARTS = (
+    "&&",
+    "||",
+    "!",
+    "?",
+    ":",
+    "(",
+    ")",
+    "[",
+    "]",
+    "{",
+    "}",
+    ".",
+    ",",
+    "<",
+    ">=",
+    "==",
+    "+",
+    "-",
+    "*",
+    "/",
+    "%",
+    "in",
+    "null",
+    "true",
+    "int(",
+    "double(",
+    "string(",
+    "size(",
+    "has(",
+    ".map(g, ",
+    ".all(g, ",
+    ".filter(g, ",
+    "g",
+    "rapid",
+    "gains",
+    "1e300",
+    "-1e300",
+    "9223372036854775807",
+    "0.0",
+    "1e-320",
+    "'",
+    '"',
+    "\\",
+    "type(",
+    "timestamp(",
+    "duration('1s')",
+    "b'x'",
+    "1u",
+    "matches('(a+)+$')",
+    "dyn(",
+    "sqrt(",
+    "pow(",
+    "(" * 300,
+    "[" * 300,
+    "!" * 3000,
+    "-" * 3000,
+    "a.b.c",
+    "1 / 0",
+    "rapid / 0.0",
+)
 
 
 def _expressions(chance: random.Random) -> str:
@@ -156,7 +240,9 @@ def fuzz_expressions(seed: int, count: int) -> list[str]:
 
 
 def fuzz_builders_expressions(folder: Path, seed: int, count: int) -> list[str]:
-    """Check a file with rules whose expressions are damaged: what cannot be used is a finding, the others run."""
+    """Check a file with rules whose expressions are damaged: what cannot be used is a finding,
+    the others run.
+    """
     chance, path = random.Random(seed), folder / "rules.yaml"
     file = new_file("57c422b", "module")
     at_once = 5
@@ -183,11 +269,24 @@ def fuzz_builders_expressions(folder: Path, seed: int, count: int) -> list[str]:
 
 
 def _rule(number: int, chance: random.Random) -> dict[str, object]:
-    return {"id": f"builder.r{number}", "title": "T", "severity": "error", "page": "1",
-            "reads": {"rapid": "gain.proportional", "gains": "gain.integral@X", "word": "setup.encoder", "a": "gain.integral"},
-            "check": _expressions(chance), **({"applies": _expressions(chance)} if chance.random() < 0.3 else {}),
-            **({"fix": {"rapid": _expressions(chance)}} if chance.random() < 0.3 else {}),
-            "message": chance.choice(("Rapid {rapid} is too fast.", "{rapid!r:>99999999}", "{rapid.__class__}", "{", "{a} {b}", "x"))}  # fmt: skip
+    return {
+        "id": f"builder.r{number}",
+        "title": "T",
+        "severity": "error",
+        "page": "1",
+        "reads": {
+            "rapid": "gain.proportional",
+            "gains": "gain.integral@X",
+            "word": "setup.encoder",
+            "a": "gain.integral",
+        },
+        "check": _expressions(chance),
+        **({"applies": _expressions(chance)} if chance.random() < 0.3 else {}),
+        **({"fix": {"rapid": _expressions(chance)}} if chance.random() < 0.3 else {}),
+        "message": chance.choice(
+            ("Rapid {rapid} is too fast.", "{rapid!r:>99999999}", "{rapid.__class__}", "{", "{a} {b}", "x")
+        ),
+    }
 
 
 COMMANDS = (
@@ -204,7 +303,9 @@ COMMANDS = (
 
 
 def fuzz_commands(folder: Path, seed: int, count: int) -> list[str]:
-    """Give damaged commands to an emulated control: it answers each with one line and goes on; its image can be read."""
+    """Give damaged commands to an emulated control: it answers each with one line and goes on;
+    its image can be read.
+    """
     file = new_file("57c422b", "module")
     for address in list(file.values)[12:]:
         del file.values[address]
@@ -231,7 +332,9 @@ def fuzz_commands(folder: Path, seed: int, count: int) -> list[str]:
 
 
 def fuzz_panel(folder: Path, seed: int, count: int) -> list[str]:
-    """Give damaged commands at the screen of an emulated 9/PC: it answers each with one line; its AMP can be read."""
+    """Give damaged commands at the screen of an emulated 9/PC: it answers each with one line;
+    its AMP can be read.
+    """
     file = new_file("9pc", "mill")
     keep = {("axis.type", "1"), ("servo.excess_error", "1"), ("axis.machine", "")}
     for address in [a for a in file.values if a not in keep]:
@@ -284,8 +387,15 @@ def fuzz_completion(folder: Path, seed: int, count: int) -> list[str]:
     """Complete damaged command lines."""
     path = folder / "a.amp"
     path.write_bytes(b"damaged")
-    lines = [f"amp-studio set {path} 13", "amp-studio show 9pc hom", "amp-studio report x --sort ", "amp-studio ", "amp-studio get 'a b",
-             "amp-studio calculate num ", "amp-studio fix x --rule 9"]  # fmt: skip
+    lines = [
+        f"amp-studio set {path} 13",
+        "amp-studio show 9pc hom",
+        "amp-studio report x --sort ",
+        "amp-studio ",
+        "amp-studio get 'a b",
+        "amp-studio calculate num ",
+        "amp-studio fix x --rule 9",
+    ]
 
     def look(text: str) -> None:
         with mock.patch("builtins.print"):

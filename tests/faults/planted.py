@@ -1,4 +1,5 @@
-"""Defects planted in the program, each of which a fault campaign must report: a campaign that reports none proves nothing.
+"""Defects planted in the program, each of which a fault campaign must report:
+a campaign that reports none proves nothing.
 
 ``python -m tests.faults.planted NAME verb …`` is the program with a defect.
 """
@@ -57,8 +58,9 @@ Check = Callable[[Path], list[str]]
 class Defect:
     """One defect and what must notice it.
 
-    ``words`` are of the report that must come; ``plant`` puts it into the program for a while; ``fixed`` is one case of a campaign that
-    must report it, ``by_chance`` one run of that campaign with the faults of a seed.
+    ``words`` are of the report that must come; ``plant`` puts it into the program for a while; ``fixed`` is
+    one case of a campaign that must report it, ``by_chance`` one run of that campaign
+    with the faults of a seed.
     """
 
     name: str
@@ -73,7 +75,9 @@ class Defect:
 
 
 def unnoticed(seed: int, runs: int, folder: Path) -> list[str]:
-    """Plant each defect in turn; returns those that nothing has reported: in the fixed case, then in runs with faults of chance."""
+    """Plant each defect in turn; returns those that nothing has reported: in the fixed case,
+    then in runs with faults of chance.
+    """
     found = []
     for number in range(runs):
         defect = DEFECTS[number % len(DEFECTS)]
@@ -214,13 +218,25 @@ def _killed(seed: int, folder: Path) -> list[str]:
 def _of_drivers() -> Iterator[Defect]:
     """Yield the defects of the downloads: way of speaking by way of speaking."""
     both: tuple[tuple[str, Run, type, Plant, tuple[tuple[str, object], ...], dict[str, int]], ...] = (
-        ("ACR card", terminal_run, acr.TerminalDriver, _short_copy_of_card,
-         ((f"{FAMILIES}.acromill.lines.driver.TerminalDriver._set", _set_only),), {"forget": 1}),
+        (
+            "ACR card",
+            terminal_run,
+            acr.TerminalDriver,
+            _short_copy_of_card,
+            ((f"{FAMILIES}.acromill.lines.driver.TerminalDriver._set", _set_only),),
+            {"forget": 1},
+        ),
         ("NUM control", table_run, num.PeripheralDriver, _short_copy_of_table, (), {"forget": 2}),
-        ("57C422B", registers_run, RegisterDriver, _short_copy_of_registers,
-         ((f"{FAMILIES}.servo57c422b.lines.driver.RegisterDriver._write", _write_only),), {"forget": 1}),
+        (
+            "57C422B",
+            registers_run,
+            RegisterDriver,
+            _short_copy_of_registers,
+            ((f"{FAMILIES}.servo57c422b.lines.driver.RegisterDriver._write", _write_only),),
+            {"forget": 1},
+        ),
         ("control of the house", house_run, HouseDriver, _short_copy_of_house, (), {"forget": 1}),
-    )  # fmt: skip
+    )
     for what, run, driver, short, read_back, forget in both:
         chance = _downloads(run)
         for name, words, plant, faults in (
@@ -229,9 +245,17 @@ def _of_drivers() -> Iterator[Defect]:
             ("read-back skipped", "it says 'new'", partial(_no_read_back, *read_back), forget),
             ("acknowledged without writing", NOT_DONE, partial(_not_sent, driver), {}),
             ("a setting left out of the copy", SHORT, short, {}),
-            *([("fsync removed at the control", NOT_ON_DISK, _no_sync_at_control, {})] if run is not registers_run else []),
-            *([("acknowledged by the control without writing", NOT_SAVED, _not_stored, {})] if run in (terminal_run, table_run) else []),
-        ):  # fmt: skip
+            *(
+                [("fsync removed at the control", NOT_ON_DISK, _no_sync_at_control, {})]
+                if run is not registers_run
+                else []
+            ),
+            *(
+                [("acknowledged by the control without writing", NOT_SAVED, _not_stored, {})]
+                if run in (terminal_run, table_run)
+                else []
+            ),
+        ):
             yield Defect(f"{what}: {name}", words, plant, _download(run, faults), chance)
 
 
@@ -239,12 +263,17 @@ def _of_settings() -> Iterator[Defect]:
     for name, words, plant, fault in (
         ("backup skipped", NO_COPY, _no_backup, "none"),
         ("fsync of the copy removed", NOT_ON_DISK, _no_sync_of_files, "none"),
-        ("read-back skipped", "said new", partial(_no_read_back, (f"{FAMILIES}.grblhal.writing.Writing._is_there", lambda *_: True)), "forget"),
+        (
+            "read-back skipped",
+            "said new",
+            partial(_no_read_back, (f"{FAMILIES}.grblhal.writing.Writing._is_there", lambda *_: True)),
+            "forget",
+        ),
         ("acknowledged without writing", "without a fault", partial(_not_sent, GrblDriver), "none"),
         ("a setting left out of the copy", SHORT, _short_copy_of_grbl, "none"),
         ("fsync removed at the control", NOT_ON_DISK, _no_sync_at_control, "none"),
         ("acknowledged by the control without writing", NOT_SAVED, _not_stored, "none"),
-    ):  # fmt: skip
+    ):
         yield Defect(
             f"grblHAL: {name}",
             words,
@@ -258,9 +287,17 @@ def _of_saves() -> Iterator[Defect]:
     storage = "amp_studio.files.storage.write_atomic"
     for name, words, plant in (
         ("fsync removed", NOT_ON_DISK, _no_sync_of_files),
-        ("backup skipped", "no backup", lambda: _patched((storage, partial(_write_atomic, keep_backup=False)))),
-        ("acknowledged without writing", "nothing has changed", lambda: _patched(("amp_studio.files.atomic._replace", lambda *_: None))),
-    ):  # fmt: skip
+        (
+            "backup skipped",
+            "no backup",
+            lambda: _patched((storage, partial(_write_atomic, keep_backup=False))),
+        ),
+        (
+            "acknowledged without writing",
+            "nothing has changed",
+            lambda: _patched(("amp_studio.files.atomic._replace", lambda *_: None)),
+        ),
+    ):
         saved = partial(power_off_after_saves, 0, 1)
         yield Defect(
             f"a save: {name}", words, plant, saved, lambda _, folder: power_off_after_saves(0, 1, folder)
@@ -295,7 +332,9 @@ def _real_download(seed: int, folder: Path) -> list[str]:
 
 
 def _first_met(campaign: Callable[[int, Path], list[str]], *seeds: int) -> Check:
-    """Return what one of these seeds reports first: what a real process has done by a moment differs from run to run."""
+    """Return what one of these seeds reports first:
+    what a real process has done by a moment differs from run to run.
+    """
 
     def check(folder: Path) -> list[str]:
         for seed in seeds:

@@ -1,4 +1,6 @@
-"""Damaged contents of a module's registers, odd lines and commands at an emulated rack, and odd answers of one."""
+"""Damaged contents of a module's registers, odd lines and commands at an emulated rack,
+and odd answers of one.
+"""
 
 from __future__ import annotations
 
@@ -60,7 +62,9 @@ class _OddRack:
 
 
 def fuzz_racks(folder: Path, seed: int, count: int) -> list[str]:
-    """Try them in turn: whatever is refused is refused with the documented error, and nothing waits or grows without an end."""
+    """Try them in turn: whatever is refused is refused with the documented error,
+    and nothing waits or grows without an end.
+    """
     chance = random.Random(seed)
     rack = Rack(DeviceSetup("57c422b", Memory(folder / "rack"), lambda _: None))
 

@@ -1,4 +1,6 @@
-"""Damaged records of drives and descriptions of machines: each is refused in one line, or gives finite figures."""
+"""Damaged records of drives and descriptions of machines: each is refused in one line,
+or gives finite figures.
+"""
 
 from __future__ import annotations
 
@@ -20,8 +22,9 @@ from .texts import REPOSITORY, mutants, violations
 
 MACHINES = (
     (
-        "# machine\nfamily: 9pc\naxis: X\ntorque: '%'\nmodel:\n  acceleration_per_output: 41.5 mm/s2\n  viscous_friction: '0.35'\n"
-        "  coulomb_friction: 2\n  gravity: -0.1\nidentified:\n  record: drive.csv\n"
+        "# machine\nfamily: 9pc\naxis: X\ntorque: '%'\nmodel:\n  acceleration_per_output: 41.5 mm/s2\n "
+        " viscous_friction: '0.35'\n  coulomb_friction: 2\n  gravity: -0.1\nidentified:\n  record:"
+        " drive.csv\n"
     ),
     "family: 9pc\naxis: '2'\ntorque: '%'\nmodel: {backlash: 0.01 mm, delay: 1.5, resonance: 60}\n",
 )

@@ -1,4 +1,6 @@
-"""Runs the fault campaigns whole and prints one table: ``make faults``, ``make faults FAULTS="--only journal --share 0.1"``."""
+"""Runs the fault campaigns whole and prints one table: ``make faults``,
+``make faults FAULTS="--only journal --share 0.1"``.
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,6 @@
-"""The power that goes off after a verb has written: what it has written is on the disk, and so is the backup of what was there."""
+"""The power that goes off after a verb has written: what it has written is on the disk,
+and so is the backup of what was there.
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,6 @@
-"""Damaged files around a sheet of values to key in: its ticks, and what somebody has written down from the screen."""
+"""Damaged files around a sheet of values to key in: its ticks,
+and what somebody has written down from the screen.
+"""
 
 from __future__ import annotations
 
@@ -13,7 +15,10 @@ from .texts import mutants, violations
 
 SCREENS = (
     "# as on the screen\n1750 203.20000\n1740 = 11,5\n399;1\n",
-    "step,number,name,now,key in,unit,value in the file,page,read back,notes\r\n1,1750,Excess Error,11,40,mm,,7-20,40.0,\r\n",
+    (
+        "step,number,name,now,key in,unit,value in the file,page,read back,notes\r\n1,1750,Excess"
+        " Error,11,40,mm,,7-20,40.0,\r\n"
+    ),
     "\ufeffstep;number;read back\r\n1;1740;'-3\r\n",
 )
 
@@ -40,7 +45,9 @@ def fuzz_screens(seed: int, count: int) -> list[str]:
 
 
 def fuzz_ticks(folder: Path, seed: int, count: int) -> list[str]:
-    """Damage the file of ticks: it is refused and left alone, or every tick in it belongs to an entry as it is."""
+    """Damage the file of ticks: it is refused and left alone,
+    or every tick in it belongs to an entry as it is.
+    """
     sheet, _ = _sheet()
     path = folder / "mill.amp.ticks.json"
     kept = [

@@ -1,4 +1,5 @@
-"""Damaged files that the program keeps for itself: a control's memory, copies, backups, the cache, settings, locks, facts.
+"""Damaged files that the program keeps for itself: a control's memory, copies, backups, the cache, settings,
+locks, facts.
 
 What is refused is refused with the one documented error, and no file has changed by it.
 """
@@ -82,7 +83,9 @@ def _lay_out(folder: Path, whole: dict[str, bytes]) -> None:
 
 
 def fuzz_memories(folder: Path, seed: int, count: int) -> list[str]:
-    """Start an emulated control on a damaged memory: in the middle of a download, and between a commit and its end."""
+    """Start an emulated control on a damaged memory: in the middle of a download,
+    and between a commit and its end.
+    """
     identity, image = Identity("9pc", "s1"), b"a new image\n"
     found = []
     for number, (name, staged) in enumerate({"download": 5, "commit": len(image)}.items()):
@@ -150,7 +153,9 @@ def fuzz_backups(folder: Path, seed: int, count: int) -> list[str]:
 
 
 def fuzz_caches(folder: Path, seed: int, count: int) -> list[str]:
-    """Read a damaged cache: it gives what was kept there or nothing; what is below a right digest are records or refused."""
+    """Read a damaged cache: it gives what was kept there or nothing;
+    what is below a right digest are records or refused.
+    """
     path = folder / "steps-x.json"
     write_cached(path, record_text(compile_family(FACTS)).encode(), "steps")
     whole = path.read_bytes().decode("utf-8")

@@ -10,7 +10,8 @@ from .campaigns import CAMPAIGNS, Campaign
 from .verbs import compiler, fail_calls
 
 SEED = 4
-"""With it the bad line is a pseudo terminal that is cut twice; a control that dies in a commit is waited for 20 s."""
+"""With it the bad line is a pseudo terminal that is cut twice;
+a control that dies in a commit is waited for 20 s."""
 
 
 @pytest.mark.parametrize(

@@ -1,4 +1,6 @@
-"""Actions that the monkey chose once, done again in the window of each family; ``make faults`` has it choose others."""
+"""Actions that the monkey chose once, done again in the window of each family;
+``make faults`` has it choose others.
+"""
 
 from __future__ import annotations
 
@@ -18,7 +20,11 @@ def test_the_window_lives_through_what_the_monkey_did(family: str, checkout: Pat
     log = ACTIONS / f"{family}.jsonl"
     done = subprocess.run(
         [sys.executable, "-m", "tests.faults.monkey", family, "--replay", str(log)],
-        capture_output=True, text=True, timeout=300, check=False, cwd=checkout,
-    )  # fmt: skip
+        capture_output=True,
+        text=True,
+        timeout=300,
+        check=False,
+        cwd=checkout,
+    )
     assert done.returncode == 0, done.stdout + done.stderr
     assert done.stdout.startswith(f"{len(log.read_text('utf-8').splitlines())} actions, 0 errors")

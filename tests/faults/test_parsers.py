@@ -1,4 +1,6 @@
-"""No reader of the program is left out of the campaigns: every place that takes something from outside is in this table."""
+"""No reader of the program is left out of the campaigns:
+every place that takes something from outside is in this table.
+"""
 
 from __future__ import annotations
 
@@ -14,11 +16,38 @@ from .campaigns import CAMPAIGNS
 
 PROGRAM = Path(families.__file__).parents[1]
 CALLS = {
-    "read_file", "read_table_text", "read_yaml", "read_yaml_file", "loads", "reader", "recv", "readLine", "readAllStandardError", "unpack_from",
-    "model_validate_json", "validate_python", "QSettings", "read_bytes", "read_text", "parse_qsl", "fromhex", "parse_args",
-    "clipboard", "input", "comports", "os.read", "read_entries", "read_expression", "read_content", "decode_image",
-    "decode_content", "decode", "read_block", "feed", "get_template",
-}  # fmt: skip
+    "read_file",
+    "read_table_text",
+    "read_yaml",
+    "read_yaml_file",
+    "loads",
+    "reader",
+    "recv",
+    "readLine",
+    "readAllStandardError",
+    "unpack_from",
+    "model_validate_json",
+    "validate_python",
+    "QSettings",
+    "read_bytes",
+    "read_text",
+    "parse_qsl",
+    "fromhex",
+    "parse_args",
+    "clipboard",
+    "input",
+    "comports",
+    "os.read",
+    "read_entries",
+    "read_expression",
+    "read_content",
+    "decode_image",
+    "decode_content",
+    "decode",
+    "read_block",
+    "feed",
+    "get_template",
+}
 """Calls by which something comes in, or becomes what it means."""
 NAMES = {"stdin", "argv", "environ"}
 

@@ -31,7 +31,8 @@ for at in range(1, 100):
         break
     log.write_text(f"{code} {log.read_text()}")
 """
-"""Uploads, of which the first has its first call fail, the second its second, until there is no further call."""
+"""Uploads, of which the first has its first call fail, the second its second, until there is no further
+call."""
 
 
 @pytest.mark.skipif(

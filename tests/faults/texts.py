@@ -1,7 +1,8 @@
 """Damaged texts, as many as are wanted, the same for the same seed: for every reader of a file.
 
-Each ``fuzz_…`` takes a seed and a count and returns the violations: what was raised that is not the one documented error,
-what took longer than ``SLOWEST``, what was taken and could not be written or read back as the same.
+Each ``fuzz_…`` takes a seed and a count and returns the violations: what was raised that is not the one
+documented error, what took longer than ``SLOWEST``,
+what was taken and could not be written or read back as the same.
 """
 
 from __future__ import annotations
@@ -46,16 +47,116 @@ SLOWEST = 5.0
 REPOSITORY = Path(__file__).resolve().parents[2]
 
 TOKENS = (
-    "<<: 5", "foo: 2001-99-99", "foo: 2001-12-14T21:59:43.10-05:00", "...", "---", "s: !!int", "!!python/object:os.system x",
-    "&a", "*a", "&a [*a]", "[" * 900, "{" * 900, "- " * 900, "? " * 60, "\t", "l | b's\t", "|", "|+2", ">-", ">9", "%YAML 1.1",
-    "%TAG ! tag:x,2000:", "# remark", " #", ": ", ":", "- ", "? ", "'", '"', '"\\u0000"', '"\\ud800"', '"\\x1b[31m"', "\x00",
-    "\x1b[2J", "\x85", "\u2028", "\ufeff", "\r", "\r\n", "\ufffe", "😀", "null", "~", "true", ".nan", ".inf", "1e999", "-1e999",
-    "1e300", "5e-324", "1e-400", "0x" + "1" * 52, "9" * 30, "9" * 5000, "1_000", "0o17", "010", "1:30", "nan", "inf", "raw:1",
-    "raw:" + "9" * 5000, "raw:-0", "raw:٣", "9007199254740993", "1,234", "1,5 mm", "1 furlong", "5 ms", "1 mm mm", "-0 mm",
-    "1e99999999", "1e-99999999", "X1e99999999", "1e-99999999999999999999", "0e99999999999999999999", "1e99999999999999999999", "{a: b}", "[a, b]", "=", "@", "@1", "x" * 3000, "../../etc", "family: ../x",
-    "\n\n\n", " " * 300, "a: 1", "values:", "forced:", "machine:", "\\", "&", "#0 0", ";FF", "\x13", "P21N3:t1n3", ",", '","',
-    "REM", "PPU X", "(" * 500, "R0", "65536", "-32769", "0FFFFFH", "\\ ", "!",
-)  # fmt: skip
+    "<<: 5",
+    "foo: 2001-99-99",
+    "foo: 2001-12-14T21:59:43.10-05:00",
+    "...",
+    "---",
+    "s: !!int",
+    "!!python/object:os.system x",
+    "&a",
+    "*a",
+    "&a [*a]",
+    "[" * 900,
+    "{" * 900,
+    "- " * 900,
+    "? " * 60,
+    "\t",
+    "l | b's\t",
+    "|",
+    "|+2",
+    ">-",
+    ">9",
+    "%YAML 1.1",
+    "%TAG ! tag:x,2000:",
+    "# remark",
+    " #",
+    ": ",
+    ":",
+    "- ",
+    "? ",
+    "'",
+    '"',
+    '"\\u0000"',
+    '"\\ud800"',
+    '"\\x1b[31m"',
+    "\x00",
+    "\x1b[2J",
+    "\x85",
+    "\u2028",
+    "\ufeff",
+    "\r",
+    "\r\n",
+    "\ufffe",
+    "😀",
+    "null",
+    "~",
+    "true",
+    ".nan",
+    ".inf",
+    "1e999",
+    "-1e999",
+    "1e300",
+    "5e-324",
+    "1e-400",
+    "0x" + "1" * 52,
+    "9" * 30,
+    "9" * 5000,
+    "1_000",
+    "0o17",
+    "010",
+    "1:30",
+    "nan",
+    "inf",
+    "raw:1",
+    "raw:" + "9" * 5000,
+    "raw:-0",
+    "raw:٣",
+    "9007199254740993",
+    "1,234",
+    "1,5 mm",
+    "1 furlong",
+    "5 ms",
+    "1 mm mm",
+    "-0 mm",
+    "1e99999999",
+    "1e-99999999",
+    "X1e99999999",
+    "1e-99999999999999999999",
+    "0e99999999999999999999",
+    "1e99999999999999999999",
+    "{a: b}",
+    "[a, b]",
+    "=",
+    "@",
+    "@1",
+    "x" * 3000,
+    "../../etc",
+    "family: ../x",
+    "\n\n\n",
+    " " * 300,
+    "a: 1",
+    "values:",
+    "forced:",
+    "machine:",
+    "\\",
+    "&",
+    "#0 0",
+    ";FF",
+    "\x13",
+    "P21N3:t1n3",
+    ",",
+    '","',
+    "REM",
+    "PPU X",
+    "(" * 500,
+    "R0",
+    "65536",
+    "-32769",
+    "0FFFFFH",
+    "\\ ",
+    "!",
+)
 
 
 def mutants(texts: Sequence[str], seed: int, count: int) -> Iterator[str]:
@@ -107,7 +208,9 @@ def _line(text: str, chance: random.Random, _texts: Sequence[str]) -> str:
 def violations(
     texts: Iterator[Case], look: Callable[[Case], None], allowed: tuple[type[BaseException], ...]
 ) -> list[str]:
-    """Return what goes wrong when each text is checked: any error that is not allowed, and whatever takes long."""
+    """Return what goes wrong when each text is checked: any error that is not allowed,
+    and whatever takes long.
+    """
     with mock.patch("os.fsync", return_value=None):  # it is about what is read, not about the disk
         return [violation for text in texts for violation in _looked(text, look, allowed)]
 
@@ -129,7 +232,7 @@ def _looked(
         yield f"{took:.1f} s for {text!r:.300}"
 
 
-# -- one for each reader -----------------------------------------------------------------------------------------------
+# -- one for each reader
 
 
 def examples(pattern: str) -> list[str]:
@@ -172,7 +275,9 @@ def fuzz_yaml(seed: int, count: int) -> list[str]:
 
 
 def fuzz_parameter_files(seed: int, count: int) -> list[str]:
-    """Open damaged parameter files; what opens is saved with a change, which is all that differs afterwards."""
+    """Open damaged parameter files; what opens is saved with a change, which is all that differs
+    afterwards.
+    """
     return violations(
         mutants([*[SMALL] * 60, *examples("*/*.amp")], seed, count), _open_and_save, (ParameterFileError,)
     )
@@ -260,8 +365,15 @@ def fuzz_journals(folder: Path, seed: int, count: int) -> list[str]:
     path = folder / "x.amp"
     path.unlink(missing_ok=True)
     digest = save_file(new_file("57c422b", name="X"), path)
-    journal = json.dumps({"when": "now", "who": "me", "digest": digest, "header": {"notes": "x"}, "changes": [
-        ["gain.integral@X", "5"], ["gain.integral@Y", None], ["setup.encoder@X", "0x1414"]]})  # fmt: skip
+    journal = json.dumps(
+        {
+            "when": "now",
+            "who": "me",
+            "digest": digest,
+            "header": {"notes": "x"},
+            "changes": [["gain.integral@X", "5"], ["gain.integral@Y", None], ["setup.encoder@X", "0x1414"]],
+        }
+    )
     history = json.dumps(["now", "me", "set", "gain.integral@X", "5", "6"]) + "\n"
 
     def look(text: str) -> None:
@@ -280,12 +392,22 @@ def fuzz_journals(folder: Path, seed: int, count: int) -> list[str]:
 
 
 def fuzz_records(folder: Path, seed: int, count: int) -> list[str]:
-    """Read a damaged record of exchanges, add one more to it, and compare a file with the last download in it."""
+    """Read a damaged record of exchanges, add one more to it,
+    and compare a file with the last download in it.
+    """
     path = folder / "x.amp"
     path.write_bytes(b"")
     file = new_file("9pc")
-    entry = exchange_now("download", path, "9pc", "tcp://127.0.0.1:1", before="a" * 64, after="b" * 64, state="new",
-                         changes=(("home.calibration@1", "0 mm", "1 mm"),))  # fmt: skip
+    entry = exchange_now(
+        "download",
+        path,
+        "9pc",
+        "tcp://127.0.0.1:1",
+        before="a" * 64,
+        after="b" * 64,
+        state="new",
+        changes=(("home.calibration@1", "0 mm", "1 mm"),),
+    )
     record = json.dumps(asdict(entry)) + "\n"
 
     def look(text: str) -> None:
@@ -301,7 +423,9 @@ def fuzz_records(folder: Path, seed: int, count: int) -> list[str]:
 
 
 def fuzz_imports(folder: Path, seed: int, count: int) -> list[str]:
-    """Import damaged texts of every format, with and without what is not understood; what is taken is saved and read back."""
+    """Import damaged texts of every format, with and without what is not understood;
+    what is taken is saved and read back.
+    """
     found, each = [], max(1, count // len(_FORMATS))
     for number, (family, key) in enumerate(_FORMATS):
         ending = next(f.ending for f in formats_of(family) if f.key == key)
@@ -333,7 +457,9 @@ _FORMATS = [(family, f.key) for family in family_ids() for f in formats_of(famil
 
 
 def fuzz_entries(seed: int, count: int) -> list[str]:
-    """Say odd things of every parameter, as a person, a file and a journal do; what is taken is written and read back."""
+    """Say odd things of every parameter, as a person, a file and a journal do;
+    what is taken is written and read back.
+    """
     chance = random.Random(seed)
     found = []
     for _ in range(count):
@@ -354,6 +480,32 @@ def fuzz_entries(seed: int, count: int) -> list[str]:
     return found
 
 
-NUMBERS = ("0", "-0", "1", "0.1", "1.5", "-7", "65535", "4294967295", "9007199254740991", "9007199254740992", "9007199254740993",
-           "4503599627370497.5", "0x1F", "$1F", "1F", "017", "0x" + "F" * 14, "1e15", "1e16", "1e22", "123456789012345678",
-           "0.1234567890123456789", "1'000", "3.4", "99.99", "1e-320", "2.2250738585072014e-308")  # fmt: skip
+NUMBERS = (
+    "0",
+    "-0",
+    "1",
+    "0.1",
+    "1.5",
+    "-7",
+    "65535",
+    "4294967295",
+    "9007199254740991",
+    "9007199254740992",
+    "9007199254740993",
+    "4503599627370497.5",
+    "0x1F",
+    "$1F",
+    "1F",
+    "017",
+    "0x" + "F" * 14,
+    "1e15",
+    "1e16",
+    "1e22",
+    "123456789012345678",
+    "0.1234567890123456789",
+    "1'000",
+    "3.4",
+    "99.99",
+    "1e-320",
+    "2.2250738585072014e-308",
+)

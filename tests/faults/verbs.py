@@ -1,4 +1,6 @@
-"""Fails every call of the system that a writing verb makes in its folder, one run a call, and looks what it left behind."""
+"""Fails every call of the system that a writing verb makes in its folder, one run a call,
+and looks what it left behind.
+"""
 
 from __future__ import annotations
 
@@ -62,7 +64,8 @@ def library() -> str:
 def fail_each_call(
     verb: tuple[str, ...], seed: int, folder: Path, most: int | None = None
 ) -> tuple[int, list[str]]:
-    """Run a verb with its first call failing, its second, and so on; returns how many runs, and what was not true of them.
+    """Run a verb with its first call failing, its second, and so on; returns how many runs,
+    and what was not true of them.
 
     The error and whether all later calls fail too are chosen by the seed; ``most`` ends it earlier.
     """
@@ -74,13 +77,21 @@ def fail_each_call(
         lay_out(work)
         number, for_ever = chance.choice(ERRORS), chance.random() < 0.3
         log = folder / f"log-{at}"
-        env = {"LD_PRELOAD": library(), "FAULT_FOLDER": str(work), "FAULT_AT": str(at), "FAULT_ERRNO": str(number),
-               "FAULT_LOG": str(log)} | ({"FAULT_FOREVER": "1"} if for_ever else {})  # fmt: skip
+        env = {
+            "LD_PRELOAD": library(),
+            "FAULT_FOLDER": str(work),
+            "FAULT_AT": str(at),
+            "FAULT_ERRNO": str(number),
+            "FAULT_LOG": str(log),
+        } | ({"FAULT_FOREVER": "1"} if for_ever else {})
         before = contents(work)
         code, said = _run(verb, work, env)
         lines = log.read_text(encoding="utf-8").splitlines() if log.exists() else []
         failed = [(call, Path(path).name) for _, call, path in (line.split(" ", 2) for line in lines)]
-        how = f"{' '.join(verb)}, seed {seed}, call {at} ({failed[:1]}, {os.strerror(number)}, for ever: {for_ever})"
+        how = (
+            f"{' '.join(verb)}, seed {seed}, call {at} ({failed[:1]}, {os.strerror(number)}, for ever:"
+            f" {for_ever})"
+        )
         found += [
             f"{how}: {what}" for what in _violations(code, said, before, contents(work), wanted, failed)
         ]
@@ -118,10 +129,19 @@ def _prepared() -> Path:
 
 def _run(verb: tuple[str, ...], work: Path, env: dict[str, str]) -> tuple[int, str]:
     ended = subprocess.run(
-        [sys.executable, "-m", "amp_studio.cli", verb[0],
-         *(str(work / word) if re.fullmatch(r"[a-z]+\.[a-z]+", word) else word for word in verb[1:])],
-        capture_output=True, text=True, check=False, env=os.environ | env, timeout=120,
-    )  # fmt: skip
+        [
+            sys.executable,
+            "-m",
+            "amp_studio.cli",
+            verb[0],
+            *(str(work / word) if re.fullmatch(r"[a-z]+\.[a-z]+", word) else word for word in verb[1:]),
+        ],
+        capture_output=True,
+        text=True,
+        check=False,
+        env=os.environ | env,
+        timeout=120,
+    )
     return ended.returncode, ended.stderr
 
 
@@ -158,7 +178,8 @@ def _violations(
     if "Traceback" in said or "ignored" in said:
         yield said
     changed = after.get(target) != before.get(target)
-    # A report has a note where the rules of the builder, or for the checksum the file once more, cannot be read.
+    # A report has a note where the rules of the builder, or for the checksum the file once more, cannot be
+    # read.
     said_so = any(
         words in after.get(target, b"") for words in (b"rules.yaml", b"the file on disk cannot be read")
     )
@@ -181,8 +202,8 @@ def _violations(
         yield "the backup is not the previous file"
     may_be_new = {*before, *wanted, f"{target}.bak"} if code != 2 else set(before)
     left = [name for name in after if name not in may_be_new]
-    # What cannot be removed stays; a lock that cannot be examined may be another program's, and is left alone, and a backup
-    # where it cannot be examined whether its file was replaced.
+    # What cannot be removed stays; a lock that cannot be examined may be another program's, and is left
+    # alone, and a backup where it cannot be examined whether its file was replaced.
     kept_by = {name for call, name in failed if call == "unlink" or (call in LOOKS and name.endswith(LOCKS))}
     kept_by |= {f"{target}.bak" for call, name in failed if call in LOOKS and name.endswith(".tmp")}
     if not kept_by >= set(left):
@@ -201,7 +222,9 @@ def _timeless(content: bytes) -> bytes:
 
 
 def fail_calls(seed: int, runs: int, folder: Path) -> list[str]:
-    """Fail the calls of the writing verbs; ``runs`` under the number of verbs: the first few calls of one of them."""
+    """Fail the calls of the writing verbs; ``runs`` under the number of verbs:
+    the first few calls of one of them.
+    """
     if compiler() is None:
         return []
     if runs < len(VERBS):

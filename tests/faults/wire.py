@@ -37,8 +37,11 @@ _JUNK = (
 def random_message(chance: random.Random) -> Message:
     """Return any message with any content that its fields can hold."""
     kind = MESSAGES[chance.choice(list(MESSAGES))]
-    types = {"flag": lambda: chance.random() < 0.5, "text": lambda: "é\x1b[2J" * chance.choice((0, 1, 40)),
-             "rest": lambda: chance.randbytes(chance.choice((0, 1, 254, 255, 4096)))}  # fmt: skip
+    types = {
+        "flag": lambda: chance.random() < 0.5,
+        "text": lambda: "é\x1b[2J" * chance.choice((0, 1, 40)),
+        "rest": lambda: chance.randbytes(chance.choice((0, 1, 254, 255, 4096))),
+    }
     fields = {}
     for name, wire in LAYOUTS[kind.TYPE]:
         if wire in types:
@@ -75,7 +78,9 @@ def _streams(seed: int, count: int) -> Iterator[tuple[random.Random, set[bytes],
 
 
 def _decode(case: tuple[random.Random, set[bytes], bytes]) -> None:
-    """A damaged frame is dropped and counted; nothing is kept beyond the longest one, and what comes after it is read."""
+    """A damaged frame is dropped and counted; nothing is kept beyond the longest one,
+    and what comes after it is read.
+    """
     chance, sent, stream = case
     decoder, found, at = FrameDecoder(), list[Frame](), 0
     while at < len(stream):
@@ -116,13 +121,24 @@ def fuzz_messages(seed: int, count: int) -> list[str]:
 
 
 _TELNET = (
-    b"\xff\xfb\x2c", b"\xff\xfd\x00", b"\xff\xfa\x2c\x65\x00\x00\x25\x80\xff\xf0", b"data", b"\xff\xff", b"\xff\xf1", b"\xff\xf0",
-    b"\xff\xfa" + b"x" * 2000, b"\xff\xfa\x2c\xff\xff\xff\xf0", b"\xff", b"\x13\x11",
-)  # fmt: skip
+    b"\xff\xfb\x2c",
+    b"\xff\xfd\x00",
+    b"\xff\xfa\x2c\x65\x00\x00\x25\x80\xff\xf0",
+    b"data",
+    b"\xff\xff",
+    b"\xff\xf1",
+    b"\xff\xf0",
+    b"\xff\xfa" + b"x" * 2000,
+    b"\xff\xfa\x2c\xff\xff\xff\xf0",
+    b"\xff",
+    b"\x13\x11",
+)
 
 
 def fuzz_telnet(seed: int, count: int) -> list[str]:
-    """Read damaged telnet lines, however they are cut: the same comes out, bounded, and what follows is read."""
+    """Read damaged telnet lines, however they are cut: the same comes out, bounded, and what follows is
+    read.
+    """
     chance = random.Random(seed)
 
     def read(stream: bytes, size: int) -> tuple[bytes, list[object]]:
@@ -147,7 +163,9 @@ def fuzz_telnet(seed: int, count: int) -> list[str]:
 
 
 def fuzz_plain_files(seed: int, count: int) -> list[str]:
-    """Send to and receive from ends that say anything: each transfer ends, by a sentence where it fails, and takes no memory."""
+    """Send to and receive from ends that say anything: each transfer ends, by a sentence where it fails,
+    and takes no memory.
+    """
 
     def look(number: int) -> None:
         wild = Wild(number)
@@ -193,7 +211,9 @@ class _Said:
 
 
 def fuzz_passwords(seed: int, count: int) -> list[str]:
-    """Meet damaged challenges and proofs: nobody is let in without the password, and what fails does so in a sentence."""
+    """Meet damaged challenges and proofs: nobody is let in without the password,
+    and what fails does so in a sentence.
+    """
     chance = random.Random(seed)
     with mock.patch("amp_studio.transfer.links.password.ROUNDS", 1):
         gate = Gate("secret word")

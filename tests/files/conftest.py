@@ -21,7 +21,9 @@ from amp_studio.schema.load import load_compiled
 
 @pytest.fixture
 def mill() -> ParameterFile:
-    """Return a mill with the linear axes X, Y and Z, its servos chosen; of the axes it does not have nothing is set."""
+    """Return a mill with the linear axes X, Y and Z, its servos chosen;
+    of the axes it does not have nothing is set.
+    """
     file = new_file("9pc", "mill", ["X", "Y", "Z"], name="bench")
     for address in [address for address in file.values if address[1] in tuple("45678")]:
         file.set(address, None)
@@ -109,7 +111,9 @@ def disk(monkeypatch: pytest.MonkeyPatch) -> Iterator[FailingDisk]:
 
 
 class Other:
-    """Another program: a Python process that runs a script, reports what it has done, and waits for a command or its end."""
+    """Another program: a Python process that runs a script, reports what it has done,
+    and waits for a command or its end.
+    """
 
     def __init__(self, script: str, *arguments: object) -> None:
         self.process = subprocess.Popen(

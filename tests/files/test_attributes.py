@@ -130,7 +130,7 @@ def test_a_write_protected_file_is_not_replaced(small: Path, monkeypatch) -> Non
     assert small.read_bytes() == old
 
 
-# -- line ends ------------------------------------------------------------------------------------------------
+# -- line ends
 
 
 @pytest.mark.parametrize("comment", ["", "# by hand\n"])

@@ -1,4 +1,6 @@
-"""Axes where they have no types: words of bits, a number of axes, letters compiled in, axes that are always there."""
+"""Axes where they have no types: words of bits, a number of axes, letters compiled in,
+axes that are always there.
+"""
 
 from __future__ import annotations
 
@@ -51,7 +53,7 @@ def taken_back(file: ParameterFile, changes) -> dict:
     return dict(file.values)
 
 
-# -- new files -------------------------------------------------------------------------------------------------------
+# -- new files
 
 
 def test_a_num_has_names_and_groups_in_p9_and_a_bit_in_p2_p3_and_p0() -> None:
@@ -130,7 +132,7 @@ def test_a_machine_type_may_have_fewer_axes_than_its_family() -> None:
     assert fitted_axes(new_file("grblhal", "grbl-1.1", list("XYZ"))) == ("X", "Y", "Z")
 
 
-# -- which are there -------------------------------------------------------------------------------------------------
+# -- which are there
 
 
 def test_the_input_of_a_spindle_is_shown_and_is_no_axis() -> None:
@@ -160,7 +162,7 @@ def test_a_word_has_a_bit_for_each_axis_where_all_its_bits_are_called_so() -> No
     assert words_of_axes(load_schema("57c422b")) == {}
 
 
-# -- one axis --------------------------------------------------------------------------------------------------------
+# -- one axis
 
 
 def test_an_added_axis_takes_the_first_free_address_and_a_removed_one_leaves_no_bit() -> None:
@@ -262,7 +264,7 @@ def test_a_letter_is_changed_and_the_group_stays() -> None:
         rename_axis(new_file("57c422b"), "X", "Y")
 
 
-# -- values ----------------------------------------------------------------------------------------------------------
+# -- values
 
 
 def test_a_copied_axis_takes_bits_and_words_but_no_name() -> None:

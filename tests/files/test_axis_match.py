@@ -99,10 +99,7 @@ def test_axes_of_a_family_whose_axes_are_letters_are_compared_too(
 
 @pytest.mark.parametrize(
     ("source", "target", "message"),
-    [
-        ("9", "1", "there is no axis 9"),
-        ("1", "1", "axis 1 cannot be compared with itself"),
-    ],
+    [("9", "1", "there is no axis 9"), ("1", "1", "axis 1 cannot be compared with itself")],
 )
 def test_an_axis_that_cannot_be_compared_is_refused(source: str, target: str, message: str) -> None:
     with pytest.raises(AxisError, match=message):

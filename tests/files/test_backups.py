@@ -22,7 +22,7 @@ from amp_studio.schema import Value
 
 CALIBRATION = ("home.calibration", "1")
 
-# -- backup and recovery --------------------------------------------------------------------------------------------
+# -- backup and recovery
 
 
 def test_a_backup_is_put_back_and_what_stood_there_becomes_the_backup(
@@ -71,7 +71,7 @@ def test_recovery_does_not_overwrite_what_another_program_saved(on_disk: Path, m
     assert theirs == on_disk.read_bytes()
 
 
-# -- save_file ---------------------------------------------------------------------------------------------------------
+# -- save_file
 
 
 def test_every_saved_file_carries_the_signature_of_the_schema_it_was_saved_with(

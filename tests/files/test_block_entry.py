@@ -42,11 +42,15 @@ def test_not_set_clears_and_what_is_no_number_is_refused(file: ParameterFile) ->
 
 
 def test_two_values_that_bound_each_other_move_together(file: ParameterFile) -> None:
-    """Alone the first would be out of its range, which the second sets; a third that is refused takes neither along."""
+    """Alone the first would be out of its range, which the second sets;
+    a third that is refused takes neither along.
+    """
     bounded = next(
-        (p.id, i) for p in file.schema.parameters.values() for i in file.machine_schema.instances(p)
+        (p.id, i)
+        for p in file.schema.parameters.values()
+        for i in file.machine_schema.instances(p)
         if p.type == "real" and (limit := _bound(file, (p.id, i))) is not None and limit[0] in file.values
-    )  # fmt: skip
+    )
     source, high = _bound(file, bounded) or (bounded, 0.0)
     unit = file.evaluation.unit(bounded, "metric")
     alone = plan_values(file, {bounded: Value(high * 1.01, unit)})
@@ -68,8 +72,9 @@ def _bound(file: ParameterFile, address: tuple[str, str]) -> tuple[tuple[str, st
 
 def test_what_the_control_writes_and_what_does_not_exist_is_refused(file: ParameterFile) -> None:
     hidden = next(
-        a for a in file.addresses()
+        a
+        for a in file.addresses()
         if file.evaluation.state(a).state == "hidden" and file.schema.parameters[a[0]].type == "real"
-    )  # fmt: skip
+    )
     entry = plan_values(file, {hidden: Value(1.0, file.evaluation.unit(hidden, "metric"))})
     assert "does not exist here" in entry.refused[0].problem

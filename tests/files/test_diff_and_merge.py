@@ -93,7 +93,7 @@ def test_differences_stand_in_the_order_of_the_manual_and_axis_10_behind_axis_9(
     assert order == [difference.address for difference in compare(mill.schema, values, {}).differences]
 
 
-# -- merge ----------------------------------------------------------------------------------------------------
+# -- merge
 
 
 def test_changes_of_both_sides_come_together() -> None:

@@ -242,7 +242,7 @@ def test_a_system_that_has_no_name_for_the_user_is_no_reason_to_stop(on_disk: Pa
         assert [entry.who for entry in document.history()] == ["unknown"]
 
 
-# -- unsaved work ------------------------------------------------------------------------------------------------
+# -- unsaved work
 
 
 @pytest.fixture
@@ -317,9 +317,19 @@ def test_the_journal_follows_the_work_and_goes_with_the_save(on_disk: Path) -> N
 
 @pytest.mark.parametrize(
     "content",
-    [b"", b"{", b"null", b"[]", b"{}", b"\xff", b'{"when": 1, "who": 2, "digest": 3}', b'{"changes": [[1]]}',
-     b'{"changes": 5, "when": "", "who": "", "digest": ""}', b'{"changes": [["a", "b", "c"]], "when": "", "who": "", "digest": ""}'],
-)  # fmt: skip
+    [
+        b"",
+        b"{",
+        b"null",
+        b"[]",
+        b"{}",
+        b"\xff",
+        b'{"when": 1, "who": 2, "digest": 3}',
+        b'{"changes": [[1]]}',
+        b'{"changes": 5, "when": "", "who": "", "digest": ""}',
+        b'{"changes": [["a", "b", "c"]], "when": "", "who": "", "digest": ""}',
+    ],
+)
 def test_a_journal_that_cannot_be_read_is_no_reason_not_to_open(on_disk: Path, content: bytes) -> None:
     on_disk.with_name(".bench.amp.unsaved").write_bytes(content)
     with Document.open(on_disk) as document:

@@ -1,5 +1,5 @@
-"""Whatever call of the system fails, once or for ever, and at whichever of them Ctrl-C comes: a file is the old one or the
-new one, whole, and nothing lies about.
+"""Whatever call of the system fails, once or for ever, and at whichever of them Ctrl-C comes: a file is the
+old one or the new one, whole, and nothing lies about.
 """
 
 from __future__ import annotations

@@ -5,17 +5,12 @@ from __future__ import annotations
 import getpass
 from pathlib import Path
 
-from amp_studio.files import (
-    Document,
-    ParameterFile,
-    backup_path,
-    open_file,
-)
+from amp_studio.files import Document, ParameterFile, backup_path, open_file
 from amp_studio.schema import Value
 
 CALIBRATION, POSITION = ("home.calibration", "1"), ("home.position", "1")
 
-# -- history -----------------------------------------------------------------------------------------------------
+# -- history
 
 
 def test_every_value_a_save_replaced_is_in_the_history_newest_first(on_disk: Path) -> None:

@@ -79,7 +79,8 @@ def test_values_of_the_other_machine_type_wait_until_it_comes_back(family, tmp_p
     family(LATHE_ONLY, SCOPED)
     path = tmp_path / "two.amp"
     path.write_text(
-        "amp_studio: 1\nfamily: two\nvalues:\n  control.type: Mill\n  plane.radius@1: 5\n  plane.radius: 7\n...\n"
+        "amp_studio: 1\nfamily: two\nvalues:\n  control.type: Mill\n  plane.radius@1: 5\n  plane.radius:"
+        " 7\n...\n"
     )
     opened = open_file(path)
     assert ({"plane.radius@1": "5"}, Value(7)) == (opened.file.unknown, opened.file.get(("plane.radius", "")))
@@ -193,7 +194,9 @@ def test_any_text_of_the_header_is_kept(name: str, notes: str, key: str, extra: 
 @pytest.mark.parametrize("sign", ["\x85", "\u2028", "\u2029", "\ufeff", "\r"])
 @pytest.mark.parametrize("told", ["{}", "a{}b", "a{} b", "a {}"])
 def test_rare_line_ends_survive_a_save_that_does_not_touch_them(sign: str, told: str) -> None:
-    """In a file with remarks, where what did not change is written as it was read: in texts, lists and mappings."""
+    """In a file with remarks, where what did not change is written as it was read: in texts,
+    lists and mappings.
+    """
     file, told = ParameterFile(load_schema("9pc")), told.format(sign)
     file.header.notes, file.header.extra["made_by"] = told, {"lines": [told, "plain"], told: "#"}
     file.unknown["other.text"] = told

@@ -1,4 +1,6 @@
-"""Links: a save through one writes the file it leads to, which has one lock, one backup, one history, one journal."""
+"""Links: a save through one writes the file it leads to, which has one lock, one backup, one history,
+one journal.
+"""
 
 from __future__ import annotations
 
@@ -107,7 +109,9 @@ def test_a_file_deleted_behind_its_link_is_recovered_where_it_was(on_disk: Path,
 
 
 def test_planted_links_in_the_place_of_companions_are_not_followed(on_disk: Path) -> None:
-    """Anybody who may write to the folder must not reach files elsewhere through the program of another user."""
+    """Anybody who may write to the folder must not reach files elsewhere through the program of another
+    user.
+    """
     victim = on_disk.with_name("victim")
     victim.write_bytes(b"precious")
     for name in (".bench.amp.holder", ".bench.amp.unsaved", "bench.amp.history", "bench.amp.bak"):

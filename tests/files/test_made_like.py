@@ -27,8 +27,13 @@ def test_a_file_has_the_values_of_the_other_except_what_was_measured_there() -> 
     own = {p.id for p in of_one_machine(source.schema)}
     assert {"home.calibration", "servo.reversal_error", "calibration.table", "password.character"} <= own
     differing = {a[0] for a in source.values if file.get(a) != source.get(a)}
-    assert differing == {"home.calibration", "servo.reversal_error", "probing.probe_length", "probing.probe_radius",
-                         "password.character"}  # fmt: skip
+    assert differing == {
+        "home.calibration",
+        "servo.reversal_error",
+        "probing.probe_length",
+        "probing.probe_radius",
+        "password.character",
+    }
     assert [p.id for p in made.left] == sorted(differing, key=list(source.schema.parameters).index)
     assert file.get(("home.calibration", "1")) == Value(0.0, "mm")
     assert [a for a in file.values if a[0] == "password.character"] == []  # the control keeps its own

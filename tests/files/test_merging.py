@@ -1,4 +1,6 @@
-"""Two or three sources side by side: what kind each row is, what the result takes, and that nothing is lost."""
+"""Two or three sources side by side: what kind each row is, what the result takes, and that nothing is
+lost.
+"""
 
 from __future__ import annotations
 
@@ -36,7 +38,7 @@ def row_of(merge: Merge, address: Address) -> Row:
     return next(row for row in merge.rows if row.id.part == "value" and row.address == address)
 
 
-# -- rows ------------------------------------------------------------------------------------------------------
+# -- rows
 
 
 @pytest.mark.parametrize(
@@ -81,7 +83,7 @@ def test_rows_come_in_the_groups_of_the_manual_with_the_header_first() -> None:
     assert len(titles) == 4
 
 
-# -- the result ------------------------------------------------------------------------------------------------
+# -- the result
 
 
 def test_a_conflict_is_open_until_it_is_chosen_and_keeps_a_until_then() -> None:
@@ -97,11 +99,7 @@ def test_a_conflict_is_open_until_it_is_chosen_and_keeps_a_until_then() -> None:
 
 @pytest.mark.parametrize(
     ("choice", "value"),
-    [
-        ("base", Value(1.0, "mm")),
-        (Typed(Value(2.5, "mm")), Value(2.5, "mm")),
-        (Typed(None), None),
-    ],
+    [("base", Value(1.0, "mm")), (Typed(Value(2.5, "mm")), Value(2.5, "mm")), (Typed(None), None)],
 )
 def test_a_conflict_may_be_settled_by_the_base_by_a_typed_value_or_by_none(
     choice: object, value: Value
@@ -232,7 +230,7 @@ def test_a_key_of_another_program_keeps_its_kind() -> None:
     assert merge.result().header.extra == {"bay": 8, "shop": ["x"]}
 
 
-# -- for all families --------------------------------------------------------------------------------------------
+# -- for all families
 
 
 @cache

@@ -1,4 +1,6 @@
-"""What people note about a value, a group or the machine is part of the file: saved, undone, merged, and lost by nobody."""
+"""What people note about a value, a group or the machine is part of the file: saved, undone, merged,
+and lost by nobody.
+"""
 
 from __future__ import annotations
 

@@ -136,13 +136,28 @@ def test_a_saved_file_cut_off_at_a_line_end_says_so(on_disk: Path) -> None:
         ("values:", "values:\n  - 5\nvalue:", 4, "is not a list of parameters with values"),
         ("family: 9pc", "family: 9pc\nunits: cubits", 3, "units is 'cubits'; known here: metric, inch"),
         ("family: 9pc", "family: 9pc\nmachine: grinder", 3, "machine is 'grinder'; known here: lathe, mill"),
-        ("family: 9pc", "family: 9pc\nforced: [home.calibration@1]", 3, "'forced' is not a list of parameters"),
-        ("  control.type: Mill", "\tcontrol.type: Mill", 4, "is not readable: found character that cannot start any token"),
+        (
+            "family: 9pc",
+            "family: 9pc\nforced: [home.calibration@1]",
+            3,
+            "'forced' is not a list of parameters",
+        ),
+        (
+            "  control.type: Mill",
+            "\tcontrol.type: Mill",
+            4,
+            "is not readable: found character that cannot start any token",
+        ),
         ("...", "...\n---\nfamily: 9pc\n...", 10, "is not readable: something comes after its end"),
         ("...", "", 10, "ends without its end mark '...': it has been cut off"),
-        ("control.type: Mill", "control.type: Grinder", 4, "control.type: 'Grinder' is not a choice of Control Type"),
+        (
+            "control.type: Mill",
+            "control.type: Grinder",
+            4,
+            "control.type: 'Grinder' is not a choice of Control Type",
+        ),
     ],
-)  # fmt: skip
+)
 def test_what_is_not_understood_is_refused_with_its_line(
     small: Path, old: str, new: str, line: int | None, said: str
 ) -> None:

@@ -155,12 +155,14 @@ def test_one_fault_among_many_changes_nothing_at_all(mill: ParameterFile) -> Non
     with pytest.raises(
         RangeError, match=r"Home Calibration 1e\+06 mm is outside|Home Calibration 1000000 mm is outside"
     ):
-        mill.set_many({
-            ("control.type", ""): Value("lathe"),
-            ("axis.type", "2"): Value("rotary"),
-            ("zone.overtravel_used", "1"): Value(True),
-            CALIBRATION: Value(1e6, "mm"),
-        })  # fmt: skip
+        mill.set_many(
+            {
+                ("control.type", ""): Value("lathe"),
+                ("axis.type", "2"): Value("rotary"),
+                ("zone.overtravel_used", "1"): Value(True),
+                CALIBRATION: Value(1e6, "mm"),
+            }
+        )
     assert before == mill.values
     assert mill.machine == "mill"
     assert mill.evaluation.unit(("home.calibration", "2"), "metric") == "mm"

@@ -177,7 +177,7 @@ def test_a_project_whose_save_fails_is_the_old_one(project: Project, disk) -> No
     )
 
 
-# -- names ------------------------------------------------------------------------------------------------------
+# -- names
 
 
 @pytest.mark.parametrize(
@@ -190,9 +190,33 @@ def test_a_name_that_every_system_can_keep_is_taken(project: Project, name: str)
 
 @pytest.mark.parametrize(
     "name",
-    ["", " ", ".", "..", "a/b", "a\\b", "/etc/passwd", "../up", "a:b", "a*b", 'a"b', "a?b", "a<b", "a|b", "a\nb", "a\0b",
-     ".hidden", "_under", "-dash", "end ", "end.", "x" * 65, "a\tb", ".amp"],
-)  # fmt: skip
+    [
+        "",
+        " ",
+        ".",
+        "..",
+        "a/b",
+        "a\\b",
+        "/etc/passwd",
+        "../up",
+        "a:b",
+        "a*b",
+        'a"b',
+        "a?b",
+        "a<b",
+        "a|b",
+        "a\nb",
+        "a\0b",
+        ".hidden",
+        "_under",
+        "-dash",
+        "end ",
+        "end.",
+        "x" * 65,
+        "a\tb",
+        ".amp",
+    ],
+)
 def test_a_name_that_some_system_cannot_keep_is_refused(project: Project, name: str) -> None:
     with pytest.raises(InvalidNameError, match="is no file name: letters, digits"):
         project.path(name)
@@ -214,7 +238,7 @@ def test_a_name_that_differs_in_case_only_is_taken_already(project: Project, wit
     assert {"first.amp", "project.yaml"} == names(project.folder)
 
 
-# -- files --------------------------------------------------------------------------------------------------------
+# -- files
 
 
 def test_the_files_of_a_project_are_listed_by_name(project: Project, with_file: Path) -> None:

@@ -1,4 +1,6 @@
-"""Saving: whatever fails, and wherever, the file is the old one or the new one, whole, and nothing lies about."""
+"""Saving: whatever fails, and wherever, the file is the old one or the new one, whole,
+and nothing lies about.
+"""
 
 from __future__ import annotations
 
@@ -176,11 +178,13 @@ def test_a_change_while_the_file_is_being_saved_is_seen(old: Path, monkeypatch) 
     assert (b"theirs", {"machine.amp"}) == (old.read_bytes(), names(old.parent))
 
 
-# -- a disk that fails ------------------------------------------------------------------------------------------
+# -- a disk that fails
 
 
 def failures(disk, act: Callable[[], object], for_ever: bool) -> list[Exception | None]:
-    """Fail at call 1, 2, 3, … of an act until it passes untouched; return how each try ended, the last one untouched."""
+    """Fail at call 1, 2, 3, … of an act until it passes untouched; return how each try ended,
+    the last one untouched.
+    """
     ends: list[Exception | None] = []
     for at in range(1, 200):
         disk.fail(at, for_ever)
@@ -321,7 +325,7 @@ def test_a_document_whose_save_fails_is_still_open_with_its_changes(
     assert names(on_disk.parent) == {"bench.amp", "bench.amp.bak", "bench.amp.history"}
 
 
-# -- a program that is killed -----------------------------------------------------------------------------------
+# -- a program that is killed
 
 KILLED = """
     import os, signal, sys

@@ -33,8 +33,10 @@ def test_an_error_takes_back_values_marks_and_header(mill: ParameterFile) -> Non
     with pytest.raises(RuntimeError):
         change_and_fail()
     assert (mill.values, mill.forced, mill.header.name) == (
-        {HOME: Value(2.0, "mm"), ZONE: Value(9)}, {ZONE: "on Monday"}, ""
-    )  # fmt: skip
+        {HOME: Value(2.0, "mm"), ZONE: Value(9)},
+        {ZONE: "on Monday"},
+        "",
+    )
 
 
 def test_a_step_inside_a_step_is_taken_back_by_itself(mill: ParameterFile) -> None:
@@ -53,9 +55,7 @@ def test_a_step_can_be_taken_back_and_made_again(mill: ParameterFile) -> None:
     after = Marks.of(mill)
 
     mill.take_back(changes, before)
-    assert (mill.values, mill.forced) == (
-        {HOME: Value(2.0, "mm"), ZONE: Value(9)}, {ZONE: "on Monday"}
-    )  # fmt: skip
+    assert (mill.values, mill.forced) == ({HOME: Value(2.0, "mm"), ZONE: Value(9)}, {ZONE: "on Monday"})
     mill.replay(changes, after)
     assert (mill.values, mill.forced) == ({ZONE: Value(2)}, {})
 

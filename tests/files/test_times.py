@@ -42,8 +42,8 @@ def test_a_stored_time_is_local_to_the_minute(stored: str, shown: str) -> None:
 
 def test_only_times_of_a_text_are_changed() -> None:
     text = "by J. Fitter on 2026-07-01, again 2026-11-22T18:21:04+00:00 by 'set --force', 12:30"
-    assert with_local_times(text) == (
-        "by J. Fitter on 2026-07-01, again 2026-11-22 20:21 by 'set --force', 12:30"
+    assert (
+        with_local_times(text) == "by J. Fitter on 2026-07-01, again 2026-11-22 20:21 by 'set --force', 12:30"
     )
 
 
@@ -57,9 +57,16 @@ def test_the_finding_of_a_forced_value_shows_when_in_local_time() -> None:
 
 def test_a_time_is_said_as_a_person_says_it() -> None:
     zone = datetime(2026, 11, 22, 15, 0).astimezone()
-    said = [day_and_time(f"{stamp}", zone) for stamp in (
-        zone.replace(hour=14, minute=35).isoformat(), (zone - timedelta(days=1)).isoformat(),
-        (zone - timedelta(days=4)).isoformat(), (zone - timedelta(days=400)).isoformat(), "no time", "0001-01-01T00:00:00+00:00",
-    )]  # fmt: skip
+    said = [
+        day_and_time(f"{stamp}", zone)
+        for stamp in (
+            zone.replace(hour=14, minute=35).isoformat(),
+            (zone - timedelta(days=1)).isoformat(),
+            (zone - timedelta(days=4)).isoformat(),
+            (zone - timedelta(days=400)).isoformat(),
+            "no time",
+            "0001-01-01T00:00:00+00:00",
+        )
+    ]
     assert said[:5] == ["today 14:35", "yesterday 15:00", "18 Nov 15:00", "18 Oct 2025", "no time"]
     assert said[5]

@@ -116,8 +116,10 @@ ODD = st.one_of(
     ),
     st.from_regex(r"(0x|\$)?[0-9A-F]{1,60}", fullmatch=True),
     st.from_regex(r"raw:[+-]?[0-9]{1,30}", fullmatch=True),
-    st.sampled_from(["yes", "no", "true", "1e300", "nan", "inf", "-0", "~", "null", "...", "'", "a: b", "# x", "=", "3.4"]),
-)  # fmt: skip
+    st.sampled_from(
+        ["yes", "no", "true", "1e300", "nan", "inf", "-0", "~", "null", "...", "'", "a: b", "# x", "=", "3.4"]
+    ),
+)
 
 
 @pytest.mark.parametrize("family", family_ids())

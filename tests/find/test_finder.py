@@ -32,7 +32,7 @@ def of_family(family: str) -> Finder:
 
 
 def test_a_whole_number_leads_to_its_axis(finder: Finder) -> None:
-    (hit, *_) = finder.find("2750")
+    hit, *_ = finder.find("2750")
     assert (hit.kind, hit.address, hit.why) == ("parameter", ("servo.excess_error", "2"), "number")
     assert hit.title == "2750 Excess Error Y"
 
@@ -172,7 +172,7 @@ def test_a_parameter_of_the_other_machine_type_is_not_found() -> None:
     assert "classic.laser_mode" not in {hit.key for hit in Finder(schema, "grblhal").find("laser mode")}
 
 
-# -- the page of a message ------------------------------------------------------------------------------------
+# -- the page of a message
 
 
 def test_a_page_has_the_values_of_the_machine_and_the_rules_that_are_broken_now(mill: ParameterFile) -> None:

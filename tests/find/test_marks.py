@@ -29,8 +29,13 @@ def marks(mill: ParameterFile) -> ValueMarks:
 
 def listed(marks: ValueMarks, *wanted: Mark) -> set[Address]:
     """Return every value of the file that has all of the marks."""
-    return {a for row in rows_of_file(marks.file) for a in row if marks.passing(wanted, row) and (
-        all(marks.has(mark, a) for mark in wanted if mark != "axes-differ"))}  # fmt: skip
+    return {
+        a
+        for row in rows_of_file(marks.file)
+        for a in row
+        if marks.passing(wanted, row)
+        and (all(marks.has(mark, a) for mark in wanted if mark != "axes-differ"))
+    }
 
 
 def test_what_is_not_the_default_is_changed_and_what_is_not_on_disk_unsaved(marks: ValueMarks) -> None:

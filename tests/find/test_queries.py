@@ -1,4 +1,6 @@
-"""How often what people type finds what they want, with their slips: counted over a list written beforehand."""
+"""How often what people type finds what they want, with their slips: counted over a list written
+beforehand.
+"""
 
 from __future__ import annotations
 

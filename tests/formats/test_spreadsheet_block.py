@@ -1,4 +1,6 @@
-"""A block of cells goes to a spreadsheet and comes back as it was; what a spreadsheet shows is not mistaken for what it is."""
+"""A block of cells goes to a spreadsheet and comes back as it was;
+what a spreadsheet shows is not mistaken for what it is.
+"""
 
 from __future__ import annotations
 
@@ -107,10 +109,17 @@ def test_libreoffice_takes_a_block_and_gives_it_back(tmp_path: Path) -> None:
     """Into a sheet as HTML, and out of it as what its clipboard has."""
     page = tmp_path / "block.html"
     page.write_text(block_html(ROWS), encoding="utf-8")
-    for way in (["--infilter=HTML (StarCalc)", "--convert-to", "fods", "block.html"],
-                ["--convert-to", "html:HTML (StarCalc)", "--outdir", "back", "block.fods"]):  # fmt: skip
-        subprocess.run(["soffice", f"-env:UserInstallation=file://{tmp_path}/profile", "--headless", *way],
-                       cwd=tmp_path, check=True, capture_output=True, timeout=60)  # fmt: skip
+    for way in (
+        ["--infilter=HTML (StarCalc)", "--convert-to", "fods", "block.html"],
+        ["--convert-to", "html:HTML (StarCalc)", "--outdir", "back", "block.fods"],
+    ):
+        subprocess.run(
+            ["soffice", f"-env:UserInstallation=file://{tmp_path}/profile", "--headless", *way],
+            cwd=tmp_path,
+            check=True,
+            capture_output=True,
+            timeout=60,
+        )
     back = read_block("", (tmp_path / "back" / "block.html").read_text(encoding="utf-8"))
     assert back[:2] == TEXTS[:2]
     assert [back[2][0], back[2][2]] == ['two\nlines and "quotes"', "4 °"], "a tab is a blank in HTML"

@@ -1,4 +1,6 @@
-"""Numbers of unreasonable size in the texts of controls: refused in their line, at once, or kept as what they are."""
+"""Numbers of unreasonable size in the texts of controls: refused in their line, at once,
+or kept as what they are.
+"""
 
 from __future__ import annotations
 
@@ -35,7 +37,7 @@ TEXTS = {
     "task line": ("57c422b", "{} REG_4%=5\n"),
     "task register": ("57c422b", "10 REG_{}%=5\n"),
     "ballscrew": ("acromill", "X{}E.00325\r\n"),
-}  # fmt: skip
+}
 
 
 def taken(path: Path, family: str, key: str | None, keep: bool) -> ParameterFile | None:
@@ -70,8 +72,12 @@ def test_a_number_that_no_value_can_be_is_refused_at_once(tmp_path: Path, kind: 
     assert time.process_time() - begun < 3
 
 
-TAKEN = {(f"{kind} of a length", "9" * 17) for kind in ("csv", "patch")} | {("acr", "9" * 17)} | {
-    (f"{kind} of a length", "9007199254740993") for kind in ("csv", "patch")} | {("acr", "9007199254740993")}  # fmt: skip
+TAKEN = (
+    {(f"{kind} of a length", "9" * 17) for kind in ("csv", "patch")}
+    | {("acr", "9" * 17)}
+    | {(f"{kind} of a length", "9007199254740993") for kind in ("csv", "patch")}
+    | {("acr", "9007199254740993")}
+)
 """A real number takes the nearest double, as everywhere."""
 
 
@@ -83,11 +89,7 @@ TAKEN = {(f"{kind} of a length", "9" * 17) for kind in ("csv", "patch")} | {("ac
         ("acromill", "acr", "PPU X1 " + " " * 500_000 + "!\n"),
         ("acromill", "acr", "PPU X4096\n" * 20_000),
         ("57c422b", "registers", "! Register table\n" + "4\t" + "0" * 500_000 + "x\n"),
-        (
-            "57c422b",
-            "registers",
-            "! Register table\n" + "".join(f"{n}\t5\n" for n in range(60_000, 100_000)),
-        ),
+        ("57c422b", "registers", "! Register table\n" + "".join(f"{n}\t5\n" for n in range(60_000, 100_000))),
         ("57c422b", "basic", "10 " + "{" * 200_000 + "\n"),
         ("57c422b", "basic", "".join(f"{n} REG_4%=5 &\n" for n in range(100_000))),
         ("57c422b", None, "\n" * 500_000 + "10 x"),

@@ -75,9 +75,14 @@ def test_every_step_has_a_title_of_its_own_and_a_page(family: str) -> None:
 def test_the_order_of_the_9pc_is_that_of_its_chapters_but_for_what_chapter_3_sets_first() -> None:
     steps = steps_of(load_schema("9pc"))
     assert [p.id for p in steps[0].parameters] == [
-        "control.type", "control.mill_type", "control.lathe_type", "axis.name", "axis.type", "servo.hardware_type",
+        "control.type",
+        "control.mill_type",
+        "control.lathe_type",
+        "axis.name",
+        "axis.type",
+        "servo.hardware_type",
         "servo.loop_type",
-    ]  # fmt: skip
+    ]
     behind = [(p.id, chapter(p.page)) for step in steps[1:] for p in step.parameters]
     late = [(b, a) for a, b in pairwise(behind) if b[1] < a[1]]
     # the DAC monitor, of appendix A, is set for the tuning of chapter 36; Patch AMP (37) comes last
@@ -97,8 +102,17 @@ def test_the_steps_of_a_manual_follow_its_pages(family: str) -> None:
 
 def test_what_the_guides_of_num_have_by_parameter_is_in_the_step_of_the_same_section() -> None:
     schema = load_schema("num")
-    sections = {"3-1": "axes", "3-2": "measurements", "3-3": "servo", "3-4": "travels", "3-5-1": "spindles",
-                "3-5-2": "spindles", "3-6": "miscellaneous", "3-7": "communication", "3-8": "disc"}  # fmt: skip
+    sections = {
+        "3-1": "axes",
+        "3-2": "measurements",
+        "3-3": "servo",
+        "3-4": "travels",
+        "3-5-1": "spindles",
+        "3-5-2": "spindles",
+        "3-6": "miscellaneous",
+        "3-7": "communication",
+        "3-8": "disc",
+    }
     odd = [
         (guide.id, name)
         for guide in schema.guides

@@ -1,4 +1,6 @@
-"""A new mill from the first value to the last: what a person sees who follows the guide and knows the machine."""
+"""A new mill from the first value to the last:
+what a person sees who follows the guide and knows the machine.
+"""
 
 from __future__ import annotations
 
@@ -77,9 +79,27 @@ def test_a_new_mill_is_progress_from_the_first_value_to_the_last(person: Person)
     assert now.deferred == ()
     assert [f.rule for f in person.findings if f.severity == "error"] == []
     assert person.course == [
-        "control", "axis", "home", "zone", "position_loop", "velocity_loop", "drives", "jog", "feedrate", "accdec",
-        "spindle", "format", "powerup", "macro", "tool", "cycle", "special", "miscellaneous", "oci", "tuning",
-    ]  # fmt: skip
+        "control",
+        "axis",
+        "home",
+        "zone",
+        "position_loop",
+        "velocity_loop",
+        "drives",
+        "jog",
+        "feedrate",
+        "accdec",
+        "spindle",
+        "format",
+        "powerup",
+        "macro",
+        "tool",
+        "cycle",
+        "special",
+        "miscellaneous",
+        "oci",
+        "tuning",
+    ]
     assert max(listed) == 13  # of the velocity loop; all at once there would be more than thirty
     assert listed[-8:] == [0] * 8
 

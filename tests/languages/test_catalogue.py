@@ -45,7 +45,10 @@ def test_an_unknown_language_is_refused_with_those_that_are_known() -> None:
 def test_a_new_text_of_the_code_gets_an_id_and_a_place_and_what_is_gone_goes() -> None:
     import ast
 
-    code = "class A:\n    def a(self, n):\n        return self.tr('A new text: {x}'), f\"{tr('%n more', '', n)}\""
+    code = (
+        "class A:\n    def a(self, n):\n        return self.tr('A new text: {x}'), f\"{tr('%n more', '',"
+        ' n)}"'
+    )
     assert list(calls(ast.parse(code))) == [("A new text: {x}", False), ("%n more", True)]
     assert new_id("A new text: {x}", ["b"]) == "a_new_text"
     assert new_id("A new text: {x}", ["a_new_text"]) == "a_new_text_2"

@@ -28,7 +28,9 @@ class Reference(Book):
 
     @cached_property
     def described_in(self) -> dict[str, str]:
-        """Number -> the kind of place that describes it: a table where there is one, else a screen, else a mention."""
+        """Number -> the kind of place that describes it: a table where there is one, else a screen,
+        else a mention.
+        """
         kinds = ("mention", "screen", "table")
         numbers = [n for section in self.sections for n in section.numbers]
         return {n.number: n.place for n in sorted(numbers, key=lambda n: kinds.index(n.place))}
@@ -86,8 +88,21 @@ def pages(section: Section) -> tuple[str, ...]:
 
 # -- names ------------------------------------------------------------------------------------------------
 
-WORDS = {"max": "maximum", "min": "minimum", "acc": "acceleration", "dev": "deviation", "dir": "direction",
-         "one": "1", "two": "2", "three": "3", "four": "4", "five": "5", "six": "6", "seven": "7", "eight": "8"}  # fmt: skip
+WORDS = {
+    "max": "maximum",
+    "min": "minimum",
+    "acc": "acceleration",
+    "dev": "deviation",
+    "dir": "direction",
+    "one": "1",
+    "two": "2",
+    "three": "3",
+    "four": "4",
+    "five": "5",
+    "six": "6",
+    "seven": "7",
+    "eight": "8",
+}
 COUNTING = re.compile(
     r"(?:\d+|st|nd|rd|th|to|and|or|for|gears?|spindles?|spn|skip|set|mill|only|that|g|p|#)*"
 )

@@ -76,7 +76,9 @@ class Module(Book):
         return own_of(self.schema).get(name, frozenset())
 
     def of_section(self, section: Section) -> list[Parameter]:
-        """Return what a section describes: the owners of its registers, or all of the cam where it has none."""
+        """Return what a section describes: the owners of its registers, or all of the cam where it has
+        none.
+        """
         tabled = [n.number for n in section.numbers if n.place == "table"]
         if tabled:
             return self.owners(tabled[0])
@@ -87,7 +89,9 @@ class Module(Book):
 
 
 def check_numbers(book: Module) -> Iterator[Disagreement]:
-    """Every printed register belongs to its parameters, and every register of the database is printed at its page."""
+    """Every printed register belongs to its parameters,
+    and every register of the database is printed at its page.
+    """
     described: dict[int, str] = {}
     for section in book.sections:
         for fact in section.numbers:
@@ -135,7 +139,9 @@ def number_of(book: Module, section: Section, fact: PrintedNumber) -> Iterator[D
 
 
 def check_choices(book: Module) -> Iterator[Disagreement]:
-    """Every bit that is printed with its number is in the database by that name, and every named command too."""
+    """Every bit that is printed with its number is in the database by that name, and every named command
+    too.
+    """
     printed: dict[str, set[int]] = {}
     for section in book.sections:
         for fact in section.choices:

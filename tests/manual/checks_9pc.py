@@ -7,16 +7,7 @@ from collections.abc import Iterator
 from dataclasses import replace
 from string import ascii_lowercase
 
-from book_9pc import (
-    PATCH_PAGE,
-    Home,
-    Reference,
-    headings,
-    pages,
-    same_name,
-    spelled,
-    unit_of,
-)
+from book_9pc import PATCH_PAGE, Home, Reference, headings, pages, same_name, spelled, unit_of
 from disagreements import NOWHERE, Disagreement, at_line
 from manual_facts import PrintedChoice, PrintedNumber, PrintedRange, Section, StoredRow
 from printed_book import Claim, squashed
@@ -82,7 +73,9 @@ def _at_home(
 def _printed_elsewhere(
     book: Reference, number: str, claim: Claim, row: StoredRow | None
 ) -> Iterator[Disagreement]:
-    """Yield the disagreement on a claim that no section prints: it is in the Patch AMP table under its name, or is invented."""
+    """Yield the disagreement on a claim that no section prints: it is in the Patch AMP table under its name,
+    or is invented.
+    """
     page, where = book.page(claim), _claim(book, claim)
     if row is None or number in book.described_in:
         yield Disagreement(
@@ -159,7 +152,9 @@ def _ranges(
 
 
 def neighbour_units(book: Reference, held: list[tuple[str, Range]]) -> set[str]:
-    """Return the units of the parameters that are bounds: a range printed in words is valid only in all of them."""
+    """Return the units of the parameters that are bounds:
+    a range printed in words is valid only in all of them.
+    """
     bounds = [bound.param for _, both in held for bound in both if isinstance(bound, BoundRef)]
     return {unit for name in bounds for unit, _ in held_ranges(book.schema.parameters[name])}
 
@@ -207,7 +202,9 @@ def applies(fact: PrintedRange | PrintedChoice, home: Home) -> bool:
 
 
 def unit_agrees(fact: PrintedRange, unit: str) -> bool:
-    """Return whether a printed unit is that of the database; a bare figure may count or be a percentage there."""
+    """Return whether a printed unit is that of the database;
+    a bare figure may count or be a percentage there.
+    """
     if fact.unit:
         return unit_of(fact.unit) == unit
     return unit in {"", "counts", "%", "ms"} or is_worded(fact)
@@ -219,7 +216,9 @@ def is_worded(fact: PrintedRange) -> bool:
 
 
 def bound_agrees(book: Reference, said: str, bound: Bound) -> bool:
-    """Return whether a printed bound, a figure or the name of another parameter, is the one of the database."""
+    """Return whether a printed bound, a figure or the name of another parameter, is the one of the
+    database.
+    """
     if isinstance(bound, BoundRef):
         return same_name(book.schema.parameters[bound.param].name, said, said.removesuffix(" value"))
     try:
@@ -229,7 +228,9 @@ def bound_agrees(book: Reference, said: str, bound: Bound) -> bool:
 
 
 def choices_span(book: Reference, section: Section, parameter: Parameter, fact: PrintedRange) -> bool:
-    """Return whether the codes of a choice fill a printed range, or an erratum names the bounds that no code has."""
+    """Return whether the codes of a choice fill a printed range,
+    or an erratum names the bounds that no code has.
+    """
     codes = [choice.raw for choice in parameter.choices or () if choice.raw is not None]
     ends = zip((fact.low, fact.high), (min(codes, default=None), max(codes, default=None)), strict=True)
     wrong = [said for said, code in ends if code is None or float(said) != code]

@@ -1,5 +1,6 @@
-"""Names, units, defaults, typical values and ranges of the AcroMill database against the tabs of its guide, pictures
-included, and the lists of gains of its appendix C."""
+"""Names, units, defaults, typical values and ranges of the AcroMill database against the tabs of its guide,
+pictures included, and the lists of gains of its appendix C.
+"""
 
 from __future__ import annotations
 
@@ -36,10 +37,33 @@ NOT_TYPICAL = {"", "NA", "Machine+", "Machine-", "User Choice", "User Defined", 
 """Words of the column of typical values that name none."""
 NO_FIGURES = {"Disable": "-1"}
 """What an integer without a figure is in the database (erratum e-io-disable)."""
-SHORT = {"spd": "speed", "mach": "machine", "for": "forward", "back": "backward", "upm": "", "reqd": "required",
-         "src": "source", "mult": "multiplier", "tangen": "tangent", "compensat": "compensation", "pos": "position",
-         "excesserr": "excesserror", "units": "", "per": "", "linear": "", "unit": "", "travel": "", "in": "", "sec": "",
-         "msec": "", "disp": "display", "big": "", "small": "", "stp": "stop", "colorviadcodes": "colorviadcodes"}  # fmt: skip
+SHORT = {
+    "spd": "speed",
+    "mach": "machine",
+    "for": "forward",
+    "back": "backward",
+    "upm": "",
+    "reqd": "required",
+    "src": "source",
+    "mult": "multiplier",
+    "tangen": "tangent",
+    "compensat": "compensation",
+    "pos": "position",
+    "excesserr": "excesserror",
+    "units": "",
+    "per": "",
+    "linear": "",
+    "unit": "",
+    "travel": "",
+    "in": "",
+    "sec": "",
+    "msec": "",
+    "disp": "display",
+    "big": "",
+    "small": "",
+    "stp": "stop",
+    "colorviadcodes": "colorviadcodes",
+}
 
 
 def long(name: str) -> str:
@@ -55,7 +79,9 @@ class Guide(Book):
         return [p for p in self.schema.parameters.values() if p.page == page]
 
     def called(self, section: Section, name: str) -> list[Parameter]:
-        """Return what a name of a tab means: the same name, a longer form of it, or one named by an erratum."""
+        """Return what a name of a tab means: the same name, a longer form of it, or one named by an
+        erratum.
+        """
         here = self.of_tab(section)
         if found := [p for p in here if squashed(p.name) == squashed(name)]:
             return found

@@ -39,7 +39,9 @@ class Words(Book):
 
     @cached_property
     def pages(self) -> dict[str, str]:
-        """``P35`` -> the page that the list of chapter 2 sends to, or that of the list where it sends nowhere."""
+        """``P35`` -> the page that the list of chapter 2 sends to,
+        or that of the list where it sends nowhere.
+        """
         return {row.number: row.page for section in self.sections for row in section.listed}
 
     @cached_property
@@ -72,7 +74,9 @@ class Words(Book):
         return tuple(claim for n in (span(word) if word else held) for claim in held.get(n, ()))
 
     def has_erratum(self, number: str, said: str, held: Iterable[object] = ()) -> bool:
-        """Return whether an erratum of this parameter names what is printed and takes what is in the database."""
+        """Return whether an erratum of this parameter names what is printed and takes what is
+        in the database.
+        """
         errata = {key for claim in self.claims_on(number) for key in claim.parameter.errata}
         return any(
             any(mentions(reading.says, said) for reading in self.schema.errata[key].readings)
@@ -155,7 +159,9 @@ def row_of(book: Words, row: ListedParameter) -> Iterator[Disagreement]:
 
 
 def check_words(book: Words) -> Iterator[Disagreement]:
-    """The words of the database are those that are printed, each once, and every type is that of the section."""
+    """The words of the database are those that are printed, each once, and every type is that of the
+    section.
+    """
     for section in book.sections:
         yield from words_of(book, section)
     for number, held in book.words.items():
@@ -235,7 +241,9 @@ def check_codes(book: Words) -> Iterator[Disagreement]:
 
 
 def codes_of(book: Words, section: Section) -> Iterator[Disagreement]:
-    """Yield the disagreements on the codes of one section, and the choices of its fields that no code prints."""
+    """Yield the disagreements on the codes of one section, and the choices of its fields that no code
+    prints.
+    """
     told: dict[tuple[str, str], list[int]] = {}
     for fact in section.choices:
         held = choices_of(book, fact)
@@ -293,7 +301,9 @@ def check_defaults(book: Words) -> Iterator[Disagreement]:
 
 
 def defaults_of(book: Words, section: Section) -> Iterator[Disagreement]:
-    """Yield the disagreements on the defaults of one section; without a word, one of its words must have it."""
+    """Yield the disagreements on the defaults of one section; without a word, one of its words must have
+    it.
+    """
     for fact in section.defaults:
         claims = book.claims_on(fact.number, fact.word)
         agreed = [default_is(claim, fact) for claim in claims]
@@ -329,7 +339,9 @@ def default_is(claim: Claimant, fact: PrintedDefault) -> bool:
 
 
 def check_ranges(book: Words) -> Iterator[Disagreement]:
-    """Every printed bound is in the database, and a bound there is either printed or the whole range of the type."""
+    """Every printed bound is in the database, and a bound there is either printed
+    or the whole range of the type.
+    """
     printed: set[str] = set()
     for section in book.sections:
         yield from ranges_of(book, section)
@@ -379,7 +391,9 @@ def held_range(parameter: Parameter) -> str:
 
 
 def range_is(parameter: Parameter, fact: PrintedRange) -> bool:
-    """Return whether printed bounds are in the database, or for a choice whether all their codes are choices."""
+    """Return whether printed bounds are in the database, or for a choice whether all their codes are
+    choices.
+    """
     low, high = (figure(said) if said else None for said in (fact.low, fact.high))
     codes = {choice.raw for choice in parameter.choices or ()}
     if codes:

@@ -50,7 +50,9 @@ class Slides(Book):
 
 
 def check_numbers(book: Slides) -> Iterator[Disagreement]:
-    """Every printed number belongs to the parameters that claim it, and every claim is printed in a separate place."""
+    """Every printed number belongs to the parameters that claim it,
+    and every claim is printed in a separate place.
+    """
     described: set[int] = set()
     places: dict[int, set[tuple[str, range]]] = {}
     for section in book.sections:
@@ -179,7 +181,9 @@ def unit_held(parameter: Parameter) -> str:
 
 
 def check_stored(book: Slides) -> Iterator[Disagreement]:
-    """Every printed unit and default is in the database, or in the help where it has none; and no other is there."""
+    """Every printed unit and default is in the database, or in the help where it has none;
+    and no other is there.
+    """
     rows = [(section, row) for section in book.sections for row in section.stored]
     units = {
         parameter.id: row.unit for _, row in rows if row.unit for parameter in book.owners(row.numbers[0])

@@ -1,4 +1,6 @@
-"""Places where a manual and the database say different things, and those that an exception covers with its reason."""
+"""Places where a manual and the database say different things,
+and those that an exception covers with its reason.
+"""
 
 from __future__ import annotations
 

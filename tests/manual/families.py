@@ -1,4 +1,6 @@
-"""The families whose databases are compared with their manuals: checks, counts of facts, and what no check may miss."""
+"""The families whose databases are compared with their manuals: checks, counts of facts,
+and what no check may miss.
+"""
 
 from __future__ import annotations
 
@@ -107,10 +109,7 @@ NINEPC = Family(
         AlteredEntry("stored", HOME, {"default": Nested(value=1.0)}, "default 1.0 mm"),
         AlteredEntry("stored", HOME, {"default": None}, "has no default"),
         AlteredEntry(
-            "stored",
-            HOME,
-            {"ranges": {"mm": (MM[0], 999999.9), "in": INCH}},
-            "high bound 999999.99000 mm",
+            "stored", HOME, {"ranges": {"mm": (MM[0], 999999.9), "in": INCH}}, "high bound 999999.99000 mm"
         ),
         AlteredEntry("stored", HOME, {"storage": Nested(unit="in")}, "is kept in in"),
         AlteredEntry("stored", HOME, {"patchable": False}, "does not call it patchable"),
@@ -126,7 +125,9 @@ GROUPS, MEASURED, LINE = "axes.cnc_groups", "axes.measured", "comm.master_line"
 
 
 def is_judged(fact: PrintedRange) -> bool:
-    """Return whether a bound must be in the database: a recommendation need not, and the range of a type is the limit of others."""
+    """Return whether a bound must be in the database: a recommendation need not,
+    and the range of a type is the limit of others.
+    """
     return fact.note != "recommended" and not fact.applies.startswith("type ")
 
 
@@ -256,9 +257,7 @@ SYNTEC = Family(
         AlteredFact("choices", "choices", each(letter=("9",), text=("Unheard of",), number=("7654",))),
         AlteredFact("ranges", "ranges", each(low=(OUT_OF_THE_WAY,), high=(OUT_OF_THE_WAY,), unit=("Hz",))),
         AlteredFact(
-            "stored",
-            "stored",
-            each(default=(OUT_OF_THE_WAY,), unit=("Hz",), codes=({"21 series": "77"},)),
+            "stored", "stored", each(default=(OUT_OF_THE_WAY,), unit=("Hz",), codes=({"21 series": "77"},))
         ),
     ),
     entries=(

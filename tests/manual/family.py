@@ -48,7 +48,8 @@ class Family(Generic[OwnBook]):
     book_class: type[OwnBook]
     checks: Mapping[str, Check]
     judges: Mapping[str, Judge] = field(default_factory=dict)
-    """Check -> what it does with one section; without it an altered fact is judged by the check of the whole book."""
+    """Check -> what it does with one section; without it an altered fact is judged by the check
+    of the whole book."""
     counts: Mapping[str, int]
     """Kind of fact -> how many the manual prints."""
     described: int

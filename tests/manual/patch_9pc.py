@@ -17,7 +17,9 @@ from amp_studio.schema.model import BoundRef
 
 
 class Difference(NamedTuple):
-    """What a row and a parameter say differently, and what an erratum that explains it has to name, if one may."""
+    """What a row and a parameter say differently, and what an erratum that explains it has to name,
+    if one may.
+    """
 
     what: str
     manual: str
@@ -73,7 +75,9 @@ def owners_of(book: Reference, number: str) -> list[Claim]:
 
 
 def left_out(book: Reference, row: StoredRow, number: str) -> bool:
-    """Return whether an erratum names a row of the table, by the number of its first axis, that is no parameter."""
+    """Return whether an erratum names a row of the table, by the number of its first axis,
+    that is no parameter.
+    """
     readings = (
         r for erratum in book.schema.errata.values() for r in erratum.readings if r.page == PATCH_PAGE
     )
@@ -149,7 +153,9 @@ def bound_differences(book: Reference, row: StoredRow, parameter: Parameter) -> 
 
 
 def outermost(book: Reference, parameter: Parameter, end: int) -> Iterator[tuple[str, float]]:
-    """Yield unit and figure of a bound; one that is another parameter reaches as far as that one's own bound."""
+    """Yield unit and figure of a bound; one that is another parameter reaches as far as that one's own
+    bound.
+    """
     for unit, bounds in held_ranges(parameter):
         bound = bounds[end]
         if isinstance(bound, BoundRef):
@@ -160,7 +166,9 @@ def outermost(book: Reference, parameter: Parameter, end: int) -> Iterator[tuple
 
 
 def agrees(printed: str, unit: str, value: object, held_unit: str) -> bool:
-    """Return whether a value of the database is a printed figure; converted to another unit it is rounded as shortly."""
+    """Return whether a value of the database is a printed figure;
+    converted to another unit it is rounded as shortly.
+    """
     there = unit_of(unit) if unit else held_unit
     try:
         converted = convert(float(str(value)), held_unit, there)
@@ -184,6 +192,8 @@ def code_differences(row: StoredRow, parameter: Parameter) -> Iterator[Differenc
 
 
 def labels_agree(printed: str, label: str) -> bool:
-    """Return whether one label is part of the other: the table and the chapter shorten each in its own way."""
+    """Return whether one label is part of the other: the table and the chapter shorten each in its own
+    way.
+    """
     one, other = squashed(printed), squashed(label)
     return one == other or (min(len(one), len(other)) > 3 and (one in other or other in one))

@@ -1,4 +1,6 @@
-"""A printed manual beside the database: who claims a printed number, and whether a text names what is printed."""
+"""A printed manual beside the database: who claims a printed number,
+and whether a text names what is printed.
+"""
 
 from __future__ import annotations
 
@@ -36,7 +38,9 @@ class Book:
     def explained(
         self, parameter: Parameter, page: str, said: Iterable[str], held: Iterable[object] = ()
     ) -> bool:
-        """Return whether an erratum names all that is printed on a page, and takes what is in the database instead."""
+        """Return whether an erratum names all that is printed on a page,
+        and takes what is in the database instead.
+        """
         said, held = tuple(said), tuple(map(str, held))
         return bool(said) and any(
             all(mentions(reading.says, one) for one in said)

@@ -1,4 +1,6 @@
-"""What only the check of the 9/PC has: headings, pages and names of whole sections, and the Patch AMP table."""
+"""What only the check of the 9/PC has: headings, pages and names of whole sections, and the Patch AMP
+table.
+"""
 
 from __future__ import annotations
 
@@ -13,7 +15,9 @@ from patch_9pc import only_on, owners_of, row_of
 
 
 def test_the_facts_are_those_of_all_chapters() -> None:
-    """Chapters 3 to 34 describe parameters, 37 has the Patch AMP table, appendix A two numbers that it leaves out."""
+    """Chapters 3 to 34 describe parameters, 37 has the Patch AMP table,
+    appendix A two numbers that it leaves out.
+    """
     chapters = {section.chapter for section in NINEPC.book.sections}
     assert chapters == {*map(str, range(3, 35)), "37", "A"}
 

@@ -1,7 +1,8 @@
-"""Every constraint that a manual states is covered by something: a range, a choice, a state, a need or a rule.
+"""Every constraint that a manual states is covered by something: a range, a choice, a state,
+a need or a rule.
 
-``constraints/`` lists the manuals' constraining statements, each with its line in the text and its page. What cannot
-be decided from a parameter file is listed too, with the reason.
+``constraints/`` lists the manuals' constraining statements, each with its line in the text and its page. What
+cannot be decided from a parameter file is listed too, with the reason.
 """
 
 from __future__ import annotations

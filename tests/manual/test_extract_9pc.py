@@ -1,4 +1,6 @@
-"""The extractor on pages of an invented manual that has the real one's form: every kind of table, and what it misses."""
+"""The extractor on pages of an invented manual that has the real one's form: every kind of table,
+and what it misses.
+"""
 
 from __future__ import annotations
 
@@ -244,11 +246,24 @@ def test_the_patch_table_gives_bounds_or_codes(extract: Extract) -> None:
         "1012 2012\tRoll Type\tTwo\t-1 - Minus 14 - 1394 - AM03 (2 kW module) 15- Two",
     )
     assert found["Patch AMP Values"].stored == (
-        StoredRow(line=18, numbers=("21",), name="Roll", default="0.50000 mm", low="-1.00000", high="9999.90000",
-                  unit="mm", machine="lathe"),
-        StoredRow(line=19, numbers=("1012", "2012"), name="Roll Type", default="Two",
-                  codes={"-1": "Minus", "14": "1394 - AM03 (2 kW module)", "15": "Two"}),
-    )  # fmt: skip
+        StoredRow(
+            line=18,
+            numbers=("21",),
+            name="Roll",
+            default="0.50000 mm",
+            low="-1.00000",
+            high="9999.90000",
+            unit="mm",
+            machine="lathe",
+        ),
+        StoredRow(
+            line=19,
+            numbers=("1012", "2012"),
+            name="Roll Type",
+            default="Two",
+            codes={"-1": "Minus", "14": "1394 - AM03 (2 kW module)", "15": "Two"},
+        ),
+    )
 
 
 def test_what_is_overlooked_is_told(extract: Extract) -> None:

@@ -1,4 +1,6 @@
-"""The NUM extractor on pages of an invented manual that has the real one's form, and what it reports as missed."""
+"""The NUM extractor on pages of an invented manual that has the real one's form,
+and what it reports as missed.
+"""
 
 from __future__ import annotations
 

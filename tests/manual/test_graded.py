@@ -1,7 +1,8 @@
 """Danger, warning and note of every parameter, against a second reading of the manuals.
 
-``graded/`` lists what each manual marks with a word (ATTENTION, CAUTION, Important …) and its other statements on danger
-and damage, each with its line and page, and where it is shown to a person, or why nowhere.
+``graded/`` lists what each manual marks with a word (ATTENTION, CAUTION, Important …) and its other
+statements on danger and damage, each with its line and page, and where it is shown to a person,
+or why nowhere.
 """
 
 from __future__ import annotations

@@ -1,4 +1,6 @@
-"""The messages of the controls, against a second reading of the manuals and the pages of the constraining statements."""
+"""The messages of the controls, against a second reading of the manuals and the pages
+of the constraining statements.
+"""
 
 from __future__ import annotations
 

@@ -1,7 +1,9 @@
-"""The databases hold what their manuals print: numbers, names, bounds, choices, units and defaults, or say why not.
+"""The databases hold what their manuals print: numbers, names, bounds, choices, units and defaults,
+or say why not.
 
-The facts in ``<family>.yaml`` were taken from each manual without a look at the database (``scripts/extract_*.py``).
-Each check lists all its disagreements at once, each with line and section of the manual and with both readings.
+The facts in ``<family>.yaml`` were taken from each manual without a look at the database
+(``scripts/extract_*.py``). Each check lists all its disagreements at once,
+each with line and section of the manual and with both readings.
 """
 
 from __future__ import annotations

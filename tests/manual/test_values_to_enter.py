@@ -1,9 +1,9 @@
 """Every value that a manual itself has somebody enter can be entered, or an erratum has the reason why not.
 
-Taken from its procedures, examples and programs, not from the lists of ranges and defaults: for the 9/PC from the
-text of each parameter, the timing example of chapter 33, and the tuning and scales of appendices A and B; for the 57C422B
-from the programs of sections 4.49 and 5.2 to 5.9; for AcroMill from the typical values and screens of its tabs; for NUM
-and Syntec from the text of each parameter.
+Taken from its procedures, examples and programs, not from the lists of ranges and defaults: for the 9/PC from
+the text of each parameter, the timing example of chapter 33, and the tuning and scales of appendices A and B;
+for the 57C422B from the programs of sections 4.49 and 5.2 to 5.9; for AcroMill from the typical values and
+screens of its tabs; for NUM and Syntec from the text of each parameter.
 """
 
 from __future__ import annotations

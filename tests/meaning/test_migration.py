@@ -61,9 +61,19 @@ def test_every_active_parameter_is_listed_exactly_once(name: str, target: str) -
 def test_the_mill_has_the_figures_that_were_proven_in_the_real_program(tmp_path: Path) -> None:
     found = ini(example("mill-1394"), tmp_path)
     expected = {
-        "MIN_LIMIT": -500.0, "MAX_LIMIT": 8.0, "MAX_VELOCITY": 166.666666, "MAX_ACCELERATION": 694.4, "FERROR": 11.0, "MIN_FERROR": 11.0,
-        "HOME": 6.0, "HOME_OFFSET": 6.0, "HOME_SEARCH_VEL": 41.666666, "HOME_LATCH_VEL": -4.2333, "HOME_FINAL_VEL": 4.2333, "P": 16.666666,
-    }  # fmt: skip
+        "MIN_LIMIT": -500.0,
+        "MAX_LIMIT": 8.0,
+        "MAX_VELOCITY": 166.666666,
+        "MAX_ACCELERATION": 694.4,
+        "FERROR": 11.0,
+        "MIN_FERROR": 11.0,
+        "HOME": 6.0,
+        "HOME_OFFSET": 6.0,
+        "HOME_SEARCH_VEL": 41.666666,
+        "HOME_LATCH_VEL": -4.2333,
+        "HOME_FINAL_VEL": 4.2333,
+        "P": 16.666666,
+    }
     assert {key: figure(found, f"[JOINT_0]{key}") for key in expected} == expected
     assert figure(found, "[JOINT_0]HOME_USE_INDEX") is True
     assert figure(found, "[JOINT_3]TYPE") == "angular"
@@ -75,8 +85,14 @@ def test_the_mill_has_the_figures_that_were_proven_in_the_real_program(tmp_path:
 MUTATED = [
     ({"p1320": "7.1234567 mm"}, {"[JOINT_0]MAX_LIMIT": 7.123456, "[AXIS_X]MAX_LIMIT": 7.123456}),
     ({"p1330": "-499.1234567 mm"}, {"[JOINT_0]MIN_LIMIT": -499.123456}),
-    ({"p1320": "0.3 in", "p1203": "100 in/min"}, {"[JOINT_0]MAX_LIMIT": 7.62, "[JOINT_0]MAX_VELOCITY": 42.333333}),
-    ({"p1010": "minus", "p1002": "Positive direction off switch"}, {"[JOINT_0]HOME_SEARCH_VEL": -41.666666, "[JOINT_0]HOME_LATCH_VEL": 4.2333}),
+    (
+        {"p1320": "0.3 in", "p1203": "100 in/min"},
+        {"[JOINT_0]MAX_LIMIT": 7.62, "[JOINT_0]MAX_VELOCITY": 42.333333},
+    ),
+    (
+        {"p1010": "minus", "p1002": "Positive direction off switch"},
+        {"[JOINT_0]HOME_SEARCH_VEL": -41.666666, "[JOINT_0]HOME_LATCH_VEL": 4.2333},
+    ),
     ({"p1710": "2"}, {"[JOINT_0]P": 33.333333}),
     ({"p1020": "False"}, {"[JOINT_0]MIN_LIMIT": None, "[AXIS_X]MAX_LIMIT": None}),
     ({"p1310": "9 mm"}, {"[JOINT_0]HOME": 8.0, "[JOINT_0]HOME_OFFSET": 9.0}),
@@ -84,7 +100,7 @@ MUTATED = [
     ({"p1340": "-0.005 mm"}, {"[JOINT_0]BACKLASH": 0.005}),
     ({"p1300": "1.5 mm"}, {"[JOINT_0]HOME_OFFSET": 4.5, "[JOINT_0]HOME": 6.0}),
     ({"p1011": "30000 mm/min"}, {"[JOINT_0]HOME_SEARCH_VEL": 166.666666}),
-]  # fmt: skip
+]
 
 
 @pytest.mark.parametrize(("values", "expected"), MUTATED)

@@ -37,8 +37,23 @@ def settings(file: ParameterFile, **answers: str) -> dict[str, str]:
 def test_a_mill_is_settings_of_a_grblhal_in_an_order_that_it_takes(tmp_path: Path) -> None:
     found = settings(example("mill-1394"), home_order="Z, X Y, B", home_pull_off="2", steps_X="400")
     assert next(iter(found)) == "$22"
-    expected = {"$130": "506", "$131": "404", "$132": "450", "$134": "0", "$110": "10000", "$114": "3600", "$120": "694.4", "$190": "2500",
-                "$180": "253.9", "$376": "2", "$44": "4", "$45": "3", "$46": "16", "$100": "400", "$30": "6000"}  # fmt: skip
+    expected = {
+        "$130": "506",
+        "$131": "404",
+        "$132": "450",
+        "$134": "0",
+        "$110": "10000",
+        "$114": "3600",
+        "$120": "694.4",
+        "$190": "2500",
+        "$180": "253.9",
+        "$376": "2",
+        "$44": "4",
+        "$45": "3",
+        "$46": "16",
+        "$100": "400",
+        "$30": "6000",
+    }
     assert {key: found.get(key) for key in expected} == expected
     assert "$101" not in found
     (tmp_path / "a.settings").write_text("".join(f"{k}={v}\n" for k, v in found.items()))
@@ -95,8 +110,19 @@ def test_a_machine_and_what_it_was_migrated_to_have_the_same_meaning(
         (row.axis, row.concept): row
         for row in compare_meanings([example("mill-1394"), import_file(ini, "linuxcnc")])
     }
-    taken = ("travel.low", "travel.high", "rapid", "acceleration", "error.limit", "gain", "backlash", "home.coordinate", "home.offset",
-             "home.search", "home.leave")  # fmt: skip
+    taken = (
+        "travel.low",
+        "travel.high",
+        "rapid",
+        "acceleration",
+        "error.limit",
+        "gain",
+        "backlash",
+        "home.coordinate",
+        "home.offset",
+        "home.search",
+        "home.leave",
+    )
     assert [
         (axis, concept)
         for axis in "XYZB"

@@ -23,10 +23,17 @@ from .test_other_pictures import handle, moved, notes
 @pytest.mark.parametrize(
     ("name", "units"),
     [
-        ("9pc", "metric"), ("9pc", "inch"), ("lathe", "metric"), ("num", "metric"), ("syntec", "metric"),
-        ("57c422b", "metric"), ("acromill", "metric"), ("acromill", "inch"), ("grblhal", "metric"),
+        ("9pc", "metric"),
+        ("9pc", "inch"),
+        ("lathe", "metric"),
+        ("num", "metric"),
+        ("syntec", "metric"),
+        ("57c422b", "metric"),
+        ("acromill", "metric"),
+        ("acromill", "inch"),
+        ("grblhal", "metric"),
     ],
-)  # fmt: skip
+)
 def test_each_handle_dropped_where_it_lies_changes_nothing_that_matters(example, name, units):
     """What a person reads at a handle is what its place means: at most one step apart."""
     file = example(name)
@@ -85,7 +92,9 @@ def test_an_unknown_picture_or_part_is_an_error(example, name, part):
 
 
 def test_the_axis_calibration_of_a_9pc_is_a_curve_in_its_own_unit(example):
-    """Page 36-7: deviations over the positions, of which the first has none, and none is above 2 % of the way."""
+    """Page 36-7: deviations over the positions, of which the first has none,
+    and none is above 2 % of the way.
+    """
     file = example("9pc")
     address = ("calibration.table", "1")
     file.set(address, Value("deviation - mm -100:0 0:0.004 100:0.0065"))

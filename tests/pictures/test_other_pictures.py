@@ -36,7 +36,7 @@ def notes(scene):
 def test_a_linear_ramp_reaches_rapid_in_v_by_a_seconds(example):
     """Page 10-8: 10000 mm/min at 694.4 mm/s² are 0.24 s, and as much down."""
     scene = draw(example("9pc"), "ramps", "X")
-    (start, top, fast, end, *_) = dict.fromkeys(curves(scene)[0])
+    start, top, fast, end, *_ = dict.fromkeys(curves(scene)[0])
     assert (start, top) == ((0.0, 0.0), (pytest.approx(0.2400154), pytest.approx(10000.0)))
     assert end[0] - fast[0] == pytest.approx(0.2400154)
     assert handle(scene, ("accdec.linear_acceleration", "1")).at == (
@@ -166,8 +166,10 @@ def test_num_ranges_reach_ten_volts_at_their_highest_speed_and_overlap(example):
     """Page 8-16: M40 10 to 100, M41 80 to 500, M42 400 to 2000 rpm; ranges of zeros do not exist."""
     scene = draw(example("num"), "gears", "1")
     assert [line.points for line in scene.lines if not line.dashed] == [
-        ((10.0, 1.0), (100.0, 10.0)), ((80.0, 1.6), (500.0, 10.0)), ((400.0, 2.0), (2000.0, 10.0)),
-    ]  # fmt: skip
+        ((10.0, 1.0), (100.0, 10.0)),
+        ((80.0, 1.6), (500.0, 10.0)),
+        ((400.0, 2.0), (2000.0, 10.0)),
+    ]
     assert [(a.left, a.right) for a in scene.areas] == [(80.0, 100.0), (400.0, 500.0)]
     assert moved(handle(scene, ("spindle.range_max", "1.41")), 551.0) == Value(550, "rpm")
 
@@ -181,8 +183,12 @@ def test_speeds_that_no_gear_has_are_said(example):
 def test_a_9pc_spindle_has_as_many_gears_as_are_used(example):
     """Pages 12-5 to 12-8; the voltage is dragged on the line of its gear."""
     file = example("9pc")
-    for parameter, value in (("gear_count@1", Value(2)), ("min_speed@1.2", Value(500.0, "rpm")), ("max_speed@1.2", Value(4000.0, "rpm")),
-                             ("voltage_at_max@1.2", Value(8.0, "V"))):  # fmt: skip
+    for parameter, value in (
+        ("gear_count@1", Value(2)),
+        ("min_speed@1.2", Value(500.0, "rpm")),
+        ("max_speed@1.2", Value(4000.0, "rpm")),
+        ("voltage_at_max@1.2", Value(8.0, "V")),
+    ):
         name, _, instance = parameter.partition("@")
         file.set((f"spindle.{name}", instance), value)
     scene = draw(file, "gears", "1")

@@ -32,7 +32,9 @@ def notes(scene):
 
 
 def test_the_mill_has_its_overtravels_and_both_zones_of_its_group(example):
-    """Pages 6-7 to 6-11: X from -500 to 8, Y from -400 to 6 mm; zones 2 and 3 of group 1 bound one body each."""
+    """Pages 6-7 to 6-11: X from -500 to 8, Y from -400 to 6 mm; zones 2 and 3 of group 1 bound one body
+    each.
+    """
     scene = draw(example("9pc"), "travel", "X Y")
     assert (scene.x.unit, scene.y.unit, scene.equal) == ("mm", "mm", True)
     assert lines(scene, "ink") == {
@@ -46,8 +48,9 @@ def test_the_mill_has_its_overtravels_and_both_zones_of_its_group(example):
 
 
 def test_home_marker_and_the_side_of_the_switch(example):
-    """Page 5-4: home is Axis Position After Homing, Home Calibration away from the marker; the switch lies against the
-    direction in which the axis leaves it."""
+    """Page 5-4: home is Axis Position After Homing, Home Calibration away from the marker; the switch lies
+    against the direction in which the axis leaves it.
+    """
     file = example("9pc")
     file.set(("home.calibration", "1"), Value(1.5, "mm"))
     scene = draw(file, "travel", "X Y")
@@ -145,8 +148,12 @@ def test_syntec_delivered_limits_are_no_limits(example):
 def test_syntec_second_limit_forbids_the_side_that_pr2542_says(example, key, sort):
     """Page 3.3; without a value nothing is hatched."""
     file = example("syntec")
-    for parameter, axis, count in (("second_positive", "1", 25000), ("second_negative", "1", 10000),
-                                   ("second_positive", "2", 30000), ("second_negative", "2", 15000)):  # fmt: skip
+    for parameter, axis, count in (
+        ("second_positive", "1", 25000),
+        ("second_negative", "1", 10000),
+        ("second_positive", "2", 30000),
+        ("second_negative", "2", 15000),
+    ):
         file.set((f"limit.{parameter}", axis), Value(count, "BLU"))
     file.set(("limit.second_scope", ""), Value(key) if key else None)
     assert area(draw(file, "travel", "X Y"), "2nd stroke limit") == (10.0, 15.0, 25.0, 30.0, sort)

@@ -1,4 +1,6 @@
-"""Words of a block under a file: printed figures, formats by use, systems of codes, calls of the builder's programs."""
+"""Words of a block under a file: printed figures, formats by use, systems of codes,
+calls of the builder's programs.
+"""
 
 from __future__ import annotations
 

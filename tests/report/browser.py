@@ -1,4 +1,6 @@
-"""A headless Chromium, driven as a person would: real keys and clicks, through the pipe of its debugging protocol."""
+"""A headless Chromium, driven as a person would: real keys and clicks,
+through the pipe of its debugging protocol.
+"""
 
 from __future__ import annotations
 
@@ -21,7 +23,8 @@ CHROMIUM = next(
 )
 _PATIENCE_S = 30.0
 _NAVIGATED = "Inspected target navigated or closed"
-"""The answer to a click that leads to another page, and to a question in that moment: nothing is known yet."""
+"""The answer to a click that leads to another page, and to a question in that moment: nothing is known
+yet."""
 
 
 def _high(end: int) -> int:
@@ -39,15 +42,37 @@ class Browser:
         self._profile = tempfile.TemporaryDirectory(ignore_cleanup_errors=True)
         to_browser, self._out = map(_high, os.pipe())
         self._in, from_browser = map(_high, os.pipe())
-        start = "import os, sys; os.dup2(int(sys.argv[1]), 3); os.dup2(int(sys.argv[2]), 4); os.execv(sys.argv[3], sys.argv[3:])"
+        start = (
+            "import os, sys; os.dup2(int(sys.argv[1]), 3); os.dup2(int(sys.argv[2]), 4);"
+            " os.execv(sys.argv[3], sys.argv[3:])"
+        )
         options = [
-            "--headless", "--no-sandbox", "--disable-gpu", "--hide-scrollbars", "--disable-dev-shm-usage", "--disable-background-networking",
-            "--no-first-run", "--remote-debugging-pipe", f"--user-data-dir={self._profile.name}",
-        ]  # fmt: skip
+            "--headless",
+            "--no-sandbox",
+            "--disable-gpu",
+            "--hide-scrollbars",
+            "--disable-dev-shm-usage",
+            "--disable-background-networking",
+            "--no-first-run",
+            "--remote-debugging-pipe",
+            f"--user-data-dir={self._profile.name}",
+        ]
         self._process = subprocess.Popen(
-            [sys.executable, "-c", start, str(to_browser), str(from_browser), CHROMIUM, *options, "about:blank"],
-            pass_fds=(to_browser, from_browser), stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL,
-        )  # fmt: skip
+            [
+                sys.executable,
+                "-c",
+                start,
+                str(to_browser),
+                str(from_browser),
+                CHROMIUM,
+                *options,
+                "about:blank",
+            ],
+            pass_fds=(to_browser, from_browser),
+            stdin=subprocess.DEVNULL,
+            stdout=subprocess.DEVNULL,
+            stderr=subprocess.DEVNULL,
+        )
         os.close(to_browser)
         os.close(from_browser)
         self._read, self._count, self._session = b"", 0, ""

@@ -71,7 +71,9 @@ def eight_axes(first_eight_axes: ParameterFile) -> ParameterFile:
 def printed(
     first_mill: ParameterFile, first_eight_axes: ParameterFile, tmp_path_factory: pytest.TempPathFactory
 ) -> Callable[[str, Sort], Path]:
-    """Return what prints the mill, or the one with eight axes, in an order: once for all tests that read it."""
+    """Return what prints the mill, or the one with eight axes, in an order: once for all tests that read
+    it.
+    """
     folder, files = tmp_path_factory.mktemp("printed"), {"mill": first_mill, "eight axes": first_eight_axes}
 
     @cache

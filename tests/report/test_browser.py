@@ -142,7 +142,9 @@ def test_a_phone_scrolls_the_tables_and_folds_the_contents(page: Path) -> None:
 
 
 def test_no_text_of_a_table_runs_over_the_next_column(browser: Browser, tmp_path: Path) -> None:
-    """NUM has the longest numbers (``P9N0, P9N1 … P9N3, P9N24, P9N28``) and columns (``Axis 28 handwheel``)."""
+    """NUM has the longest numbers (``P9N0, P9N1 … P9N3, P9N24, P9N28``) and columns (``Axis 28
+    handwheel``).
+    """
     print_report(open_file(examples_folder() / "num-1060-mill" / "MILL_1060.amp").file, tmp_path / "num.html")
     cells = "[...document.querySelectorAll('#values td, #values th')]"
     browser.go((tmp_path / "num.html").as_uri())

@@ -34,14 +34,18 @@ def test_values_that_are_not_set_are_no_finding_of_a_rule() -> None:
 
 def test_values_out_of_range_are_one_group_for_each_parameter() -> None:
     file = new_file("9pc", "mill", AXES, "bare")
-    wanted = {("servo.excess_error", "1"): Value(1e6, "mm"), ("servo.excess_error", "2"): Value(2e6, "mm"),
-              ("feedrate.rapid", "1"): Value(1e9, "mm/min")}  # fmt: skip
+    wanted = {
+        ("servo.excess_error", "1"): Value(1e6, "mm"),
+        ("servo.excess_error", "2"): Value(2e6, "mm"),
+        ("feedrate.rapid", "1"): Value(1e9, "mm/min"),
+    }
     file.set_many(wanted, force="on a day")
     validator = Validator(file)
     ranges = [g for g in finding_groups(validator, validator.run()) if g.findings[0].rule == "schema.range"]
     assert sorted((group.findings[0].causes[0][0], group.axes) for group in ranges) == [
-        ("feedrate.rapid", ("X",)), ("servo.excess_error", ("X", "Y")),
-    ]  # fmt: skip
+        ("feedrate.rapid", ("X",)),
+        ("servo.excess_error", ("X", "Y")),
+    ]
 
 
 def test_what_a_fix_does_is_in_words() -> None:

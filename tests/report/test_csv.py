@@ -46,19 +46,56 @@ def test_a_number_reads_back_to_the_last_digit(tmp_path: Path, mill: ParameterFi
 
 
 def test_a_line_tells_all_about_a_value(tmp_path: Path, mill: ParameterFile) -> None:
-    """1300 Home Calibration and its numbers for the other axes: page 5-10; 1730 Gain Break Point: page 7-22."""
+    """1300 Home Calibration and its numbers for the other axes: page 5-10; 1730 Gain Break Point: page
+    7-22.
+    """
     print_report(mill, tmp_path / "r.csv")
     lines = {(n["id"], n["instance"]): tuple(n.values()) for n in table_of(tmp_path / "r.csv")}
-    group = "Home Parameters"
-    name = "Home Calibration"
-    assert lines["home.calibration", "1"] == (
-        "1300", "home.calibration", "1", name, group, "12.5", "mm", "0", "yes", "in-force", "", "yes", "")  # fmt: skip
-    assert lines["home.calibration", "2"] == (
-        "2300", "home.calibration", "2", name, group, "-0.1", "in", "0", "yes", "in-force", "", "yes", "")  # fmt: skip
-    assert lines["home.calibration", "4"] == (
-        "4300", "home.calibration", "4", name, group, "0", "deg", "0", "no", "in-force", "", "yes", "")  # fmt: skip
+    name, group = "Home Calibration", "Home Parameters"
+    whole = (
+        "1300",
+        "home.calibration",
+        "1",
+        name,
+        group,
+        "12.5",
+        "mm",
+        "0",
+        "yes",
+        "in-force",
+        "",
+        "yes",
+        "",
+    )
+    assert lines["home.calibration", "1"] == whole
+    whole = (
+        "2300",
+        "home.calibration",
+        "2",
+        name,
+        group,
+        "-0.1",
+        "in",
+        "0",
+        "yes",
+        "in-force",
+        "",
+        "yes",
+        "",
+    )
+    assert lines["home.calibration", "2"] == whole
+    whole = ("4300", "home.calibration", "4", name, group, "0", "deg", "0", "no", "in-force", "", "yes", "")
+    assert lines["home.calibration", "4"] == whole
     assert lines["servo.gain_break_point", "1"][5:] == (
-        "999999", "mm", "203.2", "yes", "in-force", "by J. Fitter on 2026-07-01", "yes", "")  # fmt: skip
+        "999999",
+        "mm",
+        "203.2",
+        "yes",
+        "in-force",
+        "by J. Fitter on 2026-07-01",
+        "yes",
+        "",
+    )
     unset = lines["servo.inposition_band", "2"]
     assert unset[5:9] == ("", "mm", "0.0254", "no"), "a value that is not set does not differ from anything"
 

@@ -28,9 +28,13 @@ from amp_studio.report.templating.templates import TEMPLATES
 from amp_studio.schema import Value, family_ids, load_schema
 
 EXAMPLES = {
-    "9pc": "mill-1394/MILL_1394", "num": "num-1060-mill/MILL_1060", "syntec": "syntec-mill/SYNTEC_MILL", "grblhal": "grblhal-router/GRBL_ROUTER",
-    "57c422b": "57c422b-label-press/LABEL_PRESS", "acromill": "acromill-router/ROUTER",
-}  # fmt: skip
+    "9pc": "mill-1394/MILL_1394",
+    "num": "num-1060-mill/MILL_1060",
+    "syntec": "syntec-mill/SYNTEC_MILL",
+    "grblhal": "grblhal-router/GRBL_ROUTER",
+    "57c422b": "57c422b-label-press/LABEL_PRESS",
+    "acromill": "acromill-router/ROUTER",
+}
 GERMAN = language_of("de")
 LITERAL = re.compile(r'\b_\("([^"]+)"\)')
 

@@ -1,4 +1,6 @@
-"""The pages of a PDF as a typographer sees them: sizes of type, rows that stay whole, titles that go on, no row alone."""
+"""The pages of a PDF as a typographer sees them: sizes of type, rows that stay whole, titles that go on,
+no row alone.
+"""
 
 from __future__ import annotations
 
@@ -91,7 +93,10 @@ def test_a_note_of_any_length_is_printed_whole_once_and_short_beside_its_value(
 
 @poppler
 def test_the_notes_of_a_drawing_stay_on_its_page(tmp_path: Path, mill: ParameterFile) -> None:
-    svg = '<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 620 350"><text x="9" y="90">drawing {}</text></svg>'
+    svg = (
+        '<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 620 350"><text x="9" y="90">drawing'
+        " {}</text></svg>"
+    )
     figures = tuple(
         PrintedFigure(f"D{n}", svg.replace("{}", str(n)), (f"note a {n}", f"note b {n}", f"note c {n}"))
         for n in range(5)

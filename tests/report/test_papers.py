@@ -1,4 +1,6 @@
-"""Papers that are tables: differences, machines side by side, forms, and the workbook a real spreadsheet opens."""
+"""Papers that are tables: differences, machines side by side, forms,
+and the workbook a real spreadsheet opens.
+"""
 
 from __future__ import annotations
 
@@ -57,8 +59,14 @@ def test_differences_are_in_their_group_and_in_one_unit(mill: ParameterFile, oth
         mill, compare(mill.schema, mill.values, other.values), ("mill.amp", "other.amp"), date=DATE
     )
     assert [(t.title, t.rows) for t in paper.tables] == [
-        ("Home Parameters", (
-            ("1300", "Home Calibration", "X", "12.5 mm", "13 mm"), ("3300", "Home Calibration", "Z", "0 mm", "25.4 mm")))]  # fmt: skip
+        (
+            "Home Parameters",
+            (
+                ("1300", "Home Calibration", "X", "12.5 mm", "13 mm"),
+                ("3300", "Home Calibration", "Z", "0 mm", "25.4 mm"),
+            ),
+        )
+    ]
     assert dict(paper.facts)["Differ"] == "2"
 
 
@@ -96,8 +104,9 @@ def test_many_machines_are_grouped_by_those_that_agree(
     write_paper(paper, tmp_path / "m.csv")
     lines = (tmp_path / "m.csv").read_text("utf-8-sig").splitlines()
     assert [line for line in lines if line.startswith("table,")] == [
-        "table,Group,Machines,Names", "table,Number,Parameter,Belongs to,Value,Groups",
-    ]  # fmt: skip
+        "table,Group,Machines,Names",
+        "table,Number,Parameter,Belongs to,Value,Groups",
+    ]
     assert machines_paper([mill] * 20, ["M"] * 20).tables == ()
 
 

@@ -61,7 +61,8 @@ def test_a_mistake_in_typst_has_the_line_of_the_template(
     own = machine.parent / "templates"
     own.mkdir()
     (own / "report.typ.j2").write_text(
-        f'{{% extends "standard/report.typ.j2" %}}\n{{% block chapters %}}\n{mistake}\n= Service\n{{% endblock %}}\n'
+        f'{{% extends "standard/report.typ.j2" %}}\n{{% block chapters %}}\n{mistake}\n= Service\n{{%'
+        " endblock %}\n"
     )
     notes: list[str] = []
     found = set_report(mill, SHORT, 24, source=machine, notify=notes.append)

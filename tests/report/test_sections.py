@@ -23,10 +23,30 @@ from amp_studio.schema import Value
 
 def row_with(number: str) -> ReportRow:
     return ReportRow(
-        id="a.b", instance="", number=number, name="", group="", place="", is_set=False, is_number=False, value="", unit="", shown_unit="",
-        figure="", also="", entered="", no_default=False,
-        detail="", default="", plain_default="", is_changed=False, state="in-force", why="", state_mark="", forced="",
-    )  # fmt: skip
+        id="a.b",
+        instance="",
+        number=number,
+        name="",
+        group="",
+        place="",
+        is_set=False,
+        is_number=False,
+        value="",
+        unit="",
+        shown_unit="",
+        figure="",
+        also="",
+        entered="",
+        no_default=False,
+        detail="",
+        default="",
+        plain_default="",
+        is_changed=False,
+        state="in-force",
+        why="",
+        state_mark="",
+        forced="",
+    )
 
 
 def rows_by_anchor(file: ParameterFile) -> dict[str, ReportRow]:
@@ -51,7 +71,13 @@ def test_the_order_by_number_runs_through_all_axes(mill: ParameterFile) -> None:
 def test_the_order_by_axis_has_each_fitted_axis_and_then_the_rest(mill: ParameterFile) -> None:
     sections = build_report(mill, Contents("axis")).sections
     assert [s.title for s in sections] == [
-        "Axis X (1 linear)", "Axis Y (2 linear)", "Axis Z (3 linear)", "Axis B (4 rotary)", "Axis S (5 spindle)", "Non-axis parameters"]  # fmt: skip
+        "Axis X (1 linear)",
+        "Axis Y (2 linear)",
+        "Axis Z (3 linear)",
+        "Axis B (4 rotary)",
+        "Axis S (5 spindle)",
+        "Non-axis parameters",
+    ]
     for axis, section in zip("12345", sections[:-1], strict=True):
         assert {r.instance for part in section.parts for r in part.rows} == {axis}
     rest = {(r.id, r.instance) for part in sections[-1].parts for r in part.rows}
@@ -81,7 +107,9 @@ def test_the_order_by_group_is_the_manuals_with_an_axis_a_column(mill: Parameter
 def test_the_parts_of_a_long_group_stay_together(mill: ParameterFile) -> None:
     servo = next(s for s in build_report(mill).sections if s.title == "Servo Parameters")
     assert [p.title for p in servo.parts][:2] == [
-        "SERCOS and General Servo Parameters", "Position Loop Parameters"]  # fmt: skip
+        "SERCOS and General Servo Parameters",
+        "Position Loop Parameters",
+    ]
 
 
 def test_a_value_of_no_axis_spans_the_columns(mill: ParameterFile) -> None:
@@ -162,8 +190,15 @@ def test_a_number_that_belongs_to_another_parameter_is_not_printed(mill: Paramet
 def test_the_axes_are_summed_up(mill: ParameterFile) -> None:
     report = build_report(mill)
     assert report.axis_heads == (
-        "Axis", "Name", "Axis Type", "Servo Hardware Type", "Servo Loop Type", "Values", "Changed", "Findings"
-    )  # fmt: skip
+        "Axis",
+        "Name",
+        "Axis Type",
+        "Servo Hardware Type",
+        "Servo Loop Type",
+        "Values",
+        "Changed",
+        "Findings",
+    )
     assert [line[:2] for line in report.axes] == [("1", "X"), ("2", "Y"), ("3", "Z"), ("4", "B"), ("5", "S")]
     assert "error" in report.axes[0][-1], "the value forced out of range is a finding of axis 1"
 
@@ -171,7 +206,8 @@ def test_the_axes_are_summed_up(mill: ParameterFile) -> None:
 def test_forced_values_findings_and_missing_values_are_listed(mill: ParameterFile) -> None:
     report = build_report(mill)
     assert [(r.number, r.text, r.forced) for r in report.forced] == [
-        ("1730", "999999 mm", "by J. Fitter on 2026-07-01")]  # fmt: skip
+        ("1730", "999999 mm", "by J. Fitter on 2026-07-01")
+    ]
     assert ("2735", "Inposition Band", "Y") in report.not_set
     about = (("servo.gain_break_point@1", "1730 Gain Break Point"),)
     error = next(n for n in report.severities()["error"] if n.about == about)
@@ -188,9 +224,9 @@ def test_the_same_sentence_about_several_axes_is_said_once(mill: ParameterFile) 
         mill.set(("home.calibration", axis), Value(1.05e6, "mm"))
     found = [n for n in build_report(mill).notes if n.about and n.about[0][0].startswith("home.calibration")]
     assert [(n.place, n.count, n.fix) for n in found] == [
-        ("Y, Z", 2, "2300, 3300 Home Calibration = 999999.99 mm")]  # fmt: skip
-    assert found[0].about == (
-        ("home.calibration@2", "2300"), ("home.calibration@3", "3300 Home Calibration"))  # fmt: skip
+        ("Y, Z", 2, "2300, 3300 Home Calibration = 999999.99 mm")
+    ]
+    assert found[0].about == (("home.calibration@2", "2300"), ("home.calibration@3", "3300 Home Calibration"))
 
 
 def test_a_forced_value_of_an_axis_that_is_not_fitted_is_not_forgotten(mill: ParameterFile) -> None:

@@ -1,4 +1,6 @@
-"""The printed sheet: every format contains every entry, and no text of a file becomes markup, a formula or a terminal's order."""
+"""The printed sheet: every format contains every entry, and no text of a file becomes markup,
+a formula or a terminal's order.
+"""
 
 from __future__ import annotations
 

@@ -139,16 +139,32 @@ def test_a_template_that_is_a_link_is_refused(machine: Path, mill: ParameterFile
 @pytest.mark.parametrize(
     ("ending", "template", "said"),
     [
-        ("html", EXTENDS_PAGE + "{% block chapters %}\n{{ report.titel }}{% endblock %}", "line 3: there is no 'titel' in a Report, did you mean 'title'? The"),
-        ("html", EXTENDS_PAGE + "{% block chapters %}{{ reprot.title }}{% endblock %}", "there is no 'reprot', did you mean 'report'?"),
+        (
+            "html",
+            EXTENDS_PAGE + "{% block chapters %}\n{{ report.titel }}{% endblock %}",
+            "line 3: there is no 'titel' in a Report, did you mean 'title'? The",
+        ),
+        (
+            "html",
+            EXTENDS_PAGE + "{% block chapters %}{{ reprot.title }}{% endblock %}",
+            "there is no 'reprot', did you mean 'report'?",
+        ),
         ("html", EXTENDS_PAGE + "\n\n{% block chapters %}", "line 4: "),
         ("html", "{% extends 'standard/nothing.j2' %}", "nothing.j2"),
         ("html", EXTENDS_PAGE + "{% block chapters %}{{ 1 / 0 }}{% endblock %}", "line 2: division by zero"),
         ("html", EXTENDS_PAGE + "{% block chapters %}{{ ''.__class__.__mro__ }}{% endblock %}", "unsafe"),
-        ("html", EXTENDS_PAGE + "{% block chapters %}{{ cycler.__init__.__globals__ }}{% endblock %}", "unsafe"),
+        (
+            "html",
+            EXTENDS_PAGE + "{% block chapters %}{{ cycler.__init__.__globals__ }}{% endblock %}",
+            "unsafe",
+        ),
         ("html", "{% include '../../../../etc/passwd' %}", "passwd"),
         ("html", "{% for a in range(1000000000) %}x{% endfor %}", "too big"),
-        ("html", EXTENDS_PAGE + "{% block chapters %}\n{{ 'x' * 10**11 }}{% endblock %}", "line 3: '*' makes too much"),
+        (
+            "html",
+            EXTENDS_PAGE + "{% block chapters %}\n{{ 'x' * 10**11 }}{% endblock %}",
+            "line 3: '*' makes too much",
+        ),
         ("html", "{{ '%9999999999d' % 1 }}", "'%' makes too much"),
         ("html", "{{ 'x'|center(9999999999) }}", "a filter makes too much"),
         ("html", "{{ '{:>99999999999999}'.format(1) }}", "line 1: needs too much memory"),
@@ -165,7 +181,7 @@ def test_a_template_that_is_a_link_is_refused(machine: Path, mill: ParameterFile
         ("pdf", EXTENDS_PDF + '{% block logo %}#import "@preview/tablex:0.0.8": *{% endblock %}', "network"),
         ("pdf", EXTENDS_PDF + "{% block logo %}#while true {}{% endblock %}", "Typst: "),
     ],
-)  # fmt: skip
+)
 def test_a_mistake_is_noted_with_its_line_and_the_standard_report_is_written(
     machine: Path, mill: ParameterFile, ending: str, template: str, said: str
 ) -> None:
@@ -194,7 +210,10 @@ def test_a_text_of_the_file_stays_a_text_in_a_template_too(machine: Path, mill: 
 @pytest.mark.parametrize(
     "template",
     [
-        "{% set a = range(9999)|list %}{% for b in a %}{% for c in a %}{% for d in a %}{% endfor %}{% endfor %}{% endfor %}",
+        (
+            "{% set a = range(9999)|list %}{% for b in a %}{% for c in a %}{% for d in a %}{% endfor %}{%"
+            " endfor %}{% endfor %}"
+        ),
         "{% macro f(n) %}{{ f(n - 1) if n }}{{ f(n - 1) if n }}{% endmacro %}{{ f(60) }}",
     ],
 )
@@ -254,7 +273,9 @@ def test_a_template_changes_nothing_of_the_report(machine: Path, mill: Parameter
 def test_a_template_of_the_program_is_kept_compiled_and_one_of_a_project_is_not(
     machine: Path, mill: ParameterFile, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    """It lies beside the program's compiled modules: nowhere else, and nothing of a person is run from there."""
+    """It lies beside the program's compiled modules: nowhere else, and nothing of a person is run from
+    there.
+    """
     kept = tmp_path / "bytecode"
     monkeypatch.setattr(sys, "pycache_prefix", str(kept))
     monkeypatch.setattr(sys, "dont_write_bytecode", False)

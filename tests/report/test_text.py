@@ -22,26 +22,91 @@ from amp_studio.report.output.text import render_text
 
 def row(number: str, name: str, value: str, **more: object) -> ReportRow:
     known: dict[str, object] = {
-        "id": name, "instance": "", "number": number, "name": name, "group": "Home", "place": "", "is_set": True, "is_number": True, "value": value,
-        "figure": value, "unit": "mm", "shown_unit": "mm", "also": "", "entered": "", "detail": "", "no_default": False, "default": "0", "plain_default": "0", "is_changed": False,
-        "state": "in-force", "why": "", "state_mark": "", "forced": "",
-    }  # fmt: skip
+        "id": name,
+        "instance": "",
+        "number": number,
+        "name": name,
+        "group": "Home",
+        "place": "",
+        "is_set": True,
+        "is_number": True,
+        "value": value,
+        "figure": value,
+        "unit": "mm",
+        "shown_unit": "mm",
+        "also": "",
+        "entered": "",
+        "detail": "",
+        "no_default": False,
+        "default": "0",
+        "plain_default": "0",
+        "is_changed": False,
+        "state": "in-force",
+        "why": "",
+        "state_mark": "",
+        "forced": "",
+    }
     return ReportRow(**(known | more))
 
 
 SMALL = Report(
-    title="Mill 7", family="9/PC", file_name="mill.amp", date=datetime(2026, 7, 1, 14, 5, tzinfo=UTC), program="AMP Studio",
-    contents=Contents("axis"), machine=(("Machine", "Mill 7"),), facts=(("Units", "metric"),), help={}, pictures=(), motion=(), exchanges=(), counts=(("Values", "3"),), remarks="", remarked=(),
-    axis_heads=("Axis", "Name"), axes=(("1", "X"),),
-    notes=(Note("error", 1, "Axis 1 X", (("a@1", "1300 Home Calibration"),), "Too far.", "1300 = 0 mm", "5-10"),),
-    dangers=(), forced=(), power_up=(), not_set=(("1004", "G30 Position", "Axis 1 X"),),
-    sections=(Section("axis-1", "Axis 1 X", (Listing("Home", (
-        row("1300", "Home Calibration", "12.5", is_changed=True),
-        row("1310", "A name that is far too long for the column that names have in this table of ours", "0"),
-        row("", "Home Direction", "Negative direction off the switch, then the first marker", unit="", shown_unit="",
-            default="–", state="ignored", why="the axis is not homed", state_mark="i1"),
-    ), by_place=False),)),),
-)  # fmt: skip
+    title="Mill 7",
+    family="9/PC",
+    file_name="mill.amp",
+    date=datetime(2026, 7, 1, 14, 5, tzinfo=UTC),
+    program="AMP Studio",
+    contents=Contents("axis"),
+    machine=(("Machine", "Mill 7"),),
+    facts=(("Units", "metric"),),
+    help={},
+    pictures=(),
+    motion=(),
+    exchanges=(),
+    counts=(("Values", "3"),),
+    remarks="",
+    remarked=(),
+    axis_heads=("Axis", "Name"),
+    axes=(("1", "X"),),
+    notes=(
+        Note("error", 1, "Axis 1 X", (("a@1", "1300 Home Calibration"),), "Too far.", "1300 = 0 mm", "5-10"),
+    ),
+    dangers=(),
+    forced=(),
+    power_up=(),
+    not_set=(("1004", "G30 Position", "Axis 1 X"),),
+    sections=(
+        Section(
+            "axis-1",
+            "Axis 1 X",
+            (
+                Listing(
+                    "Home",
+                    (
+                        row("1300", "Home Calibration", "12.5", is_changed=True),
+                        row(
+                            "1310",
+                            "A name that is far too long for the column that names have in this table of"
+                            " ours",
+                            "0",
+                        ),
+                        row(
+                            "",
+                            "Home Direction",
+                            "Negative direction off the switch, then the first marker",
+                            unit="",
+                            shown_unit="",
+                            default="–",
+                            state="ignored",
+                            why="the axis is not homed",
+                            state_mark="i1",
+                        ),
+                    ),
+                    by_place=False,
+                ),
+            ),
+        ),
+    ),
+)
 
 
 def test_a_small_report_to_the_letter() -> None:

@@ -17,7 +17,10 @@ from amp_studio.report.model import Report
 from amp_studio.report.write import FORMATS
 from amp_studio.schema import Value, family_ids, load_schema
 
-ODD = '#panic("x") $x$ *b* _i_ `c` \\ " <script>alert(1)</script> &amp; {{ 1 }} {% if %} // /* @ref = \x00\x1b[2J\u202e 机 é'
+ODD = (
+    '#panic("x") $x$ *b* _i_ `c` \\ " <script>alert(1)</script> &amp; {{ 1 }} {% if %} // /* @ref ='
+    " \x00\x1b[2J\u202e 机 é"
+)
 """What Typst, HTML, the template engine, a terminal or a printer could take for an order."""
 
 STARTS = {
@@ -38,7 +41,9 @@ def new_machine(family: str, machine: str | None = None, *axes: str) -> Paramete
 
 @pytest.fixture
 def built_once(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Let a report that another format has had too be the same one: the formats differ, not what is in them."""
+    """Let a report that another format has had too be the same one: the formats differ, not what is in
+    them.
+    """
     monkeypatch.setattr("amp_studio.report.write.build_report", _report_of)
 
 

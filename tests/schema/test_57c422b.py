@@ -20,8 +20,45 @@ def file() -> ParameterFile:
     return new_file("57c422b")
 
 
-SINGLE = [0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 27, 28, 31, 32, 33, 38, 41, 63, 65, 66, 67, 68, 69, 72, 73, 80, 81, 82,
-          83, 104, 105, 125, 128, 129, 130, 131]  # fmt: skip
+SINGLE = [
+    0,
+    1,
+    2,
+    3,
+    4,
+    5,
+    6,
+    7,
+    8,
+    9,
+    10,
+    27,
+    28,
+    31,
+    32,
+    33,
+    38,
+    41,
+    63,
+    65,
+    66,
+    67,
+    68,
+    69,
+    72,
+    73,
+    80,
+    81,
+    82,
+    83,
+    104,
+    105,
+    125,
+    128,
+    129,
+    130,
+    131,
+]
 """Sections 4.2 to 4.50 with one register."""
 DOUBLE = [11, 13, 15, 17, 19, 21, 23, 25, 29, 34, 36, 39, 74, 76, 78, 84, 86, 126]
 """Sections with a pair of registers, separated by a comma."""
@@ -236,8 +273,8 @@ COMMANDS = {
     "change velocity": {19},
     "output volts": {28},
 }
-"""Page 4-32 for the default setups (registers 0-14, 31, 34-37 and 83), 4-24 for enable feedback, which reads the set-up
-data too; the pages of the registers for the rest."""
+"""Page 4-32 for the default setups (registers 0-14, 31, 34-37 and 83), 4-24 for enable feedback, which reads
+the set-up data too; the pages of the registers for the rest."""
 
 
 @pytest.mark.parametrize("command", COMMANDS)

@@ -73,14 +73,26 @@ def test_only_p_parameters_have_numbers(acromill: Schema) -> None:
     assert numbered == ["p.controller", "p.reserved", "p.acromill"]
     find = new_file("acromill").find
     assert [find(f"P{n}") for n in (0, 33, 34, 99, 100, 199)] == [
-        ("p.controller", "0"), ("p.controller", "33"), ("p.reserved", "34"), ("p.reserved", "99"),
-        ("p.acromill", "100"), ("p.acromill", "199"),
-    ]  # fmt: skip
+        ("p.controller", "0"),
+        ("p.controller", "33"),
+        ("p.reserved", "34"),
+        ("p.reserved", "99"),
+        ("p.acromill", "100"),
+        ("p.acromill", "199"),
+    ]
     assert find("axes.pulses_per_unit@X") == ("axes.pulses_per_unit", "X")
 
 
-COUNTS = {"offset.r_geometric": 400, "offset.r_wear": 400, "offset.h_geometric": 999, "offset.h_wear": 999,
-          "fov.position": 16, "rov.position": 16, "sov.position": 16, "axes.name": 8}  # fmt: skip
+COUNTS = {
+    "offset.r_geometric": 400,
+    "offset.r_wear": 400,
+    "offset.h_geometric": 999,
+    "offset.h_wear": 999,
+    "fov.position": 16,
+    "rov.position": 16,
+    "sov.position": 16,
+    "axes.name": 8,
+}
 """Pages 85, 86 and 70 to 72; 2 to 8 axes on page 3."""
 
 
@@ -146,8 +158,9 @@ def test_the_default_spindle_code_and_its_typical_one(acromill: Schema) -> None:
     assert parameter.default is not None
     assert parameter.default.value == 0
     assert [bit.label for bit in parameter.bits or () if 6 >> bit.bit & 1] == [
-        "Wait for UPTOSPEED", "Look for HI on UPTOSPEED",
-    ]  # fmt: skip
+        "Wait for UPTOSPEED",
+        "Look for HI on UPTOSPEED",
+    ]
 
 
 def test_inputs_end_at_31_without_expansion_modules() -> None:

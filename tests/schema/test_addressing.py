@@ -27,24 +27,27 @@ def num() -> ParameterFile:
     return new_file("num")
 
 
-@pytest.mark.parametrize(("family", "text", "address"), [
-    ("9pc", "1300", ("home.calibration", "1")),
-    ("9pc", " 2300 ", ("home.calibration", "2")),
-    ("9pc", "HOME.Calibration@1", ("home.calibration", "1")),
-    ("9pc", "101", ("password.character", "1")),
-    ("num", "P21N3", ("servo.loop_gain", "3")),
-    ("num", "p21n3", ("servo.loop_gain", "3")),
-    ("num", "21N3", ("servo.loop_gain", "3")),
-    ("num", "P3", ("axes.servoed", "")),
-    ("syntec", "Pr61", ("resolution.encoder", "1")),
-    ("syntec", "pr61", ("resolution.encoder", "1")),
-    ("syntec", "61", ("resolution.encoder", "1")),
-    ("57c422b", "R3", ("gain.proportional", "X")),
-    ("57c422b", "R2051", ("gain.proportional", "Y")),
-    ("57c422b", "gain.proportional@y", ("gain.proportional", "Y")),
-    ("acromill", "axes.pulses_per_unit@X", ("axes.pulses_per_unit", "X")),
-    ("acromill", "axes.pulses_per_unit@x", ("axes.pulses_per_unit", "X")),
-])  # fmt: skip
+@pytest.mark.parametrize(
+    ("family", "text", "address"),
+    [
+        ("9pc", "1300", ("home.calibration", "1")),
+        ("9pc", " 2300 ", ("home.calibration", "2")),
+        ("9pc", "HOME.Calibration@1", ("home.calibration", "1")),
+        ("9pc", "101", ("password.character", "1")),
+        ("num", "P21N3", ("servo.loop_gain", "3")),
+        ("num", "p21n3", ("servo.loop_gain", "3")),
+        ("num", "21N3", ("servo.loop_gain", "3")),
+        ("num", "P3", ("axes.servoed", "")),
+        ("syntec", "Pr61", ("resolution.encoder", "1")),
+        ("syntec", "pr61", ("resolution.encoder", "1")),
+        ("syntec", "61", ("resolution.encoder", "1")),
+        ("57c422b", "R3", ("gain.proportional", "X")),
+        ("57c422b", "R2051", ("gain.proportional", "Y")),
+        ("57c422b", "gain.proportional@y", ("gain.proportional", "Y")),
+        ("acromill", "axes.pulses_per_unit@X", ("axes.pulses_per_unit", "X")),
+        ("acromill", "axes.pulses_per_unit@x", ("axes.pulses_per_unit", "X")),
+    ],
+)
 def test_every_form_of_the_contract_is_understood(family: str, text: str, address: tuple[str, str]) -> None:
     assert new_file(family).find(text) == address
 
@@ -63,15 +66,16 @@ def test_every_instance_is_found_by_its_address_and_every_number_means_one(famil
                 assert bool(found.others) == bool(found.remark(schema))
 
 
-# -- a number of two parameters ----------------------------------------------------------------------------------
+# -- a number of two parameters
 
 
 def test_a_number_that_is_printed_twice_means_one_and_says_so(mill: ParameterFile) -> None:
     """1020 (pages 6-10 and 7-46)."""
     found = resolve_address(mill.evaluation, "1020")
     assert found.address == ("zone.overtravel_used", "1")
-    assert found.remark(mill.schema) == (
-        "1020 is printed for two parameters: taken is Software Overtravel Used (zone.overtravel_used@1); "
+    assert (
+        found.remark(mill.schema)
+        == "1020 is printed for two parameters: taken is Software Overtravel Used (zone.overtravel_used@1); "
         "the other is Velocity Loop Feedback Port (servo.velocity_port@1)"
     )
     assert resolve_address(mill.evaluation, "1300").remark(mill.schema) == ""
@@ -99,7 +103,7 @@ def test_of_several_that_exist_the_first_is_taken() -> None:
     assert found.others == (("cam.byte_points", "X.0"), ("cam.position_points", "X.0"))
 
 
-# -- words and bits ----------------------------------------------------------------------------------------------
+# -- words and bits
 
 
 def test_a_number_of_several_words_means_all_of_them(num: ParameterFile) -> None:
@@ -117,7 +121,7 @@ def test_a_bit_is_named_behind_its_word(num: ParameterFile, text: str) -> None:
         num.find(text)
 
 
-# -- letters of axes ---------------------------------------------------------------------------------------------
+# -- letters of axes
 
 
 def test_an_axis_is_named_by_the_letter_the_file_gives_it() -> None:
@@ -139,8 +143,10 @@ def test_two_axes_of_one_letter_are_both_told(mill: ParameterFile) -> None:
     file.set(("axis.name", "3"), Value("x"))
     with pytest.raises(UnknownParameterError) as refused:
         file.find("home.calibration@X")
-    assert str(refused.value) == (
-        "'home.calibration@X': the axes 1 and 3 are all named X: write home.calibration@1 or home.calibration@3"
+    assert (
+        str(refused.value)
+        == "'home.calibration@X': the axes 1 and 3 are all named X: write home.calibration@1 or"
+        " home.calibration@3"
     )
     with pytest.raises(UnknownParameterError, match="the axes 1 and 3 are all named X"):
         resolve_axis(file.evaluation, ("1", "2", "3"), "X")
@@ -159,18 +165,21 @@ def test_a_letter_means_nothing_to_what_belongs_to_no_axis(mill: ParameterFile) 
         mill.find("password.character@X")
 
 
-# -- wrong names -------------------------------------------------------------------------------------------------
+# -- wrong names
 
 
-@pytest.mark.parametrize(("family", "text", "nearest"), [
-    ("9pc", "home.calibrtion", "home.calibration"),
-    ("9pc", "home.calibrtion@2", "home.calibration@2"),
-    ("9pc", "Home Calibration", "home.calibration"),
-    ("9pc", "calibration", "home.calibration"),
-    ("9pc", "1301", "1300"),
-    ("num", "P21N33", "P21N31"),
-    ("syntec", "Pr6l", "Pr61"),
-])  # fmt: skip
+@pytest.mark.parametrize(
+    ("family", "text", "nearest"),
+    [
+        ("9pc", "home.calibrtion", "home.calibration"),
+        ("9pc", "home.calibrtion@2", "home.calibration@2"),
+        ("9pc", "Home Calibration", "home.calibration"),
+        ("9pc", "calibration", "home.calibration"),
+        ("9pc", "1301", "1300"),
+        ("num", "P21N33", "P21N31"),
+        ("syntec", "Pr6l", "Pr61"),
+    ],
+)
 def test_a_wrong_name_is_answered_with_the_nearest(family: str, text: str, nearest: str) -> None:
     with pytest.raises(UnknownParameterError) as refused:
         new_file(family).find(text)
@@ -188,11 +197,14 @@ def test_whatever_is_written_is_answered(mill: ParameterFile, text: str) -> None
     assert str(refused.value)
 
 
-@pytest.mark.parametrize(("text", "said"), [
-    ("home.calibration", "has @1 to @8, or an axis by its letter: X, Y, Z, S"),
-    ("home.calibration@9", "has @1 to @8, or an axis by its letter: X, Y, Z, S"),
-    ("home.calibration@Q", "has @1 to @8, or an axis by its letter: X, Y, Z, S"),
-])  # fmt: skip
+@pytest.mark.parametrize(
+    ("text", "said"),
+    [
+        ("home.calibration", "has @1 to @8, or an axis by its letter: X, Y, Z, S"),
+        ("home.calibration@9", "has @1 to @8, or an axis by its letter: X, Y, Z, S"),
+        ("home.calibration@Q", "has @1 to @8, or an axis by its letter: X, Y, Z, S"),
+    ],
+)
 def test_a_wrong_instance_is_answered_with_those_there_are(mill: ParameterFile, text: str, said: str) -> None:
     with pytest.raises(UnknownParameterError) as refused:
         mill.find(text)

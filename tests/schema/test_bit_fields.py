@@ -6,48 +6,80 @@ import pytest
 
 from amp_studio.schema import InvalidValueError, Parameter, read_value
 
-WORD = Parameter.model_validate({
-    "id": "a.word", "name": "Limits", "type": "bits", "help": {"what": "."}, "page": "1",
-    "storage": {"bits": 16},
-    "bits": [
-        {"bit": 0, "label": "Enable"},
-        {"bit": 1, "label": "Override locks"},
-        {"bit": 2, "label": "Stop, at once"},
-        {"bit": 3, "label": "spare"},
-        {"bit": 4, "label": "Spare"},
-        {"bit": 5, "width": 2, "label": "Mode", "choices": [
-            {"key": "a", "label": "Slow", "raw": 0}, {"key": "b", "label": "Fast, hot", "raw": 2}]},
-        {"bit": 8, "width": 4, "label": "Count"},
-        {"bit": 12, "label": "5 V supply"},
+WORD = Parameter.model_validate(
+    {
+        "id": "a.word",
+        "name": "Limits",
+        "type": "bits",
+        "help": {"what": "."},
+        "page": "1",
+        "storage": {"bits": 16},
+        "bits": [
+            {"bit": 0, "label": "Enable"},
+            {"bit": 1, "label": "Override locks"},
+            {"bit": 2, "label": "Stop, at once"},
+            {"bit": 3, "label": "spare"},
+            {"bit": 4, "label": "Spare"},
+            {
+                "bit": 5,
+                "width": 2,
+                "label": "Mode",
+                "choices": [
+                    {"key": "a", "label": "Slow", "raw": 0},
+                    {"key": "b", "label": "Fast, hot", "raw": 2},
+                ],
+            },
+            {"bit": 8, "width": 4, "label": "Count"},
+            {"bit": 12, "label": "5 V supply"},
+        ],
+    }
+)
+
+
+@pytest.mark.parametrize(
+    ("text", "word"),
+    [
+        ("Enable", 0b1),
+        ("enable , OVERRIDE  locks", 0b11),
+        ("Override locks,Enable", 0b11),
+        ("Stop, at once", 0b100),
+        ("Enable, Stop, at once, Override locks", 0b111),
+        ("Enable, Enable", 0b1),
+        ("bit 3, bit 14", 1 << 3 | 1 << 14),
+        ("Mode: Fast, hot", 2 << 5),
+        ("Mode: Fast, hot, Enable", 2 << 5 | 1),
+        ("Mode=Slow, Count=9", 9 << 8),
+        ("Count: 0xF, Mode: 2", 15 << 8 | 2 << 5),
+        ("5 V supply", 1 << 12),
+        ("none", 0),
+        ("5", 5),
+        ("0x05", 5),
+        ("0x1F", 31),
+        ("$1F", 31),
+        ("1e3", 1000),
     ],
-})  # fmt: skip
-
-
-@pytest.mark.parametrize(("text", "word"), [
-    ("Enable", 0b1), ("enable , OVERRIDE  locks", 0b11), ("Override locks,Enable", 0b11), ("Stop, at once", 0b100),
-    ("Enable, Stop, at once, Override locks", 0b111), ("Enable, Enable", 0b1), ("bit 3, bit 14", 1 << 3 | 1 << 14),
-    ("Mode: Fast, hot", 2 << 5), ("Mode: Fast, hot, Enable", 2 << 5 | 1), ("Mode=Slow, Count=9", 9 << 8),
-    ("Count: 0xF, Mode: 2", 15 << 8 | 2 << 5), ("5 V supply", 1 << 12), ("none", 0),
-    ("5", 5), ("0x05", 5), ("0x1F", 31), ("$1F", 31), ("1e3", 1000),
-])  # fmt: skip
+)
 def test_a_word_is_what_its_labels_say(text: str, word: int) -> None:
     assert read_value(WORD, text, "").value == word
 
 
-@pytest.mark.parametrize(("text", "said"), [
-    ("Enabel", "'Enabel' is no bit of Limits. Did you mean: Enable"),
-    ("Enable, Overide locks", "'Overide locks' is no bit of Limits. Did you mean: Override locks"),
-    ("Spare", "'Spare' is what the bits 3 and 4 of Limits are called: set one bit at a time"),
-    ("Mode", "Mode of Limits has 2 bits: write 'Mode: …'"),
-    ("Mode: Medium", "'Medium' is not a choice of Mode: Slow, Fast, hot"),
-    ("Count: 16", "does not fit Count, which takes 0 to 15"),
-    ("bit 16", "Limits has the bits 0 to 15, not 16"),
-    ("Enable,", "'' is no bit of Limits"),
-    ("zzz", "'zzz' is no bit of Limits, whose bits are Enable, "),
-    ("5 volts", "Limits is given in a bare number, not in V"),
-    ("," * 5000, "is too long for a number"),
-    ("Enable," * 400 + "Enable", "too long"),
-])  # fmt: skip
+@pytest.mark.parametrize(
+    ("text", "said"),
+    [
+        ("Enabel", "'Enabel' is no bit of Limits. Did you mean: Enable"),
+        ("Enable, Overide locks", "'Overide locks' is no bit of Limits. Did you mean: Override locks"),
+        ("Spare", "'Spare' is what the bits 3 and 4 of Limits are called: set one bit at a time"),
+        ("Mode", "Mode of Limits has 2 bits: write 'Mode: …'"),
+        ("Mode: Medium", "'Medium' is not a choice of Mode: Slow, Fast, hot"),
+        ("Count: 16", "does not fit Count, which takes 0 to 15"),
+        ("bit 16", "Limits has the bits 0 to 15, not 16"),
+        ("Enable,", "'' is no bit of Limits"),
+        ("zzz", "'zzz' is no bit of Limits, whose bits are Enable, "),
+        ("5 volts", "Limits is given in a bare number, not in V"),
+        ("," * 5000, "is too long for a number"),
+        ("Enable," * 400 + "Enable", "too long"),
+    ],
+)
 def test_what_is_no_label_is_refused(text: str, said: str) -> None:
     with pytest.raises(InvalidValueError) as refused:
         read_value(WORD, text, "")

@@ -27,12 +27,15 @@ def order(*steps: dict[str, Any], own: tuple[str, ...] = ()) -> Commissioning:
         ([STEP | {"params": ["home.sped"]}], ("steps", 0, "params", 0), "there is no parameter 'home.sped'"),
         ([STEP | {"again": ["home.sped"]}], ("steps", 0, "again", 0), "there is no parameter 'home.sped'"),
         (
-            [STEP | {"params": ["axis.name"]}, {"id": "two", "title": "Two", "page": "1", "params": ["axis.name"]}],
+            [
+                STEP | {"params": ["axis.name"]},
+                {"id": "two", "title": "Two", "page": "1", "params": ["axis.name"]},
+            ],
             ("steps", 1, "params", 0),
             "'axis.name' is in an earlier step",
         ),
     ],
-)  # fmt: skip
+)
 def test_a_step_that_cannot_be_is_reported_at_its_place(
     steps: list[dict[str, Any]], place: tuple[object, ...], what: str
 ) -> None:

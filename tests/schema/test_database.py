@@ -55,15 +55,14 @@ SHARED_NUMBERS = {
     "num": {
         frozenset(
             {"servo.acceleration_work", "servo.spindle_acceleration"}
-        ): "P32N48, N50, N52 and N54 by address, axis or spindle, page 6-11",
+        ): "P32N48, N50, N52 and N54 by address, axis or spindle, page 6-11"
     },
 }
 """Parameters that share a number, with the reason; all other numbers are unique on a machine."""
 
-RANGES_ARE_RARE = {
-    "syntec": {"limit.first_positive", "limit.first_negative", "mpg.simulation_handwheel"},
-}
-"""Family -> the parameters for which its manual prints a range; a family that is not here prints them throughout."""
+RANGES_ARE_RARE = {"syntec": {"limit.first_positive", "limit.first_negative", "mpg.simulation_handwheel"}}
+"""Family -> the parameters for which its manual prints a range;
+a family that is not here prints them throughout."""
 
 DEFAULTS_OUT_OF_RANGE: dict[str, dict[str, str]] = {}
 """Family -> parameter -> why its printed default lies outside its printed range; there is none at present."""

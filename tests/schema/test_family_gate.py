@@ -13,8 +13,30 @@ from amp_studio.schema import UnknownFamilyError, database_folder, family_ids, l
 from amp_studio.schema import load as loading
 from amp_studio.schema.load import compile_family
 
-OUTSIDE = ["../x", "../../etc", "/tmp", ".", "..", "", "9PC", "9pc/", "9pc/../9pc", "9pc\x00", "9pc ", "９pc", "*", "x" * 10_000_000,
-           "\x1b[31m", "9pc/groups", "a\nb", "con", "9pc.", "C:\\x", "ﬁ", "~"]  # fmt: skip
+OUTSIDE = [
+    "../x",
+    "../../etc",
+    "/tmp",
+    ".",
+    "..",
+    "",
+    "9PC",
+    "9pc/",
+    "9pc/../9pc",
+    "9pc\x00",
+    "9pc ",
+    "９pc",
+    "*",
+    "x" * 10_000_000,
+    "\x1b[31m",
+    "9pc/groups",
+    "a\nb",
+    "con",
+    "9pc.",
+    "C:\\x",
+    "ﬁ",
+    "~",
+]
 
 
 @pytest.fixture

@@ -182,7 +182,9 @@ def test_the_scope_of_a_parameter_may_differ_between_mill_and_lathe(facts, machi
 
 
 def test_axis_1_is_not_taken_for_process_1(facts, head, machine) -> None:
-    """9/PC: Number of Limit 2,3 Groups is 20 for the control, 20020 and 21020 for processes 1 and 2 (page 6-6)."""
+    """9/PC: Number of Limit 2,3 Groups is 20 for the control,
+    20020 and 21020 for processes 1 and 2 (page 6-6).
+    """
     schema = facts.schema(
         """
         - id: zone.groups

@@ -138,10 +138,14 @@ def test_a_list_of_the_family_stands_for_itself_by_its_name(compiled, head) -> N
 @pytest.mark.parametrize(
     ("old", "new", "said"),
     [
-        ("boolean, choices: answer", "boolean, choices: anser", "a.ask: choices: there is no choice list 'anser'"),
+        (
+            "boolean, choices: answer",
+            "boolean, choices: anser",
+            "a.ask: choices: there is no choice list 'anser'",
+        ),
         ("bits: lamps", "bits: answer", "a.lamps: bits: there is no bit list 'answer'"),
     ],
-)  # fmt: skip
+)
 def test_a_name_of_no_list_is_told_with_the_parameter(compiled, head, old, new, said) -> None:
     assert old in LISTED
     with pytest.raises(DatabaseError) as refused:

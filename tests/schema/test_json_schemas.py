@@ -1,4 +1,6 @@
-"""The JSON Schemas for editors: fresh, named in every fact file, and of one mind with the models that read the files."""
+"""The JSON Schemas for editors: fresh, named in every fact file,
+and of one mind with the models that read the files.
+"""
 
 from __future__ import annotations
 

@@ -55,7 +55,12 @@ def test_good_facts_load(facts, head) -> None:
 @pytest.mark.parametrize(
     ("old", "new", "marked", "said"),
     [
-        ("  quantity: velocity", "  quantity: velocity\n  unnit: mm", "unnit", "a.speed: unnit: there is no such key, did you mean 'unit'?"),
+        (
+            "  quantity: velocity",
+            "  quantity: velocity\n  unnit: mm",
+            "unnit",
+            "a.speed: unnit: there is no such key, did you mean 'unit'?",
+        ),
         ("  name: Speed\n", "", "- id: a.speed", "a.speed: name: is missing"),
         ("type: real", "type: reel", "type: reel", "a.speed: type: 'reel' is not 'integer', 'real', "),
         ("id: a.kind", "id: a.speed", "- id: a.speed", "a.speed occurs twice"),
@@ -66,17 +71,37 @@ def test_good_facts_load(facts, head) -> None:
         ("code: b", "code: A", "- id: a.kind", "a.kind: two choices share a code"),
         ("mm/min: [0, 100]", "mm/h: [0, 100]", "mm/h", "'mm/h' is no unit"),
         ("mm/min: [0, 100]", "mm/min: [0, fast]", "mm/min: [0, fast]", "a.speed: ranges: mm/min"),
-        ("mm/min: [0, 100]", "mm/min: [0, {param: a.top}]", "mm/min: [0", "there is no parameter 'a.top' to bound it"),
+        (
+            "mm/min: [0, 100]",
+            "mm/min: [0, {param: a.top}]",
+            "mm/min: [0",
+            "there is no parameter 'a.top' to bound it",
+        ),
         ("when: slow", "when: slo", "- {state: ignored", "a.speed: there is no condition 'slo'"),
-        ("when: slow", "when: slow, unless: slow", "- {state: ignored", "a state takes either 'when' or 'unless'"),
+        (
+            "when: slow",
+            "when: slow, unless: slow",
+            "- {state: ignored",
+            "a state takes either 'when' or 'unless'",
+        ),
         ("scope: axis", "scope: word", "scope: word", "a.kind: the family has no scope 'word'"),
-        ('page: "1"\n- id: a.kind', 'page: page one\n- id: a.kind', "page: page one", "a.speed: page: 'page one' is no page: written like 7-20"),
+        (
+            'page: "1"\n- id: a.kind',
+            "page: page one\n- id: a.kind",
+            "page: page one",
+            "a.speed: page: 'page one' is no page: written like 7-20",
+        ),
         ("name: Kind", "numbers: {format: 'P{x}'}\n  name: Kind", "numbers", "the format 'P{x}' may contain"),
-        ("name: Kind", "numbers: {step: 3}\n  name: Kind", "numbers", "numbers need 'start', 'listed', 'starts' or a format without"),
+        (
+            "name: Kind",
+            "numbers: {step: 3}\n  name: Kind",
+            "numbers",
+            "numbers need 'start', 'listed', 'starts' or a format without",
+        ),
         ("name: Kind", "name: Kind\n  name: Sort", "name: Sort", "'name' occurs twice"),
         ("name: Kind", "name: [Kind", "scope: axis", "expected"),
     ],
-)  # fmt: skip
+)
 def test_a_fault_in_a_fact_is_told_with_file_and_line(facts, head, old, new, marked, said) -> None:
     text = GOOD.replace(old, new, 1)
     assert text != GOOD
@@ -182,7 +207,9 @@ def test_every_family_with_a_folder_is_known() -> None:
 
 @pytest.fixture
 def database(facts, head, monkeypatch, tmp_path: Path) -> Path:
-    """Return a folder of facts with one small family, and a separate cache; the folder is read again each time."""
+    """Return a folder of facts with one small family, and a separate cache;
+    the folder is read again each time.
+    """
     facts.write("family.yaml", head + SLOW)
     facts.group(GOOD)
     monkeypatch.setattr(loading, "database_folder", lambda: facts.folder.parent)

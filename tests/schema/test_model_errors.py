@@ -1,4 +1,6 @@
-"""What does not fit a model is reported in plain words, with the key that was meant, and all of an entry at once."""
+"""What does not fit a model is reported in plain words, with the key that was meant,
+and all of an entry at once.
+"""
 
 from __future__ import annotations
 
@@ -30,13 +32,32 @@ def refused(facts, head, parameters: str) -> DatabaseError:
     ("old", "new", "said"),
     [
         ("name: Speed", "nmae: Speed", "a.speed: nmae: there is no such key, did you mean 'name'?"),
-        ("name: Speed", "name: Speed\n  defualt: 3", "a.speed: defualt: there is no such key, did you mean 'default'?"),
+        (
+            "name: Speed",
+            "name: Speed\n  defualt: 3",
+            "a.speed: defualt: there is no such key, did you mean 'default'?",
+        ),
         ("wrong: Too", "wronge: Too", "a.speed: help: wronge: there is no such key, did you mean 'wrong'?"),
-        ("label: One}", "lable: One}", "a.speed: choices: lable: there is no such key, did you mean 'label'?"),
+        (
+            "label: One}",
+            "lable: One}",
+            "a.speed: choices: lable: there is no such key, did you mean 'label'?",
+        ),
         ("when: slow", "wen: slow", "a.speed: states: wen: there is no such key, did you mean 'when'?"),
         ("name: Speed", "name: Speed\n  zzz: 3", "a.speed: zzz: there is no such key"),
-        ("state: hidden", "state: hiden", "a.speed: states: state: 'hiden' is not 'ignored', 'unusable' or 'hidden', did you mean 'hidden'?"),
-        ("type: real", "type: 7", "a.speed: type: '7' is not 'integer', 'real', 'choice', 'boolean', 'bits', 'text' or 'format'"),
+        (
+            "state: hidden",
+            "state: hiden",
+            (
+                "a.speed: states: state: 'hiden' is not 'ignored', 'unusable' or 'hidden', did you mean"
+                " 'hidden'?"
+            ),
+        ),
+        (
+            "type: real",
+            "type: 7",
+            "a.speed: type: '7' is not 'integer', 'real', 'choice', 'boolean', 'bits', 'text' or 'format'",
+        ),
         ("name: Speed", "name: 7", "a.speed: name: must be a text: put '7' in quotes"),
         ("name: Speed", "name:", "a.speed: name: is empty"),
         ("{mm: [0, 10]}", "{mm: [0, fast]}", "a.speed: ranges: mm: must be a number"),
@@ -44,10 +65,14 @@ def refused(facts, head, parameters: str) -> DatabaseError:
         ("{mm: [0, 10]}", "mm", "a.speed: ranges: must be names with what they are: {name: ...}"),
         ("name: Speed", "name: Speed\n  tunable: sometimes", "a.speed: tunable: must be true or false"),
         ("name: Speed", "name: Speed\n  decimals: 1.5", "a.speed: decimals: must be a whole number"),
-        ("key: one", "key: One", "a.speed: choices: key: 'One' is no key: small letters, digits and _ . + - without a blank"),
+        (
+            "key: one",
+            "key: One",
+            "a.speed: choices: key: 'One' is no key: small letters, digits and _ . + - without a blank",
+        ),
         ("name: Speed", "name: Speed\n  errata: e-1", "a.speed: errata: must be a list: [...]"),
     ],
-)  # fmt: skip
+)
 def test_a_slip_is_told_in_plain_words(facts, head, old, new, said) -> None:
     assert old in PARAMETER
     assert refused(facts, head, PARAMETER.replace(old, new)).what == said
@@ -57,9 +82,10 @@ def test_all_slips_of_one_entry_are_told_at_once_each_with_its_line(facts, head)
     text = PARAMETER.replace("name: Speed", "colur: red").replace("type: real", "type: reel")
     other = "- {id: a.other, nam: Other}\n"
     error = refused(facts, head, text + other)
-    assert error.what == (
-        "a.speed: name: is missing; colur: there is no such key (line 7); type: 'reel' is not 'integer', 'real', "
-        "'choice', 'boolean', 'bits', 'text' or 'format', did you mean 'real'? (line 8)"
+    assert (
+        error.what
+        == "a.speed: name: is missing; colur: there is no such key (line 7); type: 'reel' is not 'integer',"
+        " 'real', 'choice', 'boolean', 'bits', 'text' or 'format', did you mean 'real'? (line 8)"
     )
     assert error.line == 6, "where the entry begins"
 

@@ -55,7 +55,8 @@ def test_chapter_35_adds_no_number(ninepc, machine) -> None:
 
 
 def test_a_gain_takes_effect_at_once_where_online_amp_changes_it(ninepc) -> None:
-    # Page 7-7: "change gain values real time, without a control restart"; what is downloaded waits for the restart.
+    # Page 7-7: "change gain values real time, without a control restart"; what is downloaded waits for the
+    # restart.
     gains = {"servo.initial_gain", "servo.velocity_proportional_gain", "servo.velocity_integral_gain"}
     online = {
         name for name, each in ninepc.parameters.items() if each.effect and each.effect.level == "online"

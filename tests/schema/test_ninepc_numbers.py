@@ -30,7 +30,9 @@ from amp_studio.schema.model import Parameter
 def test_a_number_means_what_the_axis_is(
     ninepc, machine, number: str, kind: str, expected: str, loop: str | None
 ) -> None:
-    """Pages 7-52, 7-53 against 7-82, 7-83; 1020 is printed on 6-10 and again on 7-46, where another is meant."""
+    """Pages 7-52, 7-53 against 7-82, 7-83; 1020 is printed on 6-10 and again on 7-46, where another is
+    meant.
+    """
     axis = expected[-1]
     values = {f"axis.type@{axis}": Value(kind)}
     if loop is not None:
@@ -120,27 +122,50 @@ def other_choice(**update: object) -> Callable[[Parameter], Parameter]:
     ("name", "change"),
     [
         pytest.param("home.calibration", lambda p: p.model_copy(update={"id": "home.other"}), id="id"),
-        pytest.param("home.calibration", lambda p: p.model_copy(update={"name": "Home Calibratio"}), id="name"),
+        pytest.param(
+            "home.calibration", lambda p: p.model_copy(update={"name": "Home Calibratio"}), id="name"
+        ),
         pytest.param("home.calibration", lambda p: p.model_copy(update={"type": "integer"}), id="type"),
-        pytest.param("home.calibration", lambda p: p.model_copy(update={"quantity": "velocity"}), id="quantity"),
+        pytest.param(
+            "home.calibration", lambda p: p.model_copy(update={"quantity": "velocity"}), id="quantity"
+        ),
         pytest.param("home.calibration", lambda p: p.model_copy(update={"unit": "in"}), id="unit"),
-        pytest.param("home.calibration",
-                     lambda p: p.model_copy(update={"numbers": p.numbers.model_copy(update={"start": 1301})}), id="number"),
-        pytest.param("home.calibration",
-                     lambda p: p.model_copy(update={"numbers": p.numbers.model_copy(update={"step": 100})}), id="step"),
-        pytest.param("home.calibration",
-                     lambda p: p.model_copy(update={"storage": p.storage.model_copy(update={"scale": 2.0})}), id="scale"),
-        pytest.param("home.calibration",
-                     lambda p: p.model_copy(update={"storage": p.storage.model_copy(update={"unit": "in"})}), id="stored unit"),
-        pytest.param("home.calibration",
-                     lambda p: p.model_copy(update={"numbers": None, "instances": ("1", "2")}), id="instances"),
+        pytest.param(
+            "home.calibration",
+            lambda p: p.model_copy(update={"numbers": p.numbers.model_copy(update={"start": 1301})}),
+            id="number",
+        ),
+        pytest.param(
+            "home.calibration",
+            lambda p: p.model_copy(update={"numbers": p.numbers.model_copy(update={"step": 100})}),
+            id="step",
+        ),
+        pytest.param(
+            "home.calibration",
+            lambda p: p.model_copy(update={"storage": p.storage.model_copy(update={"scale": 2.0})}),
+            id="scale",
+        ),
+        pytest.param(
+            "home.calibration",
+            lambda p: p.model_copy(update={"storage": p.storage.model_copy(update={"unit": "in"})}),
+            id="stored unit",
+        ),
+        pytest.param(
+            "home.calibration",
+            lambda p: p.model_copy(update={"numbers": None, "instances": ("1", "2")}),
+            id="instances",
+        ),
         pytest.param("axis.type", other_choice(key="line"), id="choice key"),
         pytest.param("axis.type", other_choice(label="Line"), id="choice label"),
         pytest.param("axis.type", other_choice(raw=77), id="choice code"),
-        pytest.param("axis.type", lambda p: p.model_copy(update={"choices": p.choices[1:]}), id="choice gone"),
-        pytest.param("axis.type", lambda p: p.model_copy(update={"choices": p.choices[::-1]}), id="choice order"),
+        pytest.param(
+            "axis.type", lambda p: p.model_copy(update={"choices": p.choices[1:]}), id="choice gone"
+        ),
+        pytest.param(
+            "axis.type", lambda p: p.model_copy(update={"choices": p.choices[::-1]}), id="choice order"
+        ),
     ],
-)  # fmt: skip
+)
 def test_the_signature_changes_with_what_a_number_means(ninepc, name: str, change) -> None:
     assert ninepc.signature != changed(change, name).signature
 

@@ -6,8 +6,13 @@ import pytest
 
 from amp_studio.schema import Evaluation, Value
 
-ANALOG = {"axis.type": "spindle", "servo.hardware_type": "sercos", "servo.loop_type": "analog",
-          "servo.position_port": "j9", "servo.spindle_type": "s1"}  # fmt: skip
+ANALOG = {
+    "axis.type": "spindle",
+    "servo.hardware_type": "sercos",
+    "servo.loop_type": "analog",
+    "servo.position_port": "j9",
+    "servo.spindle_type": "s1",
+}
 DIGITAL = ANALOG | {"servo.loop_type": "digital", "servo.position_port": "j4", "servo.velocity_port": "j4"}
 TWO_DEVICES = DIGITAL | {"servo.position_port": "j9"}
 THIRD_PARTY = ANALOG | {"servo.loop_type": "sercos"}
@@ -71,8 +76,14 @@ def test_a_spindle_that_no_axis_is_does_not_exist(evaluation) -> None:
 def test_gears_beyond_the_number_used_are_ignored(evaluation) -> None:
     """Page 12-8; gear 1 stays even where the number is missing or wrong."""
     here = evaluation(ANALOG, spindle__gear_count_of_1=Value(3))
-    for name in ("spindle.min_speed", "spindle.max_speed", "spindle.voltage_at_max", "spindle.gain",
-                 "tapping.acceleration_time", "tapping.max_speed"):  # fmt: skip
+    for name in (
+        "spindle.min_speed",
+        "spindle.max_speed",
+        "spindle.voltage_at_max",
+        "spindle.gain",
+        "tapping.acceleration_time",
+        "tapping.max_speed",
+    ):
         states = [state(here, name, f"1.{gear}") for gear in range(1, 9)]
         assert states == ["in-force"] * 3 + ["ignored"] * 5, name
     assert state(evaluation(ANALOG), "spindle.max_speed", "1.8") == "in-force"
@@ -103,7 +114,9 @@ def test_a_spindle_on_a_1394_module_has_one_gear_and_no_voltage(evaluation) -> N
     ],
 )
 def test_orient_to_an_angle_takes_position_feedback(evaluation, axis: dict[str, str], expected: str) -> None:
-    """Pages 7-79, 12-5 and 12-10; speed and direction also serve an open-loop orient (pages 12-3 and 12-13)."""
+    """Pages 7-79, 12-5 and 12-10; speed and direction also serve an open-loop orient (pages 12-3 and
+    12-13).
+    """
     here = evaluation(axis)
     names = [f"spindle.{name}" for name in (*ORIENTED, "deviation_tolerance")]
     assert {state(here, name, "1") for name in names} == {expected}
@@ -112,7 +125,9 @@ def test_orient_to_an_angle_takes_position_feedback(evaluation, axis: dict[str, 
 
 
 def test_the_gear_that_scales_the_dac_monitor_is_there_without_a_spindle(evaluation) -> None:
-    """Pages A-4 and A-5: the spindles are unfitted for tuning, but 820 and 910, 830 and 930 scale the output."""
+    """Pages A-4 and A-5: the spindles are unfitted for tuning, but 820 and 910, 830 and 930 scale the
+    output.
+    """
     for monitor, spindle, other in (("2", "1", "2"), ("3", "2", "1")):
         here = evaluation({"axis.type": "linear"}, **{f"patch__dac_monitor_of_{monitor}": Value(101)})
         for name in ("spindle.voltage_at_max", "spindle.max_speed"):

@@ -1,4 +1,6 @@
-"""Split axes of the real 9/PC: which servo takes its values from which, and what can be keyed in for each set."""
+"""Split axes of the real 9/PC: which servo takes its values from which,
+and what can be keyed in for each set.
+"""
 
 from __future__ import annotations
 
@@ -10,8 +12,21 @@ from amp_studio.schema.values import read_value
 SETS = {"1": ("deskew.master@1", "deskew.slave@1"), "2": ("deskew.master_2@2", "deskew.slave_2@2")}
 NAMES = {"axis.name@1": Value("x"), "axis.name@2": Value("y"), "axis.name@4": Value("u")}
 
-SHARED = ("home", "zone", "jog", "feedrate", "accdec", "css", "format", "tool", "comp", "cycle", "roughing",
-          "cylindrical", "virtual_c")  # fmt: skip
+SHARED = (
+    "home",
+    "zone",
+    "jog",
+    "feedrate",
+    "accdec",
+    "css",
+    "format",
+    "tool",
+    "comp",
+    "cycle",
+    "roughing",
+    "cylindrical",
+    "virtual_c",
+)
 """What the slave takes from its master, by the beginning of the ids (page 32-4)."""
 
 

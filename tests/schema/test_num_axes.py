@@ -112,13 +112,23 @@ def test_the_frame_of_the_stegmann_encoders() -> None:
     [
         ("measure.channel_check", 4, ["32 µs", "16 µs", "8 µs", "4 µs", "2 µs", "1 µs", "500 ns", "250 ns"]),
         ("measure.sensor", 11, ["120 ns", "16 µs", "8 µs", "4 µs", "2 µs", "1 µs", "500 ns", "250 ns"]),
-        ("measure.sensor", 8,
-         ["100 kHz", "200 kHz", "400 kHz", "500 kHz", "800 kHz", "1 MHz", "1.6 MHz", "2 MHz"]),
-        ("measure.sensor", 25,
-         ["incremental sensor", "absolute sensor with SSI serial transmission", "combined absolute encoder",
-          "incremental rule with encoded reference marks"]),
+        (
+            "measure.sensor",
+            8,
+            ["100 kHz", "200 kHz", "400 kHz", "500 kHz", "800 kHz", "1 MHz", "1.6 MHz", "2 MHz"],
+        ),
+        (
+            "measure.sensor",
+            25,
+            [
+                "incremental sensor",
+                "absolute sensor with SSI serial transmission",
+                "combined absolute encoder",
+                "incremental rule with encoded reference marks",
+            ],
+        ),
     ],
-)  # fmt: skip
+)
 def test_the_codes_of_a_field_are_those_of_its_table(parameter_id: str, bit: int, labels: list[str]) -> None:
     """Pages 5-16 and 5-18."""
     assert [said(parameter_id, bit, code << bit) for code in range(len(labels))] == labels
@@ -127,27 +137,75 @@ def test_the_codes_of_a_field_are_those_of_its_table(parameter_id: str, bit: int
 @pytest.mark.parametrize(
     ("address", "number"),
     [
-        (("measure.multi", "0"), "P11N0"), (("measure.divi", "0"), "P11N1"), (("measure.multi", "31"), "P11N62"),
-        (("measure.divi", "31"), "P11N63"), (("measure.handwheel_multi", "1"), "P13N0"),
-        (("measure.handwheel_divi", "4"), "P13N7"), (("measure.handwheel_auto_multi", ""), "P13N8"),
-        (("measure.handwheel_auto_divi", ""), "P13N9"), (("measure.handwheel_rotary_multi", "1"), "P13N10"),
-        (("measure.handwheel_rotary_divi", "4"), "P13N17"), (("measure.graduation", "0"), "P36N0"),
-        (("measure.graduations", "0"), "P36N32"), (("measure.graduations", "31"), "P36N63"),
-        (("axes.group_machine", "1"), "P5N1"), (("qvn.rejection_89_zn", "3"), "P89N7"),
+        (("measure.multi", "0"), "P11N0"),
+        (("measure.divi", "0"), "P11N1"),
+        (("measure.multi", "31"), "P11N62"),
+        (("measure.divi", "31"), "P11N63"),
+        (("measure.handwheel_multi", "1"), "P13N0"),
+        (("measure.handwheel_divi", "4"), "P13N7"),
+        (("measure.handwheel_auto_multi", ""), "P13N8"),
+        (("measure.handwheel_auto_divi", ""), "P13N9"),
+        (("measure.handwheel_rotary_multi", "1"), "P13N10"),
+        (("measure.handwheel_rotary_divi", "4"), "P13N17"),
+        (("measure.graduation", "0"), "P36N0"),
+        (("measure.graduations", "0"), "P36N32"),
+        (("measure.graduations", "31"), "P36N63"),
+        (("axes.group_machine", "1"), "P5N1"),
+        (("qvn.rejection_89_zn", "3"), "P89N7"),
     ],
-)  # fmt: skip
+)
 def test_a_word_is_addressed_by_its_number(file, address: Address, number: str) -> None:
     assert (file.find(number), SCHEMA.on("cnc").number(address)) == (address, number)
 
 
 WORDS = {
-    "P97": 2, "P2": 1, "P0": 1, "P1": 2, "P3": 1, "P4": 5, "P8": 1, "P9": 32, "P14": 2, "P27": 32, "P28": 1, "P64": 1,
-    "P65": 32, "P10": 1, "P11": 64, "P12": 1, "P13": 18, "P25": 2, "P26": 32, "P34": 32, "P36": 64, "P5": 2,
-}  # fmt: skip
+    "P97": 2,
+    "P2": 1,
+    "P0": 1,
+    "P1": 2,
+    "P3": 1,
+    "P4": 5,
+    "P8": 1,
+    "P9": 32,
+    "P14": 2,
+    "P27": 32,
+    "P28": 1,
+    "P64": 1,
+    "P65": 32,
+    "P10": 1,
+    "P11": 64,
+    "P12": 1,
+    "P13": 18,
+    "P25": 2,
+    "P26": 32,
+    "P34": 32,
+    "P36": 64,
+    "P5": 2,
+}
 TYPES = {
-    "P97": 0, "P2": 6, "P0": 6, "P1": 6, "P3": 6, "P4": 0, "P8": 6, "P9": 0, "P14": 0, "P27": 0, "P28": 6, "P64": 6,
-    "P65": 5, "P10": 6, "P11": 5, "P12": 0, "P13": 5, "P25": 6, "P26": 0, "P34": 6, "P36": 5, "P5": 0,
-}  # fmt: skip
+    "P97": 0,
+    "P2": 6,
+    "P0": 6,
+    "P1": 6,
+    "P3": 6,
+    "P4": 0,
+    "P8": 6,
+    "P9": 0,
+    "P14": 0,
+    "P27": 0,
+    "P28": 6,
+    "P64": 6,
+    "P65": 5,
+    "P10": 6,
+    "P11": 5,
+    "P12": 0,
+    "P13": 5,
+    "P25": 6,
+    "P26": 0,
+    "P34": 6,
+    "P36": 5,
+    "P5": 0,
+}
 
 
 @pytest.mark.parametrize("parameter", WORDS)
@@ -203,8 +261,12 @@ def test_an_address_that_serves_a_spindle_or_a_handwheel_is_no_axis(file) -> Non
 def test_words_of_handwheels_count_where_there_is_a_handwheel(file) -> None:
     put(file, P14N0=0b0010)
     assert [state(file, f"P13N{n}") for n in (0, 2, 8, 10, 12)] == [
-        "ignored", "in-force", "in-force", "ignored", "in-force",
-    ]  # fmt: skip
+        "ignored",
+        "in-force",
+        "in-force",
+        "ignored",
+        "in-force",
+    ]
     put(file, P14N0=0b10000)
     assert [state(file, number) for number in ("P13N8", "P12N0", "P14N1")] == ["ignored"] * 3
 

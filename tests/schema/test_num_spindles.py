@@ -1,4 +1,6 @@
-"""NUM spindles, miscellaneous and communication words: chapters 8 to 10, and the order of integration of chapter 3."""
+"""NUM spindles, miscellaneous and communication words: chapters 8 to 10,
+and the order of integration of chapter 3.
+"""
 
 from __future__ import annotations
 
@@ -11,18 +13,79 @@ from amp_studio.schema import InvalidValueError, Schema, Value, fault, load_sche
 from amp_studio.schema.model import Guide
 
 WORDS = {
-    "P6": 9, "P40": 4, "P41": 4, "P42": 4, "P43": 4, "P44": 4, "P45": 4, "P46": 18, "P47": 18, "P48": 18, "P49": 18,
-    "P62": 8, "P63": 24, "P7": 2, "P35": 32, "P50": 2, "P51": 2, "P58": 3, "P59": 4, "P67": 24, "P80": 2, "P95": 3,
-    "P96": 1, "P98": 1, "P99": 3, "P114": 3, "P37": 9, "P38": 40, "P39": 3, "P84": 1, "P100": 8, "P110": 8, "P111": 10,
+    "P6": 9,
+    "P40": 4,
+    "P41": 4,
+    "P42": 4,
+    "P43": 4,
+    "P44": 4,
+    "P45": 4,
+    "P46": 18,
+    "P47": 18,
+    "P48": 18,
+    "P49": 18,
+    "P62": 8,
+    "P63": 24,
+    "P7": 2,
+    "P35": 32,
+    "P50": 2,
+    "P51": 2,
+    "P58": 3,
+    "P59": 4,
+    "P67": 24,
+    "P80": 2,
+    "P95": 3,
+    "P96": 1,
+    "P98": 1,
+    "P99": 3,
+    "P114": 3,
+    "P37": 9,
+    "P38": 40,
+    "P39": 3,
+    "P84": 1,
+    "P100": 8,
+    "P110": 8,
+    "P111": 10,
     "P112": 3,
-}  # fmt: skip
+}
 """Number of words of each parameter, as its section heads it; P44 and P45 by the data tables of page 8-3."""
 
 TYPES = {
-    "P6": 0, "P7": 0, "P35": 5, "P37": 0, "P38": 6, "P39": 4, "P40": 4, "P41": 0, "P42": 4, "P43": 5, "P44": 5, "P45": 5,
-    "P46": 5, "P47": 5, "P48": 5, "P49": 5, "P50": 5, "P51": 5, "P58": 5, "P59": 0, "P62": 1, "P63": 1, "P67": 5, "P80": 0,
-    "P84": 5, "P95": 5, "P96": 8, "P98": 0, "P99": 5, "P100": 0, "P110": 0, "P111": 0, "P112": 0, "P114": 5,
-}  # fmt: skip
+    "P6": 0,
+    "P7": 0,
+    "P35": 5,
+    "P37": 0,
+    "P38": 6,
+    "P39": 4,
+    "P40": 4,
+    "P41": 0,
+    "P42": 4,
+    "P43": 5,
+    "P44": 5,
+    "P45": 5,
+    "P46": 5,
+    "P47": 5,
+    "P48": 5,
+    "P49": 5,
+    "P50": 5,
+    "P51": 5,
+    "P58": 5,
+    "P59": 0,
+    "P62": 1,
+    "P63": 1,
+    "P67": 5,
+    "P80": 0,
+    "P84": 5,
+    "P95": 5,
+    "P96": 8,
+    "P98": 0,
+    "P99": 5,
+    "P100": 0,
+    "P110": 0,
+    "P111": 0,
+    "P112": 0,
+    "P114": 5,
+}
 """Word type of each parameter (pages 2-2 to 2-4)."""
 
 
@@ -162,7 +225,8 @@ def test_the_codes_of_the_service_characters_are_those_of_ascii(num: Schema) -> 
     assert [int(str(row[1])[1:], 16) for row in rows] == [0x02, 0x03, 0x16, 0x06, 0x15, 0x04, 0x05, 0x1D]
 
 
-# ------------------------------------------------------------------------------------- the order of integration
+# ------------------------------------------------------------------------------------- the order of
+# integration
 
 
 def of_word(num: Schema, parameter: str) -> list[str]:

@@ -1,4 +1,6 @@
-"""Instances that are parts of another one (gear 3 of spindle 1), arrays with names of their own, and their pages."""
+"""Instances that are parts of another one (gear 3 of spindle 1), arrays with names of their own,
+and their pages.
+"""
 
 from __future__ import annotations
 
@@ -148,10 +150,18 @@ def test_every_label_of_an_instance_is_its_own() -> None:
 
 def test_the_picture_of_what_is_read_in_docs_is_what_is_read() -> None:
     evaluation = new_file("9pc").evaluation
-    seen = {sign: evaluation.reference(f"feedrate.rapid{sign}", "2", "axis") for sign in ("", "@3", "@*", "@<", "@>")}  # fmt: skip
+    seen = {
+        sign: evaluation.reference(f"feedrate.rapid{sign}", "2", "axis")
+        for sign in ("", "@3", "@*", "@<", "@>")
+    }
     axes = {sign: [address[1] for address in found.addresses] for sign, found in seen.items()}
     assert axes["@*"] == ["1", "2", "3", "4", "5", "6", "7", "8"]
-    assert (axes[""], axes["@3"], axes["@<"], axes["@>"]) == (["2"], ["3"], ["1"], ["3", "4", "5", "6", "7", "8"])  # fmt: skip
+    assert (axes[""], axes["@3"], axes["@<"], axes["@>"]) == (
+        ["2"],
+        ["3"],
+        ["1"],
+        ["3", "4", "5", "6", "7", "8"],
+    )
     assert [seen[sign].is_list for sign in seen] == [False, False, True, True, True]
     gears = evaluation.reference("spindle.max_speed@.", "2", "spindle").addresses
     assert [gear for _, gear in gears][:2] == ["2.1", "2.2"]

@@ -23,10 +23,25 @@ LINEAR = {"kind": "linear", "name": "Linear", "page": "10-8", "acceleration": "a
 @pytest.mark.parametrize(
     ("roles", "place", "what"),
     [
-        ({"travel": {"spans": [SPAN | {"low": "zone.low"}]}}, ("travel", "spans", 0, "low"), "there is no parameter 'zone.low'"),
-        ({"travel": {"zones": [ZONE | {"group_none": "nine"}]}}, ("travel", "zones", 0, "group_none"), "'nine' is no choice of zone.group"),
         (
-            {"travel": {"home": {"page": "5-4", "off": {"param": "home.direction_off_switch", "plus": ["up"], "minus": ["negative"]}}}},
+            {"travel": {"spans": [SPAN | {"low": "zone.low"}]}},
+            ("travel", "spans", 0, "low"),
+            "there is no parameter 'zone.low'",
+        ),
+        (
+            {"travel": {"zones": [ZONE | {"group_none": "nine"}]}},
+            ("travel", "zones", 0, "group_none"),
+            "'nine' is no choice of zone.group",
+        ),
+        (
+            {
+                "travel": {
+                    "home": {
+                        "page": "5-4",
+                        "off": {"param": "home.direction_off_switch", "plus": ["up"], "minus": ["negative"]},
+                    }
+                }
+            },
             ("travel", "home", "off", "plus"),
             "'up' is no choice of home.direction_off_switch",
         ),
@@ -36,12 +51,18 @@ LINEAR = {"kind": "linear", "name": "Linear", "page": "10-8", "acceleration": "a
             "there is no mode that chooses",
         ),
         (
-            {"ramps": {"feedrate": "feedrate.rapid", "mode": "accdec.positioning_mode", "kinds": [LINEAR | {"modes": ["lin"]}]}},
+            {
+                "ramps": {
+                    "feedrate": "feedrate.rapid",
+                    "mode": "accdec.positioning_mode",
+                    "kinds": [LINEAR | {"modes": ["lin"]}],
+                }
+            },
             ("ramps", "kinds", 0, "modes"),
             "'lin' is no choice of accdec.positioning_mode",
         ),
     ],
-)  # fmt: skip
+)
 def test_a_role_that_cannot_be_is_reported_at_its_place(
     roles: dict[str, Any], place: tuple[object, ...], what: str
 ) -> None:
@@ -49,11 +70,20 @@ def test_a_role_that_cannot_be_is_reported_at_its_place(
     assert found == [(place, what)]
 
 
-@pytest.mark.parametrize("roles", [
-    {"travel": {"zones": [SPAN]}},
-    {"travel": {"zones": [ZONE | {"forbidden_by": {"param": "zone.group", "inside": ["g1"], "outside": ["g2"]}}]}},
-    {"travel": {"home": {"page": "5-4", "off": {"param": "home.direction_off_switch"}}}},
-])  # fmt: skip
+@pytest.mark.parametrize(
+    "roles",
+    [
+        {"travel": {"zones": [SPAN]}},
+        {
+            "travel": {
+                "zones": [
+                    ZONE | {"forbidden_by": {"param": "zone.group", "inside": ["g1"], "outside": ["g2"]}}
+                ]
+            }
+        },
+        {"travel": {"home": {"page": "5-4", "off": {"param": "home.direction_off_switch"}}}},
+    ],
+)
 def test_a_zone_has_one_forbidden_side_and_a_direction_two_ways(roles: dict[str, Any]) -> None:
     with pytest.raises(ValueError, match=r"forbidden|direction"):
         PictureRoles.model_validate(roles)

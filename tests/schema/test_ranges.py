@@ -157,9 +157,13 @@ def test_a_bound_of_another_parameter_forgives_a_change_of_unit_and_no_more(
 
 
 @pytest.mark.parametrize(
-    ("value", "inside"), [(Value(5999.9999999946, "mm/min"), True), (Value(5999.9999999934, "mm/min"), False),
-                          (Value(5999.999, "mm/min"), False)]
-)  # fmt: skip
+    ("value", "inside"),
+    [
+        (Value(5999.9999999946, "mm/min"), True),
+        (Value(5999.9999999934, "mm/min"), False),
+        (Value(5999.999, "mm/min"), False),
+    ],
+)
 def test_a_lower_bound_of_another_parameter_forgives_no_more_either(
     ninepc, machine, value: Value, inside: bool
 ) -> None:

@@ -4,15 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from amp_studio.schema import (
-    InvalidValueError,
-    Value,
-    fault,
-    field_at,
-    field_value,
-    read_value,
-    with_field,
-)
+from amp_studio.schema import InvalidValueError, Value, fault, field_at, field_value, read_value, with_field
 
 # -- 57C422B: registers ------------------------------------------------------------------------------
 

@@ -53,8 +53,12 @@ def test_choices_and_words_cannot_be_secrets() -> None:
 def test_a_secret_bounds_no_other_parameter() -> None:
     other = parameter(id="a.other", secret=False, type="real", ranges={"": [0, {"param": "a.code"}]})
     group = Group(key="all", name="All", chapter="1", parameters=(parameter(type="real"), other))
-    (fault,) = faults_between(load_schema("9pc").family.model_copy(
-        update={"conditions": {}, "machine_parameter": None, "unit_parameter": None, "angular_when": None}), (group,))  # fmt: skip
+    (fault,) = faults_between(
+        load_schema("9pc").family.model_copy(
+            update={"conditions": {}, "machine_parameter": None, "unit_parameter": None, "angular_when": None}
+        ),
+        (group,),
+    )
     assert (fault.place, fault.what) == (
         ("parameters", 1, "ranges", "", 1, "param"),
         "a.other: the secret 'a.code' cannot bound it",

@@ -13,7 +13,8 @@ SIGNATURES = {
     "num": "bb4dcd098d48a6f033545739e50cd3acf974f48d0246c96faaa14419e7506108",
     "syntec": "9dc9e03592bff1ed04372deca679874380f58beed051bd68a0fd32cc7582cd68",
 }
-"""A change of one of these makes every file and every control of the family one of another schema: never by accident."""
+"""A change of one of these makes every file and every control of the family one of another schema:
+never by accident."""
 
 
 @pytest.mark.parametrize("family", SIGNATURES)

@@ -205,12 +205,18 @@ def test_an_expression_with_a_fault_is_refused() -> None:
         ("zone.overtravel_positive@1", {"axis.type@1": "linear", "zone.overtravel_used@1": False}, "ignored"),
         ("zone.overtravel_positive@1", {"axis.type@1": "linear", "zone.overtravel_used@1": True}, "in-force"),
         ("servo.output_port@1", {"axis.type@1": "linear", "servo.hardware_type@1": "none"}, "hidden"),
-        ("servo.output_port@1",
-         {"axis.type@1": "linear", "servo.hardware_type@1": "sercos", "servo.loop_type@1": "digital"}, "in-force"),
-        ("servo.output_port@1",
-         {"axis.type@1": "linear", "servo.hardware_type@1": "sercos", "servo.loop_type@1": "sercos"}, "ignored"),
+        (
+            "servo.output_port@1",
+            {"axis.type@1": "linear", "servo.hardware_type@1": "sercos", "servo.loop_type@1": "digital"},
+            "in-force",
+        ),
+        (
+            "servo.output_port@1",
+            {"axis.type@1": "linear", "servo.hardware_type@1": "sercos", "servo.loop_type@1": "sercos"},
+            "ignored",
+        ),
     ],
-)  # fmt: skip
+)
 def test_a_9pc_parameter_is_out_of_force_for_a_reason(ninepc, machine, name, values, state) -> None:
     here = machine(
         ninepc, {key: Value(value) for key, value in values.items()}, str(values.get("control.type", ""))

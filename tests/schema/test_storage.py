@@ -19,7 +19,9 @@ from amp_studio.schema.storage import (
 
 def parameter(**words: object) -> Parameter:
     """Return a parameter of which only its type and storage matter."""
-    return Parameter.model_validate({"id": "a.b", "name": "Gain", "type": "real", "help": {"what": "x"}, "page": "1", **words})  # fmt: skip
+    return Parameter.model_validate(
+        {"id": "a.b", "name": "Gain", "type": "real", "help": {"what": "x"}, "page": "1", **words}
+    )
 
 
 SCANS = parameter(storage={"unit": "counts/s", "scale": 65.536})

@@ -9,14 +9,7 @@ from collections.abc import Iterator
 
 import pytest
 
-from amp_studio.files import (
-    ParameterFile,
-    axis_title,
-    copy_axis,
-    delete_axis,
-    fitted_axes,
-    new_file,
-)
+from amp_studio.files import ParameterFile, axis_title, copy_axis, delete_axis, fitted_axes, new_file
 from amp_studio.report import page_of
 from amp_studio.schema import InvalidValueError, Schema, Value, fault, load_schema, read_value, show_value
 
@@ -186,8 +179,8 @@ def test_what_a_kind_of_axis_does_not_use_is_ignored(mill: ParameterFile) -> Non
     mill.set(("home.search_method", "3"), Value("index-only"))
     grids = ["home.grid", "home.grid"]
     assert [name for name, state in out_of_force(mill) if state == "ignored"] == grids
-    # The zero point of an absolute encoder is set on the screen of the serial parameters (2.1.1); the alarm limits
-    # (1.5.3) go on looking at the first homing speed.
+    # The zero point of an absolute encoder is set on the screen of the serial parameters (2.1.1); the alarm
+    # limits (1.5.3) go on looking at the first homing speed.
     mill.header.machine = "serial"
     mill.evaluation.forget()
     ignored = [name for name, state in out_of_force(mill) if state == "ignored"]
@@ -241,18 +234,28 @@ def test_a_page_tells_span_effect_and_alarms(syntec: Schema) -> None:
 
 
 ALARMS = {
-    "mot-005": {"feed.rapid", "resolution.encoder", "compensation.time_constant", "servo.feed_forward",
-                "dda.interpolation_time"},
+    "mot-005": {
+        "feed.rapid",
+        "resolution.encoder",
+        "compensation.time_constant",
+        "servo.feed_forward",
+        "dda.interpolation_time",
+    },
     "mot-008": {"servo.loss_pulse_range"},
     "mot-019": {"motion.acceleration_time", "feed.rapid", "home.first_speed", "servo.loop_gain"},
-    "mot-023": {"motion.acceleration_time", "motion.axis_acceleration", "feed.rapid", "home.first_speed",
-                "servo.loop_gain"},
+    "mot-023": {
+        "motion.acceleration_time",
+        "motion.axis_acceleration",
+        "feed.rapid",
+        "home.first_speed",
+        "servo.loop_gain",
+    },
     "mot-022": {"home.grid"},
     "mot-029": {"home.second_speed"},
     "mot-030": {"home.zero_speed_window", "home.first_speed"},
     "mot-036": {"home.second_speed"},
     "limit-alarms": {"limit.first_positive", "limit.second_positive", "limit.third_positive"},
-}  # fmt: skip
+}
 """Alarm -> the parameters that its slide names, by number or by what they are."""
 
 
@@ -265,8 +268,16 @@ def test_an_alarm_is_tied_to_the_parameters_it_names(syntec: Schema, alarm: str)
         assert list(dict.fromkeys(parts)) == ["When", "Cause", "Cure"]
 
 
-CAUSES_AND_CURES = {"mot-005": (5, 6), "mot-008": (6, 8), "mot-019": (9, 6), "mot-023": (4, 4), "mot-022": (2, 2),
-                    "mot-029": (4, 2), "mot-030": (2, 3), "mot-036": (1, 1)}  # fmt: skip
+CAUSES_AND_CURES = {
+    "mot-005": (5, 6),
+    "mot-008": (6, 8),
+    "mot-019": (9, 6),
+    "mot-023": (4, 4),
+    "mot-022": (2, 2),
+    "mot-029": (4, 2),
+    "mot-030": (2, 3),
+    "mot-036": (1, 1),
+}
 
 
 @pytest.mark.parametrize(("alarm", "counts"), CAUSES_AND_CURES.items(), ids=list(CAUSES_AND_CURES))

@@ -81,8 +81,19 @@ def test_the_function_codes_of_the_dac_monitor_are_those_of_its_rule(ninepc) -> 
 def test_the_modal_groups_name_the_codes_that_parameters_offer(ninepc) -> None:
     """Chapter 18: the choices of a parameter named after its codes are codes of the table."""
     codes = {code.lower() for row in ninepc.tables["modal-groups"].rows for code in row[1:5]}
-    for name in ("motion", "plane", "distance_mode", "tool_length", "radius_diameter", "zones", "path_mode",
-                 "comp_corner", "short_block", "accdec_mode", "synch_mode"):  # fmt: skip
+    for name in (
+        "motion",
+        "plane",
+        "distance_mode",
+        "tool_length",
+        "radius_diameter",
+        "zones",
+        "path_mode",
+        "comp_corner",
+        "short_block",
+        "accdec_mode",
+        "synch_mode",
+    ):
         assert {c.key for c in ninepc.parameter(f"powerup.{name}").choices or ()} <= codes, name
 
 

@@ -1,4 +1,6 @@
-"""What else the words must be able to say: long tables, commands that set a value, and the unit of bare figures."""
+"""What else the words must be able to say: long tables, commands that set a value,
+and the unit of bare figures.
+"""
 
 from __future__ import annotations
 

@@ -123,9 +123,19 @@ def test_the_canonical_unit_measures_the_same_by_factor_one(unit: str) -> None:
 
 @pytest.mark.parametrize(
     ("unit", "expected"),
-    [("mm", "deg"), ("in", "deg"), ("mm/min", "deg/min"), ("in/s2", "deg/s2"), ("in/min/s", "deg/min/s"),
-     ("mm/s3", "deg/s3"), ("ms", "ms"), ("", ""), ("deg", "deg"), ("rpm", "rpm")],
-)  # fmt: skip
+    [
+        ("mm", "deg"),
+        ("in", "deg"),
+        ("mm/min", "deg/min"),
+        ("in/s2", "deg/s2"),
+        ("in/min/s", "deg/min/s"),
+        ("mm/s3", "deg/s3"),
+        ("ms", "ms"),
+        ("", ""),
+        ("deg", "deg"),
+        ("rpm", "rpm"),
+    ],
+)
 def test_lengths_become_angles_where_an_axis_turns(unit: str, expected: str) -> None:
     assert expected == angular(unit)
 

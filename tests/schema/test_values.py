@@ -110,19 +110,36 @@ def test_a_value_in_a_wrong_unit_is_refused_with_the_right_one(ninepc, text: str
 
 @pytest.mark.parametrize(
     ("number", "text"),
-    [(4.002087499998666, "4.00209"), (0.4724409449, "0.472441"), (16777216.0, "16777216"), (1234567.89, "1234568"),
-     (-62472.123, "-62472.1"), (9999.9000004, "9999.9"), (3.05184e-05, "3.05184e-05"), (13.2, "13.2"), (7, "7"),
-     (0.0, "0"), (1e300, "1e+300"), (math.inf, "inf")],
-)  # fmt: skip
+    [
+        (4.002087499998666, "4.00209"),
+        (0.4724409449, "0.472441"),
+        (16777216.0, "16777216"),
+        (1234567.89, "1234568"),
+        (-62472.123, "-62472.1"),
+        (9999.9000004, "9999.9"),
+        (3.05184e-05, "3.05184e-05"),
+        (13.2, "13.2"),
+        (7, "7"),
+        (0.0, "0"),
+        (1e300, "1e+300"),
+        (math.inf, "inf"),
+    ],
+)
 def test_a_calculated_figure_has_six_digits_that_matter_and_its_whole_part(number: float, text: str) -> None:
     assert write_figure(number) == text
 
 
 @pytest.mark.parametrize(
     ("text", "expected"),
-    [("5", Value(5.0, "mm")), ("5 in", Value(5.0, "in")), ("5in", Value(5.0, "in")), ('5"', Value(5.0, "in")),
-     ("5 Inches", Value(5.0, "in")), ("5000 µm", Value(5000.0, "um"))],
-)  # fmt: skip
+    [
+        ("5", Value(5.0, "mm")),
+        ("5 in", Value(5.0, "in")),
+        ("5in", Value(5.0, "in")),
+        ('5"', Value(5.0, "in")),
+        ("5 Inches", Value(5.0, "in")),
+        ("5000 µm", Value(5000.0, "um")),
+    ],
+)
 def test_a_value_keeps_the_unit_it_was_entered_in(ninepc, text: str, expected: Value) -> None:
     assert expected == read_value(ninepc.parameter("home.calibration"), text, "mm")
 

@@ -1,4 +1,6 @@
-"""What a family must have, listed at once; all else (rules, an example, pictures, German titles, code) may come later or never."""
+"""What a family must have, listed at once; all else (rules, an example, pictures, German titles, code)
+may come later or never.
+"""
 
 from __future__ import annotations
 
@@ -20,7 +22,9 @@ HOW = {"what": "what it is", "find": "how a user finds its value", "wrong": "wha
 
 
 def missing(schema: Schema, listed: list[str]) -> list[str]:
-    """Return what a family lacks, each as what is to be written and where; ``listed`` are the families that editors know."""
+    """Return what a family lacks, each as what is to be written and where;
+    ``listed`` are the families that editors know.
+    """
     family = schema.family.family
     found = [
         f"groups/{schema.group_of[each.id].key}.yaml: {each.id}: help: {key}: {what}"
@@ -31,7 +35,8 @@ def missing(schema: Schema, listed: list[str]) -> list[str]:
     ]
     if schema.rules and not (CASES / "sound_machines" / family / "machines.yaml").is_file():
         found.append(
-            f"tests/validate/sound_machines/{family}/machines.yaml: a machine without findings, for the cases of its rules"
+            f"tests/validate/sound_machines/{family}/machines.yaml: a machine without findings, for the cases"
+            " of its rules"
         )
     if schema.rules and not (CASES / "rule_cases" / family).is_dir():
         found.append(
@@ -61,8 +66,8 @@ def test_all_that_is_missing_is_listed_at_once(tmp_path: Path) -> None:
     rules = tmp_path / "bare/rules/general.yaml"
     rules.parent.mkdir()
     rules.write_text(
-        "rules:\n- {id: bare.short, title: Short, severity: warning, reads: {a: general.example}, check: a > 1.0,"
-        " message: 'Example {a} is short.', page: '1'}\n",
+        "rules:\n- {id: bare.short, title: Short, severity: warning, reads: {a: general.example}, check: a >"
+        " 1.0, message: 'Example {a} is short.', page: '1'}\n",
         encoding="utf-8",
     )
     register(Registration("bare", facts=tmp_path / "bare"))
@@ -70,7 +75,10 @@ def test_all_that_is_missing_is_listed_at_once(tmp_path: Path) -> None:
         assert missing(load_schema("bare"), []) == [
             "groups/general.yaml: general.example: help: find: how a user finds its value",
             "groups/general.yaml: general.example: help: wrong: what a wrong value does",
-            "tests/validate/sound_machines/bare/machines.yaml: a machine without findings, for the cases of its rules",
+            (
+                "tests/validate/sound_machines/bare/machines.yaml: a machine without findings, for the cases"
+                " of its rules"
+            ),
             "tests/validate/rule_cases/bare: what breaks each of its rules, and what just does not",
             "parameter_db/schemas: 'make schema' writes them with this family",
         ]

@@ -1,4 +1,5 @@
-"""What else the words of the database must be able to say: words, bits and registers, and fields without a number.
+"""What else the words of the database must be able to say: words, bits and registers,
+and fields without a number.
 
 NUM keeps arrays of typed words, the 57C422B module registers, Syntec pairs of numbers, AcroMill names only.
 """
@@ -168,7 +169,10 @@ def test_pairs_of_words_belong_to_one_axis(facts, machine) -> None:
 
 
 def test_a_word_may_hold_a_code_in_each_nibble(facts, machine) -> None:
-    codes = "[{key: none, label: none, raw: 0}, {key: sin, label: sine wave, raw: 1}, {key: ssi, label: SSI, raw: 8}]"
+    codes = (
+        "[{key: none, label: none, raw: 0}, {key: sin, label: sine wave, raw: 1}, {key: ssi, label: SSI,"
+        " raw: 8}]"
+    )
     schema = facts.schema(
         f"""
         - id: sensor.kind

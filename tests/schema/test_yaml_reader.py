@@ -21,7 +21,18 @@ def refused(text: str) -> tuple[str, int | None]:
 
 def test_plain_values_are_what_they_look_like_and_quoted_ones_are_texts() -> None:
     text = "a: 1\nb: 2.5\nc: true\nd: ~\ne: '1'\nf: 0x1F\ng: [yes, 1e3, -.5]\nh: {i: x}\n7: seven\n2.: b\n"
-    expected = {"a": 1, "b": 2.5, "c": True, "d": None, "e": "1", "f": 31, "g": ["yes", 1000.0, -0.5], "h": {"i": "x"}, "7": "seven", "2.": "b"}  # fmt: skip
+    expected = {
+        "a": 1,
+        "b": 2.5,
+        "c": True,
+        "d": None,
+        "e": "1",
+        "f": 31,
+        "g": ["yes", 1000.0, -0.5],
+        "h": {"i": "x"},
+        "7": "seven",
+        "2.": "b",
+    }
     assert read_yaml(text).data == expected
 
 
@@ -68,8 +79,17 @@ def test_what_no_file_here_needs_is_refused_with_its_line(text: str, what: str, 
         "\n" * 2_000_000 + "a: *x",
         "a: '" + "x" * (LARGEST + 1),
     ],
-    ids=["brackets", "braces", "dashes", "directives", "directives behind", "references", "empty lines", "too large"],
-)  # fmt: skip
+    ids=[
+        "brackets",
+        "braces",
+        "dashes",
+        "directives",
+        "directives behind",
+        "references",
+        "empty lines",
+        "too large",
+    ],
+)
 def test_a_text_that_is_made_to_cost_time_or_memory_costs_little(text: str) -> None:
     begun = time.process_time()
     with pytest.raises(YamlError):
@@ -82,7 +102,13 @@ def test_an_entry_has_its_place_in_the_text() -> None:
     spans = document.spans
     assert spans is not None
     assert {path: document.line(path) for path in spans} == {
-        ("a",): 2, ("b", 0, "c"): 4, ("b", 0): 4, ("b", 1, "d"): 5, ("b", 1): 5, ("b",): 3}  # fmt: skip
+        ("a",): 2,
+        ("b", 0, "c"): 4,
+        ("b", 0): 4,
+        ("b", 1, "d"): 5,
+        ("b", 1): 5,
+        ("b",): 3,
+    }
     told = spans["b", 0, "c"]
     assert (document.text[told.start : told.value], document.text[told.value : told.end]) == ("c: ", "'x'")
     assert document.line(("b", 1, "no such key")) == 5

@@ -1,4 +1,6 @@
-"""An axis with backlash alone: its contact is stiff and does not ring, and what chatters in the gap is the loop."""
+"""An axis with backlash alone: its contact is stiff and does not ring,
+and what chatters in the gap is the loop.
+"""
 
 from __future__ import annotations
 

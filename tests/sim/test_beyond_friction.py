@@ -20,7 +20,9 @@ SIZE, VISCOUS, COULOMB = 40.0, 0.02, 3.0
 def moved(
     *, shift: float = 0.0, static: float = 0.0, stribeck: float = 1.0, wave: float = 0.0, slow: bool = False
 ) -> tuple[np.ndarray, ...]:
-    """Return time, speed (mm/s) and torque (%) of moves at several speeds in both directions, the torque by scipy's differentiation."""
+    """Return time, speed (mm/s) and torque (%) of moves at several speeds in both directions,
+    the torque by scipy's differentiation.
+    """
     from scipy.interpolate import CubicSpline
 
     time = np.arange(0.0, 12.0, PERIOD)

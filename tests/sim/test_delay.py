@@ -1,4 +1,6 @@
-"""A delay that is no multiple of the physics step: the simulated axis is the discrete linear model of its law."""
+"""A delay that is no multiple of the physics step:
+the simulated axis is the discrete linear model of its law.
+"""
 
 from __future__ import annotations
 
@@ -29,7 +31,9 @@ FAMILIES = {
 
 
 def example(family: str, part: float | None, gain: float | None = None) -> AxisLaw:
-    """Return the axis of a family's example as a linear machine; ``part`` of a physics step is its delay, None for its own."""
+    """Return the axis of a family's example as a linear machine; ``part`` of a physics step is its delay,
+    None for its own.
+    """
     name, instance = FAMILIES[family]
     file = open_file(EXAMPLES / name).file
     if gain is not None:
@@ -72,7 +76,9 @@ def test_an_example_swept_is_its_linear_model(
 
 
 def test_the_figures_of_the_router_are_those_of_its_model() -> None:
-    """Its own file: 1.6 physics steps of delay; averaged, the axis had 425 Hz and 7.3 deg beside 486 Hz and 4.4 deg."""
+    """Its own file: 1.6 physics steps of delay; averaged,
+    the axis had 425 Hz and 7.3 deg beside 486 Hz and 4.4 deg.
+    """
     found = SCENARIOS["frequency"].run(example("acromill", None), {}).result
     for figure in ("bandwidth", "phase_margin", "gain_margin"):
         assert found[f"swept_{figure}"][0] == pytest.approx(found[figure][0], rel=2e-3)
@@ -88,7 +94,9 @@ def test_the_axis_swings_up_where_the_model_is_not_stable(gain: float) -> None:
 
 
 def test_what_the_sweep_of_the_57c422b_contains_besides_the_model_is_named() -> None:
-    """Its own file: dry friction and Deadband Compensation make 79.0 Hz of 76.1 Hz; without both the sweep is the model's."""
+    """Its own file: dry friction and Deadband Compensation make 79.0 Hz of 76.1 Hz;
+    without both the sweep is the model's.
+    """
     file = open_file(EXAMPLES / FAMILIES["57c422b"][0]).file
     with_all = simulate(file, "frequency", "X", advise=False)
     assert with_all.result["swept_bandwidth"][0] > 1.02 * with_all.result["bandwidth"][0]
@@ -98,11 +106,7 @@ def test_what_the_sweep_of_the_57c422b_contains_besides_the_model_is_named() -> 
     ), with_all.assumptions
     file.set(("gain.deadband", "X"), Value(0))
     without = simulate(
-        file,
-        "frequency",
-        "X",
-        {"model.coulomb_friction": 0.0, "model.static_friction": 0.0},
-        advise=False,
+        file, "frequency", "X", {"model.coulomb_friction": 0.0, "model.static_friction": 0.0}, advise=False
     )
     assert without.result["swept_bandwidth"][0] == pytest.approx(without.result["bandwidth"][0], rel=0.01)
     assert without.result["swept_phase_margin"][0] == pytest.approx(

@@ -96,7 +96,10 @@ def test_a_length_is_no_angle() -> None:
         ("time (s),velocity (mm/s),torque (%)\n0,,2\n", "line 2: a cell is empty"),
         ("time (s),velocity (mm/s),torque (%)\n0,1\n", "line 2: 2 cells, and 3 heads"),
         ("time (s),velocity (mm/s),torque (%)\n0,001,2,5,7,1\n", "separate the columns by semicolons"),
-        ("time (s);velocity (mm/s);torque (%)\n0,1;2;3\n0.2;2;3\n", "line 2 has a decimal comma and line 3 a decimal point"),
+        (
+            "time (s);velocity (mm/s);torque (%)\n0,1;2;3\n0.2;2;3\n",
+            "line 2 has a decimal comma and line 3 a decimal point",
+        ),
         ("time (s);velocity (mm/s);torque (%)\n0;1.234,5;3\n", "'1.234,5' is no number"),
         ("time (s),velocity (mm/s),torque (%)\n0,1e13,2\n", "too large"),
         ("time (s),velocity (mm/s),torque (%)\n0,1e999,2\n", "line 2: "),
@@ -104,7 +107,7 @@ def test_a_length_is_no_angle() -> None:
         ('time (s),velocity (mm/s),torque (%)\n0,"1,2\n', "is no line of a table"),
         ("x" * 20_000, "more than 10000 signs"),
     ],
-)  # fmt: skip
+)
 def test_what_is_not_a_record_or_can_be_read_in_two_ways_is_refused(text: str, words: str) -> None:
     with pytest.raises(SimulationError) as caught:
         drive_record_of(text)

@@ -19,9 +19,15 @@ from tests.sim.tiny import tiny
 def elastic() -> Trace:
     """An axis with everything that a linear model has: two masses, a lag, a delay, a scale at the load."""
     axis = tiny(
-        gain=30.0, resonance=60.0, inertia_ratio=2.0, bandwidth=300.0, delay=0.0004, viscous_friction=0.02,
-        load_sensor=True, position_count=0.0001,
-    )  # fmt: skip
+        gain=30.0,
+        resonance=60.0,
+        inertia_ratio=2.0,
+        bandwidth=300.0,
+        delay=0.0004,
+        viscous_friction=0.02,
+        load_sensor=True,
+        position_count=0.0001,
+    )
     return SCENARIOS["frequency"].run(axis, {})
 
 
@@ -35,8 +41,7 @@ def test_the_swept_axis_is_its_linear_model_at_every_frequency(elastic: Trace) -
 
 
 @pytest.mark.parametrize(
-    ("figure", "near"),
-    [("bandwidth", 0.005), ("phase_margin", 0.005), ("gain_margin", 0.01)],
+    ("figure", "near"), [("bandwidth", 0.005), ("phase_margin", 0.005), ("gain_margin", 0.01)]
 )
 def test_the_swept_figures_are_those_of_the_model(elastic: Trace, figure: str, near: float) -> None:
     assert elastic.result[f"swept_{figure}"][0] == pytest.approx(elastic.result[figure][0], rel=near)

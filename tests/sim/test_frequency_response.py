@@ -22,7 +22,9 @@ TOLERANCE = 0.03
 
 
 def hidden_plant(seed: int) -> tuple[dict[str, float], np.ndarray, str]:
-    """Return the figures of a machine and its response, by scipy's state space of two masses (or one) and a delay."""
+    """Return the figures of a machine and its response, by scipy's state space of two masses (or one)
+    and a delay.
+    """
     from scipy import signal
 
     dice = np.random.default_rng(seed)
@@ -36,11 +38,13 @@ def hidden_plant(seed: int) -> tuple[dict[str, float], np.ndarray, str]:
         motor, load = size * (1.0 + ratio), size * (1.0 + ratio) / ratio
         stiffness = (2.0 * math.pi * resonance) ** 2 / (motor + load)
         slip = 2.0 * damping * 2.0 * math.pi * resonance / (motor + load)
-        a = np.array([
-            [-motor * (slip + friction / (1.0 + ratio)), motor * slip, -motor * stiffness],
-            [load * slip, -load * (slip + friction * ratio / (1.0 + ratio)), load * stiffness],
-            [1.0, -1.0, 0.0],
-        ])  # fmt: skip
+        a = np.array(
+            [
+                [-motor * (slip + friction / (1.0 + ratio)), motor * slip, -motor * stiffness],
+                [load * slip, -load * (slip + friction * ratio / (1.0 + ratio)), load * stiffness],
+                [1.0, -1.0, 0.0],
+            ]
+        )
         b = np.array([[motor], [0.0], [0.0]])
     quantity = ("position", "velocity")[seed % 2]
     c, omega = np.eye(len(a))[:1], 2.0 * math.pi * FREQUENCIES

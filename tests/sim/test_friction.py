@@ -1,4 +1,6 @@
-"""Inertia, friction and weight out of records that scipy has made of a known machine, and what such a record must show."""
+"""Inertia, friction and weight out of records that scipy has made of a known machine,
+and what such a record must show.
+"""
 
 from __future__ import annotations
 
@@ -120,7 +122,9 @@ def test_times_that_were_rounded_or_jitter_are_evened_out(clean: dict[str, Serie
 
 @pytest.mark.parametrize("rows", [30, 52, 400])
 def test_few_rows_in_a_swing_are_enough(rows: int) -> None:
-    """A row beside the turn contains torque of both directions as soon as it is averaged with its neighbours."""
+    """A row beside the turn contains torque of both directions as soon as it is averaged with its
+    neighbours.
+    """
     time = np.arange(12 * rows) * (1.0 / rows)
     velocity, acceleration = 80.0 * np.sin(2.0 * np.pi * time), 160.0 * np.pi * np.cos(2.0 * np.pi * time)
     torque = INERTIA * acceleration + VISCOUS * velocity + DRY * np.sign(np.round(velocity, 6)) + WEIGHT
@@ -146,7 +150,7 @@ def test_friction_that_falls_with_the_speed_becomes_dry_friction_alone() -> None
     assert fit.coefficients[[0, 2, 3]] == pytest.approx([INERTIA, 1.8, -1.8], rel=0.03)
 
 
-# -- what a record cannot show ---------------------------------------------------------------------------------
+# -- what a record cannot show
 
 
 def test_a_torque_at_its_limit_is_refused() -> None:
@@ -164,7 +168,9 @@ def test_a_record_cut_off_by_its_own_range_is_refused(clean: dict[str, Series]) 
 
 
 def test_a_drive_that_is_off_at_rest_is_at_no_limit(clean: dict[str, Series]) -> None:
-    """The brake of a heavy axis is closed before it moves and afterwards: torque 0, which is the smallest there is."""
+    """The brake of a heavy axis is closed before it moves and afterwards: torque 0,
+    which is the smallest there is.
+    """
     torque = np.concatenate([np.zeros(800), clean["torque"] + 40.0, np.zeros(800)])
     velocity = np.concatenate([np.zeros(800), clean["velocity"], np.zeros(800)])
     fit = fit_friction(PERIOD * np.arange(len(torque)), torque, velocity=velocity)
@@ -175,8 +181,10 @@ def test_one_direction_is_refused(clean: dict[str, Series]) -> None:
     there = clean["velocity"] > -0.01
     given = {name: clean[name][there] for name in ("torque", "velocity")}
     said = refused(time=PERIOD * np.arange(there.sum()), **given)
-    assert said == (
-        "The axis moves in one direction only: dry friction and weight look the same. Record moves in both directions"
+    assert (
+        said
+        == "The axis moves in one direction only: dry friction and weight look the same. Record moves in both"
+        " directions"
     )
 
 

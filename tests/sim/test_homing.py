@@ -34,7 +34,9 @@ def homed(homing: Homing, around: Around) -> tuple[MovingAxis, Homed]:
 
 
 def test_the_live_axis_goes_through_the_same_sequence_in_slices_of_time() -> None:
-    """A machine behind an emulated control is stepped by the clock: the same places, whatever the slices are."""
+    """A machine behind an emulated control is stepped by the clock: the same places, whatever the slices
+    are.
+    """
     around = Around(switch=30.0, marker=28.0)
     _, whole = homed(SWITCHED, around)
     moving, found = MovingAxis(tiny(), engine="plain", keep=False), Homed()

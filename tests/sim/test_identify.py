@@ -1,4 +1,6 @@
-"""From a record to the machine of an axis, and back: what the simulator was given is what its trace is identified as."""
+"""From a record to the machine of an axis, and back:
+what the simulator was given is what its trace is identified as.
+"""
 
 from __future__ import annotations
 
@@ -125,7 +127,7 @@ def test_the_figures_are_told_with_their_standard_errors(record: Path) -> None:
     assert "The dry friction is taken as equal in both directions" in text
 
 
-# -- what does not fit -----------------------------------------------------------------------------------------
+# -- what does not fit
 
 
 def test_a_torque_in_amperes_needs_its_scale(record: Path, tmp_path: Path) -> None:

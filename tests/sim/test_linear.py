@@ -17,14 +17,7 @@ from amp_studio.sim.tuning.sampled import Places, Plant, exponential, held, jaco
 
 COMMAND, COMMAND_VELOCITY, COMMAND_ACCELERATION, POSITION, MOTOR, OUTPUT = range(6)
 PLACES = Places(
-    {
-        "command": 2,
-        "command_velocity": 3,
-        "command_acceleration": 4,
-        "position": 5,
-        "motor": 6,
-        "output": 7,
-    }
+    {"command": 2, "command_velocity": 3, "command_acceleration": 4, "position": 5, "motor": 6, "output": 7}
 )
 """Two states of the law, then six signals."""
 
@@ -39,9 +32,12 @@ def sampled(*parts) -> LinearModel:
 def rigid(gain: float, viscous: float, delay: float = 0.0) -> Plant:
     """A mass with viscous friction: position and speed."""
     return Plant(
-        np.array([[0.0, 1.0], [0.0, -viscous]]), np.array([[0.0], [gain]]), np.array([[1.0, 0.0]]),
-        np.array([[1.0, 0.0]]), delay,
-    )  # fmt: skip
+        np.array([[0.0, 1.0], [0.0, -viscous]]),
+        np.array([[0.0], [gain]]),
+        np.array([[1.0, 0.0]]),
+        np.array([[1.0, 0.0]]),
+        delay,
+    )
 
 
 def pid(kp: float, ki: float, kd: float):
@@ -60,7 +56,9 @@ def pid(kp: float, ki: float, kd: float):
 
 @pytest.fixture(scope="module")
 def control() -> ModuleType:
-    """python-control, imported here alone: it brings matplotlib, and every worker reads every module of tests."""
+    """python-control, imported here alone: it brings matplotlib,
+    and every worker reads every module of tests.
+    """
     import control
 
     return control
@@ -119,7 +117,9 @@ def test_a_held_input_moves_the_machine_as_scipy_discretises_it() -> None:
 
 @pytest.mark.parametrize("delay", [0.0, 0.0007, 0.002, 0.0033])
 def test_a_delay_costs_its_phase_at_every_frequency(delay: float) -> None:
-    """A delayed output that stays constant moves the machine as late: e^(-j w d) of the continuous machine, not of its samples."""
+    """A delayed output that stays constant moves the machine as late: e^(-j w d) of the continuous machine,
+    not of its samples.
+    """
     frequencies = np.array([1.0, 10.0, 40.0])
     prompt = sampled(rigid(40.0, 3.0), pid(60.0, 0.0, 1.2), None, PLACES, PERIOD, PERIOD)
     late = sampled(rigid(40.0, 3.0, delay), pid(60.0, 0.0, 1.2), None, PLACES, PERIOD, PERIOD)
@@ -128,7 +128,9 @@ def test_a_delay_costs_its_phase_at_every_frequency(delay: float) -> None:
 
 
 def test_a_faster_velocity_loop_is_joined_as_it_runs() -> None:
-    """Four velocity periods a servo period: the matrices move as the functions and the machine do, step by step."""
+    """Four velocity periods a servo period: the matrices move as the functions and the machine do,
+    step by step.
+    """
     loops, plant = 4, rigid(500.0, 2.0, 0.0002)
     velocity_period = PERIOD / loops
 
@@ -144,9 +146,8 @@ def test_a_faster_velocity_loop_is_joined_as_it_runs() -> None:
         return after
 
     rest = np.zeros(8)
-    model = sampled(
-        plant, jacobian(position, rest), jacobian(velocity, rest), PLACES, PERIOD, velocity_period
-    )
+    period, both = velocity_period, (jacobian(position, rest), jacobian(velocity, rest))
+    model = sampled(plant, *both, PLACES, PERIOD, period)
 
     x, z, waiting = np.zeros((2, 1)), np.zeros(8), 0.0
     fine = velocity_period / 5 * 2  # the delay is two fifths of a velocity period
@@ -213,7 +214,9 @@ def test_a_delay_beyond_any_loop_is_one_sentence() -> None:
 def test_the_loop_of_a_random_axis_is_that_of_python_control_to_nine_digits(
     control: ModuleType, seed: int
 ) -> None:
-    """Open loop, closed loop and largest sensitivity at the same frequencies, and the slowest poles of the closed loop."""
+    """Open loop, closed loop and largest sensitivity at the same frequencies,
+    and the slowest poles of the closed loop.
+    """
     dice = np.random.default_rng(seed)
     plant = rigid(float(dice.uniform(10.0, 80.0)), float(dice.uniform(0.5, 6.0)))
     gains = dice.uniform(20.0, 80.0), dice.uniform(50.0, 300.0), dice.uniform(0.5, 1.5)

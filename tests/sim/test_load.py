@@ -1,4 +1,6 @@
-"""A torque on the load moves a standing axis as far as an independent integration of its equations, and as the linear model predicts."""
+"""A torque on the load moves a standing axis as far as an independent integration of its equations,
+and as the linear model predicts.
+"""
 
 from __future__ import annotations
 

@@ -64,10 +64,7 @@ def test_a_bode_plot_has_both_loops_and_the_limit_of_stability() -> None:
     picture = picture_of(SCENARIOS["frequency"].run(tiny(gain=3000.0), {}))
     gain, phase = picture.panels
     assert picture.panels[0].x.log
-    assert [curve.name for curve in gain.curves if len(curve.x)] == [
-        "closed loop, model",
-        "open loop, model",
-    ]
+    assert [curve.name for curve in gain.curves if len(curve.x)] == ["closed loop, model", "open loop, model"]
     assert phase.levels[0][:2] == ("−180 deg", -180.0)
     ET.fromstring(plot_svg(SCENARIOS["frequency"].run(tiny(gain=3000.0), {})))
 

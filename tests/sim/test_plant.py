@@ -1,4 +1,6 @@
-"""The machine alone: closed equations, energy that never appears from nowhere, and a physics step that does not show."""
+"""The machine alone: closed equations, energy that never appears from nowhere,
+and a physics step that does not show.
+"""
 
 from __future__ import annotations
 
@@ -39,7 +41,9 @@ def moved(
 
 
 def energies(machine: Machine, state: PlantState) -> tuple[float, float, float, float]:
-    """Return the energies of a state, in torque times u: of motion, of the coupling, in the weight, in the spring."""
+    """Return the energies of a state, in torque times u: of motion, of the coupling, in the weight,
+    in the spring.
+    """
     motor_position, motor, load_position, load, *_ = state
     weight, spring = machine.gravity * load_position, 0.5 * machine.spring * load_position**2
     if not machine.two_masses:
@@ -54,9 +58,10 @@ def energies(machine: Machine, state: PlantState) -> tuple[float, float, float, 
 def gained(machine: Machine, states: list[PlantState], output: float = 0.0) -> tuple[Vector, float]:
     """Return the energy that came from nowhere up to each state, and what the scheme may leave open of it.
 
-    That is a hundredth of the most energy that was anywhere, each kind by itself: the sum may stay near zero while a falling
-    mass gains as much in motion as it loses in height. And what the forces of one step bring from rest: an axis that
-    friction stops within a step went half of that step at its old speed, be it ever so small.
+    That is a hundredth of the most energy that was anywhere, each kind by itself: the sum may stay near zero
+    while a falling mass gains as much in motion as it loses in height. And what the forces of one step bring
+    from rest: an axis that friction stops within a step went half of that step at its old speed,
+    be it ever so small.
     """
     parts = np.array([energies(machine, state) for state in states])
     work = np.cumsum([0.0, *(output * (b[0] - a[0]) for a, b in pairwise(states))])
@@ -161,7 +166,8 @@ def test_energy_never_appears_from_nowhere(values: dict[str, float], output: flo
     machine = Machine(**values)
     start: PlantState = (0.0, speed, 0.0, speed, output, 0.0, 0.0)
     more, slack = gained(machine, moved(machine, 600, output, start), output)
-    # The leapfrog scheme lets the energy of a spring go to and fro within its own order, and never lets it drift.
+    # The leapfrog scheme lets the energy of a spring go to and fro within its own order, and never lets it
+    # drift.
     assert np.max(more) <= slack
 
 
@@ -281,7 +287,9 @@ def test_contact_across_a_gap_takes_up_and_gives_back_the_same_energy() -> None:
 
 
 def drive(step: float, seconds: float, **changes: float) -> list[float]:
-    """Return the speeds at the end of each ms of a drive of 50 Hz that is asked for 10 u/s, with physics steps of ``step`` s."""
+    """Return the speeds at the end of each ms of a drive of 50 Hz that is asked for 10 u/s,
+    with physics steps of ``step`` s.
+    """
     figures = {"velocity_per_output": 1.0, "velocity_bandwidth": 50.0, **changes}
     machine = Machine(10.0, **figures)
     states = moved(machine, round(seconds / step), 10.0, h=step)

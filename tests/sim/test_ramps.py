@@ -1,4 +1,6 @@
-"""The command of an axis: closed pieces for every ramp, against the equations of the book and against another program."""
+"""The command of an axis: closed pieces for every ramp,
+against the equations of the book and against another program.
+"""
 
 from __future__ import annotations
 
@@ -65,12 +67,7 @@ def test_a_change_up_to_the_velocity_step_needs_no_ramp_and_a_larger_one_has_all
     assert end_of(fast) == pytest.approx(0.2 + 30.0 / 100.0 + 0.2)
 
 
-@given(
-    st.floats(0.01, 1000.0),
-    st.floats(1.0, 500.0),
-    st.floats(50.0, 10000.0),
-    st.floats(100.0, 1e6),
-)
+@given(st.floats(0.01, 1000.0), st.floats(1.0, 500.0), st.floats(50.0, 10000.0), st.floats(100.0, 1e6))
 @settings(max_examples=examples(60))
 def test_an_s_curve_is_as_fast_as_the_best_trajectory_of_ruckig(
     distance: float, feedrate: float, acceleration: float, jerk: float
@@ -180,8 +177,10 @@ def test_contouring_goes_through_a_corner_where_an_exact_stop_stands() -> None:
     parts = [(50.0, 100.0), (50.0, 40.0), (-30.0, 100.0)]
     through = blocks(parts, LINEAR, exact_stop=False, check=0.001)
     stopped = blocks(parts, LINEAR, exact_stop=True, check=0.001)
-    at_corner = [at(profile, next(t for t in np.arange(0.0, 9.0, 0.001) if at(profile, t)[0] >= 50.0 - 1e-9))[1]
-                 for profile in (through, stopped)]  # fmt: skip
+    at_corner = [
+        at(profile, next(t for t in np.arange(0.0, 9.0, 0.001) if at(profile, t)[0] >= 50.0 - 1e-9))[1]
+        for profile in (through, stopped)
+    ]
     assert at_corner == [pytest.approx(40.0), pytest.approx(0.0, abs=0.1)]
     assert end_of(stopped) > end_of(through)
     assert at(through, end_of(through))[0] == at(stopped, end_of(stopped))[0] == 70.0

@@ -33,6 +33,7 @@ print([name for name in sys.modules if name in ("numba", "pydantic") or name.sta
     listed, loaded = done.stdout.splitlines()
     assert (
         listed
-        == "[('step, velocity, frequency, tune, load, sweep, circle, home, jog, travel, spindle, tap, probe, procedure, gear, cam, backlash',)]"
+        == "[('step, velocity, frequency, tune, load, sweep, circle, home, jog, travel, spindle, tap, probe,"
+        " procedure, gear, cam, backlash',)]"
     )
     assert loaded == "['amp_studio.scenarios']"

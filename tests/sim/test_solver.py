@@ -97,7 +97,8 @@ def test_a_grid_search_finds_nothing_that_the_solver_did_not(plant: Plant) -> No
 def test_a_candidate_says_by_how_much_a_count_moves_its_output() -> None:
     law = law_of("57c422b")
     axis = bind_axis(file_of("57c422b-label-press/LABEL_PRESS.amp"), law, "X")
-    # Velocity Gain 78 words for a count a scan, of 1984 for 10 V, and the proportional and integral parts on top.
+    # Velocity Gain 78 words for a count a scan, of 1984 for 10 V, and the proportional and integral parts on
+    # top.
     assert Candidate(axis).jolt == pytest.approx(
         78.0 * (1.0 + (17595.0 + 768.0) / 65536.0) / 1984.0, rel=1e-3
     )

@@ -96,12 +96,15 @@ def test_a_family_without_inches_has_none(mill: ParameterFile) -> None:
 @pytest.mark.parametrize(
     ("metric", "inch"),
     [
-        ("Following error above 25.4 mm (servo.excess_error@1)", "Following error above 1 in (servo.excess_error@1)"),
+        (
+            "Following error above 25.4 mm (servo.excess_error@1)",
+            "Following error above 1 in (servo.excess_error@1)",
+        ),
         ("at 254 mm/min, 2.54 mm/s2.", "at 10 in/min, 0.1 in/s2."),
         ("printed in mm and inches only (7-67)", "printed in mm and inches only (7-67)"),
         ("5 mm/sample and 3 mmol, v5 mm", "0.19685 in/sample and 3 mmol, v5 mm"),
     ],
-)  # fmt: skip
+)
 def test_lengths_in_a_sentence_are_converted(metric: str, inch: str) -> None:
     assert in_text(metric, "mm") == metric
     assert in_text(metric, "in") == inch

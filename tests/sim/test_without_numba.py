@@ -1,4 +1,6 @@
-"""The program works whole where the extra ``fast`` is not installed: plain Python in place of machine code, the same results."""
+"""The program works whole where the extra ``fast`` is not installed: plain Python in place of machine code,
+the same results.
+"""
 
 from __future__ import annotations
 

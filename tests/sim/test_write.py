@@ -42,8 +42,9 @@ def stopped() -> Trace:
 
 def test_csv_gives_back_every_number_exactly(trace: Trace) -> None:
     heading, *lines = trace_csv(trace).splitlines()
-    assert heading == (
-        "time_s,command_position [mm],command_velocity [mm/min],position [mm],measured_position [mm],"
+    assert (
+        heading
+        == "time_s,command_position [mm],command_velocity [mm/min],position [mm],measured_position [mm],"
         "following_error [mm],velocity [mm/min],output [%],torque [%],wanted_velocity [mm/s]"
     )
     read = np.array([[float(cell) for cell in line.split(",")] for line in lines]).T

@@ -1,4 +1,6 @@
-"""The smallest law there is, as a family writes one: a proportional position loop over a proportional velocity loop."""
+"""The smallest law there is, as a family writes one:
+a proportional position loop over a proportional velocity loop.
+"""
 
 from __future__ import annotations
 
@@ -53,7 +55,9 @@ def tiny(
     forward: float = 0.0,
     **machine: Any,
 ) -> AxisLaw:
-    """Return an axis of 50 mm/s2 per % of torque; position loop in ``gain``, velocity loop in ``velocity_rate`` 1/s."""
+    """Return an axis of 50 mm/s2 per % of torque; position loop in ``gain``,
+    velocity loop in ``velocity_rate`` 1/s.
+    """
     figures = {"acceleration_per_output": 50.0, "position_count": 0.001, "motor_count": 0.0} | machine
     acceleration = figures["acceleration_per_output"]
     return AxisLaw(

@@ -1,8 +1,9 @@
 """Random machines for the solver of gains, and a grid search that knows nothing of it: ``make tunings``.
 
-Each machine is the axis of an example with other figures of its mechanics, drive and gains. Of all of them is asked: is none left
-unsound where the grid finds sound gains, is none made worse, is none softer than the grid's best, has a second run nothing to
-add, and do the gains keep what they promise with twice the friction too?
+Each machine is the axis of an example with other figures of its mechanics, drive and gains. Of all of them is
+asked: is none left unsound where the grid finds sound gains, is none made worse, is none softer than the
+grid's best, has a second run nothing to add,
+and do the gains keep what they promise with twice the friction too?
 """
 
 from __future__ import annotations
@@ -166,7 +167,10 @@ def faults(plant: Plant) -> Iterator[str]:
         for inertia in (0.5, 0.7, 1.4, 2.0):
             missing = _other(solved.after, inertia, 2.0).lacks(SOUND)
             if missing > 0.01:
-                yield f"misses {missing:.3f} of what is sound with {inertia} of the inertia and twice the friction"
+                yield (
+                    f"misses {missing:.3f} of what is sound with {inertia} of the inertia and twice the"
+                    " friction"
+                )
 
 
 def _worse(solved: Solved) -> Iterator[str]:

@@ -16,7 +16,8 @@ from pathlib import Path
 class Cable:
     """Each of its two ends is a port (``port``) or the standard streams of a program (``attach``).
 
-    ``rate`` is in bytes a second each way, None for any; one of so many bytes is changed (``noise``), 0 for none.
+    ``rate`` is in bytes a second each way, None for any; one of so many bytes is changed (``noise``),
+    0 for none.
     """
 
     def __init__(self, rate: float | None = None, noise: int = 0, seed: int = 1) -> None:

@@ -177,12 +177,26 @@ def control(new_control: Callable[..., Any]) -> Callable[..., Any]:
 
 @pytest.fixture
 def start_control(tmp_path: Path) -> Iterator[StartControl]:
-    """Give a function that starts ``amp-studio emulate`` and returns the process and the address to connect to."""
+    """Give a function that starts ``amp-studio emulate`` and returns the process
+    and the address to connect to.
+    """
     started: list[subprocess.Popen[str]] = []
 
     def start(listen: str = "tcp://127.0.0.1:0", *options: str) -> tuple[subprocess.Popen[str], str]:
-        command = [sys.executable, "-m", "amp_studio.cli", "emulate", "9pc", "--listen", listen,
-                   "--state", str(tmp_path / "control"), "--machine", "mill", *options]  # fmt: skip
+        command = [
+            sys.executable,
+            "-m",
+            "amp_studio.cli",
+            "emulate",
+            "9pc",
+            "--listen",
+            listen,
+            "--state",
+            str(tmp_path / "control"),
+            "--machine",
+            "mill",
+            *options,
+        ]
         process = subprocess.Popen(command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True)
         started.append(process)
         assert process.stdout is not None

@@ -1,4 +1,5 @@
-"""Controls that want to hurt the program that calls them, by seed: any answer may be absurd, late, missing, or noise.
+"""Controls that want to hurt the program that calls them, by seed: any answer may be absurd, late, missing,
+or noise.
 
 ``exchange_with_hostile_control`` is one such exchange in a simulated time; it returns what was wrong with how
 the client took it, so that a campaign can run many seeds.
@@ -50,9 +51,22 @@ ABSURD = {
     "flag": [False, True],
 }
 TRICKS = [
-    "fields", "fields", "fields", "silent", "noise", "half", "flood", "busy", "refuse", "late", "twice", "cut", "number",
-    "acks", "trickle",
-]  # fmt: skip
+    "fields",
+    "fields",
+    "fields",
+    "silent",
+    "noise",
+    "half",
+    "flood",
+    "busy",
+    "refuse",
+    "late",
+    "twice",
+    "cut",
+    "number",
+    "acks",
+    "trickle",
+]
 LIES = {"fields", "refuse", "number"}  # after these a control may have sent what is not true
 
 
@@ -146,9 +160,13 @@ class HostileLink:
                 return [(now, good[: len(good) // 2])]
             case "flood":
                 self._flood = chance.choice(
-                    [b"\xff" * 5_000, encode_frame(pack(UploadReady(2, bytes(32)), number)) * 50,
-                     encode_frame(pack(Ack(0), number)), b"\x00" * 999]
-                )  # fmt: skip
+                    [
+                        b"\xff" * 5_000,
+                        encode_frame(pack(UploadReady(2, bytes(32)), number)) * 50,
+                        encode_frame(pack(Ack(0), number)),
+                        b"\x00" * 999,
+                    ]
+                )
                 return []
             case "busy":
                 return [(now, encode_frame(pack(Refused(Code.BUSY, "\x1b[31mbusy"), 0)))]

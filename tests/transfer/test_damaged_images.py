@@ -1,4 +1,6 @@
-"""What a control may hold instead of an image: each is refused in a sentence that names the entry, and nothing else happens."""
+"""What a control may hold instead of an image: each is refused in a sentence that names the entry,
+and nothing else happens.
+"""
 
 from __future__ import annotations
 
@@ -8,13 +10,7 @@ import pytest
 
 from amp_studio.files import ParameterFile, new_file
 from amp_studio.schema import Value, family_ids
-from amp_studio.transfer.image import (
-    ImageError,
-    PatchError,
-    decode_image,
-    encode_image,
-    patch_image,
-)
+from amp_studio.transfer.image import ImageError, PatchError, decode_image, encode_image, patch_image
 
 from .image_mutations import fault_of, mutants
 
@@ -57,7 +53,10 @@ def mill(entry: str = "", line: str = "") -> bytes:
         ("1300\thome.calibration@1\traw:5", "home.calibration@1 .*not a number"),
         ("1300\thome.calibration@1\t5 deg/min", "home.calibration@1 .*given in mm"),
         ("1300\thome.calibration@1\t5 furlong", "home.calibration@1 .*'furlong' is not a unit"),
-        ("1300\thome.calibration@1\t5.0 mm", "'1300 home.calibration@1 5.0 mm', which would be written '1300 home"),
+        (
+            "1300\thome.calibration@1\t5.0 mm",
+            "'1300 home.calibration@1 5.0 mm', which would be written '1300 home",
+        ),
         ("1300\thome.calibration@1\t5 millimeter", "which would be written"),
         ("1300\thome.calibration@1\t", "home.calibration@1 .*not a number"),
         ("1300\thome.calibration@1\t" + "7" * 5000, "home.calibration@1 .*no value of it"),
@@ -72,7 +71,7 @@ def mill(entry: str = "", line: str = "") -> bytes:
         ("1300\thome.calibration@1\t5\x1b[2J mm", "line .*control sign"),
         ("1300\thome.calibration@1\t5 mm\r", "line .*control sign"),
     ],
-)  # fmt: skip
+)
 def test_a_damaged_number_names_its_entry(line: str, said: str) -> None:
     """A number has its unit, in the one form it is written in, at an instance that exists, once."""
     with pytest.raises(ImageError, match=said) as caught:
@@ -192,9 +191,18 @@ def test_half_a_character_is_no_text_of_an_image() -> None:
         encode_image(file)
 
 
-@pytest.mark.parametrize("damaged", ["101\tpassword.character@1\t4711.0", "101\tpassword.character@1\t4711 mm", "101\tpassword.character@1\ttext:4711",
-                                     "password.character@1\t4711", "101 password.character@1 4711", "102\tpassword.character@1\t4711",
-                                     "101\tpassword.character@1\t4711\t"])  # fmt: skip
+@pytest.mark.parametrize(
+    "damaged",
+    [
+        "101\tpassword.character@1\t4711.0",
+        "101\tpassword.character@1\t4711 mm",
+        "101\tpassword.character@1\ttext:4711",
+        "password.character@1\t4711",
+        "101 password.character@1 4711",
+        "102\tpassword.character@1\t4711",
+        "101\tpassword.character@1\t4711\t",
+    ],
+)
 def test_a_damaged_password_is_not_repeated(damaged: str) -> None:
     """The entry is named, what is there is not."""
     with pytest.raises(ImageError, match=r"password\.character@1") as caught:

@@ -9,13 +9,7 @@ from hypothesis import strategies as st
 from amp_studio.files import ParameterFile, new_file
 from amp_studio.schema import Value
 from amp_studio.schema.storage import stored_number
-from amp_studio.transfer.image import (
-    ImageError,
-    PatchError,
-    decode_image,
-    encode_image,
-    patch_image,
-)
+from amp_studio.transfer.image import ImageError, PatchError, decode_image, encode_image, patch_image
 from tests.campaigns import examples
 
 

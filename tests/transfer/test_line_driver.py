@@ -1,4 +1,6 @@
-"""What every driver of single values does alike: of which family it is, and what an error reports of the control."""
+"""What every driver of single values does alike: of which family it is,
+and what an error reports of the control.
+"""
 
 from __future__ import annotations
 
@@ -24,7 +26,9 @@ OLD, NEW = b"A=1 B=1 C=1", b"A=2 B=2 C=2"
 
 
 class Register(LineDriver):
-    """Three values in memory; the second one ends the download with ``fault``, before or after the control has it."""
+    """Three values in memory; the second one ends the download with ``fault``,
+    before or after the control has it.
+    """
 
     family, protocol = "small", "register"
 

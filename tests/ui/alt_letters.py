@@ -22,7 +22,9 @@ def doubled(texts: Iterable[str]) -> dict[str, list[str]]:
 
 
 def texts_of(widget: QWidget) -> Iterator[str]:
-    """Yield the texts with an Alt letter that are seen in a window, its message boxes and dialogs left out."""
+    """Yield the texts with an Alt letter that are seen in a window, its message boxes and dialogs left
+    out.
+    """
     for child in widget.findChildren(QWidget):
         if child.window() is not widget.window() or not child.isVisibleTo(widget):
             continue

@@ -38,7 +38,9 @@ WAIT_MS = 20_000
 
 @pytest.hookimpl(wrapper=True)
 def pytest_runtest_protocol(item: pytest.Item) -> Iterator[None]:
-    """Let nothing be collected while Qt is at work (``amp_studio.ui.base.garbage``), and other folders as always."""
+    """Let nothing be collected while Qt is at work (``amp_studio.ui.base.garbage``),
+    and other folders as always.
+    """
     if Path(__file__).parent in item.path.parents:
         gc.disable()
     try:
@@ -131,7 +133,9 @@ def person(monkeypatch: pytest.MonkeyPatch) -> Iterator[Person]:
 
 @pytest.fixture
 def accept(monkeypatch: pytest.MonkeyPatch) -> Callable[..., None]:
-    """Return what makes the next dialogs of a class be filled in by ``fill(dialog)`` and accepted, as ``accept()`` does."""
+    """Return what makes the next dialogs of a class be filled in by ``fill(dialog)`` and accepted,
+    as ``accept()`` does.
+    """
 
     def arrange(kind: type[QWidget], fill: Callable[..., object] = lambda dialog: None) -> None:
         def run(dialog: QWidget) -> int:
@@ -175,7 +179,8 @@ def new_window(path: Path | None = None) -> MainWindow:
     window.show()
     if path is not None:
         window.open_first(path)
-    # After the file: where opening takes its time a progress dialog comes, and no window manager gives the keyboard back.
+    # After the file: where opening takes its time a progress dialog comes, and no window manager gives the
+    # keyboard back.
     window.activateWindow()
     assert QTest.qWaitForWindowActive(window, WAIT_MS)
     return window
@@ -209,7 +214,9 @@ def open_window(qtbot: QtBot, person: Person) -> Iterator[Callable[..., MainWind
 def window_to_read(
     qapp: QApplication, tmp_path_factory: pytest.TempPathFactory, example: bytes
 ) -> Iterator[MainWindow]:
-    """Return a window with the example mill, the same one in each test of a module: nothing of it may be changed."""
+    """Return a window with the example mill, the same one in each test of a module:
+    nothing of it may be changed.
+    """
     QSettings("AMP Studio", "AMP Studio").clear()
     path = tmp_path_factory.mktemp("read") / "mill.amp"
     path.write_bytes(example)
@@ -248,7 +255,9 @@ def file(workspace: Workspace) -> ParameterFile:
 
 @pytest.fixture
 def whole(workspace: Workspace) -> Callable[[], tuple[object, ...]]:
-    """Return what gives all that a save would write, and the findings: two of them are equal or something is left over."""
+    """Return what gives all that a save would write, and the findings:
+    two of them are equal or something is left over.
+    """
 
     def give() -> tuple[object, ...]:
         file = workspace.file
@@ -278,8 +287,13 @@ def action(window: MainWindow, name: str) -> QAction:
 def editor(window: MainWindow) -> QWidget:
     """Return the editor that is open in the table."""
     assert window.table_view is not None
-    fields = [w for w in window.table_view.viewport().findChildren(QWidget, options=Qt.FindChildOption.FindDirectChildrenOnly)
-              if w.isVisible() and (isinstance(w, QLineEdit) or hasattr(w, "rows_of"))]  # fmt: skip
+    fields = [
+        w
+        for w in window.table_view.viewport().findChildren(
+            QWidget, options=Qt.FindChildOption.FindDirectChildrenOnly
+        )
+        if w.isVisible() and (isinstance(w, QLineEdit) or hasattr(w, "rows_of"))
+    ]
     assert len(fields) == 1, fields
     return fields[0]
 
@@ -288,8 +302,20 @@ class Control:
     """An emulated control in a separate process."""
 
     def __init__(self, state: Path, *options: str, family: str = "9pc", machine: str = "mill") -> None:
-        command = [sys.executable, "-m", "amp_studio.cli", "emulate", family, "--machine", machine, "--state", str(state),
-                   "--listen", "tcp://127.0.0.1:0", *options]  # fmt: skip
+        command = [
+            sys.executable,
+            "-m",
+            "amp_studio.cli",
+            "emulate",
+            family,
+            "--machine",
+            machine,
+            "--state",
+            str(state),
+            "--listen",
+            "tcp://127.0.0.1:0",
+            *options,
+        ]
         self._process = subprocess.Popen(command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True)
         assert self._process.stdout is not None
         lines = (line for line in self._process.stdout if line.startswith("listening on "))

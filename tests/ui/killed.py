@@ -1,4 +1,6 @@
-"""Kills the editor while somebody types, and looks whether what was entered more than a second before is still there."""
+"""Kills the editor while somebody types, and looks whether what was entered more than a second before is
+still there.
+"""
 
 from __future__ import annotations
 
@@ -38,11 +40,14 @@ timer.timeout.connect(enter)
 timer.start(int(sys.argv[2]))
 application.exec()
 """
-"""A window in which a value, the notes and the name are changed again and again; each is printed with its time."""
+"""A window in which a value, the notes and the name are changed again and again;
+each is printed with its time."""
 
 
 def kill_editor(path: Path, *, seed: int, begin: str = "") -> list[str]:
-    """Kill one editor at a moment that chance chooses; return what was lost or broken by it. ``begin`` is Python that it runs first."""
+    """Kill one editor at a moment that chance chooses; return what was lost or broken by it.
+    ``begin`` is Python that it runs first.
+    """
     chance = random.Random(seed)
     interval, life = chance.choice((20, 100, 700)), chance.uniform(1.2, 3.0)
     before = path.read_bytes()

@@ -11,7 +11,11 @@ from amp_studio.ui.main_window import MainWindow
 
 def nameless(window: QWidget) -> list[str]:
     """Return the classes of the visible parts that take the focus and have no accessible name."""
-    found = (part for part in window.findChildren(QWidget) if part.isVisible() and part.focusPolicy() != Qt.FocusPolicy.NoFocus)  # fmt: skip
+    found = (
+        part
+        for part in window.findChildren(QWidget)
+        if part.isVisible() and part.focusPolicy() != Qt.FocusPolicy.NoFocus
+    )
     named = ((part, QAccessible.queryAccessibleInterface(part)) for part in found)
     return [
         f"{type(part).__name__} in {type(part.parent()).__name__}"

@@ -32,13 +32,21 @@ EXCESS = ("servo.excess_error", "1")
 
 def focusable(top: QWidget) -> list[QWidget]:
     """Return the visible parts of a window that take the keyboard by themselves."""
-    return [part for part in top.findChildren(QWidget)
-            if part.window() is top and part.isVisible() and part.isEnabled() and part.focusProxy() is None
-            and part.focusPolicy() != Qt.FocusPolicy.NoFocus]  # fmt: skip
+    return [
+        part
+        for part in top.findChildren(QWidget)
+        if part.window() is top
+        and part.isVisible()
+        and part.isEnabled()
+        and part.focusProxy() is None
+        and part.focusPolicy() != Qt.FocusPolicy.NoFocus
+    ]
 
 
 def silent(top: QWidget) -> list[str]:
-    """Return the parts of the accessibility tree that take the keyboard and have no name, or a role that has no meaning."""
+    """Return the parts of the accessibility tree that take the keyboard and have no name,
+    or a role that has no meaning.
+    """
     found: list[str] = []
 
     def walk(node: object) -> None:
@@ -71,7 +79,11 @@ def beside_the_way(top: QWidget) -> list[str]:
     while part is not None and part is not top and part not in reached:
         reached.add(part)
         part = part.nextInFocusChain()
-    return [type(p).__name__ for p in focusable(top) if p.focusPolicy() & Qt.FocusPolicy.TabFocus and p not in reached]  # fmt: skip
+    return [
+        type(p).__name__
+        for p in focusable(top)
+        if p.focusPolicy() & Qt.FocusPolicy.TabFocus and p not in reached
+    ]
 
 
 def opened(window: MainWindow, kind: type[QWidget]) -> QWidget:
@@ -137,12 +149,18 @@ def project_check(window: MainWindow) -> QWidget:
 
 
 PAGES: dict[str, Callable[[MainWindow], QWidget]] = {
-    "steps": left("steps"), "groups": left("groups"), "project": left("project"),
-    "findings": findings, "pictures": pictures, "report preview": report,
+    "steps": left("steps"),
+    "groups": left("groups"),
+    "project": left("project"),
+    "findings": findings,
+    "pictures": pictures,
+    "report preview": report,
     "machines": by("Compare Machines", MachinesDialog),
     "compare": lambda window: window.files.comparing.open(window.page),
-    "motion": by("Motion", MotionView), "tuning": by("Tuning", TuningWindow),
-    "calculator": by("Calculator", CalculatorDialog), "tables": by("Tables of the Manual", TablesDialog),
+    "motion": by("Motion", MotionView),
+    "tuning": by("Tuning", TuningWindow),
+    "calculator": by("Calculator", CalculatorDialog),
+    "tables": by("Tables of the Manual", TablesDialog),
     "quick edit": lambda window: (window.edits.quick_edit(), opened(window, QuickEdit))[1],
     "steps of undo": lambda window: (window.edits.steps(), opened(window, StepList))[1],
     "exchanges": shown(lambda window: (window.control.recorded(), window)[1]),
@@ -151,8 +169,9 @@ PAGES: dict[str, Callable[[MainWindow], QWidget]] = {
     "new": shown(lambda window: NewFileDialog(window, "9pc")),
     "report": shown(lambda window: ReportDialog(window.workspace.path, window)),
     "note": shown(lambda window: NoteDialog(window.workspace, EXCESS, window)),
-    "download": shown(at_the_control), "project check": shown(project_check),
-}  # fmt: skip
+    "download": shown(at_the_control),
+    "project check": shown(project_check),
+}
 
 
 @pytest.mark.parametrize("page", PAGES)

@@ -1,4 +1,6 @@
-"""The table of actions is what the window has: each row once, in its menu, with its keys, enabled by its needs."""
+"""The table of actions is what the window has: each row once, in its menu, with its keys,
+enabled by its needs.
+"""
 
 from __future__ import annotations
 
@@ -70,9 +72,18 @@ def test_an_action_is_able_when_what_it_needs_is_there(
     window = open_window(path if state != "nothing" else None)
     able = {row.key: window.menus[row.key].isEnabled() for _, row in every_row()}
     can_edit = window.workspace is not None and window.workspace.may_edit
-    met = {"": True, "file": state != "nothing", "edit": can_edit, "axes": can_edit, "undo": False, "redo": False,
-           "emulated": False, "no emulated": state != "nothing", "units": state != "nothing",
-           "project": False}  # fmt: skip
+    met = {
+        "": True,
+        "file": state != "nothing",
+        "edit": can_edit,
+        "axes": can_edit,
+        "undo": False,
+        "redo": False,
+        "emulated": False,
+        "no emulated": state != "nothing",
+        "units": state != "nothing",
+        "project": False,
+    }
     for _, row in every_row():
         if row.why_not is None:
             assert able[row.key] == met[row.needs], row.key

@@ -1,4 +1,6 @@
-"""No two controls that are seen together have the same Alt letter: menus one by one, dialogs and the window as a whole."""
+"""No two controls that are seen together have the same Alt letter: menus one by one,
+dialogs and the window as a whole.
+"""
 
 from __future__ import annotations
 
@@ -30,7 +32,7 @@ def menus_of(menu: QMenu) -> Iterator[QMenu]:
             yield from menus_of(action.menu())
 
 
-# -- the window ------------------------------------------------------------------------------------------------------
+# -- the window
 
 
 def test_every_menu_has_each_letter_once(window_to_read: MainWindow) -> None:
@@ -61,7 +63,7 @@ def test_a_message_about_the_disk_has_letters_that_no_menu_has(window: MainWindo
     assert doubled([*top, *texts_of(window)]) == {}
 
 
-# -- dialogs ---------------------------------------------------------------------------------------------------------
+# -- dialogs
 
 
 def dialogs() -> list[type[QDialog]]:
@@ -84,15 +86,39 @@ def given(window: MainWindow, tmp_path: Path) -> dict[str, Any]:
     assert workspace is not None
     file, other = workspace.file, new_file("9pc", "mill", ["X", "Y"])
     return {
-        "parent": window, "window": window, "page": page, "workspace": workspace, "file": file, "title": "Title",
-        "axis": "1", "first": "1", "header": file.header, "path": workspace.path, "address": ("home.calibration", "1"),
-        "found": compare(file.schema, file.values, other.values), "other": "another file", "finding": None,
-        "info": ProjectInfo("name", "9pc"), "project": Project(tmp_path, ProjectInfo("name", "9pc")), "family": "9pc",
-        "go_to": page.go_to, "work": lambda *_: None, "schema": file.schema, "text": "text",
-        "parameter": file.schema.parameters["home.calibration"], "findings": list(workspace.findings),
-        "settings": window.settings, "menu": window.menuBar(), "bar": window.menuBar(), "notes": [], "paths": [],
-        "control": SimpleNamespace(window=window), "secrets": False, "values": dict(file.values), "name": "name",
-    }  # fmt: skip
+        "parent": window,
+        "window": window,
+        "page": page,
+        "workspace": workspace,
+        "file": file,
+        "title": "Title",
+        "axis": "1",
+        "first": "1",
+        "header": file.header,
+        "path": workspace.path,
+        "address": ("home.calibration", "1"),
+        "found": compare(file.schema, file.values, other.values),
+        "other": "another file",
+        "finding": None,
+        "info": ProjectInfo("name", "9pc"),
+        "project": Project(tmp_path, ProjectInfo("name", "9pc")),
+        "family": "9pc",
+        "go_to": page.go_to,
+        "work": lambda *_: None,
+        "schema": file.schema,
+        "text": "text",
+        "parameter": file.schema.parameters["home.calibration"],
+        "findings": list(workspace.findings),
+        "settings": window.settings,
+        "menu": window.menuBar(),
+        "bar": window.menuBar(),
+        "notes": [],
+        "paths": [],
+        "control": SimpleNamespace(window=window),
+        "secrets": False,
+        "values": dict(file.values),
+        "name": "name",
+    }
 
 
 @pytest.mark.parametrize("kind", dialogs(), ids=lambda kind: kind.__name__)
@@ -118,7 +144,7 @@ def test_every_dialog_has_each_letter_once(
         dialog.deleteLater()
 
 
-# -- questions and menus that are made when they are asked for ---------------------------------------------------------
+# -- questions and menus that are made when they are asked for
 
 
 def literals(node: ast.AST) -> Iterator[str]:

@@ -1,4 +1,6 @@
-"""What a cell shows where there is little room: digits in groups, and choices that cannot be taken for one another."""
+"""What a cell shows where there is little room: digits in groups,
+and choices that cannot be taken for one another.
+"""
 
 from __future__ import annotations
 
@@ -42,8 +44,12 @@ def test_a_short_choice_is_a_code_that_no_other_has() -> None:
 def test_what_is_left_of_a_choice_is_what_differs() -> None:
     switches = ("Negative direction off switch", "Positive direction off switch")
     assert list(short_labels(switches).values()) == ["Neg", "Pos"]
-    devices = ("INC Encoder (Z < A)", "INC Encoder (Z > A)", "1326HR HIPERFACE Absolute (1326 only)",
-               "1326HR HIPERFACE Incremental (1326 only)")  # fmt: skip
+    devices = (
+        "INC Encoder (Z < A)",
+        "INC Encoder (Z > A)",
+        "1326HR HIPERFACE Absolute (1326 only)",
+        "1326HR HIPERFACE Incremental (1326 only)",
+    )
     assert list(short_labels(devices).values()) == [
         "INC Encoder (Z < A)",
         "INC Encoder (Z > A)",

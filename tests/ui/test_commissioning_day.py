@@ -1,4 +1,6 @@
-"""The day of an integrator through the one real window: from a new machine to a control that has it, and a report."""
+"""The day of an integrator through the one real window: from a new machine to a control that has it,
+and a report.
+"""
 
 from __future__ import annotations
 
@@ -53,7 +55,9 @@ def is_typed_over(window: MainWindow, text: str) -> QWidget:
 
 @dataclass
 class Day:
-    """What the steps of the day share: the window, who answers its questions, and the file the day is about."""
+    """What the steps of the day share: the window, who answers its questions, and the file the day is
+    about.
+    """
 
     window: MainWindow
     person: Person

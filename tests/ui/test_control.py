@@ -1,4 +1,6 @@
-"""At the control: compare, send, read and restore with an emulated control in a separate process, in one page."""
+"""At the control: compare, send, read and restore with an emulated control in a separate process,
+in one page.
+"""
 
 from __future__ import annotations
 
@@ -30,7 +32,9 @@ Start = Callable[..., Control]
 def test_a_file_is_sent_read_back_and_read_again(
     window: MainWindow, start_control: Start, person: Person, qtbot: QtBot, tmp_path: Path
 ) -> None:
-    """What a control gives back is what it was given, and what it contained before is kept beside the file."""
+    """What a control gives back is what it was given, and what it contained before is kept beside the
+    file.
+    """
     control = start_control()
     page = at_control(window, control.address, "send", qtbot)
     count = len(page.table.taken(file=True))

@@ -1,4 +1,6 @@
-"""A file of a control that describes itself in the program: its axes, its groups, its bits by name, what it keeps."""
+"""A file of a control that describes itself in the program: its axes, its groups, its bits by name,
+what it keeps.
+"""
 
 from __future__ import annotations
 

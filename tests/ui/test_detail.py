@@ -57,7 +57,9 @@ def test_history_has_what_was_saved(window: MainWindow) -> None:
 
 
 def test_the_bar_has_the_range_and_what_the_rules_allow(window: MainWindow, qtbot) -> None:
-    """With a rapid of 10000 mm/min and this gain the axis trails by 10 mm; a tenth more is demanded (page 7-20)."""
+    """With a rapid of 10000 mm/min and this gain the axis trails by 10 mm;
+    a tenth more is demanded (page 7-20).
+    """
     window.go_to(EXCESS)
     assert window.detail.bar.isVisible()
     qtbot.waitUntil(lambda: bool(window.detail.bar.words), timeout=WAIT_MS)

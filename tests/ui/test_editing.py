@@ -1,4 +1,6 @@
-"""Values are edited as one undoable step each; undo gives exactly the file before, findings and marks with it."""
+"""Values are edited as one undoable step each; undo gives exactly the file before,
+findings and marks with it.
+"""
 
 from __future__ import annotations
 
@@ -61,8 +63,18 @@ def facts(w: Workspace) -> None:
     w.do("facts", lambda: vars(w.file.header).update(name="other", notes="two\nlines"))
 
 
-STEPS = [a_value, unset, axis_type, axis_type_in_the_table, copied_axis, deleted_axis, control_type, forced,
-         forced_then_mended, facts]  # fmt: skip
+STEPS = [
+    a_value,
+    unset,
+    axis_type,
+    axis_type_in_the_table,
+    copied_axis,
+    deleted_axis,
+    control_type,
+    forced,
+    forced_then_mended,
+    facts,
+]
 
 
 @pytest.mark.parametrize("step", STEPS)

@@ -1,4 +1,6 @@
-"""Chips above the table: which rows they leave, that counts are right after every edit, and that nothing moves meanwhile."""
+"""Chips above the table: which rows they leave, that counts are right after every edit,
+and that nothing moves meanwhile.
+"""
 
 from __future__ import annotations
 
@@ -132,9 +134,18 @@ def test_what_was_changed_since_the_download_is_listed(
     image = encode_image(workspace.file)
     add_exchange(
         workspace.path,
-        exchange_now("download", workspace.path, "9pc", "tcp://cnc:9600", before="", state="new", kept="",
-                     after=hashlib.sha256(image).hexdigest(), changes=changes_of(b"", image)),
-    )  # fmt: skip
+        exchange_now(
+            "download",
+            workspace.path,
+            "9pc",
+            "tcp://cnc:9600",
+            before="",
+            state="new",
+            kept="",
+            after=hashlib.sha256(image).hexdigest(),
+            changes=changes_of(b"", image),
+        ),
+    )
     action(window, "Changed since download").trigger()
     assert ids(window) == set()
     workspace.edit("edit", {BREAK: Value(4.0, "mm")})

@@ -114,7 +114,9 @@ def test_nothing_found_offers_the_nearest_and_enter_takes_it(window: MainWindow,
     typed(box, "excccesss")
     nothing, nearest, *ways_on = box.model.rows
     assert [row.text for row in ways_on[-2:]] == [
-        "Show all parameters in the table", "Copy this question, to report the word"]  # fmt: skip
+        "Show all parameters in the table",
+        "Copy this question, to report the word",
+    ]
     box.chosen.emit(ways_on[-1])
     assert "9pc: find 'excccesss' has no answer" in QGuiApplication.clipboard().text()
     typed(box, "excccesss")

@@ -87,8 +87,11 @@ def click(panel: FindingsPanel, part: str, row: int, child: int | None = None) -
     panel.view.setExpanded(index.parent(), True)
     panel.view.scrollTo(index)
     place = panel.view.visualRect(index)
-    spot = next(QPoint(x, place.top() + 12) for x in range(place.left(), place.right())
-                if panel._delegate.part_at(index, QPoint(x, place.top() + 12)) == part)  # fmt: skip
+    spot = next(
+        QPoint(x, place.top() + 12)
+        for x in range(place.left(), place.right())
+        if panel._delegate.part_at(index, QPoint(x, place.top() + 12)) == part
+    )
     QTest.mouseClick(panel.view.viewport(), Qt.MouseButton.LeftButton, pos=spot)
 
 
@@ -100,8 +103,12 @@ def test_a_row_is_a_rule_with_the_axes_it_is_broken_on(path, bare: bytes, open_w
     assert model.axes_of(first) == ("X", "Y", "Z", "B", "S")
     assert model.fix_of(first) == "Set Servo Hardware Type to SERCOS Interface"
     assert [model.axes_of(model.index(n, 0, first)) for n in range(model.rowCount(first))] == [
-        ("X",), ("Y",), ("Z",), ("B",), ("S",),
-    ]  # fmt: skip
+        ("X",),
+        ("Y",),
+        ("Z",),
+        ("B",),
+        ("S",),
+    ]
 
 
 def test_the_button_of_a_rule_fixes_it_on_every_axis_as_one_step(path, bare: bytes, open_window) -> None:

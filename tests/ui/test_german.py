@@ -1,4 +1,6 @@
-"""German that a fitter trusts: one word for each act at the control, and a decimal comma where a number is shown."""
+"""German that a fitter trusts: one word for each act at the control,
+and a decimal comma where a number is shown.
+"""
 
 from __future__ import annotations
 
@@ -64,15 +66,24 @@ def test_numbers_are_shown_with_a_comma_and_typed_with_either_sign(german: None,
         ),
         (
             "Excess Error is 0.001 mm on X and 11 mm on Y; they agree in 59 other values. Is it meant?",
-            "Excess Error: 0,001 mm bei X und 11 mm bei Y; in 59 anderen Werten stimmen sie überein. Ist das so gewollt?",
+            (
+                "Excess Error: 0,001 mm bei X und 11 mm bei Y; in 59 anderen Werten stimmen sie überein. Ist"
+                " das so gewollt?"
+            ),
         ),
         (
             "1300 Home Calibration is 25.4 mm, 25.4 times the 1 mm in the backup. Is it meant?",
-            "1300 Home Calibration ist 25,4 mm, war 1 mm in der Sicherung (das 25,4-fache). Ist das so gewollt?",
+            (
+                "1300 Home Calibration ist 25,4 mm, war 1 mm in der Sicherung (das 25,4-fache). Ist das so"
+                " gewollt?"
+            ),
         ),
-        ("Bits of P3N0.5 and $22.0 in revision 10.0.21 are 1.5.", "Bits of P3N0.5 and $22.0 in revision 10.0.21 are 1,5."),
+        (
+            "Bits of P3N0.5 and $22.0 in revision 10.0.21 are 1.5.",
+            "Bits of P3N0.5 and $22.0 in revision 10.0.21 are 1,5.",
+        ),
     ],
-)  # fmt: skip
+)
 def test_what_the_check_says_is_german_with_a_comma_and_an_address_is_none(
     german: None, message: str, german_text: str
 ) -> None:

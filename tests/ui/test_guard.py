@@ -88,8 +88,12 @@ print(*sorted(failed))
 def test_the_program_lives_and_reports_whatever_raises_in_what_qt_calls(raising: str) -> None:
     done = subprocess.run(
         [sys.executable, "-c", PROGRAM.replace("RAISE", raising)],
-        capture_output=True, text=True, timeout=60, check=False, env=os.environ,
-    )  # fmt: skip
+        capture_output=True,
+        text=True,
+        timeout=60,
+        check=False,
+        env=os.environ,
+    )
     assert done.returncode == 0, done.stderr
     expected = {
         *("data", "event", "eventFilter", "flags", "headerData", "minimumSizeHint"),

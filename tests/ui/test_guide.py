@@ -1,4 +1,6 @@
-"""Commissioning in the window: steps beside the table, the next value that is not set, findings that wait for their step."""
+"""Commissioning in the window: steps beside the table, the next value that is not set,
+findings that wait for their step.
+"""
 
 from __future__ import annotations
 
@@ -81,18 +83,17 @@ def test_a_key_goes_from_one_open_value_to_the_next_and_names_what_it_passes(fre
     for _ in range(4):
         action(fresh, "Next Not Set").trigger()
         seen.append(fresh.selected())
-    assert seen == [
-        *(("axis.integrand_name", axis) for axis in "123"),
-        ("home.g28_direction", "1"),
-    ]
+    assert seen == [*(("axis.integrand_name", axis) for axis in "123"), ("home.g28_direction", "1")]
     assert fresh.table_view.hasFocus()
     assert "not yet homed starts to look for its home switch" in fresh.detail.page.toPlainText()
     last_zone = fresh.workspace.progress.steps[3].open[-1]
     fresh.go_to(last_zone)
     action(fresh, "Next Not Set").trigger()
     assert fresh.selected()[0] == "jog.speed_lowest"
-    assert fresh.statusBar().currentMessage() == (
-        "All at their defaults, check them too: SERCOS ring and servos, Position loop, Velocity loop, Motors and amplifiers"
+    assert (
+        fresh.statusBar().currentMessage()
+        == "All at their defaults, check them too: SERCOS ring and servos, Position loop, Velocity loop,"
+        " Motors and amplifiers"
     )
 
 
@@ -184,8 +185,9 @@ def test_a_step_has_a_menu_that_acts_on_it_and_not_on_the_selected_value(fresh: 
 def test_a_tick_on_an_unfinished_step_shows_what_is_left(fresh: MainWindow) -> None:
     fresh.go_to(("axis.integrand_name", "1"))
     action(fresh, "Mark Step as Done").trigger()
-    assert fresh.statusBar().currentMessage() == (
-        "Axis names and rollover is ticked. Left: 3 values not set, 0 errors."
+    assert (
+        fresh.statusBar().currentMessage()
+        == "Axis names and rollover is ticked. Left: 3 values not set, 0 errors."
     )
 
 
@@ -260,7 +262,9 @@ def test_the_project_is_shown_in_its_place(fresh: MainWindow) -> None:
 def test_a_fresh_file_is_calm_wherever_one_looks(
     open_window: Callable[..., MainWindow], tmp_path: Path
 ) -> None:
-    """What is wrong with printed defaults is a state: no finding, no mark in a cell; the parameter panel has it."""
+    """What is wrong with printed defaults is a state: no finding, no mark in a cell;
+    the parameter panel has it.
+    """
     window, hardware = open_window(), ("servo.hardware_type", "1")
     file = new_file("9pc", "mill", ["X", "Y", "Z"])
     window.show_workspace(Workspace(Document.create(file, tmp_path / "new.amp")))

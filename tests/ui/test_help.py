@@ -1,4 +1,6 @@
-"""The help menu: the keys of all actions, and a text to report a problem with that has nothing of the machine without a yes."""
+"""The help menu: the keys of all actions, and a text to report a problem with that has nothing
+of the machine without a yes.
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,6 @@
-"""The machine of the motion window out of a record of the drive, or out of the file that one was written to."""
+"""The machine of the motion window out of a record of the drive, or out of the file that one was written
+to.
+"""
 
 from __future__ import annotations
 

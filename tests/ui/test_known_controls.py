@@ -47,8 +47,20 @@ def test_only_so_many_are_remembered() -> None:
     assert (len(known), known[0].address) == (MOST, f"tcp://10.0.0.{MOST + 2}:9600")
 
 
-@pytest.mark.parametrize("odd", [None, 7, "", "{", "[]", '{"address": 5}', '{"address": ""}', "[" * 100_000,
-                                 json.dumps({"address": "x" * 1000})])  # fmt: skip
+@pytest.mark.parametrize(
+    "odd",
+    [
+        None,
+        7,
+        "",
+        "{",
+        "[]",
+        '{"address": 5}',
+        '{"address": ""}',
+        "[" * 100_000,
+        json.dumps({"address": "x" * 1000}),
+    ],
+)
 def test_what_is_stored_and_is_no_control_is_left_out(odd: object) -> None:
     assert read_controls([odd]) == []
     assert read_controls(odd) == []

@@ -65,8 +65,12 @@ def cell(page: LivePage, row: int, column: int) -> str:
 def test_a_reading_shows_position_error_speed_and_the_words_of_the_control(page: LivePage) -> None:
     page.show_status(status())
     assert [cell(page, 0, n) for n in range(5)] == [
-        "X", "1000 counts", "2 counts", "50 counts/s", "axis busy, control loop enabled",
-    ]  # fmt: skip
+        "X",
+        "1000 counts",
+        "2 counts",
+        "50 counts/s",
+        "axis busy, control loop enabled",
+    ]
     assert cell(page, 1, 2) == "–"
     assert "feed 20" in page.values.text()
     assert page.toggle.text() == "&Stop"

@@ -51,10 +51,12 @@ def shown(dialog: MachinesDialog) -> list[list[object]]:
     """Return the rows that are seen: name, then each machine."""
     rows, role = dialog.rows, Qt.ItemDataRole.DisplayRole
     return [
-        [rows.headerData(row, Qt.Orientation.Vertical, role),
-         *(rows.index(row, column).data() for column in range(rows.columnCount()))]
+        [
+            rows.headerData(row, Qt.Orientation.Vertical, role),
+            *(rows.index(row, column).data() for column in range(rows.columnCount())),
+        ]
         for row in range(rows.rowCount())
-    ]  # fmt: skip
+    ]
 
 
 def choose(dialog: MachinesDialog, name: str, wanted: bool) -> None:
@@ -64,8 +66,11 @@ def choose(dialog: MachinesDialog, name: str, wanted: bool) -> None:
 
 def test_what_differs_is_a_row_with_each_machine_as_it_is_now(dialog: MachinesDialog) -> None:
     assert [dialog.list.item(n).text() for n in range(4)] == [
-        "ROUTER_2", "ROUTER_1", "ROUTER_3", "WORN (cannot be read)",
-    ]  # fmt: skip
+        "ROUTER_2",
+        "ROUTER_1",
+        "ROUTER_3",
+        "WORN (cannot be read)",
+    ]
     assert shown(dialog) == [["$110   Maximum rate, X", "600 mm/min", "500 mm/min", "800 mm/min"]]
     assert dialog.count.text().startswith("Different: 1; the same: ")
     assert doubled(texts_of(dialog)) == {}

@@ -1,4 +1,6 @@
-"""The comparison as a merge tool: its result goes to one file, and the exit code is known from how it ended."""
+"""The comparison as a merge tool: its result goes to one file, and the exit code is known from how it
+ended.
+"""
 
 from __future__ import annotations
 

@@ -33,8 +33,14 @@ def test_a_family_with_fixed_axes_says_so_before_ok(dialog) -> None:
 
 @pytest.mark.parametrize(
     ("family", "axes", "fitted"),
-    [("num", "X, Y, B", 3), ("acromill", "X, Y", 2), ("grblhal", "X,Y,Z,A", 4), ("syntec", "X", 1), ("9pc", "X, Z, S", 3)],
-)  # fmt: skip
+    [
+        ("num", "X, Y, B", 3),
+        ("acromill", "X, Y", 2),
+        ("grblhal", "X,Y,Z,A", 4),
+        ("syntec", "X", 1),
+        ("9pc", "X, Z, S", 3),
+    ],
+)
 def test_every_other_family_takes_axes_in_the_dialog(dialog, family: str, axes: str, fitted: int) -> None:
     new = dialog(family)
     new.axes.setText(axes)

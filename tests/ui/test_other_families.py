@@ -1,4 +1,6 @@
-"""A family that is nothing like the 9/PC: axes that are always there, words of bits, texts, machine types in the header."""
+"""A family that is nothing like the 9/PC: axes that are always there, words of bits, texts,
+machine types in the header.
+"""
 
 from __future__ import annotations
 
@@ -104,10 +106,16 @@ def test_a_family_to_whose_controls_no_way_is_known_is_keyed_in(wide: MainWindow
     ("family", "axes", "changes", "address", "texts"),
     [
         ("syntec", "X,Y", {}, ("limit.first_positive", "1"), ("1000 BLU", "1000 BLU = 1 mm")),
-        ("num", "", {("axes.internal_unit", ""): 4}, ("travel.limit_max", "1"), ("1000 iu", "1000 iu = 0.1 mm")),
+        (
+            "num",
+            "",
+            {("axes.internal_unit", ""): 4},
+            ("travel.limit_max", "1"),
+            ("1000 iu", "1000 iu = 0.1 mm"),
+        ),
         ("num", "", {("axes.internal_unit", ""): None}, ("travel.limit_max", "1"), ("1000 iu", "1000 iu")),
     ],
-)  # fmt: skip
+)
 def test_a_count_of_internal_units_is_shown_with_its_length(
     open_window: Callable[..., MainWindow], tmp_path: Path, family: str, axes: str, changes, address, texts
 ) -> None:

@@ -1,4 +1,6 @@
-"""The window exchanges files with controls in their own ways of speaking, through the same actions as any other."""
+"""The window exchanges files with controls in their own ways of speaking,
+through the same actions as any other.
+"""
 
 from __future__ import annotations
 

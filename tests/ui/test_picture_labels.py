@@ -36,5 +36,5 @@ def test_a_tip_has_the_value_of_a_handle_and_the_texts_that_have_no_room(workspa
     handle = canvas.scene.handles[0]
     assert canvas.tip(QPointF(*canvas.place.at(handle.at))).startswith(f"{handle.label}: {handle.value}")
     assert canvas._left_out
-    (at, text) = canvas._left_out[0]
+    at, text = canvas._left_out[0]
     assert text in canvas.tip(QPointF(*at))

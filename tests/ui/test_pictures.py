@@ -127,8 +127,14 @@ def test_a_handle_that_loses_its_place_is_still_one_step(
 def test_clicks_go_round_the_handles_that_lie_on_each_other(window, pictures, file):
     """Limit 2 at the place of the overtravel: each of both edges can be taken."""
     low = ("zone.overtravel_negative", "1")
-    window.workspace.edit("elsewhere", {("zone.limit2_min", "1"): file.get(low), ("zone.limit2_min", "2"): Value(-400.0, "mm"),
-                                        ("zone.limit2_max", "2"): Value(6.0, "mm")})  # fmt: skip
+    window.workspace.edit(
+        "elsewhere",
+        {
+            ("zone.limit2_min", "1"): file.get(low),
+            ("zone.limit2_min", "2"): Value(-400.0, "mm"),
+            ("zone.limit2_max", "2"): Value(6.0, "mm"),
+        },
+    )
     canvas = pictures.chosen_card.canvas
     here, chosen = place(canvas, low)[0], []
     assert place(canvas, ("zone.limit2_min", "1"))[0] == here

@@ -1,4 +1,6 @@
-"""The report beside the table: set again after an edit, turned to what is selected, with the project's template."""
+"""The report beside the table: set again after an edit, turned to what is selected,
+with the project's template.
+"""
 
 from __future__ import annotations
 
@@ -63,7 +65,9 @@ def panel(window: MainWindow, qtbot: QtBot, settled) -> PreviewPanel:
     """Return the preview of the example router, opened by its command."""
     window.report_choice.contents = SHORT
     action(window, "Report Preview").trigger()
-    qtbot.waitUntil(lambda: window.preview.panel is not None and bool(window.preview.panel.view.pages), timeout=WAIT_MS)  # fmt: skip
+    qtbot.waitUntil(
+        lambda: window.preview.panel is not None and bool(window.preview.panel.view.pages), timeout=WAIT_MS
+    )
     assert window.preview.panel is not None
     settled(window.preview.panel)
     return window.preview.panel
@@ -189,7 +193,9 @@ def test_the_contents_are_chosen_once_for_the_preview_and_the_dialog(
 
 def test_a_stored_choice_that_is_none_is_left_out(qapp) -> None:
     settings = UserSettings()
-    settings.keep_report(dict.fromkeys(("sort", "changed", "inactive", "units", "language", "without", "paper"), "?"))  # fmt: skip
+    settings.keep_report(
+        dict.fromkeys(("sort", "changed", "inactive", "units", "language", "without", "paper"), "?")
+    )
     assert ReportChoice(settings).contents == Contents()
 
 

@@ -54,8 +54,13 @@ def test_a_start_loads_nothing_that_it_does_not_show(path: Path) -> None:
 def test_the_program_ends_without_a_word_of_complaint(path: Path) -> None:
     """No thread is destroyed while it runs, no timer is stopped from another thread, no exception is lost."""
     code = STARTED.replace("window.close()", "window.menus['view.motion'].trigger()\nwindow.close()")
-    done = subprocess.run([sys.executable, "-X", "faulthandler", "-c", code, str(path)], capture_output=True, text=True,
-                          timeout=60, check=False)  # fmt: skip
+    done = subprocess.run(
+        [sys.executable, "-X", "faulthandler", "-c", code, str(path)],
+        capture_output=True,
+        text=True,
+        timeout=60,
+        check=False,
+    )
     assert done.returncode == 0, done.stderr
     assert [line for line in done.stderr.splitlines() if "plugin does not support" not in line] == []
 
@@ -74,8 +79,9 @@ QMessageBox.exec = told
 QTimer.singleShot(0, lambda: 1 / 0)
 main([])
 """
-    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, timeout=60, check=False,
-                          env=os.environ)  # fmt: skip
+    done = subprocess.run(
+        [sys.executable, "-c", code], capture_output=True, text=True, timeout=60, check=False, env=os.environ
+    )
     assert done.stdout.startswith("AMP Studio has an internal error: ZeroDivisionError"), done.stderr
     assert done.returncode == 0, "an end that does not come from the window waits for its threads too"
     assert "Traceback" in done.stderr
@@ -201,7 +207,9 @@ def test_garbage_is_collected_by_the_event_loop_alone(window: MainWindow) -> Non
 
 
 def test_after_an_opening_only_the_youngest_garbage_is_looked_at(window: MainWindow) -> None:
-    """What a file needs has just been made and stays: a look at all of it costs a frame of a scrolling table."""
+    """What a file needs has just been made and stays: a look at all of it costs a frame of a scrolling
+    table.
+    """
     seen: list[int] = []
     gc.callbacks.append(
         note := lambda phase, about: seen.append(about["generation"]) if phase == "stop" else None
@@ -283,7 +291,9 @@ def test_what_belongs_to_an_open_file_is_left_out_of_collections_until_it_is_clo
 
 
 def test_a_closed_file_leaves_nothing_behind(window: MainWindow, qtbot: QtBot) -> None:
-    """What follows the signals of a workspace, and with it all that was made for its file, was kept for good."""
+    """What follows the signals of a workspace, and with it all that was made for its file, was kept for
+    good.
+    """
     page = window.page
     assert page is not None
     left = weakref.ref(page.workspace.validator)

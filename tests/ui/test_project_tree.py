@@ -26,7 +26,9 @@ from .conftest import WAIT_MS, Person
 
 @pytest.fixture
 def folder(path: Path) -> Path:
-    """Return a project folder: the mill with a backup and a copy of a control, a second file with errors, rules, a deleted file."""
+    """Return a project folder: the mill with a backup and a copy of a control, a second file with errors,
+    rules, a deleted file.
+    """
     here = path.parent
     Project.create(here, ProjectInfo("Workshop", "9pc", control_name="CNC_1", notes="two mills"))
     path.with_name("mill.amp.bak").write_bytes(path.read_bytes())
@@ -61,8 +63,12 @@ def test_it_has_everything_that_belongs_to_the_project(tree: ProjectTree, qtbot:
     top = tree.tree.topLevelItem(0)
     assert (top.text(0), top.data(0, RIGHT)) == ("Workshop", "9/PC")
     assert [top.child(n).text(0) for n in range(top.childCount())] == [
-        "mill", "second", "Own rules", "Notes and control", "gone.amp",
-    ]  # fmt: skip
+        "mill",
+        "second",
+        "Own rules",
+        "Notes and control",
+        "gone.amp",
+    ]
     mill = row(tree, "file", "mill.amp")
     assert [mill.child(n).text(0) for n in range(mill.childCount())] == [
         "Backup",

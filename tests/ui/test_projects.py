@@ -190,7 +190,10 @@ def test_all_files_are_checked_and_a_finding_is_shown_in_its_file(
     assert branches["third.amp"].text(4).startswith(str(project.path("third")))
     assert "1 cannot be read" in dialog.text.text()
     assert int(branches["second.amp"].text(1)) > int(branches["mill.amp"].text(1))
-    (leaf,) = (leaf for leaf in map(branches["second.amp"].child, range(branches["second.amp"].childCount()))
-               if "Excess Error 1000000000 mm is outside" in leaf.text(4))  # fmt: skip
+    (leaf,) = (
+        leaf
+        for leaf in map(branches["second.amp"].child, range(branches["second.amp"].childCount()))
+        if "Excess Error 1000000000 mm is outside" in leaf.text(4)
+    )
     dialog.tree.itemActivated.emit(leaf, 0)
     assert (window.workspace.path, window.selected()) == (project.path("second"), EXCESS)

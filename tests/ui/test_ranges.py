@@ -1,4 +1,6 @@
-"""Ranges of cells: selected by keys, copied, pasted with a preview, filled, set to default. One step to undo each."""
+"""Ranges of cells: selected by keys, copied, pasted with a preview, filled, set to default.
+One step to undo each.
+"""
 
 from __future__ import annotations
 
@@ -16,11 +18,7 @@ from amp_studio.ui.table.block_preview import BlockPreview
 
 from .conftest import action, editor
 
-EXCESS, SUPPRESSION, BREAK = (
-    "servo.excess_error",
-    "servo.feedrate_suppression",
-    "servo.gain_break_point",
-)
+EXCESS, SUPPRESSION, BREAK = ("servo.excess_error", "servo.feedrate_suppression", "servo.gain_break_point")
 KEY, SHIFT = Qt.Key, Qt.KeyboardModifier.ShiftModifier
 
 

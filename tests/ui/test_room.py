@@ -1,4 +1,6 @@
-"""The table has the room: its share of the window, columns as wide as their contents, and nothing that moves by itself."""
+"""The table has the room: its share of the window, columns as wide as their contents,
+and nothing that moves by itself.
+"""
 
 from __future__ import annotations
 
@@ -143,9 +145,11 @@ def sizes(window: MainWindow) -> list[object]:
     view = window.table_view
     parts = [dock for dock in window.docks.docks if dock.isVisible()]
     return [
-        [(dock.objectName(), dock.geometry().getRect()) for dock in parts], view.geometry().getRect(),
-        [view.columnWidth(n) for n in range(view.model().columnCount())], view.verticalHeader().width(),
-    ]  # fmt: skip
+        [(dock.objectName(), dock.geometry().getRect()) for dock in parts],
+        view.geometry().getRect(),
+        [view.columnWidth(n) for n in range(view.model().columnCount())],
+        view.verticalHeader().width(),
+    ]
 
 
 @pytest.mark.parametrize("size", [(1366, 768), (1024, 700)])

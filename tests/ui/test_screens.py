@@ -1,4 +1,6 @@
-"""Every page on real screens, in both languages and colours: no text is cut, nothing overlaps, and ink can be read on its ground."""
+"""Every page on real screens, in both languages and colours: no text is cut, nothing overlaps,
+and ink can be read on its ground.
+"""
 
 from __future__ import annotations
 
@@ -122,7 +124,9 @@ def test_no_text_of_a_page_is_cut_and_nothing_overlaps_on_any_screen(window: Mai
 
 
 def luminance(window: MainWindow) -> np.ndarray:
-    """Return the relative luminance (WCAG) of each pixel of a window, painted in twice its size so that thin strokes have their ink."""
+    """Return the relative luminance (WCAG) of each pixel of a window,
+    painted in twice its size so that thin strokes have their ink.
+    """
     drawn = QPixmap(window.size() * 2)
     drawn.setDevicePixelRatio(2)
     window.render(drawn)

@@ -35,8 +35,15 @@ def texts_of_table(window: MainWindow) -> str:
     """Return everything that a view or a screen reader can ask the table about the password."""
     index = window.table.index_of(PASSWORD)
     roles = Qt.ItemDataRole
-    asked = (roles.DisplayRole, roles.EditRole, roles.ToolTipRole, roles.StatusTipRole, roles.WhatsThisRole,
-             roles.AccessibleTextRole, roles.AccessibleDescriptionRole)  # fmt: skip
+    asked = (
+        roles.DisplayRole,
+        roles.EditRole,
+        roles.ToolTipRole,
+        roles.StatusTipRole,
+        roles.WhatsThisRole,
+        roles.AccessibleTextRole,
+        roles.AccessibleDescriptionRole,
+    )
     return " ".join(str(index.data(role)) for role in asked)
 
 
@@ -56,8 +63,12 @@ def test_table_panel_findings_and_undo_mask_a_secret(window: MainWindow) -> None
         window.menus["edit.undo"].text(),
         window.windowTitle(),
     ]
-    told += [str(findings.index(r, c).data(role)) for r in range(findings.rowCount()) for c in range(findings.columnCount())
-             for role in (Qt.ItemDataRole.DisplayRole, Qt.ItemDataRole.ToolTipRole)]  # fmt: skip
+    told += [
+        str(findings.index(r, c).data(role))
+        for r in range(findings.rowCount())
+        for c in range(findings.columnCount())
+        for role in (Qt.ItemDataRole.DisplayRole, Qt.ItemDataRole.ToolTipRole)
+    ]
     assert not any("765432" in text for text in told)
     assert MASKED in told[0]
     assert MASKED in told[1]

@@ -1,4 +1,6 @@
-"""The sheet of values to key in, on the screen: ticks and what the control shows are kept as they are made."""
+"""The sheet of values to key in, on the screen: ticks and what the control shows are kept as they are
+made.
+"""
 
 from __future__ import annotations
 

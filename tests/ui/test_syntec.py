@@ -1,4 +1,6 @@
-"""A Syntec file in the program: axes whose names are texts, fitted by a port, and codes that are not printed."""
+"""A Syntec file in the program: axes whose names are texts, fitted by a port, and codes that are not
+printed.
+"""
 
 from __future__ import annotations
 

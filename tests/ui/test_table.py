@@ -75,7 +75,9 @@ def test_unfitted_axes_and_hidden_parameters_are_options(window: MainWindow) -> 
 
 
 def test_a_row_comes_and_goes_with_what_makes_it_exist(window: MainWindow, workspace: Workspace) -> None:
-    """Mill Type exists on a mill only (page 3-9); the cell that was selected stays selected as long as it exists."""
+    """Mill Type exists on a mill only (page 3-9);
+    the cell that was selected stays selected as long as it exists.
+    """
     window.groups.tree.setCurrentItem(window.groups._items[0])
     only_mill = ("control.mill_type", "")
     assert window.table.index_of(only_mill).isValid()

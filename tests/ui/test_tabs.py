@@ -1,4 +1,6 @@
-"""Several files of several families in one window: tabs, two sides, drops, and the session that comes back."""
+"""Several files of several families in one window: tabs, two sides, drops, and the session that comes
+back.
+"""
 
 from __future__ import annotations
 
@@ -179,8 +181,14 @@ def test_files_are_dropped_into_the_window(open_window, path: Path, other: Path)
     window: MainWindow = open_window()
     dropped = QMimeData()
     dropped.setUrls([QUrl.fromLocalFile(str(path)), QUrl.fromLocalFile(str(other))])
-    event = QDropEvent(QPointF(50, 50), Qt.DropAction.CopyAction, dropped, Qt.MouseButton.LeftButton,
-                       Qt.KeyboardModifier.NoModifier, QEvent.Type.Drop)  # fmt: skip
+    event = QDropEvent(
+        QPointF(50, 50),
+        Qt.DropAction.CopyAction,
+        dropped,
+        Qt.MouseButton.LeftButton,
+        Qt.KeyboardModifier.NoModifier,
+        QEvent.Type.Drop,
+    )
     window.dropEvent(event)
     assert names(window) == ["mill.amp", "other.amp"]
 

@@ -28,10 +28,17 @@ from tests.source_trees import nodes_of
 GROUNDS: tuple[Token, ...] = ("window", "panel", "base", "raised", "hover", "selbg", "selidle")
 READ: list[tuple[Token, Token]] = [
     *[(ink, ground) for ink in ("text", "dim") for ground in (*GROUNDS, "errorbg", "warnbg", "recbg")],
-    *[(ink, ground) for ink in ("sel", "error", "warn", "rec", "chg") for ground in ("window", "panel", "base", "raised")],
-    ("error", "errorbg"), ("warn", "warnbg"), ("rec", "recbg"), ("onsel", "sel"),
+    *[
+        (ink, ground)
+        for ink in ("sel", "error", "warn", "rec", "chg")
+        for ground in ("window", "panel", "base", "raised")
+    ],
+    ("error", "errorbg"),
+    ("warn", "warnbg"),
+    ("rec", "recbg"),
+    ("onsel", "sel"),
     *[(ink, "selbg") for ink in ("error", "warn", "rec", "sel")],
-]  # fmt: skip
+]
 """Every ink on every ground on which it is read."""
 SEEN: list[tuple[Token, Token]] = [
     ("edge", "base"),
@@ -70,13 +77,21 @@ def test_contrast_is_one_of_the_same_and_21_of_black_on_white() -> None:
 
 @pytest.mark.parametrize("dark", [0, 1], ids=["light", "dark"])
 def test_every_ink_is_read_on_every_ground_it_stands_on(dark: int) -> None:
-    poor = {pair: round(found, 2) for pair in READ if (found := contrast(COLOURS[pair[0]][dark], COLOURS[pair[1]][dark])) < 4.5}  # fmt: skip
+    poor = {
+        pair: round(found, 2)
+        for pair in READ
+        if (found := contrast(COLOURS[pair[0]][dark], COLOURS[pair[1]][dark])) < 4.5
+    }
     assert poor == {}
 
 
 @pytest.mark.parametrize("dark", [0, 1], ids=["light", "dark"])
 def test_every_border_and_mark_is_seen(dark: int) -> None:
-    poor = {pair: round(found, 2) for pair in SEEN if (found := contrast(COLOURS[pair[0]][dark], COLOURS[pair[1]][dark])) < 3}  # fmt: skip
+    poor = {
+        pair: round(found, 2)
+        for pair in SEEN
+        if (found := contrast(COLOURS[pair[0]][dark], COLOURS[pair[1]][dark])) < 3
+    }
     assert poor == {}
 
 
@@ -109,11 +124,22 @@ def test_dark_holds_at_once_and_is_kept_for_the_next_start(tmp_path: Path) -> No
         "XDG_STATE_HOME": str(tmp_path),
         "QT_QPA_PLATFORM": "offscreen",
     }
-    done = subprocess.run([sys.executable, "-c", SWITCHED], env=os.environ | private, capture_output=True, text=True, check=True, timeout=60)  # fmt: skip
+    done = subprocess.run(
+        [sys.executable, "-c", SWITCHED],
+        env=os.environ | private,
+        capture_output=True,
+        text=True,
+        check=True,
+        timeout=60,
+    )
     assert json.loads(done.stdout) == {
-        "told": ["#17191c"], "base": "#17191c", "window": "#1c1e22", "kept": "dark",
-        "before": ["#1a1e23"], "after": ["#e3e6ea"],
-    }  # fmt: skip
+        "told": ["#17191c"],
+        "base": "#17191c",
+        "window": "#1c1e22",
+        "kept": "dark",
+        "before": ["#1a1e23"],
+        "after": ["#e3e6ea"],
+    }
 
 
 @pytest.mark.parametrize("kept", ["purple", 7, None, ["dark"]])
@@ -135,10 +161,14 @@ def test_every_icon_the_window_names_is_in_the_set(checkout: Path) -> None:
         node.value
         for file in (checkout / "amp_studio" / "ui").rglob("*.py")
         for call in nodes_of(file)
-        if isinstance(call, ast.Call) and getattr(call.func, "id", getattr(call.func, "attr", "")) in {"icon", "paint_icon"}
+        if isinstance(call, ast.Call)
+        and getattr(call.func, "id", getattr(call.func, "attr", "")) in {"icon", "paint_icon"}
         for node in call.args
-        if isinstance(node, ast.Constant) and isinstance(node.value, str) and node.value.islower() and "-" in node.value
-    }  # fmt: skip
+        if isinstance(node, ast.Constant)
+        and isinstance(node.value, str)
+        and node.value.islower()
+        and "-" in node.value
+    }
     assert {"magnifying-glass", "caret-down"} & named
     assert named <= known
 
@@ -162,9 +192,12 @@ def test_only_the_theme_names_a_colour(checkout: Path) -> None:
         for file in (checkout / "amp_studio" / "ui").rglob("*.py")
         if file.name not in own
         for node in nodes_of(file)
-        if isinstance(node, ast.Constant) and isinstance(node.value, str)
-        and len(node.value) in (4, 7) and node.value.startswith("#") and all(c in "0123456789abcdefABCDEF" for c in node.value[1:])
-    ]  # fmt: skip
+        if isinstance(node, ast.Constant)
+        and isinstance(node.value, str)
+        and len(node.value) in (4, 7)
+        and node.value.startswith("#")
+        and all(c in "0123456789abcdefABCDEF" for c in node.value[1:])
+    ]
     assert found == []
 
 

@@ -1,4 +1,6 @@
-"""The window comes back to its event loop while five families are open and a download and a check of many files run."""
+"""The window comes back to its event loop while five families are open and a download
+and a check of many files run.
+"""
 
 from __future__ import annotations
 

@@ -219,7 +219,7 @@ def test_with_nothing_there_yet_it_says_where_to_begin(open_window) -> None:
         (datetime(2026, 3, 7, 9, 12, tzinfo=UTC), "7 Mar 09:12"),
         (datetime(2024, 12, 31, 9, 12, tzinfo=UTC), "31 Dec 2024"),
     ],
-)  # fmt: skip
+)
 def test_times_are_said_as_a_person_says_them(qapp, moment: datetime, said: str) -> None:
     assert in_words(moment, datetime(2026, 3, 9, 15, 0, tzinfo=UTC)) == said
 

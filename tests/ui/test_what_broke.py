@@ -32,10 +32,21 @@ from amp_studio.ui.project.files import to_trash
 from .conftest import WAIT_MS, Person, action, editor
 
 SIDE_WINDOWS = (
-    "Compare and Merge With", "Calculator", "Tables of the Manual", "Compare Axes", "Motion",
-    "Tuning", "Quick Edit by Number", "Machine Facts", "Name Axis", "Add Axis",
-    "Copy Axis", "History of Steps", "New", "Check All Files",
-)  # fmt: skip
+    "Compare and Merge With",
+    "Calculator",
+    "Tables of the Manual",
+    "Compare Axes",
+    "Motion",
+    "Tuning",
+    "Quick Edit by Number",
+    "Machine Facts",
+    "Name Axis",
+    "Add Axis",
+    "Copy Axis",
+    "History of Steps",
+    "New",
+    "Check All Files",
+)
 
 
 def opened_beside(window: MainWindow) -> list[QWidget]:
@@ -148,7 +159,7 @@ def test_an_edit_in_progress_survives_a_change_of_the_group(window: MainWindow, 
     assert window.workspace.file.get(("servo.excess_error", "1")) in (Value(12.0, "mm"), Value(11.0, "mm"))
 
 
-# -- what a monkey found -------------------------------------------------------------------------------------------------------
+# -- what a monkey found
 
 
 def test_units_and_control_types_are_not_offered_without_a_file(window: MainWindow) -> None:

@@ -13,17 +13,20 @@ TRIAL_MS = 3.0
 
 
 def slowness() -> float:
-    """Return how many times longer this machine takes for the same work now: processors share caches and pipelines."""
+    """Return how many times longer this machine takes for the same work now:
+    processors share caches and pipelines.
+    """
     begin = time.thread_time()
     sum(n * n for n in range(100_000))
     return max(1.0, (time.thread_time() - begin) * 1000 / TRIAL_MS)
 
 
 class Watchdog:
-    """Beats by a timer of the window while ``with`` lasts; each stall is how long the main thread worked between two beats.
+    """Beats by a timer of the window while ``with`` lasts;
+    each stall is how long the main thread worked between two beats.
 
-    That is the time of the processor, not of the clock: a machine that is busy with other things is no stall. Neither is
-    one whose processor is slow while others share it, which a trial before each action measures.
+    That is the time of the processor, not of the clock: a machine that is busy with other things is no stall.
+    Neither is one whose processor is slow while others share it, which a trial before each action measures.
     """
 
     def __init__(self) -> None:
@@ -51,7 +54,8 @@ class Watchdog:
     def over(self, limit: float) -> dict[str, float]:
         """Return the longest stall over a limit in milliseconds, for each action.
 
-        The trials before and behind an action, and one more on both sides, give it as much more time as they were slow.
+        The trials before and behind an action, and one more on both sides,
+        give it as much more time as they were slow.
         """
         found: dict[str, float] = {}
         for number, stall in self.stalls:

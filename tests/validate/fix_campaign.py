@@ -1,4 +1,5 @@
-"""A campaign against the fixes: machines of every family with random values, and every fix that is offered in them.
+"""A campaign against the fixes: machines of every family with random values,
+and every fix that is offered in them.
 
 ``campaign(seed, count)`` may be called with any count; ``test_fix_campaign.py`` runs it briefly.
 """
@@ -18,7 +19,8 @@ from amp_studio.validate import NO_RULES, SEVERITIES, BuilderRules, Finding, Val
 
 FACTORS = [0, -1, 0.1, 0.5, 0.9, 0.999, 1.001, 1.1, 2, 10, 1000]
 NO_FINDING_OF_A_VALUE = ("schema.unset", "rules.unused", "plausible.")
-"""Values that are not set, suppressions, and what experience asks about whatever a rule of the manual makes of a value."""
+"""Values that are not set, suppressions, and what experience asks about whatever a rule
+of the manual makes of a value."""
 
 
 @cache
@@ -32,7 +34,9 @@ def stands() -> list[tuple[str, ParameterFile]]:
 
 
 def campaign(seed: int, count: int) -> tuple[int, list[str]]:
-    """Try the fixes of so many machines; returns how many fixes were tried, and each broken promise in a sentence."""
+    """Try the fixes of so many machines; returns how many fixes were tried,
+    and each broken promise in a sentence.
+    """
     tried, broken = 0, []
     for n in range(seed, seed + count):
         random = Random(n)
@@ -85,7 +89,9 @@ def _another(file: ParameterFile, address: Address, random: Random) -> Value | N
 
 
 def broken_promises(file: ParameterFile, own: BuilderRules = NO_RULES) -> tuple[int, list[str]]:
-    """Apply each offered fix alone, to a copy that is checked again; returns how many, and what they do not keep."""
+    """Apply each offered fix alone, to a copy that is checked again; returns how many,
+    and what they do not keep.
+    """
     before, said = Validator(file, own).run(), list[str]()
     offered = [finding for finding in before if finding.fix]
     for finding in offered:
@@ -109,7 +115,9 @@ def unkept(finding: Finding, before: Iterable[Finding], after: Iterable[Finding]
 
 
 def not_ended(file: ParameterFile, own: BuilderRules = NO_RULES) -> Iterator[str]:
-    """Apply fix after fix to a copy and say what is wrong at the end: errors that are new, fixes that are left."""
+    """Apply fix after fix to a copy and say what is wrong at the end: errors that are new,
+    fixes that are left.
+    """
     twin = file.copy()
     validator = Validator(twin, own)
     before = validator.run()

@@ -41,7 +41,8 @@ PLACE = re.compile(
 CONNECTED = re.compile(r"'[^']*'|&&|\|\||[([{,?:)\]}]")
 """What begins or ends an operand of "and" and "or", and texts, which may have any of these in them."""
 GUARD = re.compile(r"\(?[^&|]+ [!=]= null\)?|\w+ < size\(\w+\)")
-"""What asks whether something is there at all. Without it a rule that meets nothing is an error, so there is no finding."""
+"""What asks whether something is there at all. Without it a rule that meets nothing is an error,
+so there is no finding."""
 
 
 def variations(text: str) -> Iterator[tuple[str, str]]:

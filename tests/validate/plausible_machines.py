@@ -1,8 +1,10 @@
-"""Plausible machines of every family: the examples at other sizes and speeds, axis by axis, with other screws and options.
+"""Plausible machines of every family: the examples at other sizes and speeds, axis by axis,
+with other screws and options.
 
-Each is made as the manuals' procedures make one: speeds, ramps and the error limits that follow from them by the printed
-formulas are proportional to the speed of an axis, positions to its travel, counts and steps to its screw. Only a machine
-in which the rules of the manuals find nothing is kept, so what is found in it is found by experience alone.
+Each is made as the manuals' procedures make one: speeds, ramps and the error limits that follow from them by
+the printed formulas are proportional to the speed of an axis, positions to its travel, counts and steps to
+its screw. Only a machine in which the rules of the manuals find nothing is kept,
+so what is found in it is found by experience alone.
 """
 
 from __future__ import annotations
@@ -135,7 +137,9 @@ RECIPES = {
 
 
 def plausible_machines(family: str, count: int, seed: int = 1) -> Iterator[ParameterFile]:
-    """Yield so many machines of a family, the same ones for a seed; each is sound by the rules of the manual."""
+    """Yield so many machines of a family, the same ones for a seed; each is sound by the rules of the
+    manual.
+    """
     bases = [
         file for file in (open_file(path).file for path in examples()) if file.schema.family.family == family
     ]
@@ -164,9 +168,9 @@ def remake(file: ParameterFile, random: Random) -> None:
     alike = random.random() < 0.4
     first = (max(0.25, random.choice(some)), random.choice(some), random.choice((0.5, 1, 2, 2.5)))
     factors = {
-        axis: first
-        if alike
-        else (random.choice(some), random.choice(some), random.choice((0.5, 1, 1, 2, 2.5)))
+        axis: (
+            first if alike else (random.choice(some), random.choice(some), random.choice((0.5, 1, 1, 2, 2.5)))
+        )
         for axis in axes
     }
     slowest = max(0.25, min((speed for speed, _, _ in factors.values()), default=1))

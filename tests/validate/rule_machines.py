@@ -171,7 +171,9 @@ def trial_machine(family: str, machine: str, application: str = "") -> TrialMach
 
 @dataclass(frozen=True)
 class Case:
-    """A change that breaks a rule, and one that just does not; ``rule_cases/README.md`` explains the fields."""
+    """A change that breaks a rule, and one that just does not; ``rule_cases/README.md`` explains the
+    fields.
+    """
 
     family: str
     rule: str

@@ -1,8 +1,9 @@
-"""A campaign against the findings: slips of one value, planted one at a time into the sound examples of every family.
+"""A campaign against the findings: slips of one value,
+planted one at a time into the sound examples of every family.
 
-``campaign(share, seed)`` counts what share of them brings a new finding; ``make slips`` plants every slip and prints the
-table, ``test_slips.py`` a few of them. A slip is what a hand or a unit does to one value; no slip is drawn that the file
-could not hold (a half of an odd number of a parameter without fractions is rounded).
+``campaign(share, seed)`` counts what share of them brings a new finding; ``make slips`` plants every slip and
+prints the table, ``test_slips.py`` a few of them. A slip is what a hand or a unit does to one value; no slip
+is drawn that the file could not hold (a half of an odd number of a parameter without fractions is rounded).
 """
 
 from __future__ import annotations
@@ -37,7 +38,9 @@ class Slip:
 
 
 def slips(file: ParameterFile, random: Random) -> Iterator[Slip]:
-    """Yield every slip of a file, in the manual's order: of each active value one of every kind that it can have."""
+    """Yield every slip of a file, in the manual's order:
+    of each active value one of every kind that it can have.
+    """
     active = [a for a in file.addresses() if a in file.values and file.evaluation.state(a).is_active]
     for at, address in enumerate(active):
         parameter, value = file.schema.parameters[address[0]], file.values[address]
@@ -86,7 +89,9 @@ def _numbers(number: int | float) -> Iterator[tuple[str, int | float]]:
 
 
 def _neighbour(file: ParameterFile, active: list[Address], at: int) -> Value | None:
-    """Return the value of the nearest parameter that measures the same and has another value: a wrong row was read."""
+    """Return the value of the nearest parameter that measures the same and has another value:
+    a wrong row was read.
+    """
     address = active[at]
     own, kind = file.values[address], file.schema.parameters[address[0]].type
     near = sorted(range(max(0, at - 12), min(len(active), at + 13)), key=lambda n: (abs(n - at), -n))
@@ -116,7 +121,9 @@ class Count:
 
 @dataclass
 class Campaign:
-    """What came of the slips of some machines: counts by family and kind, and the slips that nothing was found of."""
+    """What came of the slips of some machines: counts by family and kind,
+    and the slips that nothing was found of.
+    """
 
     counts: dict[tuple[str, str], Count]
     missed: list[tuple[str, Slip]]
@@ -133,7 +140,9 @@ def examples() -> list[Path]:
 
 
 def campaign(share: float = 1.0, seed: int = 1, *, alone: bool = False) -> Campaign:
-    """Plant a share of all slips; the same ones for a seed. ``alone``: nothing is known of what a file was before."""
+    """Plant a share of all slips; the same ones for a seed. ``alone``:
+    nothing is known of what a file was before.
+    """
     done = Campaign(defaultdict(Count), [])
     for path in examples():
         plant(open_file(path).file, share, Random(seed), done, alone=alone)

@@ -1,4 +1,6 @@
-"""Whatever is in a file of any family: nothing raises, and edit by edit the findings are those of a full run."""
+"""Whatever is in a file of any family: nothing raises, and edit by edit the findings are those of a full
+run.
+"""
 
 from __future__ import annotations
 
@@ -174,10 +176,7 @@ class Edited:
 
 
 @given(random=st.randoms(use_true_random=False), name=st.sampled_from(MACHINES))
-@settings(
-    max_examples=examples(40),
-    suppress_health_check=[HealthCheck.too_slow, HealthCheck.data_too_large],
-)
+@settings(max_examples=examples(40), suppress_health_check=[HealthCheck.too_slow, HealthCheck.data_too_large])
 def test_edit_by_edit_or_all_at_once_the_findings_are_the_same(random: Random, name: str, a_machine) -> None:
     edited = Edited(a_machine(name))
     for _ in range(random.randint(1, 4)):
@@ -195,7 +194,9 @@ def test_after_many_edits_too(name: str, a_machine) -> None:
 
 
 def nasty(parameter: Parameter, schema: Schema) -> list[Value]:
-    """Return values that nobody should write into a parameter: any number in its units, some in those of others."""
+    """Return values that nobody should write into a parameter: any number in its units,
+    some in those of others.
+    """
     numbers = [0, -1, 2**70, 1e300, -1e300, 5e-324, 0.1, math.inf, -math.inf]
     own = schema.units_of(parameter)
     others = {"", "mm", "in/min", "deg", "%"}.difference(own)

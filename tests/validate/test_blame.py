@@ -1,4 +1,6 @@
-"""What a finding is about: what is wrong first, then what it was compared with, and nothing that is innocent."""
+"""What a finding is about: what is wrong first, then what it was compared with, and nothing that is
+innocent.
+"""
 
 from __future__ import annotations
 
@@ -136,10 +138,7 @@ def test_a_value_that_is_as_it_should_be_is_not_named(
 
 def test_a_name_twice_is_wrong_where_it_comes_second_and_the_first_is_named_after_it() -> None:
     finding = found("9pc", "mill", {"axis.name@6": "b"}, "9pc.axis.name-duplicate")
-    assert (finding.causes, finding.compared) == (
-        named("axis.name@6"),
-        named("axis.name@4", "axis.type@6"),
-    )
+    assert (finding.causes, finding.compared) == (named("axis.name@6"), named("axis.name@4", "axis.type@6"))
 
 
 def test_the_parameter_that_sets_a_bound_is_named_after_the_value_and_with_its_own(mill) -> None:
@@ -160,10 +159,16 @@ def test_a_value_beyond_a_bound_of_its_own_names_no_other_parameter(mill) -> Non
 def own(mill, **parts: object) -> Finding:
     """Return what a builder's rule finds in a mill."""
     rule = Rule(
-        id="own.pair", title="t", severity="warning", message="m", page="1",
+        id="own.pair",
+        title="t",
+        severity="warning",
+        message="m",
+        page="1",
         reads={"rapid": "feedrate.rapid@1", "slow": "home.speed_off_switch@1", "type": "axis.type@1"},
-        when="type == 'linear'", check="slow > rapid", **parts,
-    )  # fmt: skip
+        when="type == 'linear'",
+        check="slow > rapid",
+        **parts,
+    )
     return next(f for f in Validator(mill, BuilderRules((rule,))).run() if f.rule == "own.pair")
 
 

@@ -71,39 +71,128 @@ def test_a_machine_builder_adds_rules(mill, path: Path) -> None:
 @pytest.mark.parametrize(
     ("old", "new", "said"),
     [
-        ("severity: warning", "severity: fatal", "line 5: builder.rapid: severity: 'fatal' is not 'error', 'warning' or 'advice'."),
-        ("severity: warning", "severity: waring", "line 5: builder.rapid: severity: 'waring' is not 'error', 'warning' or 'advice', did you mean 'warning'?"),
+        (
+            "severity: warning",
+            "severity: fatal",
+            "line 5: builder.rapid: severity: 'fatal' is not 'error', 'warning' or 'advice'.",
+        ),
+        (
+            "severity: warning",
+            "severity: waring",
+            (
+                "line 5: builder.rapid: severity: 'waring' is not 'error', 'warning' or 'advice', did you"
+                " mean 'warning'?"
+            ),
+        ),
         ("check: ", "chek: ", "line 7: builder.rapid: chek: there is no such key, did you mean 'check'?"),
         ("    check: rapid <= 10000.0\n", "", "line 3: builder.rapid: check: is missing."),
-        ("title: Rapid of this machine", "title: 1", "line 4: builder.rapid: title: must be a text: put '1' in quotes."),
-        ("id: builder.rapid", "id: Builder rapid", "line 3: Builder rapid: id: 'Builder rapid' is no id: small letters"),
+        (
+            "title: Rapid of this machine",
+            "title: 1",
+            "line 4: builder.rapid: title: must be a text: put '1' in quotes.",
+        ),
+        (
+            "id: builder.rapid",
+            "id: Builder rapid",
+            "line 3: Builder rapid: id: 'Builder rapid' is no id: small letters",
+        ),
         ("rules:", "rules: [", "line 3: "),
         ("rules:", "rule:", "line 2: rule: this file contains only rules, suppressions."),
-        ("feedrate.rapid}", "feedrate.rapids}", "line 6: builder.rapid: reads rapid: 'feedrate.rapids' is no parameter of 9pc, did you mean 'feedrate.rapid'?"),
+        (
+            "feedrate.rapid}",
+            "feedrate.rapids}",
+            (
+                "line 6: builder.rapid: reads rapid: 'feedrate.rapids' is no parameter of 9pc, did you mean"
+                " 'feedrate.rapid'?"
+            ),
+        ),
         ("severity:", "family: 9pc\n    severity:", ""),
         ("severity:", "family: 9PC\n    severity:", "line 5: builder.rapid: family: '9PC' is no family"),
-        ("feedrate.rapid}", "feedrate.rapid@9}", "line 6: builder.rapid: reads rapid: Rapid Feedrate for Positioning has no instance '9'; it has 1, 2, 3, 4, 5, 6, 7, 8."),
-        ("{rapid: feedrate", "{loop: axis.type, rapid: feedrate", "line 6: builder.rapid: reads loop: 'loop' is a word of the language and can be no name."),
+        (
+            "feedrate.rapid}",
+            "feedrate.rapid@9}",
+            (
+                "line 6: builder.rapid: reads rapid: Rapid Feedrate for Positioning has no instance '9'; it"
+                " has 1, 2, 3, 4, 5, 6, 7, 8."
+            ),
+        ),
+        (
+            "{rapid: feedrate",
+            "{loop: axis.type, rapid: feedrate",
+            "line 6: builder.rapid: reads loop: 'loop' is a word of the language and can be no name.",
+        ),
         ("<= 10000.0", "<=", "line 7: builder.rapid: check: a value is missing behind '<=' at the end."),
         ("<= 10000.0", "= 10000.0", "line 7: builder.rapid: check: '=' is no operator: write '=='."),
-        ("check: rapid", "check: rapit", "line 7: builder.rapid: check: 'rapit' is not read: add it under reads, or did you mean 'rapid'?"),
-        ("<= 10000.0", "* 2 <= 10000.0", "line 7: builder.rapid: check: 'rapid * 2' mixes a whole number with a decimal one: write 2.0."),
-        ("check: rapid <=", "check: maxi(rapid, 1.0) <=", "line 7: builder.rapid: check: 'maxi' is no function, did you mean 'max'?"),
-        ("check: rapid <=", "check: max(rapid) <=", "line 7: builder.rapid: check: max takes 2 values, not 1."),
+        (
+            "check: rapid",
+            "check: rapit",
+            "line 7: builder.rapid: check: 'rapit' is not read: add it under reads, or did you mean 'rapid'?",
+        ),
+        (
+            "<= 10000.0",
+            "* 2 <= 10000.0",
+            "line 7: builder.rapid: check: 'rapid * 2' mixes a whole number with a decimal one: write 2.0.",
+        ),
+        (
+            "check: rapid <=",
+            "check: maxi(rapid, 1.0) <=",
+            "line 7: builder.rapid: check: 'maxi' is no function, did you mean 'max'?",
+        ),
+        (
+            "check: rapid <=",
+            "check: max(rapid) <=",
+            "line 7: builder.rapid: check: max takes 2 values, not 1.",
+        ),
         (" <= 10000.0", "", "line 7: builder.rapid: check: it does not give true or false."),
-        ("Rapid {rapid} is", "Rapid {rapit} is", "line 8: builder.rapid: message: {rapit} is neither read nor among its values, did you mean 'rapid'?"),
-        ("Rapid {rapid} is", "Rapid {rapid:>1000000000} is", "line 8: builder.rapid: message: {rapid} is shown as it is: leave out what comes after the name."),
-        ("{set: rapid,", "{set: rapt,", "line 10: builder.rapid: fix 1 set: 'rapt' is not read, did you mean 'rapid'?"),
-        ('value: "10000.0"', "value: 10000.0", "line 10: builder.rapid: fix 1 value: must be a text: put '10000.0' in quotes."),
-        ('value: "10000.0"', "value: \"'fast'\"", "line 10: builder.rapid: fix 1 value: it does not give a number for Rapid Feedrate for Positioning."),
-        ("id: builder.rapid", "id: 9pc.axis.consecutive", "line 3: 9pc.axis.consecutive: id: a rule of 9pc has this id already."),
+        (
+            "Rapid {rapid} is",
+            "Rapid {rapit} is",
+            (
+                "line 8: builder.rapid: message: {rapit} is neither read nor among its values, did you mean"
+                " 'rapid'?"
+            ),
+        ),
+        (
+            "Rapid {rapid} is",
+            "Rapid {rapid:>1000000000} is",
+            "line 8: builder.rapid: message: {rapid} is shown as it is: leave out what comes after the name.",
+        ),
+        (
+            "{set: rapid,",
+            "{set: rapt,",
+            "line 10: builder.rapid: fix 1 set: 'rapt' is not read, did you mean 'rapid'?",
+        ),
+        (
+            'value: "10000.0"',
+            "value: 10000.0",
+            "line 10: builder.rapid: fix 1 value: must be a text: put '10000.0' in quotes.",
+        ),
+        (
+            'value: "10000.0"',
+            "value: \"'fast'\"",
+            (
+                "line 10: builder.rapid: fix 1 value: it does not give a number for Rapid Feedrate for"
+                " Positioning."
+            ),
+        ),
+        (
+            "id: builder.rapid",
+            "id: 9pc.axis.consecutive",
+            "line 3: 9pc.axis.consecutive: id: a rule of 9pc has this id already.",
+        ),
         ("rules:", "suppressions: [{rule: builder.rapid, by: me}]\nrules:", "line 2: reason: is missing."),
-        ("rules:", "suppressions: [{rule: builder.rapids, by: me, reason: why}]\nrules:",
-         "line 2: rule: 'builder.rapids' is no rule, did you mean 'builder.rapid'?"),
-        ("rules:", "suppressions: [{rule: builder.rapid, params: [feedrate.rapit], by: me, reason: why}]\nrules:",
-         "line 2: params 1: 'feedrate.rapit' is no parameter of 9pc, did you mean 'feedrate.rapid'?"),
+        (
+            "rules:",
+            "suppressions: [{rule: builder.rapids, by: me, reason: why}]\nrules:",
+            "line 2: rule: 'builder.rapids' is no rule, did you mean 'builder.rapid'?",
+        ),
+        (
+            "rules:",
+            "suppressions: [{rule: builder.rapid, params: [feedrate.rapit], by: me, reason: why}]\nrules:",
+            "line 2: params 1: 'feedrate.rapit' is no parameter of 9pc, did you mean 'feedrate.rapid'?",
+        ),
     ],
-)  # fmt: skip
+)
 def test_what_cannot_be_used_is_a_finding_with_file_and_the_line_of_the_field(
     mill, path: Path, old: str, new: str, said: str
 ) -> None:
@@ -144,20 +233,35 @@ rules:
         ("types.exists(t, t == 'Linear')", "'t' is never 'Linear': write the key 'linear'"),
         ("types[0] == 'rotery'", "'types[0]' is never 'rotery': write a key, did you mean 'rotary'?"),
         ("'lineal' in types", "'types' is never 'lineal': write a key, did you mean 'linear'?"),
-        ("type == (machine == 'mill' ? 'linear' : 'round')", "'type' is never 'round': its keys are linear, rotary, spindle, unfitted"),
+        (
+            "type == (machine == 'mill' ? 'linear' : 'round')",
+            "'type' is never 'round': its keys are linear, rotary, spindle, unfitted",
+        ),
         ("machine == 'Mill'", "'machine' is never 'Mill': write the key 'mill'"),
-        ("{'linear': 1, 'roundish': 2}[type] == 1", "'type' is never 'roundish': its keys are linear, rotary, spindle, unfitted"),
+        (
+            "{'linear': 1, 'roundish': 2}[type] == 1",
+            "'type' is never 'roundish': its keys are linear, rotary, spindle, unfitted",
+        ),
         ("type == 3.0", "'type' is a text and never equals '3.0', a number"),
-        ("type == true", "'type' is a text and never equals 'true', true or false: its keys are linear, rotary, spindle, unfitted"),
+        (
+            "type == true",
+            (
+                "'type' is a text and never equals 'true', true or false: its keys are linear, rotary,"
+                " spindle, unfitted"
+            ),
+        ),
         ("baud.contains('MHz')", "no key of 'baud' has 'MHz' there: its keys are mhz2, mhz4"),
         ("baud.startsWith('4')", "no key of 'baud' has '4' there: its keys are mhz2, mhz4"),
-        ("type.endsWith('Y')", "no key of 'type' has 'Y' there: its keys are linear, rotary, spindle, unfitted"),
+        (
+            "type.endsWith('Y')",
+            "no key of 'type' has 'Y' there: its keys are linear, rotary, spindle, unfitted",
+        ),
         ("string(baud) == '4 MHz'", "'string(baud)' is never '4 MHz': write the key 'mhz4'"),
         ("type == baud", "'type' and 'baud' have no choice in common"),
         ("type == 'rotary' || baud != 'mhz4' || type in ['linear', 'spindle'] || type == null", ""),
         ("type + 'x' == 'anything'", ""),
     ],
-)  # fmt: skip
+)
 def test_a_choice_is_compared_with_its_keys_only(mill, path: Path, check: str, said: str) -> None:
     """A comparison with anything else is silently false, so the rule would never be broken."""
     told = faults(path, CHOICE.replace("CHECK", f'"{check}"'), mill)
@@ -288,7 +392,10 @@ HELD = "{rule: a.b, reason: why, by: me}"
         f"suppressions: [{HELD}]\n",
         f"suppressions:  # looked at\n- {HELD} # by us\n# the end\n",
         f"suppressions:\n    - {HELD}\nrules: []  # later\n",
-        "suppressions:\r\n  -\r\n    rule: a.b\r\n    reason: |\r\n      why - not\r\n    by: me\r\nrules:\r\n",
+        (
+            "suppressions:\r\n  -\r\n    rule: a.b\r\n    reason: |\r\n      why - not\r\n    by:"
+            " me\r\nrules:\r\n"
+        ),
         "\ufeffrules: []\n",
         "rules: []\n...\n# behind\n",
         "---\nrules: []",

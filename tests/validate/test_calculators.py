@@ -14,12 +14,20 @@ from amp_studio.validate import calculate, calculators, formulas, shown_result
     [
         ("gain_break_point", {"max_contouring": "5000", "gain": "1"}, "5"),
         ("gain_break_point", {"max_contouring": "5000", "gain": "0,5"}, "10"),  # a decimal comma
-        ("synchronized_speed", {"requested": "1500", "controlling": "1000, 3000", "follower": "1800,3200"}, "1800"),
-        ("synchronized_speed", {"requested": "1500", "controlling": "1000, 3000", "follower": "100,300"}, "none"),
+        (
+            "synchronized_speed",
+            {"requested": "1500", "controlling": "1000, 3000", "follower": "1800,3200"},
+            "1800",
+        ),
+        (
+            "synchronized_speed",
+            {"requested": "1500", "controlling": "1000, 3000", "follower": "100,300"},
+            "none",
+        ),
         ("inside_zone", {"position": "5, 5", "limits": "[0, 10], [0, 10]"}, "yes"),
         ("sercos_cycles", {"scan_ms": "6"}, "1, 2, 3, 6"),
     ],
-)  # fmt: skip
+)
 def test_a_formula_is_worked_out(name: str, texts: dict[str, str], expected: str) -> None:
     """Pages 7-22, 14-2, 6-4 and 7-4."""
     assert shown_result(calculate("9pc", name, texts)) == expected
@@ -75,11 +83,22 @@ def test_the_verb_lists_tells_and_works_out(capsys: pytest.CaptureFixture[str]) 
 
 
 EXAMPLES = {
-    "float": "1", "int": "1", "bool": "yes", "str": "X", "tuple[float, float]": "0,1", "Sequence[float]": "1,2",
-    "Sequence[tuple[float, float]]": "[1,2],[3,4]", "Iterable[float]": "1,2", "Sequence[str]": "X,X,Y",
-    "Sequence[str | None]": "X0 1,none", "Iterable[tuple[str, float]]": "[REAL,1],[INT,4]", "float | None": "none",
-    "Literal['leading', 'trailing']": "leading", "Sequence[Sequence[float]]": "[1,2],[3]", "Sequence[float | None]": "1,none",
-}  # fmt: skip
+    "float": "1",
+    "int": "1",
+    "bool": "yes",
+    "str": "X",
+    "tuple[float, float]": "0,1",
+    "Sequence[float]": "1,2",
+    "Sequence[tuple[float, float]]": "[1,2],[3,4]",
+    "Iterable[float]": "1,2",
+    "Sequence[str]": "X,X,Y",
+    "Sequence[str | None]": "X0 1,none",
+    "Iterable[tuple[str, float]]": "[REAL,1],[INT,4]",
+    "float | None": "none",
+    "Literal['leading', 'trailing']": "leading",
+    "Sequence[Sequence[float]]": "[1,2],[3]",
+    "Sequence[float | None]": "1,none",
+}
 """Type of an argument -> how it is written."""
 
 

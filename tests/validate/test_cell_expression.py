@@ -1,4 +1,6 @@
-"""What is typed for a value may be an expression: exact, bounded, and never of another quantity than the value."""
+"""What is typed for a value may be an expression: exact, bounded,
+and never of another quantity than the value.
+"""
 
 from __future__ import annotations
 
@@ -137,9 +139,12 @@ def test_a_value_that_is_not_set_is_not_0(file: ParameterFile) -> None:
 
 def test_a_whole_number_is_not_rounded_in_silence(file: ParameterFile) -> None:
     counts = next(
-        (p.id, i) for p in file.schema.parameters.values() if p.type == "integer" and not p.choices
-        for i in file.machine_schema.instances(p) if not file.schema.units_of(p)[0]
-    )  # fmt: skip
+        (p.id, i)
+        for p in file.schema.parameters.values()
+        if p.type == "integer" and not p.choices
+        for i in file.machine_schema.instances(p)
+        if not file.schema.units_of(p)[0]
+    )
     assert typed(file, "=4096*2", counts).value == Value(8192)
     with pytest.raises(InvalidValueError, match=r"result is 0.5: use round\(…\)"):
         typed(file, "=1/2", counts)

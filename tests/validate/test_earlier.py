@@ -1,4 +1,6 @@
-"""A value that became ten times itself, or its negative, since the file was another one is asked about; nothing else is."""
+"""A value that became ten times itself, or its negative, since the file was another one is asked about;
+nothing else is.
+"""
 
 from __future__ import annotations
 

@@ -35,8 +35,15 @@ def test_the_values_stand_in_the_place_of_the_names(mill) -> None:
 
 def rule(**words: object) -> Rule:
     """Return a rule of a builder's own about the rapid feedrate."""
-    given = {"id": "own.rule", "title": "Own", "severity": "warning", "reads": {"rapid": "feedrate.rapid"},
-             "check": "rapid < 1.0", "message": "no", "page": "1"}  # fmt: skip
+    given = {
+        "id": "own.rule",
+        "title": "Own",
+        "severity": "warning",
+        "reads": {"rapid": "feedrate.rapid"},
+        "check": "rapid < 1.0",
+        "message": "no",
+        "page": "1",
+    }
     return Rule.model_validate(given | words)
 
 
@@ -54,10 +61,21 @@ def test_only_a_plain_comparison_has_two_sides(mill, check: str) -> None:
 
 
 def test_lists_choices_and_words_of_the_machine_are_put_in(mill) -> None:
-    told = why(mill, "own.rule", BuilderRules((rule(
-        reads={"types": "axis.type@*", "type": "axis.type@1"},
-        check="machine == 'lathe' && type == 'type' && types.exists(t, t == 'none') // in two\n|| false",
-    ),)))  # fmt: skip
+    told = why(
+        mill,
+        "own.rule",
+        BuilderRules(
+            (
+                rule(
+                    reads={"types": "axis.type@*", "type": "axis.type@1"},
+                    check=(
+                        "machine == 'lathe' && type == 'type' && types.exists(t, t == 'none') // in two\n||"
+                        " false"
+                    ),
+                ),
+            )
+        ),
+    )
     assert told.with_values.startswith("mill == 'lathe' && 'linear' == 'type' && ['linear', ")
     assert told.with_values.endswith("].exists(t, t == 'none') || false")
 
@@ -75,7 +93,9 @@ def test_values_that_are_not_set_are_listed(mill) -> None:
 
 
 def test_an_inactive_value_is_shown_with_the_word_for_its_state_and_the_reason(mill) -> None:
-    """Axis 3 has a linear scale and so no reversal error; the code of the state is 'unusable', which nobody reads."""
+    """Axis 3 has a linear scale and so no reversal error; the code of the state is 'unusable',
+    which nobody reads.
+    """
     own = rule(reads={"reversal": "servo.reversal_error"}, check="reversal < 0.0", any_state=["reversal"])
     validator = Validator(mill, BuilderRules((own,)))
     (finding,) = (f for f in validator.run() if (f.rule, f.instance) == ("own.rule", "3"))

@@ -36,13 +36,19 @@ def checked(text: str) -> ExpressionCheck:
     ("text", "said"),
     [
         ("n + 1", "'n + 1' mixes a whole number with a decimal one: write 1.0"),
-        ("n * size(many)", "'n * size(many)' mixes a whole number with a decimal one: write double(size(many))"),
+        (
+            "n * size(many)",
+            "'n * size(many)' mixes a whole number with a decimal one: write double(size(many))",
+        ),
         ("n % 2.0", "'%' takes whole numbers only: write mod(n, 2.0)"),
         ("'n is ' + n", "'n is ' is a text, and '+' cannot use it here: write string(...) around the number"),
         ("-t", "'t' is a text, and '-' cannot use it here"),
         ("n == 'x'", "'n' is a number and never equals 'x', a text"),
         ("n < 'x'", "'n' is a number and cannot be compared with 'x', a text"),
-        ("on == 'yes'", "'on' is true or false and never equals 'yes', a text: compare it with true or false"),
+        (
+            "on == 'yes'",
+            "'on' is true or false and never equals 'yes', a text: compare it with true or false",
+        ),
         ("n in ['x']", "'n' is a number and never equals what is in '['x']', a text"),
         ("n in t", "'in' needs a list, and 't' is a text"),
         ("n && on", "'n' is a number, where true or false is wanted"),
@@ -57,7 +63,7 @@ def checked(text: str) -> ExpressionCheck:
         ("t.matches('(?x)a')", "a pattern may begin groups with '(?:' and '(?i)' and no other '(?'"),
         ("m > 1.0 || many.all(m, true)", "'m' is not read: add it under reads, or did you mean 'n'?"),
     ],
-)  # fmt: skip
+)
 def test_what_can_never_be_meant_is_told(text: str, said: str) -> None:
     (slip,) = checked(text).slips
     assert slip.removesuffix("?").split(", or")[0] == said.removesuffix("?").split(", or")[0]
@@ -122,9 +128,7 @@ def test_the_cost_is_no_less_than_what_it_takes(text: str) -> None:
 # ------------------------------------------------------------------------------------- the rules we deliver
 
 DELIVERED = [(family, rule) for family in family_ids() for rule in load_schema(family).rules]
-LARGE = {
-    "syntec.mpg.axis-missing": "the pattern of matches must be written out",
-}
+LARGE = {"syntec.mpg.axis-missing": "the pattern of matches must be written out"}
 """What our own rules may do and a builder's may not: a pattern that is worked out."""
 
 
@@ -187,7 +191,9 @@ ABSURD = (
 
 @pytest.mark.parametrize("family", family_ids())
 def test_no_function_for_rules_takes_long_or_much_whatever_it_is_given(family: str) -> None:
-    """A field of 10^10 bits, a round to 10^9 places, a text times a billion: each is refused, or is quick and small."""
+    """A field of 10^10 bits, a round to 10^9 places, a text times a billion: each is refused,
+    or is quick and small.
+    """
     for name, function in rule_functions(family).items():
         most = _functions(family)[name].most
         start = time.process_time()

@@ -85,7 +85,7 @@ def test_an_expression_is_read_as_the_engine_reads_it(text: str, tree: str) -> N
         ("'''three'''", "'three' behind '' makes no sense"),
         ("'\ud800'", "'\\ud800' is no text"),
     ],
-)  # fmt: skip
+)
 def test_a_slip_is_told_in_plain_words(text: str, said: str) -> None:
     assert told(text) == said
 
@@ -147,10 +147,56 @@ def test_every_rule_that_we_deliver_is_read() -> None:
 
 
 PIECES = st.sampled_from(
-    ["a", "b", "1", "2.5", "'x'", '"y"', "(", ")", "[", "]", "{", "}", ",", ":", "?", ".", "+", "-", "*", "/", "%", "!",
-     "&&", "||", "==", "!=", "<", "<=", "in", "true", "null", "size", "all", ".all(x, ", "'", "\\", "//", "\n", " ", "0x",
-     "e5", "r", "`", ";", "é", "\0", "in"]
-)  # fmt: skip
+    [
+        "a",
+        "b",
+        "1",
+        "2.5",
+        "'x'",
+        '"y"',
+        "(",
+        ")",
+        "[",
+        "]",
+        "{",
+        "}",
+        ",",
+        ":",
+        "?",
+        ".",
+        "+",
+        "-",
+        "*",
+        "/",
+        "%",
+        "!",
+        "&&",
+        "||",
+        "==",
+        "!=",
+        "<",
+        "<=",
+        "in",
+        "true",
+        "null",
+        "size",
+        "all",
+        ".all(x, ",
+        "'",
+        "\\",
+        "//",
+        "\n",
+        " ",
+        "0x",
+        "e5",
+        "r",
+        "`",
+        ";",
+        "é",
+        "\0",
+        "in",
+    ]
+)
 
 
 @settings(max_examples=examples(400))

@@ -1,4 +1,6 @@
-"""Whether values break a rule is what the engine makes of "it applies and is not satisfied", however it is worked out."""
+"""Whether values break a rule is what the engine makes of "it applies and is not satisfied",
+however it is worked out.
+"""
 
 from __future__ import annotations
 
@@ -37,9 +39,15 @@ VALUES: tuple[float | None, ...] = (0.0, 3.0, 5.0, None)
 
 def rule(when: str, check: str) -> Rule:
     return Rule(
-        id="any.rule", title="T", severity="error", reads={"a": "any.a", "b": "any.b"},
-        when=when, check=check, message="Broken.", page="1-1",
-    )  # fmt: skip
+        id="any.rule",
+        title="T",
+        severity="error",
+        reads={"a": "any.a", "b": "any.b"},
+        when=when,
+        check=check,
+        message="Broken.",
+        page="1-1",
+    )
 
 
 def by_the_engine(when: str, check: str, a: float | None, b: float | None, instance: str) -> bool | None:

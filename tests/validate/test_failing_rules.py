@@ -1,4 +1,6 @@
-"""A builder's rule that ends in an error with the values of a file reports it with its line: it is not taken for one that is satisfied."""
+"""A builder's rule that ends in an error with the values of a file reports it with its line:
+it is not taken for one that is satisfied.
+"""
 
 from __future__ import annotations
 
@@ -18,8 +20,8 @@ def checked(
 ) -> Validator:
     """Return a validator with one rule of a builder's, in line 3 of its file."""
     (folder / "rules.yaml").write_text(
-        f"# of this machine\nrules:\n  - id: builder.own\n    title: T\n    severity: warning\n"
-        f"    reads: {{{reads}}}\n    optional: [rapid]\n    check: \"{check}\"\n    message: 'Rapid {{rapid}}.'\n",
+        "# of this machine\nrules:\n  - id: builder.own\n    title: T\n    severity: warning\n    reads:"
+        f" {{{reads}}}\n    optional: [rapid]\n    check: \"{check}\"\n    message: 'Rapid {{rapid}}.'\n",
         encoding="utf-8",
     )
     return Validator(mill, rules_beside(folder / "mill.amp", mill))
@@ -43,8 +45,8 @@ def test_a_check_that_fails_with_the_values_is_an_error_with_its_line(
     mill: ParameterFile, tmp_path: Path, check: str
 ) -> None:
     (said,) = told(checked(mill, tmp_path, check).run())
-    assert said == (
-        "rules.yaml, line 3: builder.own: it cannot be calculated with rapid = 12000 mm/min: "
+    assert (
+        said == "rules.yaml, line 3: builder.own: it cannot be calculated with rapid = 12000 mm/min: "
         "a number is too large, divided by zero or no number."
     )
 

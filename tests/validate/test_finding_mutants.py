@@ -1,9 +1,9 @@
 """The fixes and figures of a rule are in the tables of cases too: changed in one place, a case notices it.
 
-Of every rule of every family the expressions of its fixes, of what the control uses instead and of the figures in its
-message are changed as ``test_rule_mutants.py`` changes what decides. A case notices by its ``fix``, ``effective``
-and ``message``; also, as ``test_rules.py`` does, when there is no longer a fix, or one that should
-not be there, or when what the control uses instead breaks the rule as well.
+Of every rule of every family the expressions of its fixes, of what the control uses instead and of the
+figures in its message are changed as ``test_rule_mutants.py`` changes what decides. A case notices by its
+``fix``, ``effective`` and ``message``; also, as ``test_rules.py`` does, when there is no longer a fix, or one
+that should not be there, or when what the control uses instead breaks the rule as well.
 """
 
 from __future__ import annotations
@@ -29,7 +29,8 @@ PARTS = {"fix": "fixes", "effective": "effective", "values": "values"}
 """Part of a rule -> the field of its compiled expressions."""
 
 EQUIVALENT: Mapping[str, Mapping[str, str]] = read(HERE / "equivalent_finding_mutants.yaml")
-"""Rule -> a piece of a mutant's text, which the rule itself does not have -> why it means the same as the rule."""
+"""Rule -> a piece of a mutant's text, which the rule itself does not have -> why it means the same as the
+rule."""
 
 CHOICE = re.compile(r"'([^']*)'")
 
@@ -81,7 +82,9 @@ def mutants_of(rule: Rule) -> Iterator[Mutant]:
 
 
 def other_values(rule: Rule, part: str, name: str, text: str) -> Iterator[tuple[str, str]]:
-    """Yield an expression that gives another value of the parameter to be set, and what was changed for it."""
+    """Yield an expression that gives another value of the parameter to be set, and what was changed for
+    it.
+    """
     if part == "values" or not EVERY_MUTANT:
         return
     family = load_schema(rule.id.partition(".")[0])

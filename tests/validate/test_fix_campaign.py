@@ -1,4 +1,6 @@
-"""Random machines of every family: each offered fix mends its finding, brings nothing as severe, and fixing comes to an end."""
+"""Random machines of every family: each offered fix mends its finding, brings nothing as severe,
+and fixing comes to an end.
+"""
 
 from __future__ import annotations
 

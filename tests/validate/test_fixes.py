@@ -19,11 +19,23 @@ def rule(
     name: str, severity: str, check: str, *fix: tuple[str, str], safe: bool = False, **more: object
 ) -> Rule:
     """Return a rule of a builder's own about rapid and cutting feedrate of axis 1."""
-    return Rule.model_validate({
-        "id": name, "title": name, "severity": severity, "check": check, "message": "{rapid}", "page": "1-1",
-        "reads": {"rapid": "feedrate.rapid@1", "cutting": "feedrate.max_cutting@1", "excess": "servo.excess_error@1"},
-        "fix": [{"set": set_, "value": value, "safe": safe} for set_, value in fix], **more,
-    })  # fmt: skip
+    return Rule.model_validate(
+        {
+            "id": name,
+            "title": name,
+            "severity": severity,
+            "check": check,
+            "message": "{rapid}",
+            "page": "1-1",
+            "reads": {
+                "rapid": "feedrate.rapid@1",
+                "cutting": "feedrate.max_cutting@1",
+                "excess": "servo.excess_error@1",
+            },
+            "fix": [{"set": set_, "value": value, "safe": safe} for set_, value in fix],
+            **more,
+        }
+    )
 
 
 def offered(file: ParameterFile, *own: Rule, suppressed: str = "") -> dict[str, list[Value]]:
@@ -37,7 +49,8 @@ def mm(number: float) -> Value:
     return Value(number, "mm/min")
 
 
-# ---------------------------------------------------------------------------------------------- what is offered
+# ---------------------------------------------------------------------------------------------- what is
+# offered
 
 
 @pytest.mark.parametrize(
@@ -185,7 +198,9 @@ def test_a_bound_in_another_unit_is_rounded_inwards(mill) -> None:
 
 @pytest.mark.parametrize(("suppression", "mended"), [(11.5, 10.5), (12.0, 10.5)])
 def test_suppression_is_not_put_below_the_following_error_at_rapid(mill, suppression, mended) -> None:
-    """With a rapid of 10 m/min and gain 1 the axis trails by 10 mm; a tenth below 11 mm would be 9.9 mm; 5 % over it are left."""
+    """With a rapid of 10 m/min and gain 1 the axis trails by 10 mm; a tenth below 11 mm would be 9.9 mm;
+    5 % over it are left.
+    """
     mill.set(RAPID, mm(10000.0))
     mill.set(EXCESS, Value(11.0, "mm"))
     mill.set(SUPPRESSION, Value(suppression, "mm"))
@@ -199,7 +214,8 @@ def test_suppression_is_not_put_below_the_following_error_at_rapid(mill, suppres
     assert [f for f in validator.findings() if not f.rule.startswith(("schema.unset", "plausible."))] == []
 
 
-# ---------------------------------------------------------------------------------------------- one after the other
+# ---------------------------------------------------------------------------------------------- one after the
+# other
 
 
 def findings_of(validator: Validator) -> list[str]:

@@ -1,4 +1,6 @@
-"""Fixes that a person would make: one that brings a warning comes last, and no speed is cut to what another value is to blame for."""
+"""Fixes that a person would make: one that brings a warning comes last,
+and no speed is cut to what another value is to blame for.
+"""
 
 from __future__ import annotations
 
@@ -23,8 +25,8 @@ def mill(checkout: Path) -> ParameterFile:
 def rules(tmp_path: Path, mill: ParameterFile, *given: tuple[str, str, str, str]) -> BuilderRules:
     """Return rules on the rapid of X: id, severity, check, and the rapid that their fix sets."""
     entries = [
-        f"- {{id: own.{name}, title: a, severity: {severity}, reads: {{rapid: feedrate.rapid@X}}, check: {check}, "
-        f"message: 'rule {name}'" + (f", fix: [{{set: rapid, value: {fix!r}}}]}}" if fix else "}")
+        f"- {{id: own.{name}, title: a, severity: {severity}, reads: {{rapid: feedrate.rapid@X}}, check:"
+        f" {check}, message: 'rule {name}'" + (f", fix: [{{set: rapid, value: {fix!r}}}]}}" if fix else "}")
         for name, severity, check, fix in given
     ]
     path = tmp_path / "rules.yaml"

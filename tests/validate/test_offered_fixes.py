@@ -1,7 +1,8 @@
-"""Whatever fix is offered in any state that the tables of cases bring about keeps its promises, whosever it is.
+"""Whatever fix is offered in any state that the tables of cases bring about keeps its promises,
+whosever it is.
 
-Applied alone it is within range, ends its finding and brings nothing as severe; and one that is marked as safe sets
-what the control uses anyway, or what no motion depends on.
+Applied alone it is within range, ends its finding and brings nothing as severe; and one that is marked as
+safe sets what the control uses anyway, or what no motion depends on.
 """
 
 from __future__ import annotations
@@ -15,7 +16,9 @@ from rule_machines import FAMILIES, Case, cases
 from amp_studio.schema import fault, load_schema
 
 NO_MOTION = {
-    "57c422b.interrupt.source-in-file": "what the module writes about an interrupt, for the application to clear",
+    "57c422b.interrupt.source-in-file": (
+        "what the module writes about an interrupt, for the application to clear"
+    ),
     "9pc.servo.tables-without-motor": "the tables are of standard motors, and there is none",
     "9pc.oci.transfer-below-monitor": "how often a screen is told of changes",
     "9pc.patch.third-spindle": "the 9/PC has no third spindle",

@@ -80,8 +80,10 @@ def seen(schema: Schema, reads: dict[str, str], machine: str = "mill") -> dict[s
     """Return instance -> name -> the instances a rule reads there."""
     evaluation = Evaluation(schema, lambda _: None, lambda: machine)
     return {
-        check.instance: {s.name: s.address[1] for s in check.singles}
-        | {name: [a[1] for a in listed.addresses] for name, listed in check.lists}
+        check.instance: (
+            {s.name: s.address[1] for s in check.singles}
+            | {name: [a[1] for a in listed.addresses] for name, listed in check.lists}
+        )
         for check in checks_of(evaluation, (rule(reads),))
     }
 
@@ -208,10 +210,7 @@ LENGTH = {"length": "axis.length"}
         (rule(LENGTH, "lenght > 1.0"), "check names 'lenght', which it does not read"),
         (rule(LENGTH, when="kind == 'moving'"), "when names 'kind', which it does not read"),
         (rule(LENGTH, "maximum(length, 1.0) > 1.0"), "check calls 'maximum', which is no function"),
-        (
-            rule(LENGTH, values={"twice": "size * 2.0"}),
-            "value twice names 'size', which it does not read",
-        ),
+        (rule(LENGTH, values={"twice": "size * 2.0"}), "value twice names 'size', which it does not read"),
         (
             rule(LENGTH, fix=[{"set": "length", "value": "other"}]),
             "fix of length names 'other', which it does not read",
@@ -254,7 +253,9 @@ def test_two_rules_of_one_name_are_refused(small) -> None:
 
 
 def test_what_a_rule_may_say(small) -> None:
-    """Names of lists, of the machine and the instance, types and functions of CEL, and a comment at the end."""
+    """Names of lists, of the machine and the instance, types and functions of CEL, and a comment at the
+    end.
+    """
     own = rule(
         {"lengths": "axis.length@*", "length": "axis.length"},
         "lengths.all(l, l == null || min(l, 2.0) < 3.0) // of every axis",

@@ -1,4 +1,6 @@
-"""What no manual prints: like axes, usual figures, smooth tables, rows and axis words. All of it is a recommendation."""
+"""What no manual prints: like axes, usual figures, smooth tables, rows and axis words.
+All of it is a recommendation.
+"""
 
 from __future__ import annotations
 

@@ -42,8 +42,8 @@ def test_a_range_is_checked_in_the_unit_of_entry(mill) -> None:
 def test_a_bound_that_another_parameter_sets_is_named(mill) -> None:
     mill.set(CUTTING, Value(12000.00001, "mm/min"))
     finding = the(mill, "schema.range")
-    assert finding.message == (
-        "Maximum Cutting Feedrate 12000.00001 mm/min is outside 0 to 12000 mm/min "
+    assert (
+        finding.message == "Maximum Cutting Feedrate 12000.00001 mm/min is outside 0 to 12000 mm/min "
         "(set by 1203 Rapid Feedrate for Positioning, 12000 mm/min)."
     )
     assert finding.fix == (Setting(CUTTING, Value(12000.0, "mm/min")),)
@@ -57,7 +57,9 @@ def test_a_bound_that_moves_is_noticed(mill) -> None:
 
 
 def test_a_code_without_a_choice_is_an_error_that_no_default_mends(mill) -> None:
-    """Nobody but the control knows what the code does: a default in its place may turn an axis the other way."""
+    """Nobody but the control knows what the code does: a default in its place may turn an axis the other
+    way.
+    """
     mill.set(("servo.sercos_baud", ""), Value("raw:999"))
     assert the(mill, "schema.choice") == Finding(
         rule="schema.choice",
@@ -153,6 +155,7 @@ def test_a_fix_that_would_be_wrong_too_is_not_offered(mill) -> None:
 
 def test_a_value_set_out_of_range_on_purpose_says_so(mill) -> None:
     mill.set_many({EXCESS: Value(500.0, "mm")}, force="by J. Fitter on 2026-07-01")
-    assert the(mill, "schema.range").message == (
-        "Excess Error 500 mm is outside 0 to 214.1 mm. It was forced by J. Fitter on 2026-07-01."
+    assert (
+        the(mill, "schema.range").message
+        == "Excess Error 500 mm is outside 0 to 214.1 mm. It was forced by J. Fitter on 2026-07-01."
     )

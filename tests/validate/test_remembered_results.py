@@ -1,4 +1,6 @@
-"""What is remembered across files changes no finding: not the order of files, not another schema, not another rule."""
+"""What is remembered across files changes no finding: not the order of files, not another schema,
+not another rule.
+"""
 
 from __future__ import annotations
 
@@ -9,14 +11,7 @@ from rule_machines import FAMILIES, cases
 
 from amp_studio.files import ParameterFile
 from amp_studio.schema import Value, conditions
-from amp_studio.schema.expression import (
-    MOST_REMEMBERED,
-    Circumstances,
-    Decision,
-    Remembered,
-    key_of,
-    program,
-)
+from amp_studio.schema.expression import MOST_REMEMBERED, Circumstances, Decision, Remembered, key_of, program
 from amp_studio.schema.model import BuilderRule
 from amp_studio.validate import BuilderRules, Validator, plan, ranges
 

@@ -1,4 +1,6 @@
-"""A file of a builder's rules costs in proportion to its length, and no rule in it can take the program down."""
+"""A file of a builder's rules costs in proportion to its length, and no rule in it can take the program
+down.
+"""
 
 from __future__ import annotations
 
@@ -98,7 +100,9 @@ def test_rules_that_together_take_too_long_are_left_out_one_by_one(mill, path: P
 def test_of_very_many_fixes_the_first_are_tried_and_the_others_when_these_are_made(
     mill, path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    """Each trial asks all rules that read the value, so trying them all would take the square of their number."""
+    """Each trial asks all rules that read the value,
+    so trying them all would take the square of their number.
+    """
     monkeypatch.setattr(trial, "MOST_STEPS", 300_000)
     path.write_text("rules:\n" + "".join(rule(n) for n in range(10)), encoding="utf-8")
     validator = Validator(mill, read_builder_rules(path, mill.schema))
@@ -172,7 +176,9 @@ def test_the_work_grows_with_the_number_of_rules_and_not_with_its_square(mill, p
 
 @pytest.mark.parametrize("family", FAMILIES)
 def test_no_rule_filters_a_table_of_thousands(family: str) -> None:
-    """The engine copies what ``filter`` and ``map`` have so far for each value: count_set() and the like do not."""
+    """The engine copies what ``filter`` and ``map`` have so far for each value: count_set()
+    and the like do not.
+    """
     schema = load_schema(family)
     slow = {
         check.rule.id

@@ -1,9 +1,10 @@
 """The tables of cases are sharp: a rule changed in one place no longer gives what they say.
 
-Of every rule of every family the check is negated, the guard left out, every comparison flipped, every "and" made an "or" and the other
-way round, and every "not" left out. The full run (``make mutants``) also replaces every choice and number, turns every
-sum, product, quantifier and truth value into its opposite, and leaves out every operand of "and" and "or". What is
-alive at the end is in ``equivalent_mutants.yaml``, with the reason why no case can distinguish it.
+Of every rule of every family the check is negated, the guard left out, every comparison flipped, every "and"
+made an "or", every "or" an "and", and every "not" left out. The full run (``make mutants``) also replaces
+every choice and number, turns every sum, product, quantifier and truth value into its opposite, and leaves
+out every operand of "and" and "or". What is alive at the end is in ``equivalent_mutants.yaml``, with the
+reason why no case can distinguish it.
 """
 
 from __future__ import annotations
@@ -20,7 +21,8 @@ from amp_studio.validate.plan import RuleCheck, checks_of
 from amp_studio.validate.rules import RuleChecks
 
 EQUIVALENT: Mapping[str, Mapping[str, str]] = read(HERE / "equivalent_mutants.yaml")
-"""Rule -> a piece of a mutant's text, which the rule itself does not have -> why it means the same as the rule."""
+"""Rule -> a piece of a mutant's text, which the rule itself does not have -> why it means the same as the
+rule."""
 
 
 @dataclass(frozen=True)

@@ -1,4 +1,5 @@
-"""Every rule of every family is broken by the change of its table, not by the one beside it, and its fix ends the finding.
+"""Every rule of every family is broken by the change of its table, not by the one beside it,
+and its fix ends the finding.
 
 The tables are in ``rule_cases/``; the machines they change are in ``sound_machines/``.
 """
@@ -42,7 +43,9 @@ def test_a_rule_does_what_its_cases_list(rule: str) -> None:
 
 
 def failures(case: Case, checks: Iterable[Check]) -> Iterator[Exception]:
-    """Yield what fails while the change of a case is made: every check is tried, whatever becomes of another."""
+    """Yield what fails while the change of a case is made: every check is tried, whatever becomes of
+    another.
+    """
     for check in checks:
         try:
             check(case)

@@ -1,4 +1,6 @@
-"""What is found about a secret is shown without it: in messages, reasons and fixes, a builder's own rules too."""
+"""What is found about a secret is shown without it: in messages, reasons and fixes,
+a builder's own rules too.
+"""
 
 from __future__ import annotations
 
@@ -28,14 +30,22 @@ def told(file: ParameterFile, rule: str, own: BuilderRules = BuilderRules()) -> 
     findings = [f for f in validator.run() if f.rule == rule]
     assert findings
     return "\n".join(
-        f"{finding_text(file, f)} {json.dumps(finding_json(file, f))} {why_text(file, f, explain(validator, f))}"
+        f"{finding_text(file, f)} {json.dumps(finding_json(file, f))}"
+        f" {why_text(file, f, explain(validator, f))}"
         for f in findings
     )
 
 
 def rule(**words: object) -> BuilderRules:
-    given = {"id": "own.rule", "title": "Own", "severity": "warning", "message": "no", "page": "1", "check": "code < 1.0",
-             "reads": {"code": "password.character@1", "other": "home.calibration@1"}}  # fmt: skip
+    given = {
+        "id": "own.rule",
+        "title": "Own",
+        "severity": "warning",
+        "message": "no",
+        "page": "1",
+        "check": "code < 1.0",
+        "reads": {"code": "password.character@1", "other": "home.calibration@1"},
+    }
     return BuilderRules((Rule.model_validate(given | words),))
 
 
@@ -50,15 +60,18 @@ def test_no_password_that_nobody_chose_is_offered(mill) -> None:
     assert finding.fix == ()
 
 
-@pytest.mark.parametrize("words", [
-    {"message": "{code}"},
-    {"message": "{twice}", "values": {"twice": "code * 2.0"}},
-    {"message": "{digits}", "values": {"digits": "string(int(code))"}},
-    {"fix": [{"set": "other", "value": "code"}], "check": "other == code"},
-    {"effective": [{"set": "other", "value": "code"}]},
-    {"check": "code * 1.0 < other + 0.0"},
-    {"reads": {"all": "password.character@*"}, "message": "{all}", "check": "all[0] < 1.0"},
-])  # fmt: skip
+@pytest.mark.parametrize(
+    "words",
+    [
+        {"message": "{code}"},
+        {"message": "{twice}", "values": {"twice": "code * 2.0"}},
+        {"message": "{digits}", "values": {"digits": "string(int(code))"}},
+        {"fix": [{"set": "other", "value": "code"}], "check": "other == code"},
+        {"effective": [{"set": "other", "value": "code"}]},
+        {"check": "code * 1.0 < other + 0.0"},
+        {"reads": {"all": "password.character@*"}, "message": "{all}", "check": "all[0] < 1.0"},
+    ],
+)
 def test_a_rule_that_reads_a_password_does_not_tell_it(mill, words: dict[str, object]) -> None:
     said = told(mill, "own.rule", rule(**words))
     assert "7654321" not in said

@@ -1,4 +1,6 @@
-"""Slips of one value in the sound examples: what share of them brings a new finding. ``make slips`` plants all of them."""
+"""Slips of one value in the sound examples: what share of them brings a new finding.
+``make slips`` plants all of them.
+"""
 
 from __future__ import annotations
 

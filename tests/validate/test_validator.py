@@ -53,9 +53,10 @@ def test_values_that_are_not_set_are_one_piece_of_advice(mill) -> None:
     (advice,) = (f for f in validator.update(taken) if f.rule == "schema.unset")
     assert (advice.severity, advice.fix, advice.page) == ("advice", (), None)
     assert advice.addresses == tuple(reversed(taken))
-    assert advice.message == (
-        "3 active parameters have no value here, so the control keeps its own: 1310 Axis Position After Homing, "
-        "2310 Axis Position After Homing, 3310 Axis Position After Homing."
+    assert (
+        advice.message
+        == "3 active parameters have no value here, so the control keeps its own: 1310 Axis Position After"
+        " Homing, 2310 Axis Position After Homing, 3310 Axis Position After Homing."
     )
     for address in taken[1:]:
         mill.set(address, Value(1.0, "mm"))
@@ -87,8 +88,10 @@ def test_entries_of_an_unknown_parameter_are_named(mill) -> None:
     assert (finding.severity, finding.addresses) == ("warning", ())
     assert finding.message == "servo.nonsense@1 is no parameter of this schema; it is kept as it is."
     mill.unknown["home.nonsense"] = "6"
-    assert the(mill, "schema.unknown").message == (
-        "2 entries are no parameters of this schema; they are kept as they are: servo.nonsense@1, home.nonsense."
+    assert (
+        the(mill, "schema.unknown").message
+        == "2 entries are no parameters of this schema; they are kept as they are: servo.nonsense@1,"
+        " home.nonsense."
     )
 
 
@@ -99,9 +102,10 @@ def test_a_finding_of_a_rule_has_its_values_page_and_fix(mill) -> None:
     mill.set(EXCESS, Value(11.0, "mm"))
     mill.set(("servo.feedrate_suppression", "1"), Value(11.0, "mm"))
     finding = the(mill, "9pc.servo.excess-below-following-error")
-    assert finding.message == (
-        "At rapid 12000 mm/min the axis trails its command by 12 mm, more than Excess Error 11 mm allows: rapid moves "
-        "end in E-Stop with EXCESS FOLLOWING ERROR. The smallest sensible value is 13.2 mm."
+    assert (
+        finding.message
+        == "At rapid 12000 mm/min the axis trails its command by 12 mm, more than Excess Error 11 mm allows:"
+        " rapid moves end in E-Stop with EXCESS FOLLOWING ERROR. The smallest sensible value is 13.2 mm."
     )
     assert (finding.page, finding.severity, finding.safe) == ("7-20", "error", False)
     suppression_stays_off = Setting(("servo.feedrate_suppression", "1"), Value(13.2, "mm"))

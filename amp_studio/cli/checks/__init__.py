@@ -1,1 +1,3 @@
-"""What the verbs about findings and differences share: formats, results that are kept, differences in words."""
+"""What the verbs about findings and differences share: formats, results that are kept, differences in
+words.
+"""

@@ -1,9 +1,11 @@
-"""What ``validate`` printed of files, kept between runs: a file is not checked again while nothing has changed that its result depends on.
+"""What ``validate`` printed of files, kept between runs: a file is not checked again while nothing has
+changed that its result depends on.
 
-A result is found by a digest over all that it depends on: this program with its facts, Python and the installed packages; what
-was asked for; the file, the rules beside it and what it is compared with. There is one database for each state of the program, in
-the user's cache folder. Its content is never trusted: a result that is not as it was kept is made again, as is a database that another program
-wrote or that cannot be read. A cache that cannot be written costs time only.
+A result is found by a digest over all that it depends on: this program with its facts, Python and the
+installed packages; what was asked for; the file, the rules beside it and what it is compared with. There is
+one database for each state of the program, in the user's cache folder. Its content is never trusted: a result
+that is not as it was kept is made again, as is a database that another program wrote or that cannot be read.
+A cache that cannot be written costs time only.
 """
 
 from __future__ import annotations
@@ -76,7 +78,8 @@ class CheckCache:
             content = read_file(path)
             folder, name = self._folder(os.fspath(path.parent)), path.name
             if folder.links.get(name, True) or len(name) > _LONG_NAME:
-                # A link leads to another folder; a name that is not listed may be another spelling of one that is.
+                # A link leads to another folder; a name that is not listed may be another spelling of one
+                # that is.
                 real = real_path(path)
                 beside = [self._companion(os.fspath(other)) for other in companions_of(path)]
             else:
@@ -110,7 +113,9 @@ class CheckCache:
         return self._companions[path]
 
     def _rules_part(self, rules: str) -> bytes:
-        """Return what rules add to a key: their place, which findings name, and their content; raises OSError."""
+        """Return what rules add to a key: their place, which findings name, and their content;
+        raises OSError.
+        """
         if rules not in self._known_rules:
             path = Path(rules)
             self._known_rules[rules] = _digest(os.fsencode(rules), read_file(path)) if is_there(path) else b""
@@ -131,7 +136,9 @@ class CheckCache:
         return found
 
     def write(self, results: Mapping[bytes, CheckResult], used: Iterable[bytes | None]) -> None:
-        """Keep results; of a database that has become large, only those and the ones that were ``used`` stay."""
+        """Keep results; of a database that has become large, only those and the ones that were ``used``
+        stay.
+        """
         if not results:
             return
         rows = [(key, _digest(key, kept), kept) for key, one in results.items() for kept in [_kept(one)]]
@@ -193,7 +200,9 @@ def _result(path: Path, kept: bytes) -> CheckResult:
 
 
 def _program_digest() -> str:
-    """Return a digest over every module and every fact, Python, and the packages that are installed with it."""
+    """Return a digest over every module and every fact, Python, and the packages that are installed with
+    it.
+    """
     contents = [part for folder in _program_folders() for part in _contents(folder)]
     sites = [Path(entry) for entry in sys.path if entry.endswith("-packages")]
     packages = sorted(path.name for site in sites for path in site.glob("*.dist-info"))
@@ -212,7 +221,9 @@ def _program_folders() -> list[Path]:
 
 
 def _contents(folder: str | Path) -> Iterator[bytes]:
-    """Yield name and content of the modules and facts of a folder, or of one module, in the order of their names."""
+    """Yield name and content of the modules and facts of a folder, or of one module,
+    in the order of their names.
+    """
     if Path(folder).is_file():
         yield os.fsencode(folder)
         yield Path(folder).read_bytes()

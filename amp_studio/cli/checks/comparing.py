@@ -85,8 +85,8 @@ def print_comparison(
         note_dangers((file, found.differences), (second, of_second))
     more = len(of_second)
     print(
-        f"{len(found.differences) + more} differ, {found.same} are the same, {found.not_set_in_a + more} not set in A, "
-        f"{found.not_set_in_b} not set in B"
+        f"{len(found.differences) + more} differ, {found.same} are the same, {found.not_set_in_a + more} not"
+        f" set in A, {found.not_set_in_b} not set in B"
     )
 
 

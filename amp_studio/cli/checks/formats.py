@@ -1,4 +1,5 @@
-"""The formats in which ``validate`` prints what it found: for a person, for programs, and for the services that check a repository.
+"""The formats in which ``validate`` prints what it found: for a person, for programs,
+and for the services that check a repository.
 
 Each gives what is printed of one file, and one document of all files.
 """
@@ -301,7 +302,9 @@ def _github_value(text: str) -> str:
 
 
 class JunitFormat(CheckFormat):
-    """JUnit's XML: a suite a file, a failed case an error; warnings and recommendations fail nothing and are its output."""
+    """JUnit's XML: a suite a file, a failed case an error;
+    warnings and recommendations fail nothing and are its output.
+    """
 
     needs_all = True
 
@@ -380,7 +383,9 @@ class _Lines:
 
 
 def uri_of(path: Path) -> str:
-    """Return the address of a file as SARIF names it: relative to the folder of the run where the file is below it."""
+    """Return the address of a file as SARIF names it:
+    relative to the folder of the run where the file is below it.
+    """
     inside = _from_here(path)
     if inside.is_absolute():
         return inside.as_uri()

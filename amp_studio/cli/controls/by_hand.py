@@ -1,4 +1,6 @@
-"""What a user reads who exchanges with a control of a family whose controls themselves cannot be spoken to."""
+"""What a user reads who exchanges with a control of a family whose controls themselves cannot be spoken
+to.
+"""
 
 from __future__ import annotations
 
@@ -12,14 +14,18 @@ from amp_studio.transfer.links import parse_endpoint
 
 
 def note_by_hand(family: str) -> None:
-    """Note that an exchange is with an emulated control or a gateway, and offer the sheet; nothing for most families."""
+    """Note that an exchange is with an emulated control or a gateway, and offer the sheet;
+    nothing for most families.
+    """
     if sentence := load_schema(family).family.by_hand:
         note(f"{sentence}: {PRINT_SHEET}. What answers here is an emulated control or a gateway.")
 
 
 @contextmanager
 def ways_offered(family: str, address: str) -> Iterator[None]:
-    """Add to the error, where nothing answers, in which other way a control is reached; ``family`` may be ""."""
+    """Add to the error, where nothing answers, in which other way a control is reached; ``family`` may be
+    "".
+    """
     try:
         yield
     except TransferError as error:

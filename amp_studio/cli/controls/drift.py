@@ -1,4 +1,6 @@
-"""``verify --all``: the known controls of a folder against their files, on one page and with one exit code for a job."""
+"""``verify --all``: the known controls of a folder against their files,
+on one page and with one exit code for a job.
+"""
 
 from __future__ import annotations
 

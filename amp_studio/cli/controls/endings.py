@@ -37,7 +37,8 @@ def note_errors(file: ParameterFile, path: Path) -> str:
 
 
 def print_outcome(outcome: Outcome) -> int:
-    """Print how an exchange ended and return the exit code; where it cannot be printed, that is no full success.
+    """Print how an exchange ended and return the exit code; where it cannot be printed,
+    that is no full success.
 
     A reader that has gone wanted no more: the exchange is as complete as it was.
     """

@@ -69,7 +69,9 @@ def _one_of_several(exchange: Exchange) -> ExchangeOf:
 
 
 def upload_several(options: Options, exchange: Exchange) -> int:
-    """Fetch what each control contains into a file of a folder, named by its address; returns the exit code of all."""
+    """Fetch what each control contains into a file of a folder, named by its address;
+    returns the exit code of all.
+    """
     folder: Path = options.output
     if not folder.is_dir():
         raise UsageError(

@@ -14,7 +14,9 @@ from amp_studio.schema import unknown_name
 
 
 def file_like(options: Options, axes: list[str]) -> ParameterFile:
-    """Return the file, and print what it does not have of the other; raises UsageError where they cannot be alike."""
+    """Return the file, and print what it does not have of the other;
+    raises UsageError where they cannot be alike.
+    """
     made = _made_like(options, axes)
     for text in _not_taken(made):
         note(text)

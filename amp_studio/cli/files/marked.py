@@ -1,4 +1,6 @@
-"""Values of a file by their marks, for ``get``: changed, with findings, unlike on the axes, newer than the last download."""
+"""Values of a file by their marks, for ``get``: changed, with findings, unlike on the axes,
+newer than the last download.
+"""
 
 from __future__ import annotations
 

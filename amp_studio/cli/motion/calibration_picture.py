@@ -42,7 +42,8 @@ def proposal_scene(proposal: Proposal, title: str) -> Scene:
         "calibration",
         proposal.axis,
         title,
-        f"error {float(proposal.span_before) * times:.4g} {unit} measured, {float(proposal.span_after) * times:.4g} {unit} expected",
+        f"error {float(proposal.span_before) * times:.4g} {unit} measured,"
+        f" {float(proposal.span_after) * times:.4g} {unit} expected",
         Scale("position", shown(proposal.unit), min(xs) - margin, max(xs) + 6 * margin),
         Scale("error", unit, min(*ys, 0.0) - room, max(*ys, 0.0) + room),
         lines=tuple(lines),

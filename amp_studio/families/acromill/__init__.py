@@ -16,9 +16,7 @@ REGISTRATION = Registration(
         "terminal-metric": "amp_studio.families.acromill.lines.driver:MetricTerminalDriver.at",
     },
     contents={"ACR script 1": "amp_studio.families.acromill.lines.content:AcrContent"},
-    emulators={
-        "terminal": "amp_studio.families.acromill.emulated.card:emulate_terminal",
-    },
+    emulators={"terminal": "amp_studio.families.acromill.emulated.card:emulate_terminal"},
     compensation="amp_studio.families.acromill.compensation:COMPENSATION",
     law="amp_studio.families.acromill.law:LAW",
     curve="amp_studio.families.acromill.curve:CURVE",

@@ -34,7 +34,10 @@ class BallscrewTable:
     starts: tuple[str, ...] = ()
     is_even = True
     decimals = 5
-    switching = "The controller uses the table once its command file was read (page 91); AcroMill NT 2.00 does not (page 86)."
+    switching = (
+        "The controller uses the table once its command file was read (page 91); AcroMill NT 2.00 does not"
+        " (page 86)."
+    )
 
     def read(self, file: ParameterFile, axis: str, text: str) -> CalibrationTable:
         """Return the table in mm; raises CalibrationError."""
@@ -45,8 +48,7 @@ class BallscrewTable:
         first = self._first(file, axis, len(figures))
         size, home, count = _unit(file), _home(file, axis), len(figures)
         return CalibrationTable(
-            "mm",
-            tuple(((n + home) * size, -figures[n % count] * size) for n in range(first, first + count)),
+            "mm", tuple(((n + home) * size, -figures[n % count] * size) for n in range(first, first + count))
         )
 
     def write(self, file: ParameterFile, axis: str, table: CalibrationTable) -> str:
@@ -72,21 +74,25 @@ class BallscrewTable:
         return CalibrationTable("mm", tuple(((n + home) * size, Fraction(0)) for n in range(low, high + 1)))
 
     def fit(self, file: ParameterFile, axis: str, errors: ErrorCurve, input_: str, start: str) -> FittedTable:  # noqa: ARG002  # other forms need them
-        """Return the words of every whole position of the travel; raises CalibrationError where it was not measured."""
+        """Return the words of every whole position of the travel;
+        raises CalibrationError where it was not measured.
+        """
         size, home = _unit(file), _home(file, axis)
         low, high = self._travel(file, axis)
         first, last = errors.points[0][0], errors.points[-1][0]
         if (low + home) * size < first or (high + home) * size > last:
             raise CalibrationError(
-                f"the table needs every whole position from {_shown((low + home) * size, size)} to "
-                f"{_shown((high + home) * size, size)}, and {_shown(first, size)} to {_shown(last, size)} was measured"
+                f"the table needs every whole position from {_shown((low + home) * size, size)} to"
+                f" {_shown((high + home) * size, size)}, and {_shown(first, size)} to {_shown(last, size)}"
+                " was measured"
             )
         positions = [(n + home) * size for n in range(low, high + 1)]
         measured = {at for at, _ in errors.points}
         notes = []
         if missing := sum(at not in measured for at in positions):
             notes.append(
-                f"{missing} of {len(positions)} whole positions were not measured and lie on the line between those that were"
+                f"{missing} of {len(positions)} whole positions were not measured and lie on the line between"
+                " those that were"
             )
         step = size / 10**self.decimals
         return FittedTable(
@@ -110,7 +116,10 @@ class BallscrewTable:
         """Return what the form of the file demands."""
         low, high = self._travel(file, axis)
         return (
-            f"A word for each whole position of the travel, {high - low + 1} here, the first one home (page 107).",
+            (
+                f"A word for each whole position of the travel, {high - low + 1} here, the first one home"
+                " (page 107)."
+            ),
             "Corrections below 1 with five decimals (page 107).",
         )
 
@@ -149,7 +158,9 @@ def _unit(file: ParameterFile) -> Fraction:
 
 
 def _home(file: ParameterFile, axis: str) -> Fraction:
-    """Return the position that the display shows at home, in whole positions; the table counts from home (page 107)."""
+    """Return the position that the display shows at home, in whole positions;
+    the table counts from home (page 107).
+    """
     value = file.evaluation.canonical(("home.preset", axis))
     return Fraction(repr(value)) / _unit(file) if isinstance(value, float) else Fraction(0)
 

@@ -20,7 +20,9 @@ def read(letter: str, text: str) -> list[Point]:
 
 
 def write(letter: str, points: Sequence[Point], _text: str, _unit: str) -> str:
-    """Return the words of points; raises ValueError for a compensation of 1 and more, for which no form is printed."""
+    """Return the words of points; raises ValueError for a compensation of 1 and more,
+    for which no form is printed.
+    """
     return ballscrew_words(letter, [compensation for _, compensation in points], 0)
 
 

@@ -1,4 +1,5 @@
-"""Binds an axis of AcroMill from a file: the gains of the Servo tab and of appendix C, and the machine behind them.
+"""Binds an axis of AcroMill from a file: the gains of the Servo tab and of appendix C,
+and the machine behind them.
 
 The only module of the law with ids of AcroMill. Pages are those of the User's Guide.
 """
@@ -64,24 +65,30 @@ _TEST_MOTOR = (
     "The control does not know its motor: taken is the bare test motor of appendix C (from page 115 on)"
 )
 _ASSUMED = {
-    "acceleration_per_output": f"{_TEST_MOTOR}, 5025126 pulses/s2 for 1 V, the reciprocal of its ACC FFwd 0.000000199.",
+    "acceleration_per_output": (
+        f"{_TEST_MOTOR}, 5025126 pulses/s2 for 1 V, the reciprocal of its ACC FFwd 0.000000199."
+    ),
     "viscous_friction": f"{_TEST_MOTOR}: its Vel FFwd 0.0000015 V for 1 pulse/s.",
-    "coulomb_friction": f"{_TEST_MOTOR}: 100 pulses of error at 500 turns a minute with P Gain 0.001, less the viscous part.",
+    "coulomb_friction": (
+        f"{_TEST_MOTOR}: 100 pulses of error at 500 turns a minute with P Gain 0.001, less the viscous part."
+    ),
     "delay": f"{_TEST_MOTOR}: with it P Gain 0.08 is stable and 0.11 is not.",
 }
 _NOTES = (
     (
-        "Dac Polarity, the sign of DAC GAIN and that of Encoder Mult are taken to fit each other (page 114): with a wrong"
-        " sign the motor runs away."
+        "Dac Polarity, the sign of DAC GAIN and that of Encoder Mult are taken to fit each other (page 114):"
+        " with a wrong sign the motor runs away."
     ),
     (
-        "The picture of the servo loop (page 95) and all traces of appendix C are lost. Taken: I Delay stops the integral, the"
-        " derivative is constant between its samples, the output is rounded to words of 1/3276.8 V."
+        "The picture of the servo loop (page 95) and all traces of appendix C are lost. Taken: I Delay stops"
+        " the integral, the derivative is constant between its samples, the output is rounded to words of"
+        " 1/3276.8 V."
     ),
 )
 _FILTER_NOTE = (
-    "How LOPASS and NOTCH fill the coefficients of their filters is not printed (page 128). Taken: second-order"
-    " filters, 3 dB less at the frequency of LOPASS; at that of NOTCH the share 1 - width / frequency is left."
+    "How LOPASS and NOTCH fill the coefficients of their filters is not printed (page 128). Taken:"
+    " second-order filters, 3 dB less at the frequency of LOPASS; at that of NOTCH the share 1 - width /"
+    " frequency is left."
 )
 
 
@@ -101,7 +108,8 @@ def bind(read: AxisParameters) -> AxisLaw:
     p[loop.EXCESS] = excess * pulses
     if excess <= 0.0:
         notes.append(
-            f"{EXCESS} is 0, so every error would be too large (page 60): simulated without this limit. Set it."
+            f"{EXCESS} is 0, so every error would be too large (page 60): simulated without this limit."
+            " Set it."
         )
     machine = Machine(
         acceleration_per_output=plant.ACCELERATION / pulses,
@@ -156,11 +164,17 @@ def bind(read: AxisParameters) -> AxisLaw:
     )
 
 
-UNDAMPED = "D Gain is 0, as in a new file (page 59): nothing damps an axis in torque mode. Set D Gain first, then P Gain (page 115, steps 8 to 10)"
+UNDAMPED = (
+    "D Gain is 0, as in a new file (page 59): nothing damps an axis in torque mode. Set D Gain first, then P"
+    " Gain (page 115, steps 8 to 10)"
+)
 
 
 def _excess(band: float) -> str:
-    return f"The following error exceeds ExcessErr Band, {band:.6g} mm: the bit for not excess error goes off (page 114)"
+    return (
+        f"The following error exceeds ExcessErr Band, {band:.6g} mm: the bit for not excess error goes off"
+        " (page 114)"
+    )
 
 
 def _or(read: AxisParameters, parameter: str, most: float, *, everywhere: bool = False) -> float:
@@ -176,7 +190,8 @@ def _parameters(read: AxisParameters, pulses: float, period: float, notes: list[
         p[place] = read.within(parameter, -_LARGEST_GAIN, _LARGEST_GAIN)
     if abs(p[loop.P_GAIN]) < _SMALLEST_GAIN:
         raise SimulationError(
-            f"{P_GAIN} of axis {read.axis} is {p[loop.P_GAIN]:g}: the loop is open and the axis would not follow (page 115)",
+            f"{P_GAIN} of axis {read.axis} is {p[loop.P_GAIN]:g}: the loop is open and the axis would not"
+            " follow (page 115)",
             P_GAIN,
         )
     p[loop.PULSES], p[loop.PERIOD] = pulses, period
@@ -215,7 +230,9 @@ def _filters(read: AxisParameters, servo_hz: float) -> tuple[Biquad, Biquad]:
 
 
 def _linear(p: Sequence[float]) -> list[float]:
-    """Return the figures of the linear model: an ideal converter, every derivative sampled, the integral while it works."""
+    """Return the figures of the linear model: an ideal converter, every derivative sampled,
+    the integral while it works.
+    """
     q = list(p)
     q[loop.DAC_WORDS], q[loop.D_PERIODS] = 0.0, 1.0
     if q[loop.I_DELAY] > 0.0:  # it does not work in motion
@@ -224,7 +241,9 @@ def _linear(p: Sequence[float]) -> list[float]:
 
 
 def _rate(p: Sequence[float], machine: Machine) -> float:
-    """Return the rate in 1/s at which the loop follows: of the spring that P Gain is, or slower where D Gain brakes it."""
+    """Return the rate in 1/s at which the loop follows: of the spring that P Gain is,
+    or slower where D Gain brakes it.
+    """
     volts = machine.acceleration_per_output * p[loop.DAC_SHARE] * p[loop.PULSES]
     stiffness = volts * abs(p[loop.P_GAIN])
     brake = (
@@ -236,7 +255,9 @@ def _rate(p: Sequence[float], machine: Machine) -> float:
 
 
 def _rest_band(p: Sequence[float], machine: Machine) -> float:
-    """Return how far from its target dry friction may keep the axis, u; 0 where the integral brings it there."""
+    """Return how far from its target dry friction may keep the axis, u; 0 where the integral brings it
+    there.
+    """
     if p[loop.I_GAIN] > 0.0:
         return 0.0
     volts = max(machine.static_friction, machine.coulomb_friction) + abs(machine.gravity)
@@ -244,7 +265,8 @@ def _rest_band(p: Sequence[float], machine: Machine) -> float:
 
 
 def _predicted(p: Sequence[float], machine: Machine, speed: float) -> Prediction:
-    """Return the following error at a steady speed in u/s: what is left for P Gain, the equation of page 115 turned round.
+    """Return the following error at a steady speed in u/s: what is left for P Gain,
+    the equation of page 115 turned round.
 
     Vel FFwd = P Gain × error / speed is the Vel FFwd that leaves nothing.
     """
@@ -282,7 +304,9 @@ def advise(axis: AxisLaw, trace: Trace) -> Sequence[Recommendation]:
 
 
 def follow(axis: AxisLaw) -> Sequence[Recommendation]:
-    """Return the Vel FFwd that takes the steady error of the rapid feedrate away: P Gain x error / speed (page 115)."""
+    """Return the Vel FFwd that takes the steady error of the rapid feedrate away:
+    P Gain x error / speed (page 115).
+    """
     p, speed, machine = axis.parameters, axis.feedrate, axis.machine
     if not speed:
         return ()
@@ -295,7 +319,8 @@ def follow(axis: AxisLaw) -> Sequence[Recommendation]:
             VEL_FFWD,
             wanted,
             "Vs/count",
-            "No steady error at the rapid feedrate: what viscous and dry friction take there, for a pulse a second (page 115).",
+            "No steady error at the rapid feedrate: what viscous and dry friction take there, for a pulse a"
+            " second (page 115).",
             "The part that is dry friction is paid back at other speeds.",
         ),
     )

@@ -9,10 +9,13 @@ from amp_studio.sim import AxisParameters, Homing, Jogging, Ramp, SimulationErro
 LINES = 4096.0
 """Pulses from marker to marker: an encoder of appendix C, after multiplication (page 113)."""
 NOTES = (
-    "To the switch at Home Fast Speed, away from it at Home Slow Speed, on to the marker at Marker Speed (page 65).",
     (
-        "ASSUMED: a marker each 4096 pulses (page 113); at the marker the position becomes Home Preset, and the axis stops along Home STP; where it rests is not"
-        " printed."
+        "To the switch at Home Fast Speed, away from it at Home Slow Speed, on to the marker at Marker Speed"
+        " (page 65)."
+    ),
+    (
+        "ASSUMED: a marker each 4096 pulses (page 113); at the marker the position becomes Home Preset, and"
+        " the axis stops along Home STP; where it rests is not printed."
     ),
 )
 

@@ -1,4 +1,6 @@
-"""The safety program of appendix C: EXC of three motor turns, and the bits of all axes on an output (pages 113 and 114)."""
+"""The safety program of appendix C: EXC of three motor turns,
+and the bits of all axes on an output (pages 113 and 114).
+"""
 
 from __future__ import annotations
 

@@ -1,12 +1,15 @@
-"""The servo loop of an ACR controller, one servo period at a time: PID in volts, feed-forward, filters, torque limit.
+"""The servo loop of an ACR controller, one servo period at a time: PID in volts, feed-forward, filters,
+torque limit.
 
-Printed in the User's Guide: units of the gains page 59 and appendix C, page 113; order of PID, filters and torque limit
-page 128; FBVEL, taken off where the PID goes into the filters, page 135. The picture of the servo loop (page 95) is
-lost. What is not printed and assumed: both feed-forwards are added where FBVEL is taken off; the integral keeps its value during I Delay; the derivative is constant
-between its samples; the output is rounded to whole words of the converter.
+Printed in the User's Guide: units of the gains page 59 and appendix C, page 113; order of PID, filters and
+torque limit page 128; FBVEL, taken off where the PID goes into the filters, page 135. The picture of the
+servo loop (page 95) is lost. What is not printed and assumed: both feed-forwards are added where FBVEL is
+taken off; the integral keeps its value during I Delay; the derivative is constant between its samples; the
+output is rounded to whole words of the converter.
 
-``position_sample`` is ordinary Python over arrays of floats that numba can compile. It reads first and puts the output out last, and what
-divides does not depend on the motion: the time of a sample is that of the longest chain of operations in it.
+``position_sample`` is ordinary Python over arrays of floats that numba can compile. It reads first and puts
+the output out last, and what divides does not depend on the motion: the time of a sample is that of the
+longest chain of operations in it.
 """
 
 from __future__ import annotations
@@ -46,7 +49,8 @@ PARAMETERS = 25
 
 # State.
 INTEGRAL, RESTING, DERIVATIVE, SAMPLE_IN, ERROR_SAMPLED, MOTOR_BEFORE, RUN = 0, 1, 2, 3, 4, 5, 6
-"""V, s since the command rests, V, periods to the next derivative, pulses, pulses, commanded travel in pulses."""
+"""V, s since the command rests, V, periods to the next derivative, pulses, pulses,
+commanded travel in pulses."""
 FILTER_STATE = 7
 STATE = 11
 

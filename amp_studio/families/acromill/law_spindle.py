@@ -23,7 +23,9 @@ def spindle(read: AxisParameters, number: str) -> Spindle:
 
 
 def probing(read: AxisParameters, _axis: AxisLaw, cycle: str) -> Probing:
-    """Return G31: it decelerates, and goes back to where the signal came (page 29). Raises SimulationError for another cycle."""
+    """Return G31: it decelerates, and goes back to where the signal came (page 29).
+    Raises SimulationError for another cycle.
+    """
     name = cycle.upper() or "G31"
     if name != "G31":
         raise SimulationError(f"Unknown cycle {cycle}. Known: G31", "move.cycle")

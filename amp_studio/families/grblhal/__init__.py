@@ -1,4 +1,6 @@
-"""Grbl and grblHAL: controls that a text line sets, a setting at a time, and of which grblHAL describes itself."""
+"""Grbl and grblHAL: controls that a text line sets, a setting at a time,
+and of which grblHAL describes itself.
+"""
 
 from __future__ import annotations
 

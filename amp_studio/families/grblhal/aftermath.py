@@ -28,7 +28,8 @@ def after_break(
 ) -> None:
     """Write into the error what the control contains: as it was read since, else what its answers prove.
 
-    ``is_answered`` is whether the line was whole to the end: then the control has what it has answered ``ok`` to.
+    ``is_answered`` is whether the line was whole to the end:
+    then the control has what it has answered ``ok`` to.
     """
     if found is not None:
         at, new = state_of(writing, found, has_lost_memory=has_lost_memory)

@@ -1,5 +1,5 @@
-"""What a setting stores as it is written. The firmware does not check all of it: of 70000 a setting of 16 bits keeps 4464,
-and answers ``ok``.
+"""What a setting stores as it is written. The firmware does not check all of it: of 70000 a setting of 16
+bits keeps 4464, and answers ``ok``.
 """
 
 from __future__ import annotations
@@ -58,7 +58,8 @@ def _bounds(setting: Setting, axes: int) -> tuple[int, int]:
         return 0, (1 << axes) - 1
     if setting.type == CHOICE:
         return 0, len(setting.labels) - 1
-    # Whether it is kept in 8, 16 or 32 bits is not enumerated: what is shown is what there is certainly room for.
+    # Whether it is kept in 8, 16 or 32 bits is not enumerated: what is shown is what there is certainly room
+    # for.
     digits = sum(sign in "#0" for sign in setting.format) or 5
     high = int(setting.most) if setting.most.isdecimal() else min(10**digits - 1, 65_535)
     return int(setting.least) if setting.least.isdecimal() else 0, high

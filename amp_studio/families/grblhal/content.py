@@ -1,7 +1,8 @@
 """All that a Grbl or grblHAL control contains, as text in its own words: what is kept of it and put back.
 
-``docs/protocols/grblhal.md`` specifies the form. The answers to the commands that ask a control about itself are under
-the commands, sorted and without what changes by itself, so that the bytes are the same while the control contains the same.
+``docs/protocols/grblhal.md`` specifies the form. The answers to the commands that ask a control about itself
+are under the commands, sorted and without what changes by itself,
+so that the bytes are the same while the control contains the same.
 """
 
 from __future__ import annotations
@@ -28,7 +29,8 @@ IDENTITY = (
     "PLUGIN",
     "MAX STEP RATE",
 )
-"""What of ``$I`` is kept: OPT and NEWOPT change with settings, others (free memory, addresses, the time) by themselves."""
+"""What of ``$I`` is kept: OPT and NEWOPT change with settings, others (free memory, addresses, the time)
+by themselves."""
 
 OFFSETS = (*(f"G{n}" for n in range(54, 60)), "G59.1", "G59.2", "G59.3", "G28", "G30", "G92")
 """What of ``$#`` is kept: what is in the control's memory. TLO and PRB are lost with the power."""
@@ -49,9 +51,11 @@ class GrblContent:
 
     ``identity``      the lines of ``$I`` that are kept, as they come: ``[VER:1.1f.20260817:]``
     ``settings``      number -> value as the control shows it: 130 -> ``200.000``
-    ``offsets``       name -> coordinates as ``$#`` shows them, in inches where $13 is 1: ``G54`` -> ``0.000,0.000,0.000``
+    ``offsets``       name -> coordinates as ``$#`` shows them, in inches where $13 is 1: ``G54`` ->
+    ``0.000,0.000,0.000``
     ``startup``       the start-up lines, by their number
-    ``enumerations``  command -> the lines of its answer, for those of ENUMERATIONS that the control knows: none for Grbl 1.1
+    ``enumerations``  command -> the lines of its answer, for those of ENUMERATIONS that the control knows:
+    none for Grbl 1.1
     """
 
     identity: tuple[str, ...] = ()
@@ -61,7 +65,9 @@ class GrblContent:
     enumerations: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
 
     def said(self, name: str) -> str:
-        """Return what follows the name in a line of the identity, "" without one: ``said("DRIVER")`` is ``Simulator``."""
+        """Return what follows the name in a line of the identity, "" without one:
+        ``said("DRIVER")`` is ``Simulator``.
+        """
         for line in self.identity:
             found = _NAMED.fullmatch(line)
             if found and found[1] == name:

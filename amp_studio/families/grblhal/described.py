@@ -36,19 +36,21 @@ from .description import (
     Setting,
     description_of,
     read_description,
-)  # fmt: skip
+)
 
 FAMILY = "grblhal"
 PAGE = "ES"
 """Where the facts of a control are: its answer to ``$ES``."""
 KEPT_STATES = ("per_axis_rates",)
-"""Conditions by which a setting comes and goes with another one: it is known though the control does not list it now."""
+"""Conditions by which a setting comes and goes with another one:
+it is known though the control does not list it now."""
 AXES_RULE = "grblhal.build.axes"
 """Which letters a build can have; those of a control are in its description."""
 _AXIS_GROUP = "Axis"
 _UNITS = {"microseconds": "us", "milliseconds": "ms", "step/mm": "steps/mm", "step/deg": "steps/mm"}
 _LINEAR = {"deg": "mm", "deg/min": "mm/min", "deg/s2": "mm/s2", "deg/s3": "mm/s3", "steps/deg": "steps/mm"}
-"""A rotary axis is described in degrees; that it turns is a matter of a setting, and the schema is the same."""
+"""A rotary axis is described in degrees; that it turns is a matter of a setting, and the schema is the
+same."""
 _TYPES: dict[int, ValueType] = {
     BOOLEAN: "boolean",
     MASK: "bits",
@@ -102,12 +104,25 @@ class _Maker:
         letters = "[" + ", ".join(f"'{a}'" for a in self.axes[3:]) + "]"
         when = f"instance in {letters} && bit(rotary, {rotary}[instance])" if self.axes[3:] else "false"
         turning = known.conditions["rotary_axis"].model_copy(update={"when": when})
-        who = ", ".join(filter(None, (facts.get("VER", "").strip(":"), facts.get("BOARD"), facts.get("DRIVER"),
-                                      facts.get("DRIVER VERSION"))))  # fmt: skip
-        return known.model_copy(update={
-            "title": f"grblHAL {who}, as the control describes itself ($ES)", "scopes": scopes,
-            "conditions": known.conditions | {"rotary_axis": turning}, "machines": known.machines[:1],
-        })  # fmt: skip
+        who = ", ".join(
+            filter(
+                None,
+                (
+                    facts.get("VER", "").strip(":"),
+                    facts.get("BOARD"),
+                    facts.get("DRIVER"),
+                    facts.get("DRIVER VERSION"),
+                ),
+            )
+        )
+        return known.model_copy(
+            update={
+                "title": f"grblHAL {who}, as the control describes itself ($ES)",
+                "scopes": scopes,
+                "conditions": known.conditions | {"rotary_axis": turning},
+                "machines": known.machines[:1],
+            }
+        )
 
     def _messages(self) -> Iterable[Messages]:
         """Yield the control's own lists, with what is known of a code; the known list where it has none."""
@@ -190,8 +205,13 @@ class _Maker:
         told = self.told.max_step_rate
         return (
             axes.model_copy(update={"default": Default(value=self.told.axes, page="I"), "page": "I"}),
-            rate.model_copy(update={"default": None if told is None else Default(value=told, unit="Hz", page="I"), "page": "I"}),
-        )  # fmt: skip
+            rate.model_copy(
+                update={
+                    "default": None if told is None else Default(value=told, unit="Hz", page="I"),
+                    "page": "I",
+                }
+            ),
+        )
 
 
 def _stays(parameter: Parameter, listed: frozenset[str]) -> bool:
@@ -205,7 +225,9 @@ def _number(text: str, kind: str) -> float | None:
 
 
 def _unit_of(setting: Setting) -> str:
-    """Return the unit of a setting; that of a straight axis in place of degrees. Empty where it is not known."""
+    """Return the unit of a setting; that of a straight axis in place of degrees. Empty where it is not
+    known.
+    """
     text = setting.unit.replace("/sec^", "/s").replace("/sec", "/s")
     try:
         unit = _UNITS.get(text) or unit_named(text)

@@ -1,16 +1,21 @@
-r"""The description that a control gives of itself, line by line: axes, groups, settings, help, alarms and errors.
+r"""The description that a control gives of itself, line by line: axes, groups, settings, help,
+alarms and errors.
 
     [AXS:3:XYZ]                                                        $I      number of axes, their letters
     [SETTINGGROUP:43|42|X-axis]                                        $EG     group, the group it is in, name
-    [SETTING:110|43|X-axis maximum rate|mm/min|6|#####0.000|||0|0]     $ES     number, group, name, unit, type, format,
-                                                                               least, most, needs a restart, 0 allowed
-    [SETTINGDESCR:22|Enables homing cycle. …]                          $SED=22 help; \n is a new line; or in $ESH the
+    [SETTING:110|43|X-axis maximum rate|mm/min|6|#####0.000|||0|0]     $ES     number, group, name, unit,
+    type, format,
+                                                                               least, most, needs a restart, 0
+                                                                               allowed
+    [SETTINGDESCR:22|Enables homing cycle. …]                          $SED=22 help; \n is a new line; or in
+    $ESH the
                                                                                sixth column between tabs
     [ALARMCODE:1||Hard limit has been triggered. …]                    $EA
     [ERRORCODE:10||Soft limits cannot be enabled …]                    $EE
 
-A description is a text of these lines in any order; other lines are passed over, so that all that was read from a
-control is one too. It comes from outside: it is bounded, and whatever cannot be meant is a DescriptionError.
+A description is a text of these lines in any order; other lines are passed over, so that all that was read
+from a control is one too. It comes from outside: it is bounded,
+and whatever cannot be meant is a DescriptionError.
 """
 
 from __future__ import annotations
@@ -36,8 +41,20 @@ _MOST_CHOICES = 256
 BOOLEAN, MASK, SWITCHED_MASK, CHOICE, AXES, INTEGER, DECIMAL, TEXT, PASSWORD, IPV4 = range(10)
 """The types of settings, as ``$ES`` counts them. In a switched mask bit 0 switches all others."""
 
-_TAGS = ("VER", "AXS", "BOARD", "DRIVER", "DRIVER VERSION", "FIRMWARE", "MAX STEP RATE", "SETTINGGROUP", "SETTING",
-         "SETTINGDESCR", "ALARMCODE", "ERRORCODE")  # fmt: skip
+_TAGS = (
+    "VER",
+    "AXS",
+    "BOARD",
+    "DRIVER",
+    "DRIVER VERSION",
+    "FIRMWARE",
+    "MAX STEP RATE",
+    "SETTINGGROUP",
+    "SETTING",
+    "SETTINGDESCR",
+    "ALARMCODE",
+    "ERRORCODE",
+)
 _LINE = re.compile(r"\[([A-Z ]+):(.*)\]")
 
 
@@ -123,7 +140,9 @@ def _goes_on(line: str) -> bool:
 
 
 def description_of(content: bytes) -> bytes:
-    """Return what describes the control in all that was read from it: one line each, the same for the same control."""
+    """Return what describes the control in all that was read from it: one line each,
+    the same for the same control.
+    """
     return "".join(f"{line}\n" for line in dict.fromkeys(description_lines(content))).encode(
         "utf-8", "replace"
     )
@@ -171,9 +190,17 @@ def _read_setting(found: Description, _tag: str, rest: str) -> None:
     if restart not in ("0", "1") or zero not in ("0", "1"):
         raise DescriptionError(f"the setting '{short(rest)}' does not end with two marks, 0 or 1")
     setting = Setting(
-        _number(number, rest), _number(group, rest), _text(name) or f"Setting {number}", _text(unit), int(kind),
-        _text(form), _bound(least, rest), _bound(most, rest), restart == "1", zero == "1",
-    )  # fmt: skip
+        _number(number, rest),
+        _number(group, rest),
+        _text(name) or f"Setting {number}",
+        _text(unit),
+        int(kind),
+        _text(form),
+        _bound(least, rest),
+        _bound(most, rest),
+        restart == "1",
+        zero == "1",
+    )
     count = len(setting.labels)
     if setting.type in (MASK, SWITCHED_MASK) and count > _MOST_LABELS:
         raise DescriptionError(f"${number} has {count} bits, and {_MOST_LABELS} are the most")
@@ -194,9 +221,13 @@ def _read_code(found: Description, tag: str, rest: str) -> None:
 
 
 _READERS = {
-    "AXS": _read_axes, "SETTINGGROUP": _read_group, "SETTING": _read_setting, "SETTINGDESCR": _read_help,
-    "ALARMCODE": _read_code, "ERRORCODE": _read_code,
-}  # fmt: skip
+    "AXS": _read_axes,
+    "SETTINGGROUP": _read_group,
+    "SETTING": _read_setting,
+    "SETTINGDESCR": _read_help,
+    "ALARMCODE": _read_code,
+    "ERRORCODE": _read_code,
+}
 
 
 def _keep(known: dict[int, T], number: int, entry: T, most: int, what: str) -> None:
@@ -242,6 +273,8 @@ def _text(text: str) -> str:
 
 
 def _axes_of_groups(found: Description) -> str:
-    """Return the letters of the groups ``X-axis``, ``Y-axis`` … in their order, of a control that lists no axes."""
+    """Return the letters of the groups ``X-axis``, ``Y-axis`` … in their order,
+    of a control that lists no axes.
+    """
     letters = (g.name[0] for _, g in sorted(found.groups.items()) if re.fullmatch("[A-Z]-axis", g.name))
     return "".join(dict.fromkeys(letters))[:9]

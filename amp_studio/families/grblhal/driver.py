@@ -1,4 +1,6 @@
-"""Grbl and grblHAL as one of the ways to speak to a control: settings go one line at a time, and are read back."""
+"""Grbl and grblHAL as one of the ways to speak to a control: settings go one line at a time,
+and are read back.
+"""
 
 from __future__ import annotations
 
@@ -35,7 +37,8 @@ from .states import LASTING, state_in, state_text
 from .status import status_of
 from .writing import Writing
 
-SETTLE = 0.3  # seconds between the last answer and the reading back: the memory is written after the answer, and surely
+# seconds between the last answer and the reading back: the memory is written after the answer, and surely
+SETTLE = 0.3
 # before the next command is executed (protocol.c ``protocol_execute_realtime``)
 RECONNECT = 10.0  # seconds in which a cut line is tried again to read what the control contains
 AT_REST = ("Idle", "Alarm")
@@ -50,7 +53,8 @@ class GrblDriver(GrblContentKind, LineDriver):
     """
 
     family, protocol = FAMILY, "grbl"
-    # In check mode settings are answered "ok" and kept in RAM only (protocol.c ``protocol_execute_realtime``).
+    # In check mode settings are answered "ok" and kept in RAM only (protocol.c
+    # ``protocol_execute_realtime``).
     abilities = Abilities(all_or_nothing=False, maps_numbers=True, lasting_states=LASTING)
     takes_live_values: ClassVar[bool] = True
 
@@ -84,11 +88,7 @@ class GrblDriver(GrblContentKind, LineDriver):
             name = who.said("FIRMWARE") or "Grbl"
             board = who.said("BOARD") or who.said("DRIVER")
             return ControlIdentity(
-                FAMILY,
-                self.protocol,
-                f"{name} on {board}" if board else name,
-                who.version,
-                axes=who.axes,
+                FAMILY, self.protocol, f"{name} on {board}" if board else name, who.version, axes=who.axes
             )
 
     def status(self) -> ControlStatus:
@@ -101,7 +101,9 @@ class GrblDriver(GrblContentKind, LineDriver):
         return status_of(self._known or ControlIdentity(FAMILY, self.protocol, "Grbl"), report, alarm)
 
     def _fetched(self, stage: str) -> bytes:
-        """Return all that the control contains, as it shows it; after a download the line is made again where it is cut."""
+        """Return all that the control contains, as it shows it;
+        after a download the line is made again where it is cut.
+        """
         end = self._waiting.now() + RECONNECT
         while True:
             try:
@@ -118,7 +120,9 @@ class GrblDriver(GrblContentKind, LineDriver):
         return names_of(read_content(content))
 
     def _send(self, replacement: Replacement, sent: SentValues) -> Receipt:
-        """Send what differs, one line at a time, until the control shows it; offsets and harmless start-up lines too."""
+        """Send what differs, one line at a time, until the control shows it;
+        offsets and harmless start-up lines too.
+        """
         wanted, present = read_content(replacement.content), read_content(replacement.held)
         writing = self._writing = Writing(wanted, present, described(replacement.held), sent)
         try:
@@ -143,7 +147,9 @@ class GrblDriver(GrblContentKind, LineDriver):
 
     @contextlib.contextmanager
     def _conversation(self) -> Iterator[GrblLine]:
-        """Give the line there is, or a new one; a line that broke is closed, and its errors are those of a transfer."""
+        """Give the line there is, or a new one; a line that broke is closed,
+        and its errors are those of a transfer.
+        """
         try:
             if self._line is None:
                 self._line = GrblLine(self._open_link, self._waiting)
@@ -156,7 +162,8 @@ class GrblDriver(GrblContentKind, LineDriver):
             raise
 
     def _read(self, line: GrblLine, stage: str = "") -> GrblContent:
-        """Return what the control contains; how it describes itself is asked once, and again when it has other settings.
+        """Return what the control contains; how it describes itself is asked once,
+        and again when it has other settings.
 
         Steps are shown where a ``stage`` is named.
         """
@@ -175,7 +182,8 @@ class GrblDriver(GrblContentKind, LineDriver):
         self.abilities.check_lasts(state, state_text(state))
         if state != "Idle" and writing.others:
             raise TransferError(
-                "the control is locked, and takes no offsets and start-up lines: unlock it ($X) or home it ($H) first"
+                "the control is locked, and takes no offsets and start-up lines: unlock it ($X) or home it"
+                " ($H) first"
             )
 
     def _check_memory(self, line: GrblLine) -> None:
@@ -185,7 +193,9 @@ class GrblDriver(GrblContentKind, LineDriver):
             raise TransferError(f"the control cannot write its memory ({failed})", "unknown")
 
     def _find_out(self, error: TransferError, writing: Writing, *, is_answered: bool = False) -> None:
-        """Read everything again after a break, while the control may answer, and write into the error what is true now."""
+        """Read everything again after a break, while the control may answer,
+        and write into the error what is true now.
+        """
         end = self._waiting.now() + RECONNECT
         found: GrblContent | None = None
         has_begun = writing.sent.has_begun

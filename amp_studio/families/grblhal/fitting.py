@@ -1,7 +1,8 @@
 """A file of one build on a control of another: setting by setting, by number, and what does not fit is named.
 
-A number means the same setting in every build. What a build does not have (a setting, the bits of an axis in a mask), or takes in
-other bounds (a choice it does not know), is listed before anything is sent, where a sender would stop half-way.
+A number means the same setting in every build. What a build does not have (a setting, the bits of an axis in
+a mask), or takes in other bounds (a choice it does not know), is listed before anything is sent,
+where a sender would stop half-way.
 """
 
 from __future__ import annotations
@@ -55,7 +56,9 @@ def build_of(file: ParameterFile) -> Build:
 
 
 def fit_to(file: ParameterFile, schema: Schema, axes: Sequence[str]) -> Fitted:
-    """Return a file with the same settings by another schema, by their numbers; ``axes`` are those of the control."""
+    """Return a file with the same settings by another schema, by their numbers;
+    ``axes`` are those of the control.
+    """
     header = {**vars(file.header), "extra": dict(file.header.extra), "signature": schema.signature}
     machine = file.machine if file.machine in schema.machines else schema.family.default_machine
     found = ParameterFile(schema, Header(**{**header, "machine": machine}))

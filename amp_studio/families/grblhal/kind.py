@@ -1,4 +1,6 @@
-"""What a copy of Grbl settings means: between a parameter file and all that a control contains, by the numbers of settings."""
+"""What a copy of Grbl settings means: between a parameter file and all that a control contains,
+by the numbers of settings.
+"""
 
 from __future__ import annotations
 
@@ -30,7 +32,8 @@ FAMILY, CLASSIC = "grblhal", "grbl-1.1"
 HOMING, SOFT_LIMITS, JOG_LIMITS, RESET_ACTIONS, LOCATE_RATE, SEEK_RATE = 22, 20, 40, 676, 24, 25
 AXIS_LOCATE_RATE, AXIS_SEEK_RATE = 180, 190
 PER_AXIS_RATES = range(180, 200)
-"""Settings that are there only while bit 9 of $22 is set, and $24 and $25 only while it is not (settings.c ``is_setting_available``)."""
+"""Settings that are there only while bit 9 of $22 is set,
+and $24 and $25 only while it is not (settings.c ``is_setting_available``)."""
 COMMON_RATES = {LOCATE_RATE: range(180, 190), SEEK_RATE: range(190, 200)}
 """The rate of all axes -> the rates of each, which begin with it."""
 _PER_AXIS, _KEEP_HOMED = 1 << 9, 1 << 7
@@ -60,11 +63,12 @@ class GrblContentKind:
         return file
 
     def encode(self, file: ParameterFile, held: bytes) -> bytes:
-        """Return what a control contains after a download: the file's settings by their numbers, else what is in ``held``.
+        """Return what a control contains after a download: the file's settings by their numbers,
+        else what is in ``held``.
 
-        A setting that the control does not have is left out (``left_out`` names it): the number of any other means the same in
-        each build. Bits of masks that the file does not have stay as they are (``stays`` names them). Raises ImageError for a
-        value that the control would not store as it is.
+        A setting that the control does not have is left out (``left_out`` names it): the number of any other
+        means the same in each build. Bits of masks that the file does not have stay as they are (``stays``
+        names them). Raises ImageError for a value that the control would not store as it is.
         """
         present = read_content(held)
         wanted = _wanted(file, present, held)
@@ -72,7 +76,9 @@ class GrblContentKind:
         return write_content(replace(present, settings=settings))
 
     def left_out(self, file: ParameterFile, held: bytes) -> str:
-        """Return the settings and bits of a file that a control of another build does not have; raises ImageError."""
+        """Return the settings and bits of a file that a control of another build does not have;
+        raises ImageError.
+        """
         present = read_content(held)
         wanted = _wanted(file, present, held)
         lacking = sorted({*wanted.lacking, *_lacking(wanted.settings, present)})
@@ -92,14 +98,16 @@ class GrblContentKind:
         return ""
 
     def refit(self, content: bytes, held: bytes) -> bytes:
-        """Return what a control contains once a copy is put back: its settings, offsets and start-up lines; raises ImageError.
+        """Return what a control contains once a copy is put back: its settings, offsets and start-up lines;
+        raises ImageError.
 
         How the control describes itself stays, so that a copy of another build goes back too, by the numbers.
         """
         copy, present = read_content(content), read_content(held)
         if copy.axes != present.axes and reports_inches(copy) != reports_inches(present):
             raise ImageError(
-                "the copy is of a control with other axes, and shows offsets in another unit: set $13 alike first"
+                "the copy is of a control with other axes, and shows offsets in another unit: set $13 alike"
+                " first"
             )
         settings = _fitted(_masked(copy, content, present, held), present, described(held))
         offsets = {name: at_axes(copy, present, name) for name in present.offsets}
@@ -132,7 +140,9 @@ def described(content: bytes) -> Mapping[int, Setting]:
 
 
 def _schema_of(read: GrblContent, content: bytes) -> Schema:
-    """Return the schema that a control describes, the family's own for a Grbl 1.1; raises DescriptionError."""
+    """Return the schema that a control describes, the family's own for a Grbl 1.1; raises
+    DescriptionError.
+    """
     return described_schema(FAMILY, description_of(content)) if read.describes_itself else load_schema(FAMILY)
 
 
@@ -155,7 +165,8 @@ class _Wanted:
 def _wanted(file: ParameterFile, present: GrblContent, held: bytes) -> _Wanted:
     """Return what a file sets at a control.
 
-    Raises ImageError for a file of another family, and where the control has a setting but cannot take the value.
+    Raises ImageError for a file of another family,
+    and where the control has a setting but cannot take the value.
     """
     if file.schema.family.family != FAMILY:
         raise ImageError(f"a file for {file.schema.family.name} is nothing for a Grbl control")
@@ -190,7 +201,8 @@ def _build(schema: Schema, content: GrblContent) -> Build:
 
 
 def _masked(copy: GrblContent, content: bytes, present: GrblContent, held: bytes) -> dict[int, str]:
-    """Return the settings of a copy with the bits of masks that its build does not have as the control has them.
+    """Return the settings of a copy with the bits of masks that its build does not have
+    as the control has them.
 
     A copy whose description cannot be read goes back as it is.
     """
@@ -285,7 +297,9 @@ def _as_shown(text: str, shown: str) -> str:
 
 
 def _moved(settings: dict[int, str], wanted: Mapping[int, str], *, has_rates: bool) -> dict[int, str]:
-    """Return the settings with those that others move and nobody has set (settings.c ``set_homing_enable``)."""
+    """Return the settings with those that others move and nobody has set (settings.c
+    ``set_homing_enable``).
+    """
     moved: dict[int, str] = {}
     if HOMING in wanted and wanted[HOMING].isdecimal():
         homing = int(wanted[HOMING])

@@ -1,4 +1,6 @@
-"""Binds an axis of a Grbl or grblHAL: rates, acceleration, homing and soft limits; no servo. Sources are those of the grblHAL core."""
+"""Binds an axis of a Grbl or grblHAL: rates, acceleration, homing and soft limits; no servo.
+Sources are those of the grblHAL core.
+"""
 
 from __future__ import annotations
 
@@ -36,20 +38,28 @@ COMMON = ("homing.seek_rate", "homing.locate_rate")
 OWN = ("axis.homing_seek_rate", "axis.homing_locate_rate")
 ENABLED, ORIGIN, PER_AXIS = 1 << 0, 1 << 3, 1 << 9
 SEARCH, LOCATE = 1.5, 5.0
-"""Times the travel, and times the pull-off, in which a switch is searched (config.h, HOMING_AXIS_SEARCH_SCALAR, _LOCATE_SCALAR)."""
+"""Times the travel, and times the pull-off, in which a switch is searched (config.h,
+HOMING_AXIS_SEARCH_SCALAR, _LOCATE_SCALAR)."""
 LETTERS = "XYZABCUV"
 SAMPLE, GAIN, BANDWIDTH = 1e-3, 100.0, 400.0
 """s, 1/s, Hz: how closely the simulated motor keeps to its steps; an assumption."""
 
-FOLLOWS = "ASSUMED: the motor follows its steps; a stepper has no servo loop, and steps that it loses under load are not simulated."
+FOLLOWS = (
+    "ASSUMED: the motor follows its steps; a stepper has no servo loop, and steps that it loses under load"
+    " are not simulated."
+)
 SOURCE = "grblHAL machine_limits.c"
 HOMED = (
     (
-        "At the seek rate to the switch, at once at rest, back by the pull-off at the seek rate, at the locate rate to the switch again, and back by the pull-off"
-        f" ({SOURCE}, homing_cycle). ASSUMED: the axis is homed alone, and the debounce delay passes at rest."
+        "At the seek rate to the switch, at once at rest, back by the pull-off at the seek rate, at the"
+        f" locate rate to the switch again, and back by the pull-off ({SOURCE}, homing_cycle). ASSUMED: the"
+        " axis is homed alone, and the debounce delay passes at rest."
     ),
 )
-LIMITED = "A move beyond the travel is refused before it begins, with ALARM:2; a jog is refused with error:15, or ends at the travel with $40 (machine_limits.c)."
+LIMITED = (
+    "A move beyond the travel is refused before it begins, with ALARM:2; a jog is refused with error:15, or"
+    " ends at the travel with $40 (machine_limits.c)."
+)
 
 
 def axes(file: ParameterFile) -> Sequence[str]:
@@ -78,9 +88,7 @@ def bind(read: AxisParameters) -> AxisLaw:
         servo_period=SAMPLE,
         velocity_period=SAMPLE,
         machine=Machine(
-            acceleration_per_output=1e4,
-            velocity_per_output=1.0 / 60.0,
-            velocity_bandwidth=BANDWIDTH,
+            acceleration_per_output=1e4, velocity_per_output=1.0 / 60.0, velocity_bandwidth=BANDWIDTH
         ),
         output_unit=f"{unit}/min",
         position_rate=GAIN,
@@ -89,10 +97,7 @@ def bind(read: AxisParameters) -> AxisLaw:
         ramps={"linear": ramp, "none": Ramp()},
         monitors=(("step_rate", "Hz"),),
         predict=lambda speed: {"step_rate": Prediction(abs(speed) * steps, "Hz", "protocol")},
-        sources={
-            "feedrate": Source(RATE, 60.0),
-            "acceleration": Source(ACCELERATION),
-        },
+        sources={"feedrate": Source(RATE, 60.0), "acceleration": Source(ACCELERATION)},
         assumptions=(FOLLOWS,),
         homing=partial(homing, read),
         jogging=lambda: Jogging(

@@ -1,4 +1,6 @@
-"""The steps of a Grbl axis: a stepper follows its command; there is no servo loop and no measured position."""
+"""The steps of a Grbl axis: a stepper follows its command; there is no servo loop and no measured
+position.
+"""
 
 from __future__ import annotations
 

@@ -4,8 +4,14 @@ from __future__ import annotations
 
 from amp_studio.sim import AxisLaw, AxisParameters, Gear, Probing, SimulationError, Spindle
 
-STEPPED = "The duty cycle changes in one step; a speed outside of $31 to $30 is set to the nearest of both (spindle_control.c)."
-LATENCY = "The position is taken at the step at which the probe is seen (stepper.c, probe state monitor): the latency is a step."
+STEPPED = (
+    "The duty cycle changes in one step; a speed outside of $31 to $30 is set to the nearest of both"
+    " (spindle_control.c)."
+)
+LATENCY = (
+    "The position is taken at the step at which the probe is seen (stepper.c, probe state monitor): the"
+    " latency is a step."
+)
 
 
 def spindle(read: AxisParameters, number: str) -> Spindle:
@@ -28,7 +34,9 @@ def spindle(read: AxisParameters, number: str) -> Spindle:
 
 
 def probing(_read: AxisParameters, axis: AxisLaw, cycle: str) -> Probing:
-    """Return G38.2: it decelerates where it is, and its position is that of the step that met the probe. Raises SimulationError for another."""
+    """Return G38.2: it decelerates where it is, and its position is that of the step that met the probe.
+    Raises SimulationError for another.
+    """
     name = cycle.upper() or "G38.2"
     if name not in ("G38.2", "G38.3"):
         raise SimulationError(f"Unknown cycle {cycle}. Known: G38.2, G38.3", "move.cycle")

@@ -1,7 +1,9 @@
-"""The line to a Grbl control: one command at a time, its answer up to ``ok`` or ``error:N``, and what comes unasked.
+"""The line to a Grbl control: one command at a time, its answer up to ``ok`` or ``error:N``,
+and what comes unasked.
 
-The control may push an alarm, a message, a status report or the greeting of a start between any two lines. A client that was
-lost may have left half a line: it is erased before the first command (``docs/protocols/grblhal.md``).
+The control may push an alarm, a message, a status report or the greeting of a start between any two lines. A
+client that was lost may have left half a line:
+it is erased before the first command (``docs/protocols/grblhal.md``).
 """
 
 from __future__ import annotations
@@ -25,14 +27,17 @@ from amp_studio.transfer.links import LinkError
 from .states import SUSPENDED, state_in, state_text
 
 ERASE = b"\x7f" * 260 + b"$AMP\n"
-"""More DEL than a line of the firmware is long, and a command that it refuses: its error is the answer to this and not to what
-another client has asked. A Grbl 1.1 takes the DEL for too long a line, which it refuses as well.
+"""More DEL than a line of the firmware is long, and a command that it refuses: its error is the answer to
+this and not to what another client has asked. A Grbl 1.1 takes the DEL for too long a line,
+which it refuses as well.
 """
 
 SLICE = 0.05  # seconds a read may last between two looks at the cancel event
 START = 12.0  # seconds a control that has just been connected may take to answer: an Arduino restarts
 AGAIN = 2.5  # seconds after which the first line is sent once more: a boot loader has swallowed it
-ASK = 1.0  # seconds after which a control that is still reading the first line is asked for its state again: it is no silence
+# seconds after which a control that is still reading the first line is asked for its state again: it is no
+# silence
+ASK = 1.0
 QUIET = 0.15  # seconds without a byte after which nothing more comes of what was asked before
 ANSWER = 8.0  # seconds without a byte of an answer
 ANSWER_ENDS = 60.0  # seconds for the whole answer
@@ -72,15 +77,12 @@ class ControlSuspendedError(TransferError):
 class GrblLine:
     """One open line to a control; obeys whom ``waiting`` serves.
 
-    ``messages`` are the texts of ``[MSG:…]`` that came unasked, ``alarm`` the number of the last alarm; ``has_lost_memory``
-    whether the control has reported that it could not read its settings and begins with the defaults (``error:7``).
+    ``messages`` are the texts of ``[MSG:…]`` that came unasked, ``alarm`` the number of the last alarm;
+    ``has_lost_memory`` whether the control has reported that it could not read its settings
+    and begins with the defaults (``error:7``).
     """
 
-    def __init__(
-        self,
-        open_link: OpenLink,
-        waiting: Waiting,
-    ) -> None:
+    def __init__(self, open_link: OpenLink, waiting: Waiting) -> None:
         self._waiting = waiting
         self.messages: list[str] = []
         self.alarm: int | None = None
@@ -120,8 +122,9 @@ class GrblLine:
     def ask(self, command: str, *, writes: bool = False) -> list[str]:
         """Send a command and return the lines of its answer, without ``ok``.
 
-        With ``writes`` the answer is waited for a moment even after somebody has asked to stop. Raises GrblRefusalError,
-        GrblRestartedError, LinkError, ControlSilentError, ProtocolMismatchError, CancelledError.
+        With ``writes`` the answer is waited for a moment even after somebody has asked to stop. Raises
+        GrblRefusalError, GrblRestartedError, LinkError, ControlSilentError, ProtocolMismatchError,
+        CancelledError.
         """
         self.go_on()
         self._begin(ANSWER_ENDS, lingers=writes)
@@ -171,7 +174,9 @@ class GrblLine:
     # -- lines ---------------------------------------------------------------------------------------
 
     def _erase(self) -> None:
-        """Erase what a lost client may have left of a line, and read all that is still to come of earlier commands."""
+        """Erase what a lost client may have left of a line,
+        and read all that is still to come of earlier commands.
+        """
         self._begin(START, lingers=False)
         sent, sent_at, asked_at, refused = 0, -AGAIN, 0.0, 0
         is_alive = False  # it reports its state: no boot loader has swallowed the first line
@@ -261,7 +266,9 @@ class GrblLine:
         self._waiting.heard()
 
     def look(self) -> None:
-        """Be called by everything that waits, at least every 0.1 s; raises CancelledError, ControlSilentError."""
+        """Be called by everything that waits, at least every 0.1 s; raises CancelledError,
+        ControlSilentError.
+        """
         now = self._clock()
         try:
             self._waiting.look()

@@ -1,7 +1,7 @@
 """Masks of a file, or of a copy, at a control of another build: for which bits they speak.
 
-A build with more axes has more bits in a mask of axes, and a newer one has more bits in others. Those that the source does not
-have stay as the control has them; an axis may run backwards if they are cleared.
+A build with more axes has more bits in a mask of axes, and a newer one has more bits in others. Those that
+the source does not have stay as the control has them; an axis may run backwards if they are cleared.
 """
 
 from __future__ import annotations
@@ -19,7 +19,9 @@ MaskBits = Mapping[int, Mapping[int, str]]
 
 @dataclass(frozen=True)
 class Build:
-    """What decides the bits of masks: the schema of a file or a control, and the letters of its axes in their order."""
+    """What decides the bits of masks: the schema of a file or a control,
+    and the letters of its axes in their order.
+    """
 
     here: MachineSchema
     axes: Sequence[str]
@@ -38,7 +40,9 @@ class Build:
 
 
 def bits_beyond(build: Build, other: Build, *, axes_only: bool = False) -> dict[int, dict[int, str]]:
-    """Return number -> bit -> label of the bits that ``build`` has and the same mask of ``other`` does not."""
+    """Return number -> bit -> label of the bits that ``build`` has and the same mask of ``other`` does
+    not.
+    """
     theirs = other.masks()
     found: dict[int, dict[int, str]] = {}
     for number, parameter in build.masks().items():
@@ -52,7 +56,9 @@ def bits_beyond(build: Build, other: Build, *, axes_only: bool = False) -> dict[
 
 
 def with_bits(text: str, bits: Mapping[int, str], shown: str) -> str:
-    """Return the text of a mask with these bits as another text has them; itself where one of them is no number."""
+    """Return the text of a mask with these bits as another text has them;
+    itself where one of them is no number.
+    """
     if not text.isdecimal() or not shown.isdecimal():
         return text
     mask = sum(1 << bit for bit in bits)

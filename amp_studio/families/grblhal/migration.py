@@ -45,7 +45,8 @@ class _Settings:
         for axis, place in places:
             self._axis(axis, place)
         self._spindle()
-        # $22 first: soft limits are refused without it (error:10), and the rates of each axis are there with its bit 9 alone (error:53).
+        # $22 first: soft limits are refused without it (error:10), and the rates of each axis are there with
+        # its bit 9 alone (error:53).
         order = sorted(self.values, key=lambda n: (n != 22, n))
         name = re.sub(r"[^A-Za-z0-9_-]+", "_", self.machine.name).strip("_") or "machine"
         lines = [f"; {self.machine.name or name}, migrated: send from the first line to the last"]
@@ -97,13 +98,22 @@ class _Settings:
             self.values[27] = not_above(number)
 
     def _axis(self, axis: AxisMeaning, n: int) -> None:
-        self._grade(axis, "kind", "approximate" if axis.turns else "exact", "$376" if axis.turns else "", "a bit" if axis.turns else LETTERS[n],
-                    "an axis that turns, with its range", "degrees are counted on and on", "neither")  # fmt: skip
+        self._grade(
+            axis,
+            "kind",
+            "approximate" if axis.turns else "exact",
+            "$376" if axis.turns else "",
+            "a bit" if axis.turns else LETTERS[n],
+            "an axis that turns, with its range",
+            "degrees are counted on and on",
+            "neither",
+        )
         if axis.turns:
             self.values[376] = str(int(self.values.get(376, "0")) | 1 << n - _LEAST)
         question = MigrationQuestion(
             f"steps.{axis.letter}",
-            f"How many steps make 1 {'degree' if axis.turns else 'mm'} of {axis.letter} at the new motor (${100 + n})?",
+            f"How many steps make 1 {'degree' if axis.turns else 'mm'} of {axis.letter} at the new motor"
+            f" (${100 + n})?",
         )
         if number := self.out.number(question, self.answers):
             self.values[100 + n] = not_above(number)
@@ -155,11 +165,15 @@ class _Settings:
         minus = (axis.number("home.search") or axis.number("home.towards") or 0.0) < 0.0
         self.values[130 + n] = _thousandth(high - at if minus else at - low)
         old = f"from {low:g} to {high:g}"
-        new = f"{self.values[130 + n]} from home to the {'plus' if minus else 'minus'} side; what is beyond home is lost, and home is 0"
+        new = (
+            f"{self.values[130 + n]} from home to the {'plus' if minus else 'minus'} side; what is beyond"
+            " home is lost, and home is 0"
+        )
         for concept in ("travel.kind", "travel.low", "travel.high"):
             self._grade(axis, concept, "approximate", key, self.values[130 + n], old, new, "the new one")
         self.out.measure.append(
-            f"{axis.letter}: every machine coordinate (G53, G28, work offsets) moves by {-at:g}, because home is 0"
+            f"{axis.letter}: every machine coordinate (G53, G28, work offsets) moves by {-at:g}, because home"
+            " is 0"
         )
 
     def _home(self, axis: AxisMeaning, n: int) -> None:
@@ -273,8 +287,19 @@ class _Settings:
                 )
             )
 
-    def _grade(self, axis: AxisMeaning, concept: str, outcome: GradeKind, key: str = "", value: str = "", old: str = "", new: str = "",
-               safe_side: str = "", loses: str = "", do: str = "") -> None:  # fmt: skip
+    def _grade(
+        self,
+        axis: AxisMeaning,
+        concept: str,
+        outcome: GradeKind,
+        key: str = "",
+        value: str = "",
+        old: str = "",
+        new: str = "",
+        safe_side: str = "",
+        loses: str = "",
+        do: str = "",
+    ) -> None:
         self.out.graded.append(
             Graded(axis.letter, concept, outcome, key, value, old, new, safe_side, loses, do)
         )

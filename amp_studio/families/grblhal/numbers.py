@@ -1,4 +1,5 @@
-"""How the firmware reads, keeps and shows a number: nuts_bolts.c ``read_float``, ``ftoa``; a 32-bit float in between.
+"""How the firmware reads, keeps and shows a number: nuts_bolts.c ``read_float``, ``ftoa``;
+a 32-bit float in between.
 
 It knows no exponents: of ``1e-05`` it reads the 1. It takes nine digits from the first that is not zero.
 """
@@ -23,7 +24,8 @@ def single(number: float) -> float:
 
 
 def written_number(number: float) -> str:
-    """Return the text from which the firmware reads a number as exactly as it can: no exponent, nine digits at most.
+    """Return the text from which the firmware reads a number as exactly as it can: no exponent,
+    nine digits at most.
 
     Raises ValueError for a number that it cannot read or show.
     """

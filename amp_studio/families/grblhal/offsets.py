@@ -1,4 +1,6 @@
-"""Offsets and start-up lines: what is lost with the memory too, and what of it can be put back without moving anything."""
+"""Offsets and start-up lines: what is lost with the memory too,
+and what of it can be put back without moving anything.
+"""
 
 from __future__ import annotations
 
@@ -9,7 +11,8 @@ from .content import GrblContent
 from .numbers import written_number
 
 PUT_BACK = (*(f"G{n}" for n in range(54, 60)), "G59.1", "G59.2", "G59.3")
-"""Set by ``G10 L2 P1`` to ``P9`` whatever the position is. G28, G30 and G92 are set by where the machine is."""
+"""Set by ``G10 L2 P1`` to ``P9`` whatever the position is. G28, G30 and G92 are set by where the machine
+is."""
 REPORTS_INCHES = 13
 _INCH = 25.4
 _NEAR = 0.0026  # mm; a ten thousandth of an inch is shown
@@ -44,7 +47,9 @@ def _millimeters(content: GrblContent, text: str) -> list[float]:
 
 
 def at_axes(copy: GrblContent, present: GrblContent, name: str) -> str:
-    """Return the coordinates of a copy on the axes of another control, which keeps its own where the copy has none."""
+    """Return the coordinates of a copy on the axes of another control,
+    which keeps its own where the copy has none.
+    """
     theirs, own = copy.offsets.get(name, "").split(","), present.offsets[name].split(",")
     if copy.axes == present.axes or len(theirs) != len(copy.axes) or len(own) != len(present.axes):
         return copy.offsets.get(name, present.offsets[name])
@@ -53,7 +58,9 @@ def at_axes(copy: GrblContent, present: GrblContent, name: str) -> str:
 
 
 def offset_commands(wanted: GrblContent, present: GrblContent) -> Iterable[tuple[str, str]]:
-    """Yield name and command of each offset that is to be put back; a command is in the unit that it names."""
+    """Yield name and command of each offset that is to be put back; a command is in the unit that it
+    names.
+    """
     unit = "G20" if reports_inches(wanted) else "G21"
     for name in offset_differences(wanted, present):
         parts = wanted.offsets[name].split(",")
@@ -80,10 +87,12 @@ def is_harmless(line: str) -> bool:
 
 
 def left_notes(wanted: GrblContent, present: GrblContent) -> list[str]:
-    """Return sentences about what is not put back, because it would move the machine or depends on where it is."""
+    """Return sentences about what is not put back,
+    because it would move the machine or depends on where it is.
+    """
     notes = [
-        f"{name} was {wanted.offsets[name]} and is {present.offsets.get(name, 'not there')}: it is not put back, "
-        "because it is set by moving there."
+        f"{name} was {wanted.offsets[name]} and is {present.offsets.get(name, 'not there')}: it is not put"
+        " back, because it is set by moving there."
         for name in offset_differences(wanted, present)
         if name not in PUT_BACK
     ]

@@ -1,4 +1,6 @@
-"""Reading all that a control contains: its identity, settings, offsets, start-up lines and how it describes itself."""
+"""Reading all that a control contains: its identity, settings, offsets,
+start-up lines and how it describes itself.
+"""
 
 from __future__ import annotations
 
@@ -34,12 +36,10 @@ def read_identity(line: GrblLine) -> GrblContent:
 
 
 def read_control(
-    line: GrblLine,
-    before: GrblContent | None,
-    progress: Progress = quiet,
-    stage: str = "upload",
+    line: GrblLine, before: GrblContent | None, progress: Progress = quiet, stage: str = "upload"
 ) -> GrblContent:
-    """Return all of it; how it describes itself is as ``before`` while it is the same build with the same settings.
+    """Return all of it; how it describes itself is as ``before`` while it is the same build
+    with the same settings.
 
     Raises as ``GrblLine.ask``.
     """
@@ -65,7 +65,9 @@ def read_control(
 def _read_enumerations(
     line: GrblLine, who: GrblContent, step: Callable[[], None]
 ) -> Mapping[str, tuple[str, ...]]:
-    """Return how a control describes itself; what cannot be read was damaged on the line if it comes otherwise the next time."""
+    """Return how a control describes itself; what cannot be read was damaged
+    on the line if it comes otherwise the next time.
+    """
     found: Mapping[str, tuple[str, ...]] = {}
     for attempt in range(READS):
         before, found = found, {}
@@ -85,7 +87,9 @@ def _read_enumerations(
 def _read_twice(
     line: GrblLine, who: GrblContent, step: Callable[[], None]
 ) -> tuple[dict[int, str], dict[str, str], dict[int, str]]:
-    """Return settings, offsets and start-up lines as they were read twice the same: the line has no checksum."""
+    """Return settings, offsets and start-up lines as they were read twice the same: the line has no
+    checksum.
+    """
     read: tuple[dict[int, str], dict[str, str], dict[int, str]] | None = None
     for attempt in range(READS):
         again = (read_settings(line, who), _read_offsets(line), _read_startup(line))
@@ -128,7 +132,9 @@ def _enumeration(line: GrblLine, name: str) -> dict[str, tuple[str, ...]]:
 
 
 def _matches(lines: list[str], form: re.Pattern[str], what: str) -> list[tuple[int, str]]:
-    """Return number and text of each line; raises ProtocolMismatchError for another line, and for one that comes twice."""
+    """Return number and text of each line; raises ProtocolMismatchError for another line,
+    and for one that comes twice.
+    """
     found: dict[int, str] = {}
     for text in lines:
         match = form.fullmatch(_clean(text))

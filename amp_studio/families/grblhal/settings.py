@@ -107,7 +107,9 @@ def values_of_settings(
 
 
 def compiled_in(schema: Schema) -> dict[Address, Value]:
-    """Return what a control describes of its build, which is no setting: its axes, the step rate of its driver."""
+    """Return what a control describes of its build, which is no setting: its axes,
+    the step rate of its driver.
+    """
     here = schema.on(schema.family.default_machine)
     defaults = {(p.id, ""): p.default for g in schema.groups if g.key == BUILD for p in g.parameters}
     return {
@@ -118,8 +120,8 @@ def compiled_in(schema: Schema) -> dict[Address, Value]:
 def settings_of_file(file: ParameterFile, *, padded: bool = False, hidden: bool = False) -> dict[int, str]:
     """Return number -> text of every setting that a file sets and this control has; raises StorageError.
 
-    ``padded`` writes the decimals that the control shows also where they are zeros; ``hidden`` has also settings that
-    the control does not list as it is set (``$180`` without Per axis feedrates).
+    ``padded`` writes the decimals that the control shows also where they are zeros; ``hidden`` has also
+    settings that the control does not list as it is set (``$180`` without Per axis feedrates).
     """
     found = {}
     for address, value in file.values.items():

@@ -1,4 +1,6 @@
-"""What a Grbl control does with settings in each of the states that it reports (docs/protocols/grblhal.md)."""
+"""What a Grbl control does with settings in each of the states that it reports
+(docs/protocols/grblhal.md).
+"""
 
 from __future__ import annotations
 

@@ -18,7 +18,9 @@ PINS = {
 
 
 def status_of(identity: ControlIdentity, report: str, alarm: str = "") -> ControlStatus:
-    """Return the status of a report such as ``<Run|MPos:1.000,2.000,0.000|FS:500,0|Pn:X>``; ``alarm`` is the last ``ALARM:n`` pushed."""
+    """Return the status of a report such as ``<Run|MPos:1.000,2.000,0.000|FS:500,0|Pn:X>``;
+    ``alarm`` is the last ``ALARM:n`` pushed.
+    """
     state, *parts = report.strip("<>").split("|")
     said = dict(part.partition(":")[::2] for part in parts)
     try:

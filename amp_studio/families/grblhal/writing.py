@@ -1,8 +1,10 @@
-"""Writing what differs: one line at a time, in an order that the firmware takes, until the control shows all of it.
+"""Writing what differs: one line at a time, in an order that the firmware takes,
+until the control shows all of it.
 
-Settings move each other (settings.c): $22=0 clears $20 and $40, bit 7 of $22 is the opposite of bit 0 of $676, bit 9 of
-$22 brings the rates of each axis and takes $24 and $25 away; $20 and $40 need $22, and $0, $100 and $110 allow each other.
-So $22 is first, what is refused is tried again after the others, and what was moved is written again.
+Settings move each other (settings.c): $22=0 clears $20 and $40, bit 7 of $22 is the opposite of bit 0 of
+$676, bit 9 of $22 brings the rates of each axis and takes $24 and $25 away; $20 and $40 need $22, and $0,
+$100 and $110 allow each other. So $22 is first, what is refused is tried again after the others,
+and what was moved is written again.
 """
 
 from __future__ import annotations
@@ -26,7 +28,9 @@ ROUNDS = 4
 
 
 class Writing:
-    """One download on its way: ``settings`` are those that differ, ``sent`` what the control has answered ``ok`` to."""
+    """One download on its way: ``settings`` are those that differ,
+    ``sent`` what the control has answered ``ok`` to.
+    """
 
     def __init__(
         self, wanted: GrblContent, present: GrblContent, known: Mapping[int, Setting], sent: SentValues
@@ -39,7 +43,9 @@ class Writing:
         sent.total = len(self.settings) + len(self.others)
 
     def run(self, line: GrblLine, progress: Progress) -> None:
-        """Send it all; raises GrblRefusalError for what the control refuses in the end, and as ``GrblLine.ask``."""
+        """Send it all; raises GrblRefusalError for what the control refuses in the end,
+        and as ``GrblLine.ask``.
+        """
         left = dict(self.settings)
         for _ in range(ROUNDS):
             if not left:
@@ -113,7 +119,10 @@ def coarse_notes(
         shows = shown_number(read_number(text), decimals)
         if float(shows) != float(text):
             name = f" {names[number]}" if number in names else ""
-            yield f"${number}{name} is shown as {shows}: what was sent, {text}, is finer than the control shows, and active."
+            yield (
+                f"${number}{name} is shown as {shows}: what was sent, {text}, is finer than the control"
+                " shows, and active."
+            )
 
 
 def restart_notes(settings: Mapping[int, str], known: Mapping[int, Setting]) -> list[str]:
@@ -122,5 +131,8 @@ def restart_notes(settings: Mapping[int, str], known: Mapping[int, Setting]) -> 
     if not waiting:
         return []
     return [
-        f"{', '.join(waiting)} become{'s' if len(waiting) == 1 else ''} active when the control is switched off and on."
+        (
+            f"{', '.join(waiting)} become{'s' if len(waiting) == 1 else ''} active when the control is"
+            " switched off and on."
+        )
     ]

@@ -1,4 +1,6 @@
-"""LinuxCNC: a configuration file of sections and keys, which several programs read when the control starts."""
+"""LinuxCNC: a configuration file of sections and keys, which several programs read when the control
+starts.
+"""
 
 from __future__ import annotations
 

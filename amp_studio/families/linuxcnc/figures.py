@@ -1,4 +1,5 @@
-"""A value as it is written in a configuration file, and back: what the programs make of a text (F107 to F180).
+"""A value as it is written in a configuration file, and back:
+what the programs make of a text (F107 to F180).
 
 A number ends where it is none any more, whatever follows; a word has to be the whole text.
 """

@@ -1,4 +1,6 @@
-"""What a HAL file does with the values of a configuration: which pins it sets to them. It is read and never written."""
+"""What a HAL file does with the values of a configuration: which pins it sets to them.
+It is read and never written.
+"""
 
 from __future__ import annotations
 

@@ -1,8 +1,11 @@
-"""The lines of a configuration file as LinuxCNC reads them (src/libnml/inifile/inifile.cc of 2.9.8, F and its lines).
+"""The lines of a configuration file as LinuxCNC reads them (src/libnml/inifile/inifile.cc of 2.9.8,
+F and its lines).
 
-A section ends at the next one, and only the first of its name is read (F226 to F269). Of several lines of a key the first
-counts (F353). A remark takes a whole line; behind a value it is part of the value (F393). A backslash goes on in the next line (F296).
-``#INCLUDE name`` at the start of a line means the lines of another file, which the start script puts there (LN339).
+A section ends at the next one, and only the first of its name is read (F226 to F269). Of several lines of a
+key the first counts (F353). A remark takes a whole line; behind a value it is part of the value (F393). A
+backslash goes on in the next line (F296).
+``#INCLUDE name`` at the start of a line means the lines of another file,
+which the start script puts there (LN339).
 """
 
 from __future__ import annotations
@@ -52,7 +55,8 @@ class IniText:
 
     ``lines``     of each file, "" for the configuration itself
     ``entries``   in the order in which they are read
-    ``last``      section -> its last line, where one more key belongs; of sections of the configuration itself
+    ``last``      section -> its last line, where one more key belongs; of sections of the configuration
+    itself
     ``missing``   names of files that are included and not there
     """
 
@@ -67,7 +71,9 @@ class IniText:
 
 
 def read_ini(text: str, beside: Callable[[str], str | None] = lambda _name: None) -> IniText:
-    """Return the entries of a text; ``beside`` returns the text of a file that is named in it, None where it is not there."""
+    """Return the entries of a text; ``beside`` returns the text of a file that is named in it,
+    None where it is not there.
+    """
     reader = _Reader(beside)
     reader.read("", text)
     return IniText(reader.lines, tuple(reader.entries), reader.last, tuple(reader.missing))

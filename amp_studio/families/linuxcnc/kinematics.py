@@ -1,4 +1,6 @@
-"""Which joint moves which axis with plain kinematics: each letter of ``coordinates=`` has the next joint (K55 to K65)."""
+"""Which joint moves which axis with plain kinematics:
+each letter of ``coordinates=`` has the next joint (K55 to K65).
+"""
 
 from __future__ import annotations
 

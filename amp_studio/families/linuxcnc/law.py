@@ -1,4 +1,6 @@
-"""An axis of LinuxCNC with plain kinematics: its joint's loop and following error, homing, limits. Lines are of 2.9.8 (family.yaml)."""
+"""An axis of LinuxCNC with plain kinematics: its joint's loop and following error, homing, limits.
+Lines are of 2.9.8 (family.yaml).
+"""
 
 from __future__ import annotations
 
@@ -30,10 +32,16 @@ GAIN, FORWARD, BANDWIDTH, MARKERS = 100.0, 1.0, 100.0, 10.0
 DRIVE = {
     "velocity_bandwidth": "ASSUMED: a velocity drive of 100 Hz; what the drive is the file does not show."
 }
-NO_LOOP = "ASSUMED: the file has no P for the joint, so its HAL closes the loop elsewhere: a loop of 100 1/s with full feed-forward."
+NO_LOOP = (
+    "ASSUMED: the file has no P for the joint, so its HAL closes the loop elsewhere: a loop of 100 1/s with"
+    " full feed-forward."
+)
 RAMP = "The ramp is that of G61, jogs and homing; with G64 a path has half of it (measured on 2.9.0~pre1)."
 HOMED = (
-    "Search, back or on at the latch speed to the switch or marker, which gets Position of the Switch, and the final move to Home (H796 to H1330).",
+    (
+        "Search, back or on at the latch speed to the switch or marker, which gets Position of the Switch,"
+        " and the final move to Home (H796 to H1330)."
+    ),
     "ASSUMED: markers 10 mm or deg apart, unless move.turn gives another distance.",
 )
 LIMITED = (
@@ -120,7 +128,8 @@ def bind(read: AxisParameters) -> AxisLaw:
         alarms={
             1: AlarmText(
                 limit,
-                f"the following error passes its limit, {least:g} {unit} at standstill and {max(ferror, least):g} {unit} at full speed",
+                f"the following error passes its limit, {least:g} {unit} at standstill and"
+                f" {max(ferror, least):g} {unit} at full speed",
             )
         },
         predict=lambda speed: {
@@ -148,14 +157,17 @@ def _above(read: AxisParameters, name: str) -> float:
 
 
 def homing(joint: _Joint) -> Homing:
-    """Return the sequence of one joint; raises SimulationError for one that LinuxCNC refuses, or that is not simulated."""
+    """Return the sequence of one joint; raises SimulationError for one that LinuxCNC refuses,
+    or that is not simulated.
+    """
     search, latch = (
         joint.number(name, 0.0) / 60.0 for name in ("home_search_velocity", "home_latch_velocity")
     )
     has_index = joint.value("home_use_index") in (True, "yes")
     if ((search != 0.0) and latch == 0.0) or (search == 0.0 and latch != 0.0 and not has_index):
         raise SimulationError(
-            "A search needs a latch, and a latch a search or a marker (H817, H828): the joint cannot be homed",
+            "A search needs a latch, and a latch a search or a marker (H817, H828): the joint cannot be"
+            " homed",
             "joint.home_latch_velocity",
         )
     if search * latch > 0.0:

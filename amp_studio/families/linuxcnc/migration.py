@@ -1,4 +1,6 @@
-"""A machine description as a configuration of LinuxCNC. What was measured on the real program is decision 0076."""
+"""A machine description as a configuration of LinuxCNC.
+What was measured on the real program is decision 0076.
+"""
 
 from __future__ import annotations
 
@@ -37,7 +39,10 @@ class _Ini:
     def text(self, name: str) -> str:
         """Return the whole, with number and grade above each key."""
         lines = [
-            f"# {name}, migrated. Above each key: the parameter of the old control and how well it was taken over."
+            (
+                f"# {name}, migrated. Above each key: the parameter of the old control and how well it was"
+                " taken over."
+            )
         ]
         for section, rows in self.sections.items():
             lines += ["", f"[{section}]"]
@@ -81,7 +86,8 @@ class _Migration:
         texts["tool.tbl"] = ""
         return self.out
 
-    # -- the whole machine ---------------------------------------------------------------------------------------------
+    # -- the whole machine
+    # ---------------------------------------------------------------------------------------------
 
     def _letter(self, axis: AxisMeaning) -> str:
         """Return the letter of an axis; LinuxCNC turns A, B and C, and no other (X44)."""
@@ -147,8 +153,16 @@ class _Migration:
             )
             self.ini.put("DISPLAY", "DEFAULT_LINEAR_VELOCITY", not_above(min(speeds) / 600.0))
         for axis in self.ordered:
-            self._grade(axis, "jog", "approximate", "[DISPLAY]MAX_LINEAR_VELOCITY", not_above(min(speeds) / 60.0) if speeds else "",
-                        "each axis has its own jog speeds", "one greatest jog speed for all linear axes, the least of them", "the new one")  # fmt: skip
+            self._grade(
+                axis,
+                "jog",
+                "approximate",
+                "[DISPLAY]MAX_LINEAR_VELOCITY",
+                not_above(min(speeds) / 60.0) if speeds else "",
+                "each axis has its own jog speeds",
+                "one greatest jog speed for all linear axes, the least of them",
+                "the new one",
+            )
 
     def _spindle(self) -> None:
         greatest, least = self._speeds("spindle.greatest"), self._speeds("spindle.least")
@@ -205,8 +219,18 @@ class _Migration:
         figure = self.machine.figures.get("startup")
         code = f"{figure.value if figure else 'G21 G90 G94'} G17 G40 G49 G54 G64 P0.01 G80 G97"
         self.ini.put("RS274NGC", "RS274NGC_STARTUP_CODE", code)
-        self.out.graded.append(Graded("", "startup", "approximate", "[RS274NGC]RS274NGC_STARTUP_CODE", code,
-                                      "the modes after power-up", "the same modes; G64 P0.01 rounds corners by a hundredth", "neither"))  # fmt: skip
+        self.out.graded.append(
+            Graded(
+                "",
+                "startup",
+                "approximate",
+                "[RS274NGC]RS274NGC_STARTUP_CODE",
+                code,
+                "the modes after power-up",
+                "the same modes; G64 P0.01 rounds corners by a hundredth",
+                "neither",
+            )
+        )
 
     def _offsets(self) -> str:
         """Return the numbered parameters: G28 (5161) and G30 (5181) in machine coordinates."""
@@ -226,7 +250,8 @@ class _Migration:
                         self._grade(axis, concept, "exact", f"#{base + place}", f"{value:.6f}", word)
         return "".join(f"{number}\t{value:.6f}\n" for number, value in sorted(rows.items()))
 
-    # -- one axis ------------------------------------------------------------------------------------------------------
+    # -- one axis
+    # ------------------------------------------------------------------------------------------------------
 
     def _joint(self, axis: AxisMeaning, sign: str, steps: Mapping[str, int]) -> None:
         joint, letter = self.axes[axis.instance], self.letters[axis.instance]
@@ -238,13 +263,20 @@ class _Migration:
         self._loop(axis, j, sign)
         self._home(axis, j, steps.get(letter))
         if axis.number("feed.ceiling") is not None:
-            self._grade(axis, "feed.ceiling", "not_possible", loses="the ceiling of the cutting speed: F runs up to the rapid speed",
-                        do="look at the F words of programs")  # fmt: skip
+            self._grade(
+                axis,
+                "feed.ceiling",
+                "not_possible",
+                loses="the ceiling of the cutting speed: F runs up to the rapid speed",
+                do="look at the F words of programs",
+            )
             self.out.less_safe.append(
-                f"{axis.letter}: no ceiling of the cutting speed; a program with a large F cuts at it, up to the rapid speed"
+                f"{axis.letter}: no ceiling of the cutting speed; a program with a large F cuts at it, up to"
+                " the rapid speed"
             )
         self.out.measure.append(
-            f"{axis.letter}: direction and scale of the feedback against a gauge, the way it needs to stop at each end, backlash"
+            f"{axis.letter}: direction and scale of the feedback against a gauge, the way it needs to stop at"
+            " each end, backlash"
         )
 
     def _travel(self, axis: AxisMeaning, j: str, a: str) -> None:
@@ -268,13 +300,23 @@ class _Migration:
             "written" if kind == "limits" else "left out",
         )
         if kind != "limits":
-            self.out.less_safe.append(
-                f"{axis.letter}: no travel limits, as before"
-            ) if not axis.turns else None
+            (
+                self.out.less_safe.append(f"{axis.letter}: no travel limits, as before")
+                if not axis.turns
+                else None
+            )
         if (axis.turns and axis.number("rollover")) or kind == "modulo":
             self.ini.put(a, "WRAPPED_ROTARY", "1", self._of(axis, "rollover", "approximate"))
-            self._grade(axis, "rollover", "approximate", f"[{a}]WRAPPED_ROTARY", "1", "a turn is from 0 to 360, and the position starts again",
-                        "positions go on past a turn, and the sign of the word is the direction", "neither: try it without a part")  # fmt: skip
+            self._grade(
+                axis,
+                "rollover",
+                "approximate",
+                f"[{a}]WRAPPED_ROTARY",
+                "1",
+                "a turn is from 0 to 360, and the position starts again",
+                "positions go on past a turn, and the sign of the word is the direction",
+                "neither: try it without a part",
+            )
 
     def _motion(self, axis: AxisMeaning, j: str, a: str) -> None:
         rapid, ramp = axis.number("rapid"), axis.number("acceleration")
@@ -320,7 +362,8 @@ class _Migration:
             )
         else:
             self.out.measure.append(
-                f"{axis.letter}: acceleration; none is known, and LinuxCNC takes 1 unit/s2 until MAX_ACCELERATION is there"
+                f"{axis.letter}: acceleration; none is known, and LinuxCNC takes 1 unit/s2 until"
+                " MAX_ACCELERATION is there"
             )
         if axis.number("jerk"):
             self._grade(
@@ -352,8 +395,16 @@ class _Migration:
         self.ini.put(j, "MAX_OUTPUT", "0")
         if (play := axis.number("backlash")) is not None:
             self.ini.put(j, "BACKLASH", not_above(play), self._of(axis, "backlash", "approximate"))
-            self._grade(axis, "backlash", "approximate", f"[{j}]BACKLASH", not_above(play), "the whole of it is added in one direction",
-                        "half of it is added in each direction: zero moves by half", "neither: measure it again")  # fmt: skip
+            self._grade(
+                axis,
+                "backlash",
+                "approximate",
+                f"[{j}]BACKLASH",
+                not_above(play),
+                "the whole of it is added in one direction",
+                "half of it is added in each direction: zero moves by half",
+                "neither: measure it again",
+            )
         if (scale := axis.number("scale")) is not None:
             value = f"{'-' if sign.startswith('-') else ''}{scale:.9g}" if sign in ("+", "-") else ""
             if value:
@@ -394,10 +445,19 @@ class _Migration:
         nearest = kind == "switch-nearest-marker"
         if nearest:
             self.out.measure.append(
-                f"{axis.letter}: distance from the switch to the nearest marker; where it is behind, zero moves by one turn of the encoder"
+                f"{axis.letter}: distance from the switch to the nearest marker; where it is behind, zero"
+                " moves by one turn of the encoder"
             )
-        self._grade(axis, "home.kind", "approximate" if nearest else "exact", f"[{j}]HOME_USE_INDEX", index, "the marker nearest to the switch, on either side" if nearest else "the next marker",
-                    "the next marker in the direction of the latch", "neither: measure the distance from the switch to the marker")  # fmt: skip
+        self._grade(
+            axis,
+            "home.kind",
+            "approximate" if nearest else "exact",
+            f"[{j}]HOME_USE_INDEX",
+            index,
+            "the marker nearest to the switch, on either side" if nearest else "the next marker",
+            "the next marker in the direction of the latch",
+            "neither: measure the distance from the switch to the marker",
+        )
         if step is not None:
             self.ini.put(j, "HOME_SEQUENCE", str(step), "answered")
 
@@ -405,7 +465,8 @@ class _Migration:
         unit = "deg/min" if axis.turns else "mm/min"
         question = MigrationQuestion(
             f"home.speed.{axis.letter}",
-            f"With which speed does {axis.letter} search its switch, in {unit}? The PLC of the old control set it.",
+            f"With which speed does {axis.letter} search its switch, in {unit}? The PLC of the old control"
+            " set it.",
         )
         speed = self.out.number(question, self.answers)
         return (speed * towards, -speed * towards / 10.0) if speed else (None, None)
@@ -468,16 +529,35 @@ class _Migration:
             "the new one",
         )
         self._grade(axis, "home.towards", "exact", f"[{j}]HOME_SEARCH_VEL", not_above(first / 60.0))
-        self._grade(axis, "home.leave", "exact" if opposite else "approximate", f"[{j}]HOME_LATCH_VEL", not_above(slow / 60.0),
-                    "it runs on through the switch", "it backs off, and comes again in the same direction", "the new one needs room before the switch")  # fmt: skip
+        self._grade(
+            axis,
+            "home.leave",
+            "exact" if opposite else "approximate",
+            f"[{j}]HOME_LATCH_VEL",
+            not_above(slow / 60.0),
+            "it runs on through the switch",
+            "it backs off, and comes again in the same direction",
+            "the new one needs room before the switch",
+        )
 
     def _of(self, axis: AxisMeaning, concept: str, outcome: str) -> str:
         figure = axis.figures.get(concept)
         named = ", ".join(f"{s.param} {s.raw}" for s in figure.sources) if figure else ""
         return f"{named}: {outcome}" if named else ""
 
-    def _grade(self, axis: AxisMeaning, concept: str, outcome: GradeKind, key: str = "", value: str = "", old: str = "", new: str = "",
-               safe_side: str = "", loses: str = "", do: str = "") -> None:  # fmt: skip
+    def _grade(
+        self,
+        axis: AxisMeaning,
+        concept: str,
+        outcome: GradeKind,
+        key: str = "",
+        value: str = "",
+        old: str = "",
+        new: str = "",
+        safe_side: str = "",
+        loses: str = "",
+        do: str = "",
+    ) -> None:
         self.out.graded.append(
             Graded(axis.letter, concept, outcome, key, value, old, new, safe_side, loses, do)
         )

@@ -1,12 +1,15 @@
-"""The HAL file that a migrated machine begins with: each loop is closed in the computer, and nothing moves."""
+"""The HAL file that a migrated machine begins with: each loop is closed in the computer, and nothing
+moves.
+"""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
 
 _HEAD = """\
-# A template. Nothing of the old wiring is in it: each loop is closed in the computer, and no output of a card is set.
-# Homing waits for a switch and a marker until they are connected to joint.N.home-sw-in and joint.N.index-enable.
+# A template. Nothing of the old wiring is in it: each loop is closed in the computer, and no output of a
+# card is set. Homing waits for a switch and a marker until they are connected to joint.N.home-sw-in and
+# joint.N.index-enable.
 loadrt [KINS]KINEMATICS
 loadrt [EMCMOT]EMCMOT servo_period_nsec=[EMCMOT]SERVO_PERIOD num_joints=[KINS]JOINTS
 """
@@ -26,7 +29,9 @@ net feedback.{n} table.{n}.out => joint.{n}.motor-pos-fb pid.{n}.feedback
 
 
 def hal_template(has_gain: Sequence[bool]) -> str:
-    """Return the template for so many joints; one without a gain in the configuration gets that of the loop in the computer."""
+    """Return the template for so many joints; one without a gain in the configuration gets that
+    of the loop in the computer.
+    """
     names = range(len(has_gain))
     gains = [f"[JOINT_{n}]P" if has else "50" for n, has in enumerate(has_gain)]
     loads = [

@@ -41,8 +41,8 @@ class NinePcTable:
     is_even = False
     decimals = DECIMALS
     switching = (
-        "Homing the axis switches its calibration on; the softkey CAL STATUS switches it off until it is homed again (page 36-10). "
-        "That is a state of the control and not in a file."
+        "Homing the axis switches its calibration on; the softkey CAL STATUS switches it off until it is"
+        " homed again (page 36-10). That is a state of the control and not in a file."
     )
 
     def read(self, file: ParameterFile, axis: str, text: str) -> CalibrationTable:  # noqa: ARG002  # other forms need them
@@ -61,8 +61,8 @@ class NinePcTable:
         left = self._left(file, axis)
         if len(table.points) > left:
             raise CalibrationError(
-                f"MEASUREMENT POINT OVERFLOW: {len(table.points)} points are too many; of {MOST_POINTS} for all axes "
-                f"{left} are left for this one (page 36-10)"
+                f"MEASUREMENT POINT OVERFLOW: {len(table.points)} points are too many; of {MOST_POINTS} for"
+                f" all axes {left} are left for this one (page 36-10)"
             )
         points = tuple((_rounded(at), _rounded(by)) for at, by in table.points)
         text = CalibrationText(table.input, table.start, table.unit, points).written()
@@ -74,12 +74,16 @@ class NinePcTable:
         return text if points else ""
 
     def empty(self, file: ParameterFile, axis: str, input_: str, start: str) -> CalibrationTable:
-        """Return a table without points; the control proposes measurement and the most positive end (page 36-6)."""
+        """Return a table without points; the control proposes measurement
+        and the most positive end (page 36-6).
+        """
         unit = "deg" if file.evaluation.turns((self.parameter, axis)) else "mm"
         return CalibrationTable(unit, (), input_ or INPUTS[0], start or STARTS[0])
 
     def fit(self, file: ParameterFile, axis: str, errors: ErrorCurve, input_: str, start: str) -> FittedTable:
-        """Return points that leave the least error within the limits of the screen; raises CalibrationError."""
+        """Return points that leave the least error within the limits of the screen; raises
+        CalibrationError.
+        """
         table = self.empty(file, axis, input_ or "deviation", start or "-")
         notes: list[str] = []
         if any(abs(at) >= _FARTHEST for at, _ in errors.points):
@@ -91,7 +95,8 @@ class NinePcTable:
         origin = points[first][1]
         if origin:
             notes.append(
-                f"the point at the start has no deviation, so all positions are shifted by {float(origin):.5f} {table.unit}"
+                "the point at the start has no deviation, so all positions are shifted by"
+                f" {float(origin):.5f} {table.unit}"
             )
         shifted = [(at, by - origin) for at, by in points]
         shifted = _closed(_rollover(file, axis), shifted, table.start, notes)
@@ -101,7 +106,8 @@ class NinePcTable:
         steep = _gentle(kept, reverse=table.start == "+")
         if len(steep) < len(kept):
             notes.append(
-                f"{len(kept) - len(steep)} points are left out because their deviation is above 2 % of the way from the one before"
+                f"{len(kept) - len(steep)} points are left out because their deviation is above 2 % of the"
+                " way from the one before"
             )
         made = replace(table, points=tuple((at, _rounded(by)) for at, by in steep))
         self.write(file, axis, made)
@@ -134,11 +140,15 @@ class NinePcTable:
         lines = [
             f"At most {MOST_POINTS} points for all axes; {self._left(file, axis)} for this one (page 36-10).",
             f"At most {float(LONGEST_INTERVAL[unit]):g} {unit} from point to point (page 36-7).",
-            "No deviation above 2 % of the way from the point entered before; the first one is 0 (page 36-7).",
+            (
+                "No deviation above 2 % of the way from the point entered before; the first one is 0 (page"
+                " 36-7)."
+            ),
         ]
         if rollover:
             lines.append(
-                f"The axis rolls over at {float(rollover):g} deg: its net correction over a turn is zero (page 36-7)."
+                f"The axis rolls over at {float(rollover):g} deg: its net correction over a turn is zero"
+                " (page 36-7)."
             )
         return tuple(lines)
 
@@ -153,7 +163,9 @@ class NinePcTable:
 def _closed(
     turn: Fraction, points: list[tuple[Fraction, Fraction]], start: str, notes: list[str]
 ) -> list[tuple[Fraction, Fraction]]:
-    """Return points whose net correction over a turn is zero; as they are on an axis that does not roll over (0)."""
+    """Return points whose net correction over a turn is zero;
+    as they are on an axis that does not roll over (0).
+    """
     if not turn:
         return points
     (low, first), (high, last) = points[0], points[-1]
@@ -169,8 +181,8 @@ def _closed(
         return [*points, end] if start == "-" else [end, *points]
     if last != first:
         notes.append(
-            f"the errors at both ends of the turn differ by {float(last - first):.5f} deg; the end gets that of the start, "
-            "for a net correction of zero"
+            f"the errors at both ends of the turn differ by {float(last - first):.5f} deg; the end gets that"
+            " of the start, for a net correction of zero"
         )
     return [*points[:-1], (high, first)] if start == "-" else [(low, last), *points[1:]]
 
@@ -221,7 +233,9 @@ def _thinned(points: list[tuple[Fraction, Fraction]], most: int) -> list[tuple[F
 
 
 def _farthest(points: list[tuple[float, float]], low: int, high: int) -> tuple[float, int]:
-    """Return by how much the line between two points misses the point between them that it misses most, and which it is."""
+    """Return by how much the line between two points misses the point between them that it misses most,
+    and which it is.
+    """
     (x, y), (far, above) = points[low], points[high]
     slope = (above - y) / (far - x)
     return max((abs(points[n][1] - y - slope * (points[n][0] - x)), n) for n in range(low + 1, high))
@@ -241,8 +255,8 @@ def _gentle(points: list[tuple[Fraction, Fraction]], *, reverse: bool) -> list[t
             kept.append(entered[-1])
     if kept[-1] != entered[-1]:
         raise CalibrationError(
-            f"the error {float(entered[-1][1]):.5f} at {float(entered[-1][0]):g} is above 2 % of the whole travel: "
-            "check units and sign (page 36-7)"
+            f"the error {float(entered[-1][1]):.5f} at {float(entered[-1][0]):g} is above 2 % of the whole"
+            " travel: check units and sign (page 36-7)"
         )
     return kept[::-1] if reverse else kept
 
@@ -271,8 +285,8 @@ COMPENSATION = Compensation(
                 "servo.velocity_integral_gain",
                 "servo.initial_gain",
             ),
-            "On 1394 CNC serial drives only. After a change of a velocity loop gain the control sets Standard Motor Table "
-            "Values to No.",
+            "On 1394 CNC serial drives only. After a change of a velocity loop gain the control sets Standard"
+            " Motor Table Values to No.",
         ),
         TuningPage("spindle", "Spindle", "36-12", ("spindle.voltage_at_max",)),
     ),

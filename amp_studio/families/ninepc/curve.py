@@ -18,7 +18,9 @@ def read(_letter: str, text: str) -> list[Point]:
 
 
 def write(_letter: str, points: Sequence[Point], text: str, unit: str) -> str:
-    """Return the text of points, given as those before were; raises ValueError where the control refuses one (36-7)."""
+    """Return the text of points, given as those before were;
+    raises ValueError where the control refuses one (36-7).
+    """
     before = read_calibration(text) if text else CalibrationText("deviation", "-", unit, ())
     written = replace(before, points=tuple((_exact(at), _exact(by)) for at, by in points)).written()
     read_calibration(written)  # raises for a point that breaks a limit of the screen

@@ -1,7 +1,7 @@
 """The servo axis of an Allen-Bradley 9/PC: which parameters make its loops, its machine and its ramps.
 
-Pages are those of the 9/PC AMP manual. `law_samples.py` is the control at work, `law_units.py` the unit of its gains,
-`law_notes.py` what is assumed.
+Pages are those of the 9/PC AMP manual. `law_samples.py` is the control at work, `law_units.py` the unit of
+its gains, `law_notes.py` what is assumed.
 """
 
 from __future__ import annotations
@@ -52,7 +52,9 @@ LONGEST_CYCLE = 1000.0
 
 SETTINGS = {
     OWN_TRAVEL: "travel for one turn of the lead screw or table (mm or deg)",
-    split.OWN_COUPLING: "torque that a skew of 1 mm or 1 deg between both servos of a split axis brings (torque)",
+    split.OWN_COUPLING: (
+        "torque that a skew of 1 mm or 1 deg between both servos of a split axis brings (torque)"
+    ),
     OWN_TORQUE: "rated torque of a digital motor (N m)",
     OWN_INERTIA: "inertia of a digital motor without its load (kg m2)",
     "model.position_gain": "position gain of a third-party SERCOS drive (1000/min, as Initial Gain)",
@@ -103,7 +105,8 @@ class Kind:
 
 
 def bind(read: AxisParameters) -> AxisLaw:
-    """Return one axis; raises SimulationError for an axis that no loop moves, a value that is not set or impossible.
+    """Return one axis; raises SimulationError for an axis that no loop moves,
+    a value that is not set or impossible.
 
     The slave of a split axis goes with its master (chapter 32).
     """
@@ -135,7 +138,9 @@ def _leading(read: AxisParameters) -> AxisLaw:
 
 
 def _alone(read: AxisParameters, master: AxisParameters | None = None) -> AxisLaw:
-    """Return one axis without its partner; ramps and feedrates are those of its master, if it has one (32-4)."""
+    """Return one axis without its partner; ramps and feedrates are those of its master, if it has one
+    (32-4).
+    """
     kind = _kind(read)
     if kind.drive == "sercos":
         return third_party(read, kind.unit, _common(read, kind))
@@ -151,8 +156,9 @@ def _alone(read: AxisParameters, master: AxisParameters | None = None) -> AxisLa
         "predict": partial(predictions, loop, kind.unit) if kind.loop != "open" else _nothing,
         "limits": _limits(parameters, read, loop) if kind.loop != "open" else {},
         "alarms": _alarms(read, kind, parameters),
-        "monitors": [(name, unit.replace("u", kind.unit, 1)) for name, unit in samples.MONITORS]
-        + shown_in_volts,
+        "monitors": (
+            [(name, unit.replace("u", kind.unit, 1)) for name, unit in samples.MONITORS] + shown_in_volts
+        ),
     }
     if kind.loop != "open":
         common["homing"] = partial(events.homing, read, feedback)
@@ -265,7 +271,9 @@ def _alarms(read: AxisParameters, kind: Kind, parameters: list[float]) -> dict[i
 
 @lru_cache(maxsize=256)
 def _bounded(source: Source, unit: str) -> Source:
-    """Return the source with the bound that is printed for an axis that moves in ``unit``, in canonical units."""
+    """Return the source with the bound that is printed for an axis that moves in ``unit``,
+    in canonical units.
+    """
     parameter = load_schema("9pc").parameters[source.parameter]
     turning = (v.ranges for v in parameter.range_variants if v.when == "rotary_axis" and unit == "deg")
     ranges = next(turning, parameter.ranges or {})

@@ -1,4 +1,6 @@
-"""Recommendations about a 9/PC axis: limits of the following error, which follow its gains, and ramps, each with page and price."""
+"""Recommendations about a 9/PC axis: limits of the following error, which follow its gains, and ramps,
+each with page and price.
+"""
 
 from __future__ import annotations
 
@@ -14,7 +16,8 @@ from . import law_samples as samples
 from .law_figures import Loop, following_error, printed_excess_error, response_time
 
 RESERVE = 0.8
-"""Share of the available acceleration that a ramp may use; the rest is a reserve for load and wear. A choice of this program."""
+"""Share of the available acceleration that a ramp may use; the rest is a reserve for load and wear.
+A choice of this program."""
 ORDER_PRICE = "Less is left for a faster move or a lower gain."
 SLOWER = "Every change of speed takes longer."
 LOOSE = 2.0
@@ -68,8 +71,8 @@ class SimulatedMove(ServoFigures):
 
 
 def advise(axis: AxisLaw, trace: Trace) -> tuple[Recommendation, ...]:
-    """Return the recommendations after the scenario `step`, the most urgent first; none after others, with an open position loop or
-    an axis that is not stable.
+    """Return the recommendations after the scenario `step`, the most urgent first; none after others, with an
+    open position loop or an axis that is not stable.
     """
     p = axis.parameters
     if trace.scenario != "step" or p[samples.OPEN] or not math.isfinite(p[samples.EXCESS]):
@@ -96,7 +99,9 @@ def _loop(axis: AxisLaw) -> Loop:
 
 
 def _excess_target(m: ServoFigures) -> float:
-    """Return 110 % of the largest following error where the present limit is below that error or far above it, else the limit."""
+    """Return 110 % of the largest following error where the present limit is below that error
+    or far above it, else the limit.
+    """
     wanted, now = printed_excess_error(m.loop, m.rapid), m.p[samples.EXCESS]
     return wanted if math.isfinite(wanted) and (now < wanted / 1.1 or now > LOOSE * wanted) else now
 
@@ -107,16 +112,24 @@ def _excess_error(m: ServoFigures) -> Iterator[Recommendation]:
         return
     speed = f"At {m.speed(m.rapid)} the following error reaches {m.length(wanted / 1.1)}"
     if now < wanted:
-        why = f"{speed}, but the EXCESS FOLLOWING ERROR alarm comes at {m.length(now)}: allow 110 % of the error."
+        why = (
+            f"{speed}, but the EXCESS FOLLOWING ERROR alarm comes at {m.length(now)}: allow 110 % of the"
+            " error."
+        )
     else:
         late = shown((now - wanted) / m.rapid, "s", 3)
-        why = f"{speed}; at {m.length(now)} a blocked axis is detected {late} later than with 110 % of the error."
+        why = (
+            f"{speed}; at {m.length(now)} a blocked axis is detected {late} later than with 110 % of the"
+            " error."
+        )
     price = "A blocked axis is detected later." if now < wanted else ORDER_PRICE
     yield from m.advise("excess_error", wanted, m.axis.unit, why, price)
 
 
 def _order(m: ServoFigures) -> Iterator[Recommendation]:
-    """A smaller excess error also lowers the limits below it (7-20); otherwise the control corrects them itself."""
+    """A smaller excess error also lowers the limits below it (7-20);
+    otherwise the control corrects them itself.
+    """
     highest = _excess_target(m)
     if highest >= m.p[samples.EXCESS] or highest >= m.p[samples.SUPPRESSION]:
         return
@@ -137,8 +150,9 @@ def _suppression(m: SimulatedMove) -> Iterator[Recommendation]:
     if lost == 0.0 or limit <= point:
         return
     why = (
-        f"The feedrate was halved for {shown(lost, 's', 3)} of this move, because the following error was above {m.length(point)};"
-        f" {m.speed(m.feedrate)} alone needs {m.length(following_error(m.loop, m.feedrate))}. A value equal to the excess error switches"
+        f"The feedrate was halved for {shown(lost, 's', 3)} of this move, because the following error was"
+        f" above {m.length(point)}; {m.speed(m.feedrate)} alone needs"
+        f" {m.length(following_error(m.loop, m.feedrate))}. A value equal to the excess error switches"
         " suppression off; a value between them keeps it as a warning."
     )
     price = "A following error that grows no longer slows the axis before the alarm."
@@ -166,14 +180,15 @@ def _ramp(m: SimulatedMove) -> Iterator[Recommendation]:
     limited = _time_at_limit(m)
     if limited > 0.0 and now > available > 0.0:
         why = (
-            f"The torque was at its limit for {shown(limited, 's', 3)} with {shown(now, unit)}; {shown(available, unit)} is 80 % of what the torque"
-            f" allows at {m.speed(m.feedrate)}."
+            f"The torque was at its limit for {shown(limited, 's', 3)} with {shown(now, unit)};"
+            f" {shown(available, unit)} is 80 % of what the torque allows at {m.speed(m.feedrate)}."
         )
         yield from m.advise(steeper, min(available, natural), unit, why, SLOWER, up=False)
     elif now > natural:
         why = (
-            f"A ramp of {shown(now, unit)} is steeper than the servo's response of {shown(1000.0 * response_time(m.loop), 'ms')} to"
-            f" {m.speed(speed)} and acts like a step in speed; the axis can follow up to {shown(natural, unit)}."
+            f"A ramp of {shown(now, unit)} is steeper than the servo's response of"
+            f" {shown(1000.0 * response_time(m.loop), 'ms')} to {m.speed(speed)} and acts like a step in"
+            f" speed; the axis can follow up to {shown(natural, unit)}."
         )
         yield from m.advise(steeper, natural, unit, why, SLOWER, up=False)
 
@@ -202,8 +217,8 @@ def _gain_break(m: SimulatedMove) -> Iterator[Recommendation]:
     wanted = m.p[samples.CUTTING] / m.loop.rate
     if point < wanted:
         why = (
-            f"The gain break is at {m.speed(point * m.loop.rate)}, below the maximum cutting feedrate {m.speed(m.p[samples.CUTTING])}: contours above"
-            " that speed are not accurate."
+            f"The gain break is at {m.speed(point * m.loop.rate)}, below the maximum cutting feedrate"
+            f" {m.speed(m.p[samples.CUTTING])}: contours above that speed are not accurate."
         )
         yield from m.advise(
             "gain_break_point",
@@ -219,8 +234,8 @@ def _band(m: SimulatedMove) -> Iterator[Recommendation]:
     if m.axis.inposition_band >= count:
         return
     why = (
-        f"One count is {m.length(count)}: inside a band of {m.length(m.axis.inposition_band)} the in-position state is not reliable; use"
-        " at least two counts."
+        f"One count is {m.length(count)}: inside a band of {m.length(m.axis.inposition_band)} the in-position"
+        " state is not reliable; use at least two counts."
     )
     yield from m.advise(
         "inposition_band", 2.0 * count, m.axis.unit, why, "The axis may stop that much further away."

@@ -1,8 +1,8 @@
 """The DAC monitor of a 9/PC: signals of a servo as voltages for a chart recorder (appendix A).
 
-Two channels, parameters 86 and 87. The manual prints what they show (Table A.B), the voltage at full scale (820, 830) and what the
-signal is divided by (910, 930), but not what the control counts a signal in. So a channel is a column of the result as soon as
-that unit is set.
+Two channels, parameters 86 and 87. The manual prints what they show (Table A.B), the voltage at full scale
+(820, 830) and what the signal is divided by (910, 930), but not what the control counts a signal in. So a
+channel is a column of the result as soon as that unit is set.
 """
 
 from __future__ import annotations
@@ -22,7 +22,9 @@ VOLTS = 10.0
 
 @dataclass(frozen=True)
 class Channel:
-    """One output: number of its parameter, its instance, and that of gear 1 of the spindle that scales it (A-5)."""
+    """One output: number of its parameter, its instance,
+    and that of gear 1 of the spindle that scales it (A-5).
+    """
 
     number: str
     place: str
@@ -36,7 +38,10 @@ class Channel:
 
 CHANNELS = (Channel("86", "2", "1.1"), Channel("87", "3", "2.1"))
 SETTINGS = {
-    each.unit: f"what counts as 1 in DAC monitor {each.number}, in the unit of the signal shown: mm, mm/s, % (deg for mm on an axis that turns)"
+    each.unit: (
+        f"what counts as 1 in DAC monitor {each.number}, in the unit of the signal shown: mm, mm/s, % (deg"
+        " for mm on an axis that turns)"
+    )
     for each in CHANNELS
 }
 SIGNALS = {
@@ -45,13 +50,15 @@ SIGNALS = {
     300: samples.INTEGRAL_TORQUE,
     400: samples.VELOCITY_ERROR,
 }
-"""Function code (Table A.B, A-6) -> column. Coarse IPCs (500) and Final Velocity (600) are named there and nowhere explained."""
+"""Function code (Table A.B, A-6) -> column. Coarse IPCs (500) and Final Velocity (600)
+are named there and nowhere explained."""
 OF_ANALOG = (200,)
 """Those that an analog servo has, too (A-6)."""
 
 NOTE = (
-    "DAC monitor {0}: {1} V x {2} / ({3} x {4}), at most {5} V (A-5, A-7, 12-2). INFERRED: full scale at {3} (A-4); ASSUMED: renewed at each sample"
-    " of the loop. The manual does not print the unit of the signal: {4} is that of {6}."
+    "DAC monitor {0}: {1} V x {2} / ({3} x {4}), at most {5} V (A-5, A-7, 12-2). INFERRED: full scale at {3}"
+    " (A-4); ASSUMED: renewed at each sample of the loop. The manual does not print the unit of the signal:"
+    " {4} is that of {6}."
 )
 
 
@@ -82,7 +89,9 @@ def columns(read: AxisParameters, drive: str, p: list[float], notes: list[str]) 
 
 
 def _signal(read: AxisParameters, channel: Channel, drive: str, notes: list[str]) -> int | None:
-    """Return the column that a channel shows: function code + axis number (A-6); None where it shows another axis."""
+    """Return the column that a channel shows: function code + axis number (A-6);
+    None where it shows another axis.
+    """
     code = read.number(CODE, at=channel.place)
     place = f"DAC monitor {channel.number} ({CODE}@{channel.place}) is {code:g}"
     if code == 0.0:

@@ -51,7 +51,8 @@ FILTER_OFF = 10000.0
 VOLTS = 10.0
 """V: the end of the analog output (7-41)."""
 DRIVE_RATIO = 10.0
-"""Velocity loop of an analog drive / position loop: the upper bound of 7-54 (10923 / 65536 per ms to gain / 60 per ms)."""
+"""Velocity loop of an analog drive / position loop:
+the upper bound of 7-54 (10923 / 65536 per ms to gain / 60 per ms)."""
 USUAL_PITCH = 10.0
 """mm: a usual lead; that of a third-party drive is in the drive (7-17)."""
 USUAL_GAIN = 1.0
@@ -60,7 +61,9 @@ USUAL_GAIN = 1.0
 
 @dataclass(frozen=True)
 class Parts:
-    """What every drive has: unit, devices, position loop, its array of parameters, the notes of the result, and fields of AxisLaw."""
+    """What every drive has: unit, devices, position loop, its array of parameters, the notes of the result,
+    and fields of AxisLaw.
+    """
 
     unit: str
     feedback: Feedback
@@ -105,7 +108,9 @@ def digital(read: AxisParameters, parts: Parts) -> AxisLaw:
     )
     assumed = {
         "bandwidth": "No current loop is printed; with the delay it ends appendix A as printed (A-9, A-10).",
-        "delay": "Computing and transfer; the whole lag of the velocity loop is 3 to 5 of its samples (A-9, A-10).",
+        "delay": (
+            "Computing and transfer; the whole lag of the velocity loop is 3 to 5 of its samples (A-9, A-10)."
+        ),
     }
     if inertia.why:
         assumed = {"acceleration_per_output": inertia.why + " All torques depend on it.", **assumed}
@@ -154,7 +159,9 @@ def _without_faults(p: list[float]) -> list[float]:
 
 
 def _linear(p: list[float]) -> list[float]:
-    """Return the array of the loop near rest: without limits, gain break, discharge rate, offset and friction compensation."""
+    """Return the array of the loop near rest: without limits, gain break, discharge rate,
+    offset and friction compensation.
+    """
     linear = _without_faults(p)
     linear[samples.BREAK_POINT] = linear[samples.LIMIT_POSITIVE] = linear[samples.LIMIT_NEGATIVE] = math.inf
     linear[samples.VOLTS_LIMIT], linear[samples.DISCHARGE], linear[samples.OFFSET] = math.inf, 1.0, 0.0
@@ -173,26 +180,31 @@ def _inertia_ratio(read: AxisParameters) -> int:
 
 
 def _gains(read: AxisParameters, motor: str, ratio: int, notes: list[str]) -> tuple[float, float]:
-    """Return the gains that the control uses: those of its tables for a standard motor, unless one is set by hand (7-6)."""
+    """Return the gains that the control uses: those of its tables for a standard motor,
+    unless one is set by hand (7-6).
+    """
     by_hand = read.given(PROPORTIONAL) or read.given(INTEGRAL)
     if read.value(TABLES, everywhere=True) is True and motor != "nonstandard" and not by_hand:
         notes.append("The control may replace the torque limits for a standard motor (7-61).")
         cells = standard_gains(read.tables, motor, ratio)
         if cells is not None:
             notes.append(
-                f"Standard Motor Table Values is Yes: {shown(cells[0], digits=6)} and {shown(cells[1], digits=6)} of Tables 7.B and 7.C replace"
-                " the velocity loop gains of the file (7-6)."
+                f"Standard Motor Table Values is Yes: {shown(cells[0], digits=6)} and"
+                f" {shown(cells[1], digits=6)} of Tables 7.B and 7.C replace the velocity loop gains of the"
+                " file (7-6)."
             )
             return cells
         notes.append(
-            "Standard Motor Table Values is Yes, so the control takes the velocity loop gains from its tables (7-6), where this motor is not"
-            " printed; the gains of the file are simulated instead."
+            "Standard Motor Table Values is Yes, so the control takes the velocity loop gains from its tables"
+            " (7-6), where this motor is not printed; the gains of the file are simulated instead."
         )
     return not_negative(read, PROPORTIONAL), not_negative(read, INTEGRAL)
 
 
 def _torque(read: AxisParameters, p: list[float], notes: list[str]) -> float:
-    """Set discharge, limits, offset, filter and friction compensation; return the cutoff of the filter in Hz."""
+    """Set discharge, limits, offset, filter and friction compensation; return the cutoff of the filter in
+    Hz.
+    """
     p[samples.DISCHARGE] = read.number(DISCHARGE)
     demand(read, DISCHARGE, p[samples.DISCHARGE], p[samples.DISCHARGE] >= 1.0, "must be 1 or more")
     for name, place in ((LIMIT_POSITIVE, samples.LIMIT_POSITIVE), (LIMIT_NEGATIVE, samples.LIMIT_NEGATIVE)):
@@ -227,8 +239,8 @@ def _speed(read: AxisParameters, common: dict[str, Any], travel: float, notes: l
     if most == 0.0 or rapid is None or rapid * 60.0 / travel <= most:
         return
     notes.append(
-        f"The rapid feedrate needs {shown(rapid * 60.0 / travel, 'rpm')} of the motor, more than Maximum Motor Speed {shown(most, 'rpm')} (7-74);"
-        " the simulation does not limit the speed."
+        f"The rapid feedrate needs {shown(rapid * 60.0 / travel, 'rpm')} of the motor, more than Maximum"
+        f" Motor Speed {shown(most, 'rpm')} (7-74); the simulation does not limit the speed."
     )
 
 
@@ -258,14 +270,17 @@ def analog(read: AxisParameters, parts: Parts) -> AxisLaw:
         load_sensor=feedback.on_load,
     )
     assumed = {
-        "velocity_bandwidth": "The velocity loop of the drive is taken ten times as fast as a position loop with the gain of most machines, 1 (7-25): the upper bound of 7-54."
+        "velocity_bandwidth": (
+            "The velocity loop of the drive is taken ten times as fast as a position loop with the gain of"
+            " most machines, 1 (7-25): the upper bound of 7-54."
+        )
     }
     if why:
         assumed["acceleration_per_output"] = why
     else:
         notes.append(
-            "Maximum Servo Acceleration is the acceleration at peak current (7-67); Peak Current as a % of RMS (7-60) converts it to rated torque"
-            " and is the torque limit."
+            "Maximum Servo Acceleration is the acceleration at peak current (7-67); Peak Current as a % of"
+            " RMS (7-60) converts it to rated torque and is the torque limit."
         )
     return AxisLaw(
         **common,
@@ -289,7 +304,8 @@ def _analog_acceleration(
 ) -> tuple[float, str]:
     """Return u/s2 for 1 % of rated torque and why it is assumed ("" where the file has it).
 
-    The printed range and default of Maximum Servo Acceleration are in mm and inches (7-67, 37-3), so a rotary axis takes nothing from it.
+    The printed range and default of Maximum Servo Acceleration are in mm and inches (7-67, 37-3),
+    so a rotary axis takes nothing from it.
     """
     if unit == "mm":
         most = above_zero(read, MAX_ACCELERATION)
@@ -318,7 +334,9 @@ def _peak(read: AxisParameters) -> float:
 
 
 def third_party(read: AxisParameters, unit: str, common: dict[str, Any]) -> AxisLaw:
-    """Return an axis with a third-party SERCOS drive: as far as the file goes, with the gain of most machines (7-2, 7-25)."""
+    """Return an axis with a third-party SERCOS drive: as far as the file goes,
+    with the gain of most machines (7-2, 7-25).
+    """
     own = read.optional(OWN_GAIN)
     gain = USUAL_GAIN if own is None else own
     demand(read, OWN_GAIN, gain, gain > 0.0, "must be above 0")
@@ -328,10 +346,18 @@ def third_party(read: AxisParameters, unit: str, common: dict[str, Any]) -> Axis
     p[samples.EXCESS] = p[samples.SUPPRESSION] = p[samples.VOLTS_LIMIT] = math.inf
     p[samples.VOLTS_POSITIVE] = p[samples.VOLTS_NEGATIVE] = 1.0
     turn = 360.0 if unit == "deg" else USUAL_PITCH
-    why = f"The position gain of the drive is taken as {shown(gain)}, that of most machines (7-25); set {OWN_GAIN}."
+    why = (
+        f"The position gain of the drive is taken as {shown(gain)}, that of most machines (7-25); set"
+        f" {OWN_GAIN}."
+    )
     assumed = {
-        "velocity_bandwidth": "The velocity loop of the drive is taken ten times as fast as a position loop with the gain of most machines, 1 (7-25): the upper bound of 7-54.",
-        "acceleration_per_output": f"Nothing of motor and load is in the file: {NOMINAL:.0f} rad/s2 at rated torque.",
+        "velocity_bandwidth": (
+            "The velocity loop of the drive is taken ten times as fast as a position loop with the gain of"
+            " most machines, 1 (7-25): the upper bound of 7-54."
+        ),
+        "acceleration_per_output": (
+            f"Nothing of motor and load is in the file: {NOMINAL:.0f} rad/s2 at rated torque."
+        ),
     }
     return AxisLaw(
         **common,

@@ -25,11 +25,18 @@ INCREMENTS = ("smallest", "second", "third", "fourth", "largest")
 
 HOMED = (
     (
-        "The axis has not been homed: G28 searches at G28 Home Speed in G28 Direction to Home (5-13), a manual homing at the jog speed (5-3); from the switch"
-        " on both are the same (steps 3 to 10, 5-3 and 5-4)."
+        "The axis has not been homed: G28 searches at G28 Home Speed in G28 Direction to Home (5-13), a"
+        " manual homing at the jog speed (5-3); from the switch on both are the same (steps 3 to 10, 5-3 and"
+        " 5-4)."
     ),
-    "The home position is the marker nearest to where the switch goes off, and Home Calibration from there (5-4, 5-10).",
-    "ASSUMED: the ramp of homing is that of manual moves, exponential by Manual Delay Constant (10-14 calls homing exponential).",
+    (
+        "The home position is the marker nearest to where the switch goes off, and Home Calibration from"
+        " there (5-4, 5-10)."
+    ),
+    (
+        "ASSUMED: the ramp of homing is that of manual moves, exponential by Manual Delay Constant (10-14"
+        " calls homing exponential)."
+    ),
 )
 TOO_FAST = Failure(
     "JOGGED HOME TOO FAST:",
@@ -37,22 +44,30 @@ TOO_FAST = Failure(
 )
 CODED = (
     (
-        "Three markers in a row are passed at G28 Home Speed in G28 Direction to Home, then the axis stops, waits for Inposition Band and takes its"
-        " place on the scale plus Machine Pos. at DCM Scale 0 as its position (5-5 to 5-7, 5-14); pages 7-31 and B-1 say two markers."
+        "Three markers in a row are passed at G28 Home Speed in G28 Direction to Home, then the axis stops,"
+        " waits for Inposition Band and takes its place on the scale plus Machine Pos. at DCM Scale 0 as its"
+        " position (5-5 to 5-7, 5-14); pages 7-31 and B-1 say two markers."
     ),
-    "Then it goes to Axis Position after Homing at Home Speed from Limit Switch (5-14); by page 5-11 this position is not used with such a scale.",
-    "ASSUMED: even markers lie half a smaller period beside the odd ones at the zero of the scale; it is not printed.",
+    (
+        "Then it goes to Axis Position after Homing at Home Speed from Limit Switch (5-14); by page 5-11 this"
+        " position is not used with such a scale."
+    ),
+    (
+        "ASSUMED: even markers lie half a smaller period beside the odd ones at the zero of the scale; it is"
+        " not printed."
+    ),
 )
 STOPPED = (
-    "A software overtravel stops all commands of a manual motion at once, without a ramp; the axis moves past it by its following error (10-18). ASSUMED: a"
-    " programmed move is stopped in the same way, which is not printed."
+    "A software overtravel stops all commands of a manual motion at once, without a ramp; the axis moves past"
+    " it by its following error (10-18). ASSUMED: a programmed move is stopped in the same way, which is not"
+    " printed."
 )
 ZONE_PAGE = "6-3 and 6-7"
 SLOW = "feedrate.external_decel_positioning"
 """While the logic program requests it, in positioning moves; jogs are not slowed (9-6)."""
 ZONES = (
-    "ASSUMED: the axis is alone in its zone group, so that no other axis keeps it out of the zone (6-4), and is stopped there as at an overtravel; for zones no"
-    " stop is printed (6-3)."
+    "ASSUMED: the axis is alone in its zone group, so that no other axis keeps it out of the zone (6-4), and"
+    " is stopped there as at an overtravel; for zones no stop is printed (6-3)."
 )
 JOGGED = (
     "Incremental jogs go at Third Jog Speed (8-2). Linear manual ramps are those of programmed moves (10-18)."
@@ -60,7 +75,9 @@ JOGGED = (
 
 
 def manual_ramp(read: AxisParameters, linear: Ramp, homing: bool) -> Ramp:
-    """Return the ramp of manual moves (10-14, 10-18): exponential, or linear as Manual ACC./DEC Mode is set, but for homing."""
+    """Return the ramp of manual moves (10-14, 10-18): exponential, or linear as Manual ACC./DEC Mode is set,
+    but for homing.
+    """
     if not homing and read.value(MANUAL_MODE, everywhere=True) == "linear":
         return linear
     delay = read.optional(MANUAL_DELAY)
@@ -72,7 +89,9 @@ def manual_ramp(read: AxisParameters, linear: Ramp, homing: bool) -> Ramp:
 
 
 def homing(read: AxisParameters, feedback: Feedback) -> Homing:
-    """Return the homing sequence, with a marker each turn of the position device. Raises SimulationError for devices that home without a switch."""
+    """Return the homing sequence, with a marker each turn of the position device. Raises SimulationError for
+    devices that home without a switch.
+    """
     if read.choice(DEVICE) == "dcm":
         return _coded(read)
     off = SIGN[read.choice(OFF)]
@@ -92,7 +111,9 @@ def homing(read: AxisParameters, feedback: Feedback) -> Homing:
 
 
 def _coded(read: AxisParameters) -> Homing:
-    """Return the homing by distance-coded markers (5-5 to 5-7, 5-14): no switch, any three in a row, then to the home position."""
+    """Return the homing by distance-coded markers (5-5 to 5-7, 5-14): no switch, any three in a row,
+    then to the home position.
+    """
     small, large = above_zero(read, SMALL), above_zero(read, LARGE)
     if small == large:
         raise SimulationError(
@@ -134,7 +155,10 @@ def travel(read: AxisParameters) -> Travel:
     edges = (-math.inf if low is None else low, math.inf if high is None else high)
     notes = (
         STOPPED,
-        "The overtravel works only after homing (6-10). ASSUMED: it is checked once in a servo sample, on the measured position.",
+        (
+            "The overtravel works only after homing (6-10). ASSUMED: it is checked once in a servo sample, on"
+            " the measured position."
+        ),
     )
     slow = (read.optional(SLOW) or 0.0) / 60.0
     return Travel(

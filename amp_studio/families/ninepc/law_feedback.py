@@ -63,8 +63,8 @@ def _turn(read: AxisParameters, unit: str, device: str, *, digital: bool, notes:
         return above_zero(read, OWN_TRAVEL)
     if unit == "deg":
         notes.append(
-            "The manual prints Lead Screw Thread Pitch in mm and inches only (7-17): one turn behind the gears of this rotary"
-            f" axis is assumed to be 360 deg; set {OWN_TRAVEL} for another value."
+            "The manual prints Lead Screw Thread Pitch in mm and inches only (7-17): one turn behind the"
+            f" gears of this rotary axis is assumed to be 360 deg; set {OWN_TRAVEL} for another value."
         )
         return 360.0
     if device == "dcm" and not digital and read.optional(PITCH) is None:

@@ -29,8 +29,8 @@ class Loop:
 def following_error(loop: Loop, feedrate: float) -> float:
     """Return the following error at a constant feedrate in u/s; infinite where the loop never reaches it.
 
-    feedrate / (1000 gain) (7-25), the share 1 - p / 100 of it with ZFE (7-28); beyond the gain break point the part above it is
-    divided by the gain break ratio (the inverse of 7-22 and 7-27).
+    feedrate / (1000 gain) (7-25), the share 1 - p / 100 of it with ZFE (7-28); beyond the gain break point
+    the part above it is divided by the gain break ratio (the inverse of 7-22 and 7-27).
     """
     plain = abs(feedrate) * (1.0 - loop.feed_forward) / loop.rate
     if loop.break_ratio == 1.0 or plain <= loop.break_point:
@@ -41,16 +41,20 @@ def following_error(loop: Loop, feedrate: float) -> float:
 
 
 def printed_excess_error(loop: Loop, feedrate: float) -> float:
-    """Return the printed equation of the least Excess Error: 1.1 feedrate / (1000 gain ratio), the ratio from the start (7-20)."""
+    """Return the printed equation of the least Excess Error: 1.1 feedrate / (1000 gain ratio),
+    the ratio from the start (7-20).
+    """
     if loop.break_ratio == 0.0:
         return math.inf
     return 1.1 * abs(feedrate) / (loop.rate * loop.break_ratio)
 
 
 def sentence_excess_error(loop: Loop, feedrate: float) -> float:
-    """Return the reading of the sentence beside that equation: 110 % of the following error that is expected (7-20).
+    """Return the reading of the sentence beside that equation:
+    110 % of the following error that is expected (7-20).
 
-    Below the printed equation where the gain break is in between, and with ZFE; the same without a gain break.
+    Below the printed equation where the gain break is in between, and with ZFE;
+    the same without a gain break.
     """
     return 1.1 * following_error(loop, feedrate)
 

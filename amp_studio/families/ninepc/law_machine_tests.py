@@ -1,4 +1,6 @@
-"""The tuning program of appendix A for one axis of a 9/PC, inside its travel and at its own feedrates (A-8)."""
+"""The tuning program of appendix A for one axis of a 9/PC, inside its travel and at its own feedrates
+(A-8).
+"""
 
 from __future__ import annotations
 
@@ -15,7 +17,9 @@ FEED, INCHES = "feedrate.max_cutting", 25.4
 
 
 def machine_tests(machine: BoundMachine, axis: AxisLaw) -> list[MachineTest]:
-    """Return the program that reverses at the highest cutting feedrate; refused where the travel is too short to reach it."""
+    """Return the program that reverses at the highest cutting feedrate;
+    refused where the travel is too short to reach it.
+    """
     letter = machine.letter(axis.axis) or axis.axis
     feed = machine.read(axis.axis).optional(FEED) or (axis.feedrate or 0.0) * 60.0
     title, page = "Tuning program: the axis reverses at its highest cutting feedrate", "A-8"
@@ -31,8 +35,8 @@ def machine_tests(machine: BoundMachine, axis: AxisLaw) -> list[MachineTest]:
     way = min(max(PRINTED, needs), ROOM * room)
     if way < needs:
         why = (
-            f"Axis {letter} needs {shown(needs, axis.unit)} to reach {shown(feed, f'{axis.unit}/min')} and stop,"
-            f" and its travel gives {shown(ROOM * room, axis.unit)}."
+            f"Axis {letter} needs {shown(needs, axis.unit)} to reach {shown(feed, f'{axis.unit}/min')} and"
+            f" stop, and its travel gives {shown(ROOM * room, axis.unit)}."
         )
         return [MachineTest("tuning", title, page, refusal=why)]
     lines = (

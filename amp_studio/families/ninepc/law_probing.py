@@ -19,8 +19,14 @@ CYCLES = {
     "G38.1": ("probing.probe_rate", ""),
 }
 """Cycle -> the parameter of its feedrate (9-8, 29-7) and the skip whose tolerance it has (21-9)."""
-LATENCY = "ASSUMED: the position is taken within a servo sample of the signal; how fast a 9/PC takes it is not printed."
-PROGRAMMED = "Use AMP Skip Feedrate (4) is not yes: the cycle goes at the programmed feedrate, which --speed gives (9-8)."
+LATENCY = (
+    "ASSUMED: the position is taken within a servo sample of the signal; how fast a 9/PC takes it is not"
+    " printed."
+)
+PROGRAMMED = (
+    "Use AMP Skip Feedrate (4) is not yes: the cycle goes at the programmed feedrate, which --speed gives"
+    " (9-8)."
+)
 
 
 def probing(read: AxisParameters, axis: AxisLaw, cycle: str) -> Probing:
@@ -53,7 +59,8 @@ def probing(read: AxisParameters, axis: AxisLaw, cycle: str) -> Probing:
         adds = read.value("tool.skip_add", at=skip) is True
         target = read.value("tool.skip_target", at=skip)
         notes.append(
-            f"In the tolerance the result {'is added to' if adds else 'replaces'} the {target or 'wear'} offset; outside of it no offset changes (21-9 to 21-11)."
+            f"In the tolerance the result {'is added to' if adds else 'replaces'} the {target or 'wear'}"
+            " offset; outside of it no offset changes (21-9 to 21-11)."
         )
     return Probing(
         f"{name} skip",

@@ -17,8 +17,8 @@ SHORTEST, LONGEST = 2, 60
 def ramps_of(read: AxisParameters, unit: str, notes: list[str]) -> dict[str, Ramp]:
     """Return the ramps of an axis by kind, that of positioning (10-3) first.
 
-    0 as acceleration is no ramp, as deceleration the acceleration (10-8, 10-10, 10-11, 10-13). Raises SimulationError where a figure
-    that the ramp needs is not set or impossible.
+    0 as acceleration is no ramp, as deceleration the acceleration (10-8, 10-10, 10-11, 10-13). Raises
+    SimulationError where a figure that the ramp needs is not set or impossible.
     """
     step, up, down = if_set(read, STEP) / 60.0, not_negative(read, UP), not_negative(read, DOWN)
     found = {"linear": Ramp("linear", up, down or up, velocity_step=step)}
@@ -32,14 +32,17 @@ def ramps_of(read: AxisParameters, unit: str, notes: list[str]) -> dict[str, Ram
     own = str(read.value(MODE, everywhere=True) or "linear")
     if own not in found:
         notes.append(
-            f"Positioning is exponential (10-3), but {DELAY} or the scan time is not set: linear ramps are used."
+            f"Positioning is exponential (10-3), but {DELAY} or the scan time is not set: linear ramps are"
+            " used."
         )
         own = "linear"
     return {own: found[own], **found}
 
 
 def jerk_bounds(ramp: float, scan: float) -> tuple[float, float]:
-    """Return the least and the greatest jerk in u/s3 for a ramp in u/s2 and a scan in s: ramp / time of 60 and of 2 scans (10-20)."""
+    """Return the least and the greatest jerk in u/s3 for a ramp in u/s2 and a scan in s:
+    ramp / time of 60 and of 2 scans (10-20).
+    """
     return ramp / (LONGEST * scan), ramp / (SHORTEST * scan)
 
 
@@ -65,7 +68,9 @@ def _exponential(read: AxisParameters, notes: list[str]) -> tuple[float | None, 
 
 
 def _curve(read: AxisParameters, unit: str, scan: float | None, step: float, notes: list[str]) -> Ramp | None:
-    """Return the S-curve: its time is ramp / jerk, between 2 and 60 scans (10-19 to 10-22); None where it is not set."""
+    """Return the S-curve: its time is ramp / jerk, between 2 and 60 scans (10-19 to 10-22);
+    None where it is not set.
+    """
     up, down, jerk = if_set(read, CURVE_UP), if_set(read, CURVE_DOWN), if_set(read, JERK)
     if up == 0.0 or jerk == 0.0:
         return None
@@ -74,8 +79,8 @@ def _curve(read: AxisParameters, unit: str, scan: float | None, step: float, not
         used = min(max(jerk, low), high)
         if used != jerk:
             notes.append(
-                f"Axis Jerk {shown(jerk)} {unit}/s3 gives an S-curve of {shown(up / jerk, 's', 3)}, outside of 2 to 60 scans (10-19): the S-curve"
-                f" is simulated with {shown(used)} {unit}/s3."
+                f"Axis Jerk {shown(jerk)} {unit}/s3 gives an S-curve of {shown(up / jerk, 's', 3)}, outside"
+                f" of 2 to 60 scans (10-19): the S-curve is simulated with {shown(used)} {unit}/s3."
             )
             jerk = used
     return Ramp("s-curve", up, down or up, jerk=jerk, velocity_step=step)

@@ -1,4 +1,6 @@
-"""Reads figures that a motion can be computed with; an absurd one is refused with its parameter and the reason."""
+"""Reads figures that a motion can be computed with;
+an absurd one is refused with its parameter and the reason.
+"""
 
 from __future__ import annotations
 
@@ -31,7 +33,9 @@ def if_set(read: AxisParameters, name: str, otherwise: float = 0.0) -> float:
 def demand(
     read: AxisParameters, name: str, value: float, good: bool, what: str, *, everywhere: bool = False
 ) -> None:
-    """Raise SimulationError with the reason ``what`` unless a value is good, and for one beyond all machines."""
+    """Raise SimulationError with the reason ``what`` unless a value is good, and for one beyond all
+    machines.
+    """
     place = "" if everywhere or name.startswith("model.") else f"@{read.axis}"
     if not good:
         raise SimulationError(f"{name}{place} is {value:g}; it {what}", name)

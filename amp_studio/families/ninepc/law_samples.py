@@ -1,8 +1,9 @@
 """The 9/PC's loops as sample functions over flat arrays: position loop, velocity loop, analog output.
 
-Pages are those of the 9/PC AMP manual. Where it is silent the choice is documented here and in the assumptions of every result
-(`law_notes.py`). Lengths are in the unit u of the axis (mm or deg), times in s, torque in % of rated torque. The functions run as
-plain Python and as machine code: flat arrays, indices below.
+Pages are those of the 9/PC AMP manual. Where it is silent the choice is documented here and in the
+assumptions of every result (`law_notes.py`). Lengths are in the unit u of the axis (mm or deg), times in s,
+torque in % of rated torque. The functions run as plain Python and as machine code: flat arrays,
+indices below.
 """
 
 from __future__ import annotations
@@ -45,17 +46,20 @@ PERIOD = 21
 VOLTS_POSITIVE, VOLTS_NEGATIVE, VOLTS_LIMIT = 22, 23, 24
 """V for 1 u/s in each direction; V."""
 DESKEW, SKEW_LIMIT, MASTER_SAMPLES = 25, 26, 27
-"""1/u: change of the slave's gain by the skew; u; number of following errors of the master, from MASTER on."""
+"""1/u: change of the slave's gain by the skew; u; number of following errors of the master, from MASTER
+on."""
 CUTTING, TORQUE_UNIT = 28, 29
 """Not used by the loops: u/s of Maximum Cutting Feedrate; PROPORTIONAL for a gain of 1."""
 CHANNELS, DAC, DAC_FIGURES = 30, 31, 3
-"""Number of DAC monitors shown; from DAC on for each: number of the monitor it shows, V for 1 of its unit, V at full scale."""
+"""Number of DAC monitors shown; from DAC on for each: number of the monitor it shows, V for 1 of its unit,
+V at full scale."""
 MASTER = 37
 SIZE = 37
 
 # -- state -----------------------------------------------------------------------------------------
 CAME_FROM, SHIFT = 0, 1
-"""Direction of the last motion commanded (0 at the start); u that reversal error compensation adds to the command."""
+"""Direction of the last motion commanded (0 at the start);
+u that reversal error compensation adds to the command."""
 VELOCITY_COMMAND, FRICTION, ABOVE = 2, 3, 4
 """u/s; %; 1 while the following error is at or above the threshold for friction compensation."""
 LAST_MOTOR, ERROR_SUM, FILTERED, SAMPLE = 5, 6, 7, 8
@@ -85,9 +89,9 @@ DAC_MONITOR = 7
 def position_sample(p: Vector, s: Vector, io: Vector) -> None:
     """Close the position loop of a digital servo and set its friction compensation, once a servo period.
 
-    Friction compensation (7-84 to 7-89): nothing below the threshold of following error, the friction of the direction from it
-    on, and stiction on top in the one sample that reaches it. The direction is that of the motion commanded, at rest that
-    of the following error.
+    Friction compensation (7-84 to 7-89): nothing below the threshold of following error, the friction of the
+    direction from it on, and stiction on top in the one sample that reaches it. The direction is that of the
+    motion commanded, at rest that of the following error.
     """
     position_loop(p, s, io)
     error, velocity = io[MONITOR + 3], io[COMMAND_VELOCITY]
@@ -102,7 +106,9 @@ def position_sample(p: Vector, s: Vector, io: Vector) -> None:
 
 
 def analog_sample(p: Vector, s: Vector, io: Vector) -> None:
-    """Close the position loop of an analog servo: its output is a voltage in proportion to the velocity (7-41, 7-43)."""
+    """Close the position loop of an analog servo:
+    its output is a voltage in proportion to the velocity (7-41, 7-43).
+    """
     if io[MODE] == OUTPUT_TEST:
         volts = io[COMMAND]
     else:
@@ -116,9 +122,9 @@ def analog_sample(p: Vector, s: Vector, io: Vector) -> None:
 def position_loop(p: Vector, s: Vector, io: Vector) -> None:
     """Set the velocity command; checks the limits of the following error (7-20, 7-21).
 
-    Closed loop: in proportion to the following error (7-14, 7-25); the part beyond the gain break point counts only gain
-    break ratio times (7-22, 7-27). ZFE: a share of the command velocity is added (7-15, 7-28). Open loop: the command
-    velocity itself (7-13); nothing is checked.
+    Closed loop: in proportion to the following error (7-14, 7-25); the part beyond the gain break point
+    counts only gain break ratio times (7-22, 7-27). ZFE: a share of the command velocity is added (7-15,
+    7-28). Open loop: the command velocity itself (7-13); nothing is checked.
     """
     closed = io[MODE] == POSITION_LOOP and p[OPEN] == 0.0
     if closed and p[REVERSAL] != 0.0:
@@ -144,7 +150,8 @@ def position_loop(p: Vector, s: Vector, io: Vector) -> None:
 def reversal_error(p: Vector, s: Vector, velocity: float) -> None:
     """Add Reversal Error Compensation at the beginning of a motion in the other direction (7-18).
 
-    A negative value is added to the first motion in the positive direction, a positive one to the first in the negative direction.
+    A negative value is added to the first motion in the positive direction,
+    a positive one to the first in the negative direction.
     """
     if velocity == 0.0:
         return
@@ -158,8 +165,8 @@ def reversal_error(p: Vector, s: Vector, velocity: float) -> None:
 def slave_gain(p: Vector, s: Vector, io: Vector, error: float) -> float:
     """Return the factor of the gain of the slave of a split axis (32-9); checks the skew (32-10).
 
-    The factor is 1 + Deskew Gain x skew, the skew counted positive where the slave is further behind: the manual prints that the
-    gain changes in proportion to the skew, and no unit.
+    The factor is 1 + Deskew Gain x skew, the skew counted positive where the slave is further behind: the
+    manual prints that the gain changes in proportion to the skew, and no unit.
     """
     samples, k = int(p[MASTER_SAMPLES]), int(s[SAMPLE])
     s[SAMPLE] += 1.0
@@ -174,13 +181,14 @@ def slave_gain(p: Vector, s: Vector, io: Vector, error: float) -> float:
 def velocity_sample(p: Vector, s: Vector, io: Vector) -> None:
     """Close the velocity loop of a digital servo, once a velocity period (7-54 to 7-69).
 
-    Velocity error times Velocity Proportional Gain and the sum of velocity errors times Velocity Integral Gain are added (7-54, 7-56);
-    torque offset (7-63) and friction compensation come on top, then the torque filter (7-69) and the limit of the
-    direction of travel (7-61, 7-62).
+    Velocity error times Velocity Proportional Gain and the sum of velocity errors times Velocity Integral
+    Gain are added (7-54, 7-56); torque offset (7-63) and friction compensation come on top, then the torque
+    filter (7-69) and the limit of the direction of travel (7-61, 7-62).
     """
     velocity = (io[MOTOR] - s[LAST_MOTOR]) / p[PERIOD]
     s[LAST_MOTOR] = io[MOTOR]
-    # The limit of the direction of travel, in which it accelerates and brakes; at rest the commanded one (7-61, 7-62).
+    # The limit of the direction of travel, in which it accelerates and brakes; at rest the commanded one
+    # (7-61, 7-62).
     direction = velocity if velocity != 0.0 else s[VELOCITY_COMMAND]
     limit = p[LIMIT_POSITIVE] if direction >= 0.0 else p[LIMIT_NEGATIVE]
     if io[MODE] == OUTPUT_TEST:
@@ -207,7 +215,9 @@ def dac_monitors(p: Vector, io: Vector) -> None:
 
 
 def summed(total: float, error: float, discharge: float) -> float:
-    """Return the sum of velocity errors with one more: what takes it down counts VE Integrator Discharge Rate times (7-58)."""
+    """Return the sum of velocity errors with one more:
+    what takes it down counts VE Integrator Discharge Rate times (7-58).
+    """
     if total * error >= 0.0:
         return total + error
     after = total + discharge * error

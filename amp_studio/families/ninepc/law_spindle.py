@@ -21,16 +21,20 @@ PER_GAIN = 1000.0 / 60.0
 """1/s for a gain of 1 rpm in 0.001 revolutions (12-15)."""
 GAIN = "servo.initial_gain"
 RAMPED = (
-    "The ramp takes Acceleration Time up to Maximum Tapping Speed with the solid tapping option, else Dev. Detection Filter Time up to Max. Spindle Speed"
-    " (12-3); its table names the ramp parameter itself for the second, which is a slip. ASSUMED: the option is there where Acceleration Time is set."
+    "The ramp takes Acceleration Time up to Maximum Tapping Speed with the solid tapping option, else Dev."
+    " Detection Filter Time up to Max. Spindle Speed (12-3); its table names the ramp parameter itself for"
+    " the second, which is a slip. ASSUMED: the option is there where Acceleration Time is set."
 )
 STEPPED = "Spindle DAC Output Ramping is off: the output changes in one step (12-3)."
 SHARED = "ASSUMED: the output is in proportion to the speed, to Voltage at Max at Max. Spindle Speed (12-5)."
 NO_GEARS = (
-    "A gear that is used has no legal minimum and maximum speed, or no tapping values: the control takes it that no gears are there and never"
-    " requests one (12-8, 27-2)"
+    "A gear that is used has no legal minimum and maximum speed, or no tapping values: the control takes it"
+    " that no gears are there and never requests one (12-8, 27-2)"
 )
-TAPPED = "While tapping, the lower gain and the lower acceleration of axis and spindle are those of both (12-15, 27-2)."
+TAPPED = (
+    "While tapping, the lower gain and the lower acceleration of axis and spindle are those of both (12-15,"
+    " 27-2)."
+)
 FORCED = "The axis has zero following error: the spindle is forced to the same loop and feed-forward (27-1)."
 SIGN = {"clockwise": 1.0, "counterclockwise": -1.0}
 

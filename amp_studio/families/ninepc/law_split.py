@@ -21,14 +21,18 @@ Leads = Mapping[str, Positions]
 AXES = tuple(str(n) for n in range(1, 9))
 
 SLAVE = (
-    "This servo is the slave of axis {0}: command, ramps and feedrates are those of its master (32-4), whose motion is simulated first. Its gain is"
-    " multiplied by 1 + Deskew Gain x skew; that the gain changes in proportion to the skew is printed (32-9), its unit, 1/{1}, is ASSUMED."
+    "This servo is the slave of axis {0}: command, ramps and feedrates are those of its master (32-4), whose"
+    " motion is simulated first. Its gain is multiplied by 1 + Deskew Gain x skew; that the gain changes in"
+    " proportion to the skew is printed (32-9), its unit, 1/{1}, is ASSUMED."
 )
 LOOSE = (
-    "ASSUMED: model.coupling = 0 % for 1 {0}. The mechanics join the two servos of the split axis with no force, and each is moved for itself; set"
-    " the torque that a skew brings."
+    "ASSUMED: model.coupling = 0 % for 1 {0}. The mechanics join the two servos of the split axis with no"
+    " force, and each is moved for itself; set the torque that a skew brings."
 )
-JOINED = "The loads of both servos of the split axis pull at each other by model.coupling; each is computed with the motion of the other until none changes."
+JOINED = (
+    "The loads of both servos of the split axis pull at each other by model.coupling; each is computed with"
+    " the motion of the other until none changes."
+)
 MASTER = "This servo is the master of a split axis (32-4); simulate axis {0} to see the skew."
 OWN_COUPLING = "model.coupling"
 STIFFEST = 1e9
@@ -50,7 +54,9 @@ class Slave:
 
 
 def slave_of(read: AxisParameters) -> Slave | None:
-    """Return the pair of an axis that is a slave, None for any other; raises SimulationError for an impossible pair."""
+    """Return the pair of an axis that is a slave, None for any other;
+    raises SimulationError for an impossible pair.
+    """
     own = read.value(NAME)
     for master, slave, place in SETS:
         names = read.value(master, at=place), read.value(slave, at=place)
@@ -99,7 +105,9 @@ def _deskewed(law: AxisLaw, slave: Slave) -> AxisLaw:
 
 
 def _with_master(master: AxisLaw, stiffness: float, axis: AxisLaw, run: Leader) -> AxisLaw:
-    """Return a slave with the following errors of its master, servo sample by servo sample, and the force between both."""
+    """Return a slave with the following errors of its master, servo sample by servo sample,
+    and the force between both.
+    """
     if not math.isfinite(axis.parameters[samples.EXCESS]):
         return replace(axis, after=None)  # a swept sine: the loop of the slave alone
     if stiffness:
@@ -124,8 +132,9 @@ def _following(slave: AxisLaw, leads: Leads) -> AxisLaw:
 
 
 def _joined(master: AxisLaw, slave: AxisLaw, stiffness: float, run: Leader) -> tuple[AxisLaw, AxisLaw]:
-    """Return both servos with the force of the other on their loads: each in turn with the last motion of the other, until neither
-    changes (waveform relaxation: E. Lelarasmee, A. Ruehli, A. Sangiovanni-Vincentelli, 1982).
+    """Return both servos with the force of the other on their loads: each in turn with the last motion of the
+    other, until neither changes (waveform relaxation: E. Lelarasmee, A. Ruehli, A. Sangiovanni-Vincentelli,
+    1982).
     """
 
     def pulled(axis: AxisLaw, other: Positions) -> AxisLaw:
@@ -153,13 +162,16 @@ def _joined(master: AxisLaw, slave: AxisLaw, stiffness: float, run: Leader) -> t
             given, answers = [*given, positions][-KEPT:], [*answers, answered][-KEPT:]
         positions = _mixed(given, answers) if len(given) > 1 else answered
     raise SimulationError(
-        f"The coupling of {stiffness:g} % for 1 {master.unit} is too stiff for these loops to be computed: give a smaller one",
+        f"The coupling of {stiffness:g} % for 1 {master.unit} is too stiff for these loops to be computed:"
+        " give a smaller one",
         OWN_COUPLING,
     )
 
 
 def _mixed(given: list[Positions], answers: list[Positions]) -> Positions:
-    """Return the mixture of the last answers whose error is least (D. G. Anderson, Journal of the ACM 12, 1965)."""
+    """Return the mixture of the last answers whose error is least (D. G. Anderson, Journal of the ACM 12,
+    1965).
+    """
     length = max(map(len, [*given, *answers]))
     g, a = (
         np.array([np.pad(each, (0, length - len(each)), "edge") for each in kept])
@@ -178,7 +190,9 @@ def _axis_named(read: AxisParameters, name: str, parameter: str) -> str:
 
 
 def _not_negative(read: AxisParameters, name: str, place: str) -> float:
-    """Return a figure of a set; a gain that is not set is 0, the default, which switches it off (32-9, 37-3)."""
+    """Return a figure of a set; a gain that is not set is 0, the default, which switches it off (32-9,
+    37-3).
+    """
     value = (read.optional(name, at=place) or 0.0) if name == GAIN else read.number(name, at=place)
     if not 0.0 <= value < math.inf:
         raise SimulationError(f"{name}@{place} is {value:g}; it must not be negative", name)

@@ -1,8 +1,9 @@
 """Scenario `procedure`: the tuning procedure of appendix A on the simulated axis, step by step (A-8 to A-10).
 
-Printed: the order of the steps, and what the strip chart recorder shows at each. By how much a gain is changed is not: here it is raised and
-lowered by a tenth, the integral gain by a tenth too. An overshoot is slight up to `SLIGHT` of the feedrate; an oscillation is one where the
-torque swings through a quarter of its limits at the end of the constant speed or at rest.
+Printed: the order of the steps, and what the strip chart recorder shows at each. By how much a gain is
+changed is not: here it is raised and lowered by a tenth, the integral gain by a tenth too. An overshoot is
+slight up to `SLIGHT` of the feedrate; an oscillation is one where the torque swings through a quarter of its
+limits at the end of the constant speed or at rest.
 """
 
 from __future__ import annotations
@@ -79,7 +80,9 @@ class Chart:
 
 @dataclass(frozen=True)
 class Tuned:
-    """The end of the procedure: both gains, the highest proportional gain alone, the integral gain that nothing stops."""
+    """The end of the procedure: both gains, the highest proportional gain alone,
+    the integral gain that nothing stops.
+    """
 
     highest: float
     proportional: float
@@ -88,7 +91,9 @@ class Tuned:
 
 
 def with_gains(axis: AxisLaw, proportional: float, integral: float) -> AxisLaw:
-    """Return the axis with other gains and set as in Table A.A: no torque filter, discharge rate 1, no torque offset."""
+    """Return the axis with other gains and set as in Table A.A: no torque filter, discharge rate 1,
+    no torque offset.
+    """
     p = list(axis.parameters)
     p[samples.PROPORTIONAL] = proportional * p[samples.TORQUE_UNIT]
     p[samples.INTEGRAL] = integral * p[samples.TORQUE_UNIT]
@@ -98,7 +103,9 @@ def with_gains(axis: AxisLaw, proportional: float, integral: float) -> AxisLaw:
 
 
 def chart(axis: AxisLaw, feedrate: float, proportional: float, integral: float) -> Chart:
-    """Make the tuning move at ``feedrate`` u/s with these gains; the position loop is closed, as the manual recommends (A-8)."""
+    """Make the tuning move at ``feedrate`` u/s with these gains; the position loop is closed,
+    as the manual recommends (A-8).
+    """
     axis = with_gains(axis, proportional, integral)
     limit = min(axis.parameters[samples.LIMIT_POSITIVE], axis.parameters[samples.LIMIT_NEGATIVE])
     lag = 1.0 / axis.position_rate
@@ -107,7 +114,8 @@ def chart(axis: AxisLaw, feedrate: float, proportional: float, integral: float) 
     end = end_of(profile)
     if end > LONGEST:
         raise SimulationError(
-            f"The tuning move of axis {axis.axis} takes {shown(end, 's', 3)}; at most {LONGEST:g} s are simulated. Raise its position gain or torque limits"
+            f"The tuning move of axis {axis.axis} takes {shown(end, 's', 3)}; at most {LONGEST:g} s are"
+            " simulated. Raise its position gain or torque limits"
         )
     motion = run_axis(axis, profile, Until(end + 13.0 * lag), engine="compiled", thin=True)
     time, velocity, torque = (motion.columns[name] for name in ("time_s", "velocity_feedback", "output"))
@@ -148,7 +156,9 @@ def _below(axis: AxisLaw, feedrate: float, proportional: float, integral: float)
 
 
 def lowered(axis: AxisLaw, feedrate: float, proportional: float, integral: float) -> float | None:
-    """Return the first clean proportional gain at or below, None if there is none down to an eighth (step 6)."""
+    """Return the first clean proportional gain at or below, None if there is none down to an eighth (step
+    6).
+    """
     gain = proportional
     while gain > proportional / 8.0:
         if chart(axis, feedrate, gain, integral).clean:
@@ -158,7 +168,9 @@ def lowered(axis: AxisLaw, feedrate: float, proportional: float, integral: float
 
 
 def procedure(axis: AxisLaw, feedrate: float) -> Tuned:
-    """Return where the procedure ends: the integral gain raised and the proportional one lowered in turn (steps 5 to 7)."""
+    """Return where the procedure ends: the integral gain raised
+    and the proportional one lowered in turn (steps 5 to 7).
+    """
     first = proportional = highest(axis, feedrate)
     integral, last = proportional / FIRST_INTEGRAL, 0.0
     while (found := lowered(axis, feedrate, proportional, integral)) is not None and integral <= MOST_GAIN:
@@ -167,7 +179,9 @@ def procedure(axis: AxisLaw, feedrate: float) -> Tuned:
 
 
 def procedure_run(axis: AxisLaw, settings: Mapping[str, ParameterValue]) -> Trace:
-    """Run the procedure; raises SimulationError for an axis without a digital velocity loop or a closed position loop."""
+    """Run the procedure; raises SimulationError for an axis without a digital velocity loop
+    or a closed position loop.
+    """
     refuse_unknown(settings, SETTINGS)
     if axis.velocity_sample is None or axis.parameters[samples.OPEN]:
         raise SimulationError(
@@ -209,8 +223,9 @@ def procedure_run(axis: AxisLaw, settings: Mapping[str, ParameterValue]) -> Trac
 
 
 NOTE = (
-    "Appendix A (A-8 to A-10) on the simulated axis, without torque filter and with discharge rate 1 (Table A.A): the gains fit the assumed machine; steps"
-    " of a tenth, an overshoot of 2 % and a swing of half the torque limit are choices of this program. It ends at the edge of stability; tune finds gains with a"
+    "Appendix A (A-8 to A-10) on the simulated axis, without torque filter and with discharge rate 1 (Table"
+    " A.A): the gains fit the assumed machine; steps of a tenth, an overshoot of 2 % and a swing of half the"
+    " torque limit are choices of this program. It ends at the edge of stability; tune finds gains with a"
     " reserve."
 )
 

@@ -1,27 +1,33 @@
-"""The unit of the 9/PC's velocity loop gains, and the inertia they work on: an inference, tested in tests/families/ninepc.
+"""The unit of the 9/PC's velocity loop gains, and the inertia they work on: an inference,
+tested in tests/families/ninepc.
 
-The manual prints no unit for Velocity Proportional Gain (VPG) and Velocity Integral Gain (VIG). All that it prints about them fits one:
+The manual prints no unit for Velocity Proportional Gain (VPG) and Velocity Integral Gain (VIG).
+All that it prints about them fits one:
 
     torque / rated torque = (VPG e + VIG sum(e)) / 65536
 
-e is the velocity error of the motor in rad/s, summed once a velocity sample of 1 ms; the inertia belongs to the axis. The evidence, with what
-it decides:
+e is the velocity error of the motor in rad/s, summed once a velocity sample of 1 ms; the inertia belongs to
+the axis. The evidence, with what it decides:
 
-- Each column of Tables 7.B and 7.C is its first cell times 1 + load inertia ratio (7-55, 7-56; one cell of 36 is printed 17460
-  for 17476): the gain is torque per velocity error, and the inertia is not in it. Windings of one motor share a cell, so the torque is a share
-  of rated torque, not amperes. The lead of the screw is in no table: the error is an angle.
-- The bounds 3277, 10923 and 1092 times the position gain (7-54, 7-56) are 65536 / 20, / 6 and / 60, which by the manual
-  convert to inverse milliseconds, the position gain being 60 / gain in them (7-25). So 65536 is 1 per ms for both
-  gains: the proportional one on an axis of 1000 rad/s2 at rated torque (`NOMINAL`), the integral one where the sum grows once a millisecond.
+- Each column of Tables 7.B and 7.C is its first cell times 1 + load inertia ratio (7-55, 7-56; one cell of 36
+  is printed 17460 for 17476): the gain is torque per velocity error, and the inertia is not in it. Windings
+  of one motor share a cell, so the torque is a share of rated torque, not amperes. The lead of the screw is
+  in no table: the error is an angle.
+- The bounds 3277, 10923 and 1092 times the position gain (7-54, 7-56) are 65536 / 20, / 6 and / 60, which by
+  the manual convert to inverse milliseconds, the position gain being 60 / gain in them (7-25). So 65536 is 1
+  per ms for both
+  gains: the proportional one on an axis of 1000 rad/s2 at rated torque (`NOMINAL`), the integral one where
+  the sum grows once a millisecond.
 - On that axis the two upper bounds together are a damping of 0.65 at gain 1, the usual design of a cascade.
-- A factor of 2 more torque (value / 65536 of the 200 % limit) would put cells of Table 7.B beyond the stability of a loop
-  that also ends appendix A between 5 and 10; a factor of 1 does not.
-- Appendix A (A-8 to A-10) ends with VPG / VIG between 5 and 10 and then in an oscillation that no VPG stops. That ratio is the integral
-  time in samples, and the oscillation comes where it is shorter than the lag of the loop: 3 to 5 samples in all. Half a sample of hold
-  and half of difference leave 2 to 4: `DELAY` and `CURRENT_LOOP` are taken from that.
+- A factor of 2 more torque (value / 65536 of the 200 % limit) would put cells of Table 7.B beyond the
+  stability of a loop that also ends appendix A between 5 and 10; a factor of 1 does not.
+- Appendix A (A-8 to A-10) ends with VPG / VIG between 5 and 10 and then in an oscillation that no VPG stops.
+  That ratio is the integral time in samples, and the oscillation comes where it is shorter than the lag of
+  the loop: 3 to 5 samples in all. Half a sample of hold and half of difference leave 2 to 4: `DELAY` and
+  `CURRENT_LOOP` are taken from that.
 
-What does not fit is a note of the result (`law_notes.py`): the 7xx motors, whose two cells are 120 to 220 apart where all others are 14 to 25; an
-axis too heavy for 1500; the smooth overshoot of large systems.
+What does not fit is a note of the result (`law_notes.py`): the 7xx motors, whose two cells are 120 to 220
+apart where all others are 14 to 25; an axis too heavy for 1500; the smooth overshoot of large systems.
 """
 
 from __future__ import annotations
@@ -44,8 +50,8 @@ CURRENT_LOOP = 200.0
 
 
 def lag_of(delay: float, bandwidth: float, torque_filter: float = math.inf) -> float:
-    """Return the whole lag of the velocity loop in s: half a sample of hold and half of difference, the delay in s, current loop (0: ideal)
-    and torque filter in Hz.
+    """Return the whole lag of the velocity loop in s: half a sample of hold and half of difference, the delay
+    in s, current loop (0: ideal) and torque filter in Hz.
     """
     current = 1.0 / (2.0 * math.pi * bandwidth) if bandwidth > 0.0 else 0.0
     return VELOCITY_PERIOD + delay + current + 1.0 / (2.0 * math.pi * torque_filter)
@@ -56,11 +62,13 @@ LAG = lag_of(DELAY, CURRENT_LOOP)
 NOMINAL = 1000.0
 """rad/s2 at rated torque of the axis that the printed bounds are about."""
 SEPARATE = 3.0
-"""Least ratio of velocity loop to position loop (7-54: 3277 / 65536 per ms to gain / 60 per ms), below which a closed position loop overshoots."""
+"""Least ratio of velocity loop to position loop (7-54: 3277 / 65536 per ms to gain / 60 per ms), below which
+a closed position loop overshoots."""
 
 ASSUMED_MOTORS = {"b410": (2.7, 0.004), "b420": (4.5, 0.007)}
-"""Frame -> rated torque in N m and inertia in lb in s2. ASSUMED: no manual here prints them, they come from an excerpt of the maker's
-data sheet 1326AB Torque Plus (within 10 %). Of the other frames nothing is at hand."""
+"""Frame -> rated torque in N m and inertia in lb in s2. ASSUMED: no manual here prints them, they come from
+an excerpt of the maker's data sheet 1326AB Torque Plus (within 10 %). Of the other frames nothing is at
+hand."""
 DATA_SHEET = "an excerpt of the maker's data sheet 1326AB Torque Plus (within 10 %), not from a manual"
 OWN_TORQUE, OWN_INERTIA = "model.motor_torque", "model.motor_inertia"
 """N m and kg m2 of the motor, when they are set."""
@@ -72,14 +80,18 @@ ODD_FRAMES = ("b7",)
 
 @dataclass(frozen=True)
 class Inertia:
-    """What an axis accelerates with: rad/s2 of its motor at rated torque, load included, and why it is taken."""
+    """What an axis accelerates with: rad/s2 of its motor at rated torque, load included, and why it is
+    taken.
+    """
 
     acceleration: float
     why: str
 
 
 def torque_for(gain: float, travel: float) -> float:
-    """Return the torque in % of rated torque for a velocity error (or a sum of them) of 1 u/s; ``travel`` is u for a turn of the motor."""
+    """Return the torque in % of rated torque for a velocity error (or a sum of them) of 1 u/s;
+    ``travel`` is u for a turn of the motor.
+    """
     return 100.0 * gain / FULL * 2.0 * math.pi / travel
 
 
@@ -101,7 +113,8 @@ def gain_for_rate(rate: float, rotation: float) -> float:
 def highest_rate(lag: float = LAG, integral_time: float = math.inf) -> float:
     """Return the loop rate in 1/s at which the rigid velocity loop oscillates; 0 where it does at any rate.
 
-    Crossing of -180 degrees of rate (1 + 1 / (s Ti)) exp(-s lag) / s with the lag as one dead time: atan(w Ti) = w lag.
+    Crossing of -180 degrees of rate (1 + 1 / (s Ti)) exp(-s lag) / s with the lag as one dead time:
+    atan(w Ti) = w lag.
     """
     if math.isinf(integral_time):
         return 0.5 * math.pi / lag
@@ -124,7 +137,9 @@ def frame_acceleration(frame: str) -> float:
 
 
 def standard_gains(tables: Mapping[str, Table], motor: str, ratio: int) -> tuple[float, float] | None:
-    """Return the cells of Tables 7.B and 7.C (7-55, 7-56) of a motor type at 1 : ratio; None where one table has no such motor."""
+    """Return the cells of Tables 7.B and 7.C (7-55, 7-56) of a motor type at 1 : ratio;
+    None where one table has no such motor.
+    """
     columns = [tables[name].column(motor.upper()) if name in tables else None for name in ("7.B", "7.C")]
     if columns[0] is None or columns[1] is None:
         return None
@@ -132,7 +147,9 @@ def standard_gains(tables: Mapping[str, Table], motor: str, ratio: int) -> tuple
 
 
 def typical_rate(tables: Mapping[str, Table]) -> float:
-    """Return the velocity loop in 1/s that Table 7.B gives the motors whose data are assumed: the geometric mean."""
+    """Return the velocity loop in 1/s that Table 7.B gives the motors whose data are assumed:
+    the geometric mean.
+    """
     rates = []
     for frame in ASSUMED_MOTORS:
         column = tables["7.B"].column(f"{frame.upper()}{'G' if frame == 'b410' else 'E'}")
@@ -150,8 +167,8 @@ def inertia_of(
 ) -> Inertia:
     """Return what a digital axis accelerates with, from Motor Type and Load Inertia Ratio (7-71, 7-72).
 
-    ``torque`` in N m and ``inertia`` in kg m2 are those of the motor where they are set. Raises SimulationError where one is set
-    and the other unknown.
+    ``torque`` in N m and ``inertia`` in kg m2 are those of the motor where they are set. Raises
+    SimulationError where one is set and the other unknown.
     """
     name, loaded = f"1326AB-{motor.upper()}", f"Load Inertia Ratio 1 : {ratio} (7-71)"
     frame = ASSUMED_MOTORS.get(motor[:4])
@@ -161,27 +178,30 @@ def inertia_of(
     if frame is not None:
         return Inertia(
             frame_acceleration(motor[:4]) / (1.0 + ratio),
-            f"A {name} is taken to have {OWN_TORQUE} = {frame[0]:g} N m (rated) and {OWN_INERTIA} = {frame[1] * LB_IN_S2:.6f} kg m2, from"
-            f" {DATA_SHEET}, with {loaded}.",
+            f"A {name} is taken to have {OWN_TORQUE} = {frame[0]:g} N m (rated) and {OWN_INERTIA} ="
+            f" {frame[1] * LB_IN_S2:.6f} kg m2, from {DATA_SHEET}, with {loaded}.",
         )
     if column is not None:
         rate = typical_rate(tables)
         return Inertia(
             rate * FULL / float(column[0]) / (1.0 + ratio),
-            f"The manual has no data of a {name}: its cell of Table 7.B (7-55) is taken to give a velocity loop of {rate:.0f} 1/s, the"
-            f" mean of the 410 and 420 frames, whose torque and inertia are from {DATA_SHEET}, with {loaded}; set {OWN_TORQUE} and {OWN_INERTIA}.",
+            f"The manual has no data of a {name}: its cell of Table 7.B (7-55) is taken to give a velocity"
+            f" loop of {rate:.0f} 1/s, the mean of the 410 and 420 frames, whose torque and inertia are from"
+            f" {DATA_SHEET}, with {loaded}; set {OWN_TORQUE} and {OWN_INERTIA}.",
         )
     return Inertia(
         NOMINAL,
-        f"Nothing is known of the motor and its load: {NOMINAL:.0f} rad/s2 at rated torque, the axis that the bounds of 7-54 are about;"
-        f" set {OWN_TORQUE} and {OWN_INERTIA}.",
+        f"Nothing is known of the motor and its load: {NOMINAL:.0f} rad/s2 at rated torque, the axis that the"
+        f" bounds of 7-54 are about; set {OWN_TORQUE} and {OWN_INERTIA}.",
     )
 
 
 def _of_set_motor(
     name: str, frame: tuple[float, float] | None, ratio: int, torque: float | None, inertia: float | None
 ) -> Inertia:
-    """Return what an axis accelerates with whose motor has a torque (N m) or an inertia (kg m2) that was set."""
+    """Return what an axis accelerates with whose motor has a torque (N m) or an inertia (kg m2) that was
+    set.
+    """
     why = []
     if torque is None:
         if frame is None:

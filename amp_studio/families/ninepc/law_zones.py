@@ -10,12 +10,17 @@ ON = {"g22": ("2", "3"), "g22.1": ("3",), "g23": (), "g23.1": ("2",)}
 """G code at power-up (524) -> zones that are on (16-16)."""
 GUARDS = {"2": "outside", "3": "by start"}
 GROUPS = ("g1", "g2", "g3")
-NOTE = "Zones count for the place of the axes alone: length and radius of the tool do not count (6-1). ASSUMED: the axes stop as at an overtravel; no stop is printed."
+NOTE = (
+    "Zones count for the place of the axes alone: length and radius of the tool do not count (6-1). ASSUMED:"
+    " the axes stop as at an overtravel; no stop is printed."
+)
 THIRD = "Zone 3 keeps the axes inside if they are in it when it is switched on, else outside (6-2)."
 
 
 def zones(machine: BoundMachine, axes: Sequence[str]) -> Iterator[Zone]:
-    """Yield the zones of every group that these axes are in; an axis of no group is open to its overtravels (6-4)."""
+    """Yield the zones of every group that these axes are in;
+    an axis of no group is open to its overtravels (6-4).
+    """
     read = machine.parameters
     count = read.optional("zone.group_count", everywhere=True)
     on = ON.get(str(read.value("powerup.zones", everywhere=True) or ""), ())

@@ -1,4 +1,6 @@
-"""Backlash of the axes (P18, page 7-14) and the loop gain (P21, page 6-14). The parameters contain no calibration table."""
+"""Backlash of the axes (P18, page 7-14) and the loop gain (P21, page 6-14).
+The parameters contain no calibration table.
+"""
 
 from __future__ import annotations
 
@@ -13,7 +15,8 @@ COMPENSATION = Compensation(
             "Backlash",
             "7-14",
             ("travel.backlash",),
-            "A positive value is added where the axis moves in the positive direction. A reset brings back what P18 contains.",
+            "A positive value is added where the axis moves in the positive direction. A reset brings back"
+            " what P18 contains.",
         ),
         TuningPage(
             "servo",
@@ -23,4 +26,5 @@ COMPENSATION = Compensation(
         ),
     ),
 )
-"""The axis calibration of a 1020, 1040 or 1060 is written with utility UT2 at the control, not by parameters."""
+"""The axis calibration of a 1020, 1040 or 1060 is written with utility UT2 at the control, not by
+parameters."""

@@ -1,8 +1,9 @@
 """The servo axes of a NUM 1020, 1040 or 1060: from the words of a parameter file to the law of one axis.
 
-An axis is an address that P2 and P3 both declare (4-14) and that neither a spindle (P6) nor a handwheel (P14) takes. Lengths
-of the file are internal units of P4 (4-18); here they are mm or deg. The drive is not in the file: it is a velocity drive
-with its top speed (P30) at 9 V (6-14), and all else of it is assumed and can be set.
+An axis is an address that P2 and P3 both declare (4-14) and that neither a spindle (P6) nor a handwheel (P14)
+takes. Lengths of the file are internal units of P4 (4-18); here they are mm or deg. The drive is not in the
+file: it is a velocity drive with its top speed (P30) at 9 V (6-14),
+and all else of it is assumed and can be set.
 """
 
 from __future__ import annotations
@@ -67,7 +68,10 @@ def bind(read: AxisParameters) -> AxisLaw:
     if address is None:
         return law
     if not is_synchronised(read):
-        note = f"The axis copies the reference of drive axis {address} (P27) without a correction (P28); its own words move it here."
+        note = (
+            f"The axis copies the reference of drive axis {address} (P27) without a correction (P28); its own"
+            " words move it here."
+        )
         return replace(law, assumptions=(*law.assumptions, note))
     leader = read.of(address)
     refuse_chain(read, leader)
@@ -94,7 +98,10 @@ def _alone(read: AxisParameters) -> tuple[AxisLaw, float]:
     law = AxisLaw(
         axis=read.axis,
         unit=words.unit,
-        title="NUM 1020/1040/1060: position loop with KVAR and speed anticipation, reference of 15 bits, velocity drive",
+        title=(
+            "NUM 1020/1040/1060: position loop with KVAR and speed anticipation, reference of 15 bits,"
+            " velocity drive"
+        ),
         position_sample=sample.position_sample,
         velocity_sample=None,
         parameters=parameters,
@@ -154,14 +161,18 @@ def predicted(words: Words, feedrate: float) -> Mapping[str, Prediction]:
 
 
 def circle_feedrate(words: Words, radius: float) -> float | None:
-    """Return the speed in u/s to which the control lowers that on a circle: the root of 2 R x error over T (6-32)."""
+    """Return the speed in u/s to which the control lowers that on a circle:
+    the root of 2 R x error over T (6-32).
+    """
     if not (words.curve_error and words.curve_constant):
         return None
     return circle_speed(words.curve_error, words.curve_constant * 1000.0, radius) / 60.0
 
 
 def _ramps(read: AxisParameters, acceleration: float, notes: list[str]) -> dict[str, Ramp]:
-    """Return the ramps: in S (sin²) where bit 5 of P7N1 is set (9-6), else straight, with the fast acceleration of P32."""
+    """Return the ramps: in S (sin²) where bit 5 of P7N1 is set (9-6), else straight,
+    with the fast acceleration of P32.
+    """
     functions = read.optional("misc.functions_more", everywhere=True)
     least = read.optional("servo.acceleration_least_time", everywhere=True)
     if functions is None:
@@ -171,9 +182,9 @@ def _ramps(read: AxisParameters, acceleration: float, notes: list[str]) -> dict[
     sine = Ramp("sine-squared", acceleration=acceleration, time=(least or 0.0) / 1000.0)
     straight = Ramp("linear", acceleration=acceleration)
     notes.append(
-        "Bit 5 of P7N1 (speed variation in S, 9-6) chooses the sin² ramps of 6-38: acceleration sin², on average half of the"
-        " greatest one, which is that of fast moves (G0, second word of P32, 6-10). ASSUMED: without it the ramp is straight with"
-        " the whole of it; the figure of 6-10 is lost."
+        "Bit 5 of P7N1 (speed variation in S, 9-6) chooses the sin² ramps of 6-38: acceleration sin², on"
+        " average half of the greatest one, which is that of fast moves (G0, second word of P32, 6-10)."
+        " ASSUMED: without it the ramp is straight with the whole of it; the figure of 6-10 is lost."
     )
     own = [sine, straight] if functions is not None and int(functions) >> 5 & 1 else [straight, sine]
     return {ramp.kind: ramp for ramp in (*own, Ramp("none"))}

@@ -1,4 +1,6 @@
-"""Recommendations about a NUM axis: time constant and EMAX, which follow KVAR, window, dynamic check and acceleration, with page and price."""
+"""Recommendations about a NUM axis: time constant and EMAX, which follow KVAR, window, dynamic check and
+acceleration, with page and price.
+"""
 
 from __future__ import annotations
 
@@ -15,7 +17,8 @@ from .formulas.servo import FOLLOWING_ERROR_MARGIN
 LOOSE = 2.0
 """Ratio of EMAX to the recommended one from which it is too large. A choice of this program."""
 APART = 0.03
-"""Relative difference of gain and time constant from which they are not the same. A choice of this program."""
+"""Relative difference of gain and time constant from which they are not the same. A choice of this
+program."""
 HALF_MS = 0.00051
 """s: P66 is in whole ms."""
 CONSTANT_OF_AXIS = "servo.axis_time_constant"
@@ -37,7 +40,9 @@ def follow(axis: AxisLaw) -> tuple[Recommendation, ...]:
 
 
 def _constant(axis: AxisLaw, _trace: Trace | None = None) -> Iterator[Recommendation]:
-    """Yield the time constant that KVAR gives (6-14), with which anticipation and dynamic check are reckoned."""
+    """Yield the time constant that KVAR gives (6-14), with which anticipation and dynamic check are
+    reckoned.
+    """
     if _fits(axis):
         return
     constant, gives = axis.parameters[sample.CONSTANT], 1000.0 / axis.position_rate
@@ -46,7 +51,8 @@ def _constant(axis: AxisLaw, _trace: Trace | None = None) -> Iterator[Recommenda
         float(max(1, round(gives))),
         "ms",
         f"KVAR gives a time constant of {shown(gives, 'ms', 3)}, but P56 or P66 is"
-        f" {shown(constant * 1000.0, 'ms', 3)}, which anticipation and dynamic movement control use (pages 6-14, 6-18, 6-40).",
+        f" {shown(constant * 1000.0, 'ms', 3)}, which anticipation and dynamic movement control use (pages"
+        " 6-14, 6-18, 6-40).",
         "On paths with axes of another time constant the contour is wrong: give all of them the same one.",
     )
 
@@ -67,9 +73,13 @@ def _largest_error(axis: AxisLaw, trace: Trace | None = None) -> Iterator[Recomm
     low = limit < (peak if anticipated else wanted / FOLLOWING_ERROR_MARGIN)
     if not low and limit <= LOOSE * wanted:
         return
-    why = f"Maximum Following Error is {shown(limit, axis.unit)}; 1.1 x highest speed x time constant is {shown(wanted, axis.unit)}"
+    why = (
+        f"Maximum Following Error is {shown(limit, axis.unit)}; 1.1 x highest speed x time constant is"
+        f" {shown(wanted, axis.unit)}"
+    )
     price = (
-        f"A blocked axis is noticed after {shown(wanted, axis.unit, 3)} instead of {shown(limit, axis.unit, 3)}."
+        f"A blocked axis is noticed after {shown(wanted, axis.unit, 3)} instead of"
+        f" {shown(limit, axis.unit, 3)}."
         if low
         else "Less room for a drive that lags behind."
     )
@@ -77,7 +87,9 @@ def _largest_error(axis: AxisLaw, trace: Trace | None = None) -> Iterator[Recomm
 
 
 def _acceleration(axis: AxisLaw, trace: Trace) -> Iterator[Recommendation]:
-    """Yield a lower P32 where the torque was at its limit; only with a machine whose acceleration was given."""
+    """Yield a lower P32 where the torque was at its limit; only with a machine whose acceleration was
+    given.
+    """
     limit = min(axis.machine.torque_limit_positive, axis.machine.torque_limit_negative)
     available = RESERVE * axis.machine.acceleration_per_output * (limit - axis.machine.coulomb_friction)
     now = next(iter(axis.ramps.values())).acceleration
@@ -91,13 +103,16 @@ def _acceleration(axis: AxisLaw, trace: Trace) -> Iterator[Recommendation]:
             source.parameter,
             value,
             f"{axis.unit}/s2",
-            f"The torque was at its limit; 80 % of it accelerate by {shown(available, f'{axis.unit}/s2', 4)} (page {source.page}).",
+            f"The torque was at its limit; 80 % of it accelerate by {shown(available, f'{axis.unit}/s2', 4)}"
+            f" (page {source.page}).",
             f"A change to the highest speed takes {shown(now / value, digits=3)} times as long.",
         )
 
 
 def _window(axis: AxisLaw, trace: Trace) -> Iterator[Recommendation]:
-    """Yield twice the standing error (11-7) where the axis never comes into its window, or the window is below a count."""
+    """Yield twice the standing error (11-7) where the axis never comes into its window,
+    or the window is below a count.
+    """
     count, band = axis.machine.position_count, axis.inposition_band
     left = abs(float(trace.columns["following_error"][-1]))
     arrived = trace.result["in_position_time"][0] is not None
@@ -106,7 +121,10 @@ def _window(axis: AxisLaw, trace: Trace) -> Iterator[Recommendation]:
     why = (
         f"The window of {shown(band, axis.unit)} must be above one increment, {shown(count, axis.unit)}"
         if arrived
-        else f"The axis rests {shown(left, axis.unit, 3)} from its end, outside the window of {shown(band, axis.unit)}"
+        else (
+            f"The axis rests {shown(left, axis.unit, 3)} from its end, outside the window of"
+            f" {shown(band, axis.unit)}"
+        )
     )
     wanted = max(2.0 * left, 2.0 * count)
     yield _counted(
@@ -118,7 +136,9 @@ def _window(axis: AxisLaw, trace: Trace) -> Iterator[Recommendation]:
 
 
 def _tolerance(axis: AxisLaw, trace: Trace) -> Iterator[Recommendation]:
-    """Yield a tolerance of the dynamic check (11-8: 2 to 4 windows) where there is none, no less than this move needs."""
+    """Yield a tolerance of the dynamic check (11-8: 2 to 4 windows) where there is none,
+    no less than this move needs.
+    """
     if axis.unit != "mm" or axis.parameters[sample.TOLERANCE] >= 0.0 or trace.alarms or not _fits(axis):
         return
     theory, real = trace.columns["theoretical_speed"], trace.columns["measured_speed"]
@@ -131,8 +151,9 @@ def _tolerance(axis: AxisLaw, trace: Trace) -> Iterator[Recommendation]:
     yield _counted(
         axis.sources["dynamic_check"],
         wanted,
-        "Dynamic movement control is off, so that a broken encoder or drive is noticed at the maximum following error only;"
-        f" 3 in-position windows, and this move is {shown(outside * 1000.0, 'um/sample', 2)} outside the band (pages 6-24, 11-8).",
+        "Dynamic movement control is off, so that a broken encoder or drive is noticed at the maximum"
+        " following error only; 3 in-position windows, and this move is"
+        f" {shown(outside * 1000.0, 'um/sample', 2)} outside the band (pages 6-24, 11-8).",
         "Errors 40 to 71 on a sound axis whose time constant in P56 or P66 does not fit.",
     )
 

@@ -15,17 +15,21 @@ MARKERS = 10.0
 
 HOMED = (
     (
-        "The position at the first encoder zero after the switch is that of P16 (7-10). The figures of the six cases (7-5 to 7-7) are lost; all of"
-        " them follow from P15 and P16."
+        "The position at the first encoder zero after the switch is that of P16 (7-10). The figures of the"
+        " six cases (7-5 to 7-7) are lost; all of them follow from P15 and P16."
     ),
     (
-        "ASSUMED: the axis goes to the switch at the normal JOG speed of P31 (the slow one can be used as approach speed, 6-8), and on to the zero at the"
-        " same speed, which is not printed; then it stops along its ramp, and does not return."
+        "ASSUMED: the axis goes to the switch at the normal JOG speed of P31 (the slow one can be used as"
+        " approach speed, 6-8), and on to the zero at the same speed, which is not printed; then it stops"
+        " along its ramp, and does not return."
     ),
     "ASSUMED: encoder zeros 10 mm or deg apart, unless move.turn gives another distance.",
 )
 WITHOUT = "Bit {0} of P15N1 is set: no switch is tested, the first encoder zero that comes counts (7-8)."
-JOGGED = "JOG speeds of P31 for all axes (6-8), at 100 % of the potentiometer; reduced: while the PLC sets V_REDUIT (6-8)."
+JOGGED = (
+    "JOG speeds of P31 for all axes (6-8), at 100 % of the potentiometer; reduced: while the PLC sets"
+    " V_REDUIT (6-8)."
+)
 LIMITED = (
     "ASSUMED: a manual move stops at once at the limit; how the control stops there is not printed (7-12)."
 )
@@ -36,7 +40,9 @@ def _bit(read: AxisParameters, parameter: str) -> bool:
 
 
 def homing(read: AxisParameters, length: float) -> Homing:
-    """Return the sequence; ``length`` is the internal unit in u. Raises SimulationError for a JOG speed that is not set."""
+    """Return the sequence; ``length`` is the internal unit in u.
+    Raises SimulationError for a JOG speed that is not set.
+    """
     speed = read.number(JOGS["normal"], everywhere=True)
     if not speed > 0.0:
         raise SimulationError(f"Normal JOG speed (P31N1) is {speed:g}; it must be above 0", JOGS["normal"])

@@ -1,4 +1,6 @@
-"""From the words of one NUM axis to the parameters of its sample function, with limits, alarms and what is assumed."""
+"""From the words of one NUM axis to the parameters of its sample function, with limits,
+alarms and what is assumed.
+"""
 
 from __future__ import annotations
 
@@ -27,13 +29,15 @@ def loop(
     alarms = {
         int(sample.EXCESS_ERROR): AlarmText(
             "40 to 71",
-            f"Following error is above Maximum Following Error (P23N{read.axis}), {limit}; the CNC goes into the fault state"
-            " (6-22) and the move ends. Which of the errors 40 to 71 is of this axis is not printed.",
+            f"Following error is above Maximum Following Error (P23N{read.axis}), {limit}; the CNC goes into"
+            " the fault state (6-22) and the move ends. Which of the errors 40 to 71 is of this axis is not"
+            " printed.",
         ),
         int(sample.DYNAMIC_CHECK): AlarmText(
             "40 to 71",
-            f"Dynamic movement control (P57N{read.axis}): the speed is not between 0.875 and 1.125 times the one that follows"
-            f" from the following error and {words.constant * 1000.0:g} ms, less and more the tolerance (6-24).",
+            f"Dynamic movement control (P57N{read.axis}): the speed is not between 0.875 and 1.125 times the"
+            f" one that follows from the following error and {words.constant * 1000.0:g} ms, less and more"
+            " the tolerance (6-24).",
         ),
     }
     band = read.number("servo.in_position_window") * words.length
@@ -43,40 +47,44 @@ def loop(
 def _ahead(read: AxisParameters, words: Words, notes: list[str]) -> float:
     """Return the acceleration anticipation in samples (6-34), 0 for none.
 
-    In the printed formula one reference is missing: Ri - Ri-2j-1 + Ri-2j-2. Only - Ri-1 makes it 0 at rest and at a constant speed, the change
-    of the filtered speed from one sample to the next.
+    In the printed formula one reference is missing: Ri - Ri-2j-1 + Ri-2j-2. Only - Ri-1 makes it 0 at rest
+    and at a constant speed, the change of the filtered speed from one sample to the next.
     """
     anticipation = read.optional("servo.acceleration_anticipation") or 0.0
     if not anticipation:
         return 0.0
     if words.share < 1.0:
         notes.append(
-            f"Acceleration Anticipation (P19N{read.axis}) is not used: it belongs to a speed anticipation of 100 % (6-34), and P55 has"
-            f" {100.0 * words.share:g} %."
+            f"Acceleration Anticipation (P19N{read.axis}) is not used: it belongs to a speed anticipation of"
+            f" 100 % (6-34), and P55 has {100.0 * words.share:g} %."
         )
         return 0.0
     notes.append(
-        f"ASSUMED: in the printed formula of the acceleration anticipation (P19N{read.axis}, 6-34) - Ri-1 is missing, without which it would act at"
-        " rest and at a constant speed; its time times the acceleration is added to the speed reference."
+        f"ASSUMED: in the printed formula of the acceleration anticipation (P19N{read.axis}, 6-34) - Ri-1 is"
+        " missing, without which it would act at rest and at a constant speed; its time times the"
+        " acceleration is added to the speed reference."
     )
     return anticipation / 1000.0 / words.period
 
 
 def _friction(read: AxisParameters, words: Words, notes: list[str]) -> tuple[float, float]:
-    """Return (amplitude in u, share that one sample leaves of the correction) of the dry friction correction (6-34)."""
+    """Return (amplitude in u, share that one sample leaves of the correction)
+    of the dry friction correction (6-34).
+    """
     amplitude = read.optional("servo.friction_amplitude") or 0.0
     if not amplitude:
         return 0.0, 0.0
     time = (read.optional("servo.friction_time") or 0.0) / 1000.0
     if not time > words.period / 2.0:
         raise SimulationError(
-            f"The dry friction correction of axis {read.axis} has the time constant {time * 1000.0:g} ms (P19, words 64 to"
-            f" 95). With less than half the sampling period, {words.period * 500.0:g} ms, it never dies away (6-34)",
+            f"The dry friction correction of axis {read.axis} has the time constant {time * 1000.0:g} ms"
+            f" (P19, words 64 to 95). With less than half the sampling period, {words.period * 500.0:g} ms,"
+            " it never dies away (6-34)",
             "servo.friction_time",
         )
     notes.append(
-        "ASSUMED: the amplitude of the dry friction correction has the sign of the speed reference, and the correction is"
-        " added to the following error; the figure of 6-34 is lost."
+        "ASSUMED: the amplitude of the dry friction correction has the sign of the speed reference, and the"
+        " correction is added to the following error; the figure of 6-34 is lost."
     )
     return amplitude * words.length, 1.0 - words.period / time
 
@@ -90,30 +98,33 @@ def _tolerance(read: AxisParameters, words: Words, notes: list[str]) -> float:
         return -1.0
     if words.turns:
         notes.append(
-            "Dynamic Movement Control (P57) is in um per sample, and its unit on a rotary axis is not printed (6-24): it is"
-            " not simulated on this one."
+            "Dynamic Movement Control (P57) is in um per sample, and its unit on a rotary axis is not printed"
+            " (6-24): it is not simulated on this one."
         )
         return -1.0
     notes.append(
-        "ASSUMED: the tolerance of P57 widens the band between 0.875 and 1.125 times the theoretical speed on both sides, and"
-        " the theoretical speed is that of the following error one sample before, with the speed anticipation; the figure of"
-        " 6-24 is lost."
+        "ASSUMED: the tolerance of P57 widens the band between 0.875 and 1.125 times the theoretical speed on"
+        " both sides, and the theoretical speed is that of the following error one sample before, with the"
+        " speed anticipation; the figure of 6-24 is lost."
     )
     return tolerance / 1000.0
 
 
 def _backlash(read: AxisParameters, words: Words, notes: list[str]) -> float:
-    """Return the reversal error compensation in u (7-14); 0 on a machine without backlash, which needs none."""
+    """Return the reversal error compensation in u (7-14); 0 on a machine without backlash, which needs
+    none.
+    """
     compensation = read.optional("travel.backlash") or 0.0
     if not compensation:
         return 0.0
     if not read.optional("model.backlash"):
         notes.append(
-            f"The reversal error compensation P18N{read.axis} is not used: the machine has no backlash unless model.backlash is set."
+            f"The reversal error compensation P18N{read.axis} is not used: the machine has no backlash unless"
+            " model.backlash is set."
         )
         return 0.0
     notes.append(
-        "ASSUMED: P18 is added as a whole in the sample in which the reference turns to the positive direction, and taken away in"
-        " the negative one; page 7-14 prints its sign only."
+        "ASSUMED: P18 is added as a whole in the sample in which the reference turns to the positive"
+        " direction, and taken away in the negative one; page 7-14 prints its sign only."
     )
     return compensation * words.length

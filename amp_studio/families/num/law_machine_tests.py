@@ -1,4 +1,6 @@
-"""Programs that a NUM manual prints to try an axis: homing ten times (7-17), both speeds (11-3), the circle of the ball-bar program (6-46)."""
+"""Programs that a NUM manual prints to try an axis: homing ten times (7-17), both speeds (11-3),
+the circle of the ball-bar program (6-46).
+"""
 
 from __future__ import annotations
 

@@ -33,8 +33,8 @@ def synchronised(law: AxisLaw, read: AxisParameters, leader: AxisLaw, length: fl
     """
     if leader.unit != law.unit:
         raise SimulationError(
-            f"Drive axis {leader.axis} moves in {leader.unit}, driven axis {read.axis} in {law.unit}: they cannot be"
-            " synchronised",
+            f"Drive axis {leader.axis} moves in {leader.unit}, driven axis {read.axis} in {law.unit}: they"
+            " cannot be synchronised",
             "axes.drive_axis",
         )
     correction, threshold = read.optional("servo.sync_correction"), read.optional("servo.sync_error")
@@ -45,8 +45,9 @@ def synchronised(law: AxisLaw, read: AxisParameters, leader: AxisLaw, length: fl
         "39", f"The synchronisation error is above threshold 1 (P24N{read.axis}); CN_PRET falls (6-30)."
     )
     note = (
-        f"The axis is synchronised with drive axis {leader.axis}, which is simulated first under the same command and does not feel"
-        " it; the machine joins the two with no force. ASSUMED: the error is measured position less measured position (6-30)."
+        f"The axis is synchronised with drive axis {leader.axis}, which is simulated first under the same"
+        " command and does not feel it; the machine joins the two with no force. ASSUMED: the error is"
+        " measured position less measured position (6-30)."
     )
     return replace(
         law,
@@ -61,7 +62,9 @@ def synchronised(law: AxisLaw, read: AxisParameters, leader: AxisLaw, length: fl
 
 
 def _predicted(law: AxisLaw, leader: AxisLaw, share: float, feedrate: float) -> Mapping[str, Prediction]:
-    """Return the figures of the driven axis: the correction leaves 1 / (1 + share) of the difference of both errors (6-30)."""
+    """Return the figures of the driven axis: the correction leaves 1 / (1 + share)
+    of the difference of both errors (6-30).
+    """
     found = dict(law.predict(feedrate))
     own, other = found["steady_following_error"], leader.predict(feedrate)["steady_following_error"]
     if own.value is not None and other.value is not None:

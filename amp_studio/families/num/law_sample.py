@@ -1,11 +1,12 @@
 """The position loop of a NUM axis from sample to sample: what the CNC does in every sampling period of P50.
 
-Lengths are in the axis' unit u (mm or deg), times in s, the output in V. Printed, and taken as printed: the reference
-in points of a 15-bit converter, KVAR x following error, 10 V for 32768 points (6-14); the filter that averages 2j+1
-references (6-26); the share of the speed reference that is added (6-26); the recursion of the dry friction correction
-(6-34); the limit of the following error (6-22) and the two speeds between which the axis must move (6-24); the share of
-the synchronisation error that is given back to the driven axis (6-30). Where a figure is lost, ``law.py`` names what
-is assumed in its place. The function is plain Python over arrays, so that it also runs compiled.
+Lengths are in the axis' unit u (mm or deg), times in s, the output in V. Printed, and taken as printed: the
+reference in points of a 15-bit converter, KVAR x following error, 10 V for 32768 points (6-14); the filter
+that averages 2j+1 references (6-26); the share of the speed reference that is added (6-26); the recursion of
+the dry friction correction (6-34); the limit of the following error (6-22) and the two speeds between which
+the axis must move (6-24); the share of the synchronisation error that is given back to the driven axis
+(6-30). Where a figure is lost, ``law.py`` names what is assumed in its place. The function is plain Python
+over arrays, so that it also runs compiled.
 """
 
 from __future__ import annotations
@@ -55,11 +56,12 @@ EXCESS_ERROR, DYNAMIC_CHECK, SYNCHRONISATION = 1.0, 2.0, 3.0
 def position_sample(p: Vector, s: Vector, io: Vector) -> None:
     """Set the speed reference of one sample in V.
 
-    p: GAIN in points per u, CONSTANT of the loop and PERIOD in s, SHARE of the speed reference 0 to 1, TERMS of the
-    filter, FRICTION amplitude in u and what a sample leaves of it, EMAX in u, TOLERANCE in u per sample (negative: no
-    check), VOLTS for 1 u/s; number of samples of the LEADER (0: not synchronised), whose
+    p: GAIN in points per u, CONSTANT of the loop and PERIOD in s, SHARE of the speed reference 0 to 1, TERMS
+    of the filter, FRICTION amplitude in u and what a sample leaves of it, EMAX in u, TOLERANCE in u per
+    sample (negative: no check), VOLTS for 1 u/s; number of samples of the LEADER (0: not synchronised), whose
     measured positions in u come behind the parameters, CORRECTION 0 to 1, SYNC_LIMIT in u;
-    WHOLE: 0 for a converter without steps (the linear model); BACKLASH: u added on positive moves; AHEAD: acceleration anticipation in samples.
+    WHOLE: 0 for a converter without steps (the linear model); BACKLASH: u added on positive moves; AHEAD:
+    acceleration anticipation in samples.
     """
     if io[MODE] == VELOCITY_LOOP or io[MODE] == OUTPUT_TEST:
         volts = io[COMMAND] if io[MODE] == OUTPUT_TEST else p[VOLTS] * io[COMMAND_VELOCITY]

@@ -22,10 +22,16 @@ FULL_V = 10.0
 SEARCH = 1 << 7
 """Bit of P7N0 that switches the automatic search of a range off (8-16)."""
 GROUP_1 = "1"
-PROPORTION = "ASSUMED: lower speeds are in proportion to the 10 V at the end of the range (8-16). No ramp of the reference is printed."
+PROPORTION = (
+    "ASSUMED: lower speeds are in proportion to the 10 V at the end of the range (8-16). No ramp of the"
+    " reference is printed."
+)
 INDEXED = "The reference of an indexing is error x P45, clipped to P43 (8-6)."
 FOLLOWS = "The axis follows the angle of the spindle; word 1 of P63 of group 1 puts its command ahead (8-35)."
-INTEGRAL = "ASSUMED: the integration of P63 word 0 and the start of the axis by word 2 are not simulated: both make the error smaller after it has begun."
+INTEGRAL = (
+    "ASSUMED: the integration of P63 word 0 and the start of the axis by word 2 are not simulated: both make"
+    " the error smaller after it has begun."
+)
 
 
 def spindle(read: AxisParameters, number: str) -> Spindle:
@@ -60,9 +66,11 @@ def spindle(read: AxisParameters, number: str) -> Spindle:
         "V",
         tuple(gears),
         "8-16",
-        (PROPORTION,)
-        if not functions & SEARCH
-        else (PROPORTION, "Bit 7 of P7N0 is set: no range is searched (8-16)."),
+        (
+            (PROPORTION,)
+            if not functions & SEARCH
+            else (PROPORTION, "Bit 7 of P7N0 is set: no range is searched (8-16).")
+        ),
         orient=_orient(read, number),
         no_gear="ERROR 29",
         programs_ranges=True,
@@ -87,7 +95,9 @@ def _orient(read: AxisParameters, number: str) -> Orient | None:
 
 
 def tapping(machine: BoundMachine, spindle: Spindle, gear: Gear, axis: AxisLaw, pitch: float) -> Tapping:
-    """Return how the axis follows the spindle (8-32 to 8-35); raises SimulationError without an acceleration in P62."""
+    """Return how the axis follows the spindle (8-32 to 8-35);
+    raises SimulationError without an acceleration in P62.
+    """
     read = machine.parameters
     if not gear.tap_rate:
         raise SimulationError(

@@ -1,6 +1,7 @@
 """The words of one NUM axis that its position loop needs, in mm or deg and s.
 
-Values that are not set are asked for in one sentence; what the control takes in their place, where it is printed, is noted.
+Values that are not set are asked for in one sentence; what the control takes in their place,
+where it is printed, is noted.
 """
 
 from __future__ import annotations
@@ -132,7 +133,8 @@ def _curve_error(read: AxisParameters, turns: bool, notes: list[str]) -> float:
     error = read.optional("servo.circle_error", everywhere=True)
     if not error:
         notes.append(
-            f"P52N0 is {'not set' if error is None else '0, which by 6-32 leaves no speed'}: the speed on circles is not limited."
+            f"P52N0 is {'not set' if error is None else '0, which by 6-32 leaves no speed'}: the speed on"
+            " circles is not limited."
         )
     return (error or 0.0) * 1000.0
 
@@ -197,15 +199,17 @@ def _anticipation(read: AxisParameters, group: str | None, notes: list[str]) -> 
         return 1, effective_anticipation(percent or 0.0) / 100.0
     if terms % 2.0 != 1.0 or terms > sample.MOST_TERMS:
         raise SimulationError(
-            f"The filter (P55) averages {terms:g} references; it takes an odd number, 2j+1 (6-26), below 14 (6-26)",
+            f"The filter (P55) averages {terms:g} references; it takes an odd number, 2j+1 (6-26), below 14"
+            " (6-26)",
             "servo.filter_terms",
         )
     notes.append(
-        f"ASSUMED: E11012 has the filter of {terms:g} references work (6-26), of which the file knows nothing; set {FILTER}"
-        " to 0 where it does not. With it the speed anticipation is 100 % (6-34)."
+        f"ASSUMED: E11012 has the filter of {terms:g} references work (6-26), of which the file knows"
+        f" nothing; set {FILTER} to 0 where it does not. With it the speed anticipation is 100 % (6-34)."
     )
     notes.append(
-        "ASSUMED: the position loop uses the filtered reference too. Page 6-26 names the speed reference only; but the usual"
-        " acceleration anticipation of 400 us (6-34) leaves no room for a delay of the one against the other."
+        "ASSUMED: the position loop uses the filtered reference too. Page 6-26 names the speed reference"
+        " only; but the usual acceleration anticipation of 400 us (6-34) leaves no room for a delay of the"
+        " one against the other."
     )
     return int(terms), 1.0

@@ -6,13 +6,9 @@ from amp_studio.schema import Registration
 
 REGISTRATION = Registration(
     family="57c422b",
-    drivers={
-        "registers": "amp_studio.families.servo57c422b.lines.driver:RegisterDriver.at",
-    },
+    drivers={"registers": "amp_studio.families.servo57c422b.lines.driver:RegisterDriver.at"},
     contents={"57C422B registers 1": "amp_studio.families.servo57c422b.lines.content:RegisterContent"},
-    emulators={
-        "registers": "amp_studio.families.servo57c422b.emulated.rack:emulate_registers",
-    },
+    emulators={"registers": "amp_studio.families.servo57c422b.emulated.rack:emulate_registers"},
     compensation="amp_studio.families.servo57c422b.compensation:COMPENSATION",
     law="amp_studio.families.servo57c422b.law:LAW",
     formulas="amp_studio.families.servo57c422b.formulas:FORMULAS",

@@ -12,7 +12,8 @@ COMPENSATION = Compensation(
             "Backlash",
             "4-21",
             ("output.backlash",),
-            "Used while automatic backlash compensation is enabled in register 65; the sign is the direction of the approach.",
+            "Used while automatic backlash compensation is enabled in register 65; the sign is the direction"
+            " of the approach.",
         ),
     ),
 )

@@ -1,4 +1,5 @@
-"""Binds an axis of the 57C422B from its registers: gains, limits and the command, and an assumed motor behind them.
+"""Binds an axis of the 57C422B from its registers: gains, limits and the command,
+and an assumed motor behind them.
 
 The only module of the law with ids of the module. Pages are those of the manual J-3642-7.
 """
@@ -72,7 +73,7 @@ _SCALES = {
     "model.velocity_scale": (1.0, "Velocity Gain that puts out 1 word (10 V / 1984) for 1 count a scan"),
 }
 SETTINGS = {name: text for name, (_, text) in _SCALES.items()} | {
-    PER_VOLT: "speed of a drive with velocity reference (counts/s for 1 V)",
+    PER_VOLT: "speed of a drive with velocity reference (counts/s for 1 V)"
 }
 
 _WORD = (-32768.0, 32767.0)
@@ -80,21 +81,21 @@ _WORD = (-32768.0, 32767.0)
 
 _LOST = (
     "ASSUMED: a cascade with model.proportional_scale = {0:g}, model.integral_scale = {1:g},"
-    " model.feedforward_scale = {2:g}, model.velocity_scale = {3:g}; the diagram of the loop and the"
-    " scales of the gains are lost with the figures of the manual (sections 4.5 to 4.9), and the two printed programs"
-    " (pages 4-48, 5-5) make well damped loops with these."
+    " model.feedforward_scale = {2:g}, model.velocity_scale = {3:g}; the diagram of the loop and the scales"
+    " of the gains are lost with the figures of the manual (sections 4.5 to 4.9), and the two printed"
+    " programs (pages 4-48, 5-5) make well damped loops with these."
 )
 _SIGNS = (
-    "The bits of Drive Setup are lost with figure 4.2: polarity is taken to fit, and {0} because Velocity Gain is {1}"
-    " (page 5-3)."
+    "The bits of Drive Setup are lost with figure 4.2: polarity is taken to fit, and {0} because Velocity"
+    " Gain is {1} (page 5-3)."
 )
 _DEADBAND = (
-    "Deadband Compensation is added to the output in words, in the direction of the output: figure 4.8 is lost."
-    " The linear model of the loop is without it."
+    "Deadband Compensation is added to the output in words, in the direction of the output: figure 4.8 is"
+    " lost. The linear model of the loop is without it."
 )
 _S_CURVE = (
-    "The S-curve takes twice the time of the trapezoid (page 4-25); its shape is lost. Taken: sine squared, with the"
-    " programmed acceleration as its peak."
+    "The S-curve takes twice the time of the trapezoid (page 4-25); its shape is lost. Taken: sine squared,"
+    " with the programmed acceleration as its peak."
 )
 _MATCHED = "The output for a velocity reference is taken to be the wanted velocity at the speed of the drive."
 _LINEAR = "Linearization Constants other than -1 are not simulated: their scale is not printed (page 4-18)."
@@ -111,8 +112,8 @@ def bind(read: AxisParameters) -> AxisLaw:
     _refuse_missing(read)
     if read.number(PROPORTIONAL) <= 0.0:
         raise SimulationError(
-            f"{PROPORTIONAL} of axis {read.axis} is {read.number(PROPORTIONAL):g}: without it the axis does not follow."
-            " Begin with 100 (page 5-3)",
+            f"{PROPORTIONAL} of axis {read.axis} is {read.number(PROPORTIONAL):g}: without it the axis does"
+            " not follow. Begin with 100 (page 5-3)",
             PROPORTIONAL,
         )
     current = read.number(VELOCITY) != 0.0
@@ -167,8 +168,8 @@ def _refuse_missing(read: AxisParameters) -> None:
     if missing:
         names = ", ".join(_named(parameter, read.axis) for parameter in missing)
         raise SimulationError(
-            f"Axis {read.axis} cannot be simulated before these registers are set: {names}. Manual tuning begins with"
-            " gains of 100, 0, 25 (0 for a velocity reference) and 0 (page 5-3)",
+            f"Axis {read.axis} cannot be simulated before these registers are set: {names}. Manual tuning"
+            " begins with gains of 100, 0, 25 (0 for a velocity reference) and 0 (page 5-3)",
             missing[0],
         )
 
@@ -220,28 +221,24 @@ def _ramps(read: AxisParameters) -> Mapping[str, Ramp]:
     up, down = read.within(ACCELERATION, -1e12, 1e12), read.within(DECELERATION, -1e12, 1e12)
     if up <= 0.0 or down <= 0.0:
         raise SimulationError(
-            f"Axis {read.axis} has an acceleration of {up:g} and a deceleration of {down:g} counts/s2: the module answers"
-            " a move with an illegal command fault (page 4-38). Both must be above 0",
+            f"Axis {read.axis} has an acceleration of {up:g} and a deceleration of {down:g} counts/s2: the"
+            " module answers a move with an illegal command fault (page 4-38). Both must be above 0",
             ACCELERATION if up <= 0.0 else DECELERATION,
         )
-    return {
-        "linear": Ramp("linear", up, down),
-        "s-curve": Ramp("sine-squared", up, down),
-        "none": Ramp(),
-    }
+    return {"linear": Ramp("linear", up, down), "s-curve": Ramp("sine-squared", up, down), "none": Ramp()}
 
 
 def _alarms(p: Sequence[float]) -> Mapping[int, AlarmText]:
     return {
         1: AlarmText(
             "POSITION ERROR",
-            f"The following error exceeds Maximum Position Error, {p[loop.POSITION_ERROR]:.6g} counts: register 73, the"
-            " loop is switched off (page 4-8)",
+            f"The following error exceeds Maximum Position Error, {p[loop.POSITION_ERROR]:.6g} counts:"
+            " register 73, the loop is switched off (page 4-8)",
         ),
         2: AlarmText(
             "VELOCITY ERROR",
-            f"The velocity error exceeds Maximum Velocity Error, {p[loop.VELOCITY_ERROR]:.6g} counts a scan: register 73,"
-            " the loop is switched off (page 4-9)",
+            f"The velocity error exceeds Maximum Velocity Error, {p[loop.VELOCITY_ERROR]:.6g} counts a scan:"
+            " register 73, the loop is switched off (page 4-9)",
         ),
     }
 
@@ -260,7 +257,9 @@ def _linear(p: Sequence[float]) -> list[float]:
 
 
 def _rest_band(p: Sequence[float], machine: Machine) -> float:
-    """Return how far from its target dry friction may keep the axis, counts; 0 where the integral brings it there."""
+    """Return how far from its target dry friction may keep the axis, counts;
+    0 where the integral brings it there.
+    """
     if p[loop.INTEGRAL] > 0.0 or machine.velocity_per_output > 0.0:
         return 0.0
     volts = max(machine.static_friction, machine.coulomb_friction) + abs(machine.gravity)
@@ -307,7 +306,8 @@ def advise(axis: AxisLaw, trace: Trace) -> Sequence[Recommendation]:
 
 
 def follow(axis: AxisLaw) -> Sequence[Recommendation]:
-    """Return the Feedforward Gain that leaves as small an error as possible at the commanded speed, and none below 0 (page 5-4).
+    """Return the Feedforward Gain that leaves as small an error as possible at the commanded speed,
+    and none below 0 (page 5-4).
 
     None for a velocity reference: the drive's own velocity loop decides there.
     """
@@ -322,7 +322,10 @@ def follow(axis: AxisLaw) -> Sequence[Recommendation]:
     gain = float(math.floor(share * axis.scales.feed_forward))
     if not 0.0 <= gain <= _WORD[1] or abs(gain / axis.scales.feed_forward - p[loop.FEED_FORWARD]) < SAME:
         return ()
-    why = "As small an error at the commanded speed as possible without going negative, with this Velocity Gain (page 5-4)."
+    why = (
+        "As small an error at the commanded speed as possible without going negative, with this Velocity Gain"
+        " (page 5-4)."
+    )
     return (Recommendation(FEED_FORWARD, gain, "", why, "Overshoot in moves (page 4-30)."),)
 
 

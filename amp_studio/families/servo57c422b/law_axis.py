@@ -26,7 +26,9 @@ class ModuleAxis(AxisLaw):
         return self.read.optional(parameter, at=at)
 
     def needed(self, parameter: str, why: str) -> float:
-        """Return a register that a command needs; raises SimulationError with its number where it is not set."""
+        """Return a register that a command needs; raises SimulationError with its number where it is not
+        set.
+        """
         value = self.register(parameter)
         if value is None:
             raise SimulationError(f"{self.names[parameter]} is not set: {why}", parameter)

@@ -1,7 +1,8 @@
 """Cam profiles of the 57C422B: the commanded position of the axis (pages 4-49 to 4-56).
 
-A time cam contains travel for one interval after another; a position cam contains positions over those of a master. How the
-module spreads a travel over the scans of its interval is not printed; taken is a constant speed.
+A time cam contains travel for one interval after another; a position cam contains positions over those of a
+master. How the module spreads a travel over the scans of its interval is not printed;
+taken is a constant speed.
 """
 
 from __future__ import annotations
@@ -17,12 +18,14 @@ def time_cam_order(
 ) -> Iterator[int]:
     """Yield the numbers of the points in the order in which a time cam takes them (pages 4-54 to 4-56).
 
-    Once, it goes through the table, with ``mirror`` also back to the first point. ``continuous`` goes on without end:
-    after the last point from the loop back point again, mirrored between both. ``reverse`` begins at the last point.
+    Once, it goes through the table, with ``mirror`` also back to the first point. ``continuous`` goes on
+    without end: after the last point from the loop back point again, mirrored between both.
+    ``reverse`` begins at the last point.
     """
     if not 0 <= loop_back < points:
         raise SimulationError(
-            f"The loop back point {loop_back} is not one of the {points} points of the cam, 0 to {points - 1}",
+            f"The loop back point {loop_back} is not one of the {points} points of the cam, 0 to"
+            f" {points - 1}",
             "cam.loop_back",
         )
     forward = range(points)
@@ -38,7 +41,8 @@ def time_cam_order(
 def time_cam(
     values: Sequence[int], scans: int, order: Iterator[int], intervals: int, *, negative: bool = False
 ) -> list[float]:
-    """Return the commanded position in counts after each scan of ``intervals`` intervals of ``scans`` scans each.
+    """Return the commanded position in counts after each scan of ``intervals`` intervals
+    of ``scans`` scans each.
 
     ``negative`` is the motion direction bit: against the sign of the points (page 4-55).
     """
@@ -55,8 +59,8 @@ def time_cam(
 def position_cam(table: Sequence[int], increment: int, travelled: float, base: float = 0.0) -> float:
     """Return the commanded position for a master that has ``travelled`` counts past its reference position.
 
-    ``base`` is where the axis was when the master passed it (page 4-51). Straight lines between the points; behind the
-    reference position the axis is where it was, past the end where the table ends.
+    ``base`` is where the axis was when the master passed it (page 4-51). Straight lines between the points;
+    behind the reference position the axis is where it was, past the end where the table ends.
     """
     if increment < 1 or len(table) < 2:
         raise SimulationError(
@@ -71,13 +75,15 @@ def position_cam(table: Sequence[int], increment: int, travelled: float, base: f
 def rotary_position_cam(
     table: Sequence[int], increment: int, travelled: float, unwind: int, base: float = 0.0
 ) -> float:
-    """Return the position in continuous rotary mode: each time the master unwinds the cam starts again (page 4-52).
+    """Return the position in continuous rotary mode:
+    each time the master unwinds the cam starts again (page 4-52).
 
     ``unwind`` is the gearing unwind constant, in counts of the master.
     """
     if unwind < increment * (len(table) - 1):
         raise SimulationError(
-            f"The cam is {increment * (len(table) - 1)} counts of the master long, more than its unwind constant {unwind}",
+            f"The cam is {increment * (len(table) - 1)} counts of the master long, more than its unwind"
+            f" constant {unwind}",
             "output.gearing_unwind",
         )
     turns, rest = divmod(travelled, unwind)

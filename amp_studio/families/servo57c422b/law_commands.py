@@ -1,4 +1,6 @@
-"""The commands that only the 57C422B has, as scenarios: its tune commands as `procedure`, gear, cam, backlash."""
+"""The commands that only the 57C422B has, as scenarios: its tune commands as `procedure`, gear, cam,
+backlash.
+"""
 
 from __future__ import annotations
 
@@ -55,16 +57,17 @@ BACKLASH = {"move.distance": "commanded distance (counts), with its sign; defaul
 
 _SEARCH = {
     "gains": (
-        "How the module searches is not printed (page 4-29). ASSUMED: a gain is doubled until the shaft vibrates and a third"
-        " of the edge is left; the integral is the aperiodic limit of the proportional gain."
+        "How the module searches is not printed (page 4-29). ASSUMED: a gain is doubled until the shaft"
+        " vibrates and a third of the edge is left; the integral is the aperiodic limit of the proportional"
+        " gain."
     ),
     "dynamics": (
-        "How the module searches is not printed (page 4-29). ASSUMED: the greatest figures up to registers 19 to 24 at which"
-        " no move raises a fault or reaches the clamp of register 31."
+        "How the module searches is not printed (page 4-29). ASSUMED: the greatest figures up to registers 19"
+        " to 24 at which no move raises a fault or reaches the clamp of register 31."
     ),
     "feedforward": (
-        "How the module searches is not printed (page 4-29). ASSUMED: the gain at which the following error of both ways is"
-        " 0 or just above, without the integral."
+        "How the module searches is not printed (page 4-29). ASSUMED: the gain at which the following error"
+        " of both ways is 0 or just above, without the integral."
     ),
 }
 _PAUSE = 0.1
@@ -176,10 +179,12 @@ def run_gear(axis: AxisLaw, settings: Settings) -> Trace:
             "speed": (sign * ratio * speed * 60.0, "counts/min"),
             "lost_in_ramp": (lost, "counts"),
         },
-        "With ramp velocity control the axis comes to the speed of its master and what it lost in the ramp stays lost: the"
-        " manual has no word of catching up (page 4-21)."
-        if ramped
-        else "Without ramp velocity control the axis accelerates in current limit (page 4-24).",
+        (
+            "With ramp velocity control the axis comes to the speed of its master and what it lost in the"
+            " ramp stays lost: the manual has no word of catching up (page 4-21)."
+            if ramped
+            else "Without ramp velocity control the axis accelerates in current limit (page 4-24)."
+        ),
         rest=-SCAN,  # the master runs on
     )
 
@@ -206,7 +211,10 @@ def run_cam(axis: AxisLaw, settings: Settings) -> Trace:
         )
     else:
         positions = _time_cam(module, settings, points, int(cycles))
-        note = "A constant speed in each interval of the cam: what the module does between points is not printed."
+        note = (
+            "A constant speed in each interval of the cam: what the module does between points is not"
+            " printed."
+        )
     return _followed(axis, "cam", positions, {"points": (float(points), "")}, note)
 
 
@@ -244,14 +252,17 @@ def _table(axis: ModuleAxis, parameter: str, points: int) -> list[int]:
     values = [axis.register(parameter, k) for k in range(points)]
     if None in values:
         raise SimulationError(
-            f"Point {values.index(None)} of the cam is not set, and {axis.names['cam.points']} counts {points}",
+            f"Point {values.index(None)} of the cam is not set, and {axis.names['cam.points']} counts"
+            f" {points}",
             parameter,
         )
     return [int(value) for value in values if value is not None]
 
 
 def run_backlash(axis: AxisLaw, settings: Settings) -> Trace:
-    """Make a move with automatic backlash compensation: against its sign it overruns and comes back (page 4-21)."""
+    """Make a move with automatic backlash compensation:
+    against its sign it overruns and comes back (page 4-21).
+    """
     refuse_unknown(settings, BACKLASH)
     module = _module(axis)
     asked = number(settings, "move.distance")

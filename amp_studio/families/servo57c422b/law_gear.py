@@ -1,4 +1,6 @@
-"""Electronic gearing of the 57C422B: the commanded position of the geared axis, scan by scan (pages 4-15, 4-20, 4-24)."""
+"""Electronic gearing of the 57C422B: the commanded position of the geared axis, scan by scan (pages 4-15,
+4-20, 4-24).
+"""
 
 from __future__ import annotations
 
@@ -16,10 +18,11 @@ LARGEST, SMALLEST = 127.0, 1.0 / 32767.0
 
 
 def gear_fraction(ratio: float | None, numerator: float | None, denominator: float | None) -> tuple[int, int]:
-    """Return the gear ratio as two whole numbers: of register 25 and 26, or the 32-bit number over 16777216 (page 4-15).
+    """Return the gear ratio as two whole numbers: of register 25 and 26,
+    or the 32-bit number over 16777216 (page 4-15).
 
-    ``ratio`` counts where there is no numerator. Raises SimulationError outside 127:1 to 1:32767, where gearing is not
-    enabled.
+    ``ratio`` counts where there is no numerator. Raises SimulationError outside 127:1 to 1:32767, where
+    gearing is not enabled.
     """
     if numerator is None or denominator is None:
         upper, lower = round((ratio or 0.0) * GEAR_SCALE), int(GEAR_SCALE)
@@ -34,10 +37,11 @@ def gear_fraction(ratio: float | None, numerator: float | None, denominator: flo
 
 
 def geared(master: Sequence[int], upper: int, lower: int) -> Iterator[int]:
-    """Yield the commanded position of the geared axis for each position of the master, in counts from the first.
+    """Yield the commanded position of the geared axis for each position of the master,
+    in counts from the first.
 
-    Nothing is lost, however long the axis runs: the module keeps all remainders (page 4-15). Towards which side a
-    broken count is cut is not printed; here it is down.
+    Nothing is lost, however long the axis runs: the module keeps all remainders (page 4-15). Towards which
+    side a broken count is cut is not printed; here it is down.
     """
     rest, position, before = 0, 0, master[0] if master else 0
     for now in master:
@@ -47,10 +51,11 @@ def geared(master: Sequence[int], upper: int, lower: int) -> Iterator[int]:
 
 
 def engage_time(speed: float, acceleration: float) -> float:
-    """Return the time in s in which ramp velocity control brings the axis to the speed of its master, counts/s.
+    """Return the time in s in which ramp velocity control brings the axis to the speed of its master,
+    counts/s.
 
-    Only until then the acceleration of the trapezoid bounds it (page 4-21); without it the axis goes there in current
-    limit (page 4-24), which is 0 here.
+    Only until then the acceleration of the trapezoid bounds it (page 4-21); without it the axis goes there in
+    current limit (page 4-24), which is 0 here.
     """
     if acceleration <= 0.0:
         return 0.0
@@ -58,9 +63,11 @@ def engage_time(speed: float, acceleration: float) -> float:
 
 
 def followed(master: Sequence[int], upper: int, lower: int, acceleration: float) -> list[float]:
-    """Return the commanded position of an axis that is geared at rest to a moving master, scan by scan, in counts.
+    """Return the commanded position of an axis that is geared at rest to a moving master, scan by scan,
+    in counts.
 
-    ``acceleration`` in counts/s² of ramp velocity control, 0 without it: the axis is at the speed of its master at once.
+    ``acceleration`` in counts/s² of ramp velocity control, 0 without it:
+    the axis is at the speed of its master at once.
     """
     wanted = list(geared(master, upper, lower))
     step = acceleration * SCAN * SCAN

@@ -16,10 +16,13 @@ TURN = 4000.0
 """Counts from marker to marker: 1000 lines, times 4 (page 4-48)."""
 MARKER = "ASSUMED: an encoder of 1000 lines (page 4-48), if a marker is used; move.turn gives another."
 UNKNOWN = (
-    "Register 2 is not set. ASSUMED: the fourth sequence of page 4-29, with home switch and marker, in the direction of"
-    " move.direction; and an encoder of 1000 lines (page 4-48)."
+    "Register 2 is not set. ASSUMED: the fourth sequence of page 4-29, with home switch and marker, in the"
+    " direction of move.direction; and an encoder of 1000 lines (page 4-48)."
 )
-PLACE = "At the marker, or where the switch goes off, the position becomes that of registers 17 and 18 (page 4-29). ASSUMED: the axis then stops by its deceleration."
+PLACE = (
+    "At the marker, or where the switch goes off, the position becomes that of registers 17 and 18 (page"
+    " 4-29). ASSUMED: the axis then stops by its deceleration."
+)
 
 
 def homing(read: AxisParameters) -> Homing:
@@ -55,7 +58,9 @@ def _speed(read: AxisParameters, name: str) -> float:
 
 
 def travel(read: AxisParameters, ramp: Ramp) -> Travel:
-    """Return the software overtravel of registers 11 to 14, of a linear axis that has it enabled in register 2."""
+    """Return the software overtravel of registers 11 to 14,
+    of a linear axis that has it enabled in register 2.
+    """
     setup, encoder = int(read.optional(SWITCHES) or 0.0), int(read.optional(ENCODER) or 0.0)
     low, high = read.optional(LOW), read.optional(HIGH)
     notes = (bits.SWITCHES,)
@@ -68,7 +73,8 @@ def travel(read: AxisParameters, ramp: Ramp) -> Travel:
     edges = (-math.inf if low is None else low, math.inf if high is None else high)
     if edges[0] >= edges[1]:
         raise SimulationError(
-            f"The negative overtravel limit {edges[0]:g} is not below the positive one, {edges[1]:g}: a motion fault (4-10)",
+            f"The negative overtravel limit {edges[0]:g} is not below the positive one, {edges[1]:g}: a"
+            " motion fault (4-10)",
             LOW,
         )
     coasts = bool(setup & bits.OVERTRAVEL_COASTS)

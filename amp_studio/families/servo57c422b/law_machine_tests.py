@@ -1,4 +1,6 @@
-"""Tasks that try an axis of a 57C422B out: home and move, in the form of the programs of pages 5-6 to 5-8, with this file's figures."""
+"""Tasks that try an axis of a 57C422B out: home and move, in the form of the programs of pages 5-6 to 5-8,
+with this file's figures.
+"""
 
 from __future__ import annotations
 
@@ -33,13 +35,17 @@ def _home(axis: AxisLaw) -> MachineTest:
     base = _base(axis.axis)
     lines = (
         f"! register {base + 65} bit 0 on: the loop is closed and the setups are read (4-24)",
-        f"! register {base + 66} bit 2 on: home (4-29); off again once register {base + 72} bit 15 is on (4-36)",
+        (
+            f"! register {base + 66} bit 2 on: home (4-29); off again once register {base + 72} bit 15 is on"
+            " (4-36)"
+        ),
         f"! wait until register {base + 72} bit 0 is on: axis done (4-43)",
     )
     steps = (
         MachineTestStep(
             "Jog the axis away from the switch, and home it",
-            f"register {base + 74} shows {shown(homing.coordinate, axis.unit)} at the place of the marker or switch",
+            f"register {base + 74} shows {shown(homing.coordinate, axis.unit)} at the place of the marker or"
+            " switch",
         ),
         MachineTestStep(
             "Home it again from the other side of the machine", "the axis rests at the same place"
@@ -61,7 +67,9 @@ def _move(machine: BoundMachine, axis: AxisLaw) -> MachineTest:
                 "move",
                 title,
                 "5-7",
-                refusal=f"The position of registers 17, 18, {target:g}, is outside of the software overtravel.",
+                refusal=(
+                    f"The position of registers 17, 18, {target:g}, is outside of the software overtravel."
+                ),
             )
     lines = (
         f"! registers {base + 17}, {base + 18}: position {target:g} counts, then 0",

@@ -1,14 +1,15 @@
-"""The motor behind a 57C422B, which the module knows nothing of: figures that are assumed, named and settable.
+"""The motor behind a 57C422B, which the module knows nothing of: figures that are assumed,
+named and settable.
 
-The manual prints no motor. The evidence of its two tuned programs (pages 4-48 and 5-5), read with the scales of
-`law_sample.py`, in words (1984 is 10 V) and counts a scan (1.25 ms):
+The manual prints no motor. The evidence of its two tuned programs (pages 4-48 and 5-5), read with the scales
+of `law_sample.py`, in words (1984 is 10 V) and counts a scan (1.25 ms):
 
     program    velocity gain   feed-forward   viscous friction = gain × (feed-forward / 8192 - 1)   deadband
     page 4-48             78           8320                                                   1.22        28
     page 5-5             140           8256                                                   1.09        27
 
-The acceleration is such that both programs are stable and well damped and a velocity gain well above them makes the
-motor vibrate, as in step 4 of page 5-4.
+The acceleration is such that both programs are stable and well damped and a velocity gain well above them
+makes the motor vibrate, as in step 4 of page 5-4.
 """
 
 from __future__ import annotations
@@ -26,7 +27,8 @@ COULOMB = 27.5 / WORDS_PER_VOLT
 DELAY = 0.0002
 """s from the measured position to the reference at the drive."""
 FULL_SPEED = 1_000_000.0
-"""Counts/s of a velocity drive at 10 V: the most that the encoder inputs take with *4 quadrature (page A-1)."""
+"""Counts/s of a velocity drive at 10 V: the most that the encoder inputs take with *4 quadrature (page
+A-1)."""
 DRIVE_BANDWIDTH = 50.0
 """Hz: the velocity loop of such a drive."""
 FULL_VOLTS = 10.0
@@ -36,15 +38,17 @@ PERCENT_PER_VOLT = 10.0
 _NO_MOTOR = "The module knows no motor."
 CURRENT = {
     "acceleration_per_output": f"{_NO_MOTOR} 1000 turns/s2 of 4000 counts at 10 V.",
-    "viscous_friction": f"{_NO_MOTOR} What the feed-forward of both printed programs has above 8192 (pages 4-48, 5-5).",
+    "viscous_friction": (
+        f"{_NO_MOTOR} What the feed-forward of both printed programs has above 8192 (pages 4-48, 5-5)."
+    ),
     "coulomb_friction": f"{_NO_MOTOR} The deadband compensation of both printed programs (pages 4-48, 5-5).",
     "delay": "How long the module computes in its scan is not printed.",
 }
 VELOCITY = {
     **CURRENT,
     "velocity_per_output": (
-        "Full speed of the drive at 10 V is not in the registers: 1000000 counts/s, the most that the encoder inputs take"
-        " (page A-1). Set model.velocity_per_output in counts/s for 1 V."
+        "Full speed of the drive at 10 V is not in the registers: 1000000 counts/s, the most that the encoder"
+        " inputs take (page A-1). Set model.velocity_per_output in counts/s for 1 V."
     ),
     "velocity_bandwidth": "The drive closes the velocity loop with separate settings (page 4-4).",
 }
@@ -52,7 +56,9 @@ VELOCITY = {
 
 
 def machine(*, current_reference: bool, velocity_per_volt: float | None) -> Machine:
-    """Return the assumed machine, in counts; a velocity drive reaches ``velocity_per_volt`` counts/s for 1 V."""
+    """Return the assumed machine, in counts; a velocity drive reaches ``velocity_per_volt`` counts/s for 1
+    V.
+    """
     if current_reference:
         return Machine(
             acceleration_per_output=ACCELERATION,

@@ -1,4 +1,6 @@
-"""The registration input of a 57C422B: the feedback position is stored while the axis goes on (2-4, 4-34, A-2)."""
+"""The registration input of a 57C422B: the feedback position is stored while the axis goes on (2-4, 4-34,
+A-2).
+"""
 
 from __future__ import annotations
 
@@ -21,6 +23,9 @@ def probing(_read: AxisParameters, axis: AxisLaw, cycle: str) -> Probing:
         alternatives={"2-4": FAST, "A-2": SLOW},
         page="2-4, A-2",
         notes=(
-            "The position of registers 84, 85 is stored at either edge, or at the falling one by register 41 (4-22); the axis goes on.",
+            (
+                "The position of registers 84, 85 is stored at either edge, or at the falling one by register"
+                " 41 (4-22); the axis goes on."
+            ),
         ),
     )

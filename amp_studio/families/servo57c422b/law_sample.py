@@ -1,21 +1,22 @@
 """The control loop of the 57C422B servo module, one scan of 1.25 ms at a time (manual J-3642-7).
 
-Printed: the scan (page A-2); the output of ±1984 for ±10 V and its clamp in register 31 (pages 4-16, 4-17); the faults
-of position and velocity error (pages 4-8, 4-9, 4-37) with the velocity error in counts a scan; that the velocity loop is
-the module's own for a current reference and switched off for a velocity reference (page 5-3); what each gain is for
-(pages 4-29, 4-30, 5-2 to 5-4).
+Printed: the scan (page A-2); the output of ±1984 for ±10 V and its clamp in register 31 (pages 4-16, 4-17);
+the faults of position and velocity error (pages 4-8, 4-9, 4-37) with the velocity error in counts a scan;
+that the velocity loop is the module's own for a current reference and switched off for a velocity reference
+(page 5-3); what each gain is for (pages 4-29, 4-30, 5-2 to 5-4).
 
-Lost: the diagram of the loop and the scale of every gain (section 4.5 to 4.9, appendix I). The loop below is therefore
-an ASSUMPTION, a cascade in counts a scan:
+Lost: the diagram of the loop and the scale of every gain (section 4.5 to 4.9, appendix I). The loop below is
+therefore an ASSUMPTION, a cascade in counts a scan:
 
-    wanted = feed-forward / 8192 * commanded velocity + proportional / 65536 * error + integral / 65536 * sum of errors
-    output = velocity gain * (wanted - measured velocity)             current reference
+    wanted = feed-forward / 8192 * commanded velocity + proportional / 65536 * error + integral / 65536 * sum
+    of errors output = velocity gain * (wanted - measured velocity)             current reference
     output = words * wanted                                           velocity reference
     output + deadband in the direction of the output, cut to ± register 31
 
-What speaks for these scales are the tuned gains of the two printed programs (pages 4-48 and 5-5): feed-forward 8320 and
-8256, a little above 8192 in both; proportional 17595 and 18700 with integral 768 and 1575, which make a well damped loop
-of 34 and 36 Hz; and what feed-forward has above 8192, times the velocity gain, is the same viscous friction in both,
+What speaks for these scales are the tuned gains of the two printed programs (pages 4-48 and 5-5):
+feed-forward 8320 and 8256, a little above 8192 in both; proportional 17595 and 18700 with integral 768 and
+1575, which make a well damped loop of 34 and 36 Hz; and what feed-forward has above 8192, times the velocity
+gain, is the same viscous friction in both,
 1.22 and 1.09 words for a count a scan. All scales can be set.
 """
 
@@ -55,7 +56,8 @@ PARAMETERS = 10
 
 # State.
 BEFORE, SUM, WANTED, CUT = 0, 1, 2, 3
-"""Counts at the last scan; sum of the errors, counts; counts a scan; words that the clamp took off the last output."""
+"""Counts at the last scan; sum of the errors, counts; counts a scan;
+words that the clamp took off the last output."""
 STATE = 4
 
 POSITION_FAULT, VELOCITY_FAULT = 1.0, 2.0

@@ -1,8 +1,9 @@
 """The three tune commands of the 57C422B on the simulated axis (pages 4-29 to 4-31).
 
-Printed: the order of the commands and of the gains, what each needs, what it leaves, and that the axis moves both ways.
-How the module searches is not printed. Here it searches as a person would by sections 5.2.2 of the manual: a gain is
-doubled until the shaft vibrates, the edge is found by halves, and a third of it is left: ASSUMED, and in the result.
+Printed: the order of the commands and of the gains, what each needs, what it leaves, and that the axis moves
+both ways. How the module searches is not printed. Here it searches as a person would by sections 5.2.2 of the
+manual: a gain is doubled until the shaft vibrates, the edge is found by halves, and a third of it is left:
+ASSUMED, and in the result.
 """
 
 from __future__ import annotations
@@ -64,7 +65,8 @@ class Left:
 
 
 def gains(axis: AxisLaw, scales: Scales, increment: float) -> Left:
-    """Tune gains: deadband, velocity, integral and proportional gain, with moves of ``increment`` counts both ways.
+    """Tune gains: deadband, velocity, integral and proportional gain,
+    with moves of ``increment`` counts both ways.
 
     Raises SimulationError where the shaft vibrates at the least gain.
     """
@@ -101,9 +103,11 @@ def gains(axis: AxisLaw, scales: Scales, increment: float) -> Left:
 
 
 def dynamics(axis: AxisLaw, travel: float, speed: float, up: float, down: float) -> Left:
-    """Tune dynamics: the greatest velocity, acceleration and deceleration, at most those given, in counts and s.
+    """Tune dynamics: the greatest velocity, acceleration and deceleration, at most those given,
+    in counts and s.
 
-    Greatest are those at which the axis moves ``travel`` counts there and back, with neither fault nor clamped output.
+    Greatest are those at which the axis moves ``travel`` counts there and back,
+    with neither fault nor clamped output.
     """
 
     def good(velocity: float, acceleration: float, deceleration: float) -> bool:
@@ -127,7 +131,8 @@ def dynamics(axis: AxisLaw, travel: float, speed: float, up: float, down: float)
 
 
 def feed_forward(axis: AxisLaw, scales: Scales, positive: float, negative: float, speed: float) -> Left:
-    """Tune feedforward: the greatest gain that leaves no negative following error at ``speed`` counts/s either way.
+    """Tune feedforward: the greatest gain that leaves no negative following error
+    at ``speed`` counts/s either way.
 
     ``positive`` and ``negative`` are the limits of the travel from the present position, in counts.
     """
@@ -177,7 +182,9 @@ def deadband(axis: AxisLaw) -> float:
 
 
 def _breakaway(axis: AxisLaw, start: float, end: float) -> float:
-    """Return the output in words at which the axis begins to move, of one that rises from ``start`` to ``end`` in 1 s."""
+    """Return the output in words at which the axis begins to move,
+    of one that rises from ``start`` to ``end`` in 1 s.
+    """
     volts, rise = start / loop.WORDS_PER_VOLT, (end - start) / loop.WORDS_PER_VOLT
     ramp = [0.0, math.inf, volts, rise, 0.0, 0.0, POLYNOMIAL, 0.0]
     motion = run_axis(axis, ramp, Until(1.0), mode=OUTPUT_TEST)
@@ -195,11 +202,7 @@ def vibrates(axis: AxisLaw, increment: float, mode: float) -> bool:
     """Return whether the shaft vibrates at rest after a move of ``increment`` counts there and back."""
     ramp = increment / WAY**2
     speed = ramp * WAY
-    there_and_back = [
-        Piece(WAY, 0.0, ramp),
-        Piece(2.0 * WAY, speed, -ramp),
-        Piece(WAY, -speed, ramp),
-    ]
+    there_and_back = [Piece(WAY, 0.0, ramp), Piece(2.0 * WAY, speed, -ramp), Piece(WAY, -speed, ramp)]
     motion = run(axis, profile_of(there_and_back, 0.0), REST, mode)
     position = motion.columns["position"]
     last = position[motion.columns["time_s"] > 4.0 * WAY + 0.5 * REST]
@@ -210,7 +213,9 @@ def vibrates(axis: AxisLaw, increment: float, mode: float) -> bool:
 
 
 def _third(name: str, too_much: Callable[[float], bool]) -> float:
-    """Return a third of the gain from which on the shaft vibrates, of the largest register where it never does."""
+    """Return a third of the gain from which on the shaft vibrates,
+    of the largest register where it never does.
+    """
     low, high = 0.0, 25.0
     if too_much(high):
         raise SimulationError(f"The shaft vibrates at a {name} of {high:g}: it cannot be tuned")
@@ -223,7 +228,9 @@ def _third(name: str, too_much: Callable[[float], bool]) -> float:
 
 
 def _greatest(most: float, good: Callable[[float], bool]) -> float:
-    """Return the greatest figure up to ``most`` that is good, to a 64th; raises SimulationError where none is."""
+    """Return the greatest figure up to ``most`` that is good, to a 64th;
+    raises SimulationError where none is.
+    """
     if good(most):
         return most
     low, high = 0.0, most
@@ -244,14 +251,17 @@ def _strained(axis: AxisLaw, motion: Motion) -> bool:
 
 
 def _at_speed(axis: AxisLaw, travel: float, speed: float) -> float:
-    """Return the mean following error at speed, positive for an axis that is behind, of a move of ``travel`` counts."""
+    """Return the mean following error at speed, positive for an axis that is behind,
+    of a move of ``travel`` counts.
+    """
     profile = move(travel, speed, axis.ramps["linear"])
     motion = run(axis, profile, 0.0)
     columns = motion.columns
     even = np.flatnonzero(np.abs(np.abs(columns["command_velocity"]) - speed) < 1e-6 * speed)
     if even.size < 8:
         raise SimulationError(
-            f"The axis does not reach {speed:g} counts/s within {abs(travel):g} counts: the travel limits are too near",
+            f"The axis does not reach {speed:g} counts/s within {abs(travel):g} counts: the travel limits are"
+            " too near",
             "setup.overtravel_positive",
         )
     return float(columns["following_error"][even[even.size // 2 :]].mean()) * math.copysign(1.0, travel)

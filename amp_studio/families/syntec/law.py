@@ -1,7 +1,8 @@
 """The servo axes of a Syntec control: from the parameters of a file to the law of one axis.
 
-The control sends whole pulses, the drive closes the loop (1.2.4, 1.4). Lengths of the file are counts of the BLU (1.2.6);
-here they are mm or deg. Drive and mechanics are not in the file: what is assumed about them is named in the result.
+The control sends whole pulses, the drive closes the loop (1.2.4, 1.4). Lengths of the file are counts of the
+BLU (1.2.6); here they are mm or deg. Drive and mechanics are not in the file:
+what is assumed about them is named in the result.
 """
 
 from __future__ import annotations
@@ -100,7 +101,9 @@ def axes(file: ParameterFile) -> tuple[str, ...]:
 
 
 def bind(read: AxisParameters) -> AxisLaw:
-    """Return the law of one axis; raises SimulationError naming the parameters that are missing or impossible."""
+    """Return the law of one axis; raises SimulationError naming the parameters that are missing
+    or impossible.
+    """
     notes: list[str] = []
     _demand(read)
     try:
@@ -118,7 +121,9 @@ def bind(read: AxisParameters) -> AxisLaw:
     return AxisLaw(
         axis=read.axis,
         unit=axis.unit,
-        title="Syntec: whole pulses in every interpolation time, position loop with loop gain, velocity drive",
+        title=(
+            "Syntec: whole pulses in every interpolation time, position loop with loop gain, velocity drive"
+        ),
         position_sample=sample.position_sample,
         velocity_sample=None,
         parameters=parameters,
@@ -204,8 +209,8 @@ def _axis(read: AxisParameters, notes: list[str]) -> _Axis:
     period = interpolation_time_us(setting, basic) * 1e-6
     if not SHORTEST <= period <= LONGEST:
         raise SimulationError(
-            f"dda.interpolation_time is {setting:g}, an interpolation time of {period * 1e3:g} ms; simulated are"
-            f" {SHORTEST * 1e3:g} to {LONGEST * 1e3:g} ms",
+            f"dda.interpolation_time is {setting:g}, an interpolation time of {period * 1e3:g} ms; simulated"
+            f" are {SHORTEST * 1e3:g} to {LONGEST * 1e3:g} ms",
             "dda.interpolation_time",
         )
     home = read.optional("home.first_speed")
@@ -238,7 +243,8 @@ def _pulse(read: AxisParameters, unit: str, notes: list[str]) -> float:
                 "resolution.encoder_type",
             )
         notes.append(
-            "ASSUMED: a pulse of the command is one of the linear encoder (1.2.5); the drive is set up for it."
+            "ASSUMED: a pulse of the command is one of the linear encoder (1.2.5); the drive is set up"
+            " for it."
         )
         return 1.0 / pulses
     if kind == "none":
@@ -274,8 +280,8 @@ def _acceleration(read: AxisParameters, axis: _Axis, notes: list[str]) -> float:
     if not (math.isfinite(own) and own > 0.0):
         raise SimulationError(f"{name} is {own:g}; a simulated axis needs a time above 0", name)
     notes.append(
-        f"ASSUMED: {word}, {own:g}, is the time in ms in which a straight ramp reaches the rapid feedrate; neither unit nor"
-        " ramp is printed (1.5.3)."
+        f"ASSUMED: {word}, {own:g}, is the time in ms in which a straight ramp reaches the rapid feedrate;"
+        " neither unit nor ramp is printed (1.5.3)."
     )
     return axis.rapid / (own / 1000.0)
 
@@ -321,25 +327,34 @@ def _alarms(axis: _Axis) -> dict[int, AlarmText]:
 ALWAYS = (
     "The BLU is 0.001 mm or deg, as delivered on a metric machine (1.2.6).",
     (
-        "In every interpolation time the control sends the whole pulses of what was commanded up to its start, evenly spread (1.4.1);"
-        " the following error is counted from the pulses that have left the card."
+        "In every interpolation time the control sends the whole pulses of what was commanded up to its"
+        " start, evenly spread (1.4.1); the following error is counted from the pulses that have left the"
+        " card."
     ),
     (
-        "Following error = speed / loop gain (1.5.3): the loop is proportional. ASSUMED: it is closed 8 times in one interpolation"
-        " time, by drive or card, over the device that the control reads; a drive over its own where there is none."
+        "Following error = speed / loop gain (1.5.3): the loop is proportional. ASSUMED: it is closed 8 times"
+        " in one interpolation time, by drive or card, over the device that the control reads; a drive over"
+        " its own where there is none."
     ),
-    "The run ends at the first alarm, so MOT-023 follows MOT-019 only where one interpolation time passes both limits.",
     (
-        "Not simulated, because unit or meaning is not printed: feed forward (Pr581), mechanical compensation (Pr1401), range of loss"
-        " pulse (Pr561, MOT-008)."
+        "The run ends at the first alarm, so MOT-023 follows MOT-019 only where one interpolation time passes"
+        " both limits."
+    ),
+    (
+        "Not simulated, because unit or meaning is not printed: feed forward (Pr581), mechanical compensation"
+        " (Pr1401), range of loss pulse (Pr561, MOT-008)."
     ),
 )
 
 ASSUMED: Mapping[str, str] = {
-    "acceleration_per_output": "The file contains neither inertia nor torque: 100 % of rated torque is taken to give the ramp of"
-    " the axis, and the drive to end at 200 %.",
+    "acceleration_per_output": (
+        "The file contains neither inertia nor torque: 100 % of rated torque is taken to give the ramp of"
+        " the axis, and the drive to end at 200 %."
+    ),
     "velocity_bandwidth": "The drive is not in the file: the bandwidth of its velocity loop.",
-    "velocity_integral": "An integral part of that drive, without which friction and weight would leave a speed error.",
+    "velocity_integral": (
+        "An integral part of that drive, without which friction and weight would leave a speed error."
+    ),
     "inertia_ratio": "Load and motor are one rigid mass unless model.resonance or model.backlash is set.",
 }
 

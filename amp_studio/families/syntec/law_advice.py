@@ -1,4 +1,6 @@
-"""Recommendations after a move of a Syntec axis: rapid feedrate, interpolation time and acceleration, with page and price."""
+"""Recommendations after a move of a Syntec axis: rapid feedrate, interpolation time and acceleration,
+with page and price.
+"""
 
 from __future__ import annotations
 
@@ -25,7 +27,9 @@ def advise(axis: AxisLaw, trace: Trace) -> tuple[Recommendation, ...]:
 
 
 def _grid(trace: Trace) -> Iterator[Recommendation]:
-    """Yield the home grid function where the index is so near to the edge of the dog that it may be missed (2.2)."""
+    """Yield the home grid function where the index is so near to the edge of the dog
+    that it may be missed (2.2).
+    """
     grid = trace.result.get("home_grid", (None, "%"))[0]
     if grid is None or LEAST_GRID <= grid <= MOST_GRID:
         return
@@ -33,14 +37,16 @@ def _grid(trace: Trace) -> Iterator[Recommendation]:
         "home.grid",
         1.0,
         "",
-        f"The home grid is {shown(grid, '%', 3)}: below {LEAST_GRID:g} or above {MOST_GRID:g} % the index lies so near to the dog that it may be"
-        " missed once and found the next time (page 2.2).",
+        f"The home grid is {shown(grid, '%', 3)}: below {LEAST_GRID:g} or above {MOST_GRID:g} % the index"
+        " lies so near to the dog that it may be missed once and found the next time (page 2.2).",
         "An index within half a turn of the dog is passed, and home moves by a turn.",
     )
 
 
 def _pulses(axis: AxisLaw, trace: Trace) -> Iterator[Recommendation]:
-    """Yield a shorter interpolation time, else a lower rapid feedrate, where a move needs more than 2047 pulses (1.5.1)."""
+    """Yield a shorter interpolation time, else a lower rapid feedrate,
+    where a move needs more than 2047 pulses (1.5.1).
+    """
     most = axis.parameters[sample.MOST_PULSES]
     asked = (trace.result["feedrate"][0] or 0.0) / 60.0
     period = axis.servo_period * sample.PARTS
@@ -71,7 +77,9 @@ def _pulses(axis: AxisLaw, trace: Trace) -> Iterator[Recommendation]:
 
 
 def _ramp(axis: AxisLaw, trace: Trace) -> Iterator[Recommendation]:
-    """Yield a longer acceleration time where the torque of a machine that was given was at its limit (1.5.3)."""
+    """Yield a longer acceleration time where the torque of a machine that was given was at its limit
+    (1.5.3).
+    """
     limit = min(axis.machine.torque_limit_positive, axis.machine.torque_limit_negative)
     available = 0.8 * axis.machine.acceleration_per_output * (limit - axis.machine.coulomb_friction)
     now, source = axis.ramps["linear"].acceleration, axis.sources["acceleration"]
@@ -82,6 +90,7 @@ def _ramp(axis: AxisLaw, trace: Trace) -> Iterator[Recommendation]:
         source.parameter,
         float(math.ceil(1000.0 * (axis.feedrate or 0.0) / available)),
         "",
-        f"The torque was at its limit; 80 % of it accelerate by {shown(available, f'{axis.unit}/s2', 4)} (page {source.page}).",
+        f"The torque was at its limit; 80 % of it accelerate by {shown(available, f'{axis.unit}/s2', 4)}"
+        f" (page {source.page}).",
         f"Rapid moves reach their feedrate {shown(now / available, digits=3)} times as late.",
     )

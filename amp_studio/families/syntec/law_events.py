@@ -20,12 +20,15 @@ SCATTER = 0.1
 FARTHEST_BLU = 999999999.0
 """The delivered stroke limits: none (3.2)."""
 
-WINDOW_NOTE = "ASSUMED: a unit of the zero-speed window Pr901 is a BLU; the slides print neither unit nor range (2.2, alarms)."
+WINDOW_NOTE = (
+    "ASSUMED: a unit of the zero-speed window Pr901 is a BLU; the slides print neither unit nor range (2.2,"
+    " alarms)."
+)
 NOTES = (
     "Onto the dog at the first speed, stop, off it backwards at the second, on to the nearest index (2.2).",
     (
-        "ASSUMED: a unit of Axis home offset is a BLU, its sign the machine's; neither is printed (2.2). The axis stops along its ramp and returns to the index at"
-        " the second speed."
+        "ASSUMED: a unit of Axis home offset is a BLU, its sign the machine's; neither is printed (2.2). The"
+        " axis stops along its ramp and returns to the index at the second speed."
     ),
 )
 STOPPED = "ASSUMED: beyond the limit the command stops at once; the slides print the alarm alone (3.2)."
@@ -39,7 +42,9 @@ def _above_zero(read: AxisParameters, name: str) -> float:
 
 
 def homing(read: AxisParameters, turn: float) -> Homing:
-    """Return the homing sequence; ``turn`` is u from index to index. Raises SimulationError where a value is missing."""
+    """Return the homing sequence; ``turn`` is u from index to index.
+    Raises SimulationError where a value is missing.
+    """
     if read.choice("resolution.encoder_type") == "absolute":
         raise SimulationError(
             f"Axis {read.axis} has an absolute encoder: it is not homed by a search (2.1.1)",
@@ -79,11 +84,13 @@ def _failures(read: AxisParameters, turn: float) -> dict[str, Failure]:
         "stuck": Failure("MOT-036", f"Can't leave Home Dog: it is still on after {given} (2.2).", far),
         "moving": Failure(
             "MOT-030",
-            "Zero speed timeout in homing: 0.1 s after the command stopped on the dog the error is above the zero-speed window (2.2).",
+            "Zero speed timeout in homing: 0.1 s after the command stopped on the dog the error is above the"
+            " zero-speed window (2.2).",
         ),
         "scatter": Failure(
             "MOT-022",
-            "Home position inaccurate: the home grid differs from that of the first homing by more than 0.1 turn (2.2).",
+            "Home position inaccurate: the home grid differs from that of the first homing by more than 0.1"
+            " turn (2.2).",
             SCATTER,
         ),
     }

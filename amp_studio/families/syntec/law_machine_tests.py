@@ -1,4 +1,6 @@
-"""The procedures of the Syntec slides as steps with this file's figures: homing (2.2), and the stroke limits (3.2)."""
+"""The procedures of the Syntec slides as steps with this file's figures: homing (2.2),
+and the stroke limits (3.2).
+"""
 
 from __future__ import annotations
 
@@ -52,7 +54,8 @@ def _limits(axis: AxisLaw, letter: str) -> MachineTest:
     steps = tuple(
         MachineTestStep(
             f"Home axis {letter}, and jog it towards {shown(place, axis.unit)}",
-            f"{'MOT-018' if place == min(places) else 'MOT-017'} comes, and the axis stops before its hard stop",
+            f"{'MOT-018' if place == min(places) else 'MOT-017'} comes, and the axis stops before its hard"
+            " stop",
         )
         for place in places
     )

@@ -1,10 +1,12 @@
 """The pulse loop of a Syntec axis: what servo card and drive do in one sample of the drive.
 
-Lengths are in the axis' unit u (mm or deg), times in s, the output is a velocity in u/min. Printed, and taken as printed:
-in every interpolation time the control sends whole pulses, at most 2047, evenly spread (1.4.1), and more are MOT-05
-(1.5.1); the following error of a steady speed is speed / loop gain (1.5.3); it is an alarm beyond two times (MOT-019,
-1.5.3) and four times (MOT-023, 1.5.4) that of the greater of rapid and first homing speed. What is assumed in the place
-of what is not printed is named in ``law.py``. The functions are plain Python over arrays, so that they also run compiled.
+Lengths are in the axis' unit u (mm or deg), times in s, the output is a velocity in u/min. Printed, and taken
+as printed: in every interpolation time the control sends whole pulses, at most 2047, evenly spread (1.4.1),
+and more are MOT-05 (1.5.1); the following error of a steady speed is speed / loop gain (1.5.3); it is an
+alarm beyond two times (MOT-019,
+1.5.3) and four times (MOT-023, 1.5.4) that of the greater of rapid and first homing speed. What is assumed in
+the place of what is not printed is named in ``law.py``. The functions are plain Python over arrays,
+so that they also run compiled.
 """
 
 from __future__ import annotations
@@ -32,7 +34,8 @@ PARTS = 8
 PULSE, GAIN, MOST_PULSES, LIMIT, FATAL_LIMIT, WHOLE = range(6)
 PARAMETERS = 6
 
-# State: pulses sent up to this interpolation time and up to its end, samples since it began; then the last references
+# State: pulses sent up to this interpolation time and up to its end, samples since it began; then the last
+# references
 FROM, TO, PART = range(3)
 RING = 3
 STATES = RING + PARTS
@@ -47,8 +50,8 @@ DDA_OVERFLOW, EXCESS_ERROR, FATAL_ERROR = 1.0, 2.0, 3.0
 def position_sample(p: Vector, s: Vector, io: Vector) -> None:
     """Close the position loop over the pulses that have left the card by now.
 
-    p: length of a PULSE in u, GAIN in 1/s, MOST_PULSES in one interpolation time, LIMIT and FATAL_LIMIT of the
-    following error in u, WHOLE.
+    p: length of a PULSE in u, GAIN in 1/s, MOST_PULSES in one interpolation time, LIMIT and FATAL_LIMIT of
+    the following error in u, WHOLE.
     """
     if io[MODE] == VELOCITY_LOOP:
         io[OUTPUT] = 60.0 * io[COMMAND_VELOCITY]
@@ -66,7 +69,9 @@ def position_sample(p: Vector, s: Vector, io: Vector) -> None:
 
 
 def sent(p: Vector, s: Vector, io: Vector) -> float:
-    """Return the position in u of the pulses that have left the card; begin an interpolation time where one is due."""
+    """Return the position in u of the pulses that have left the card;
+    begin an interpolation time where one is due.
+    """
     if s[PART] == 0.0:
         s[FROM] = s[TO]
         s[TO] = 1.0 * math.floor(io[COMMAND] / p[PULSE] + 0.5)

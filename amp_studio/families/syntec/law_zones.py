@@ -9,11 +9,11 @@ from amp_studio.sim import BoundMachine, Zone
 BLU = 0.001
 """mm or deg (1.2.6)."""
 READ_AHEAD = "COR-040"
-NOTE = "A pair counts in either order; equal values switch the axis off (3.2). ASSUMED: the command stops at once; the slides print the alarms alone."
-TIERS = (
-    ("2", "second", "MOT-044", "MOT-037", "MOT-038"),
-    ("3", "third", "MOT-045", "MOT-041", "MOT-042"),
+NOTE = (
+    "A pair counts in either order; equal values switch the axis off (3.2). ASSUMED: the command stops at"
+    " once; the slides print the alarms alone."
 )
+TIERS = (("2", "second", "MOT-044", "MOT-037", "MOT-038"), ("3", "third", "MOT-045", "MOT-041", "MOT-042"))
 """Number, name of the parameters, code of going in, of leaving at the plus and the minus side."""
 
 

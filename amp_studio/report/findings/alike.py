@@ -20,7 +20,9 @@ _NAMED = 6
 
 
 def notes_of(file: ParameterFile, findings: Iterable[Finding], printed: set[str]) -> tuple[Note, ...]:
-    """Return the findings as notes in their order; ``printed`` contains the anchors of the values in the report."""
+    """Return the findings as notes in their order;
+    ``printed`` contains the anchors of the values in the report.
+    """
     return tuple(_note(file, same, printed) for same in alike(findings))
 
 

@@ -1,4 +1,6 @@
-"""Findings by their rule: what is wrong in plain words, on which axes, and what its fixes do, for a list or a terminal."""
+"""Findings by their rule: what is wrong in plain words, on which axes, and what its fixes do,
+for a list or a terminal.
+"""
 
 from __future__ import annotations
 
@@ -38,7 +40,9 @@ class FindingGroup:
 
 
 def finding_groups(validator: Validator, findings: Iterable[Finding]) -> tuple[FindingGroup, ...]:
-    """Return findings by their rule, in the order of the first of each; values that are not set are no finding."""
+    """Return findings by their rule, in the order of the first of each;
+    values that are not set are no finding.
+    """
     found: dict[str, list[Finding]] = {}
     for finding in findings:
         if finding.rule != NOT_SET:
@@ -47,7 +51,9 @@ def finding_groups(validator: Validator, findings: Iterable[Finding]) -> tuple[F
 
 
 def _key(finding: Finding) -> str:
-    """Return the rule; where it is a range or a choice the parameter too, and for a fault of a builder's rules its words."""
+    """Return the rule; where it is a range or a choice the parameter too,
+    and for a fault of a builder's rules its words.
+    """
     if finding.rule.startswith("schema.") and finding.causes:
         return f"{finding.severity} {finding.rule} {finding.causes[0][0]}"
     is_single = finding.rule.startswith(("schema.", "rules."))
@@ -69,7 +75,9 @@ def finding_axes(file: ParameterFile, finding: Finding) -> tuple[str, ...]:
 
 
 def fix_text(file: ParameterFile, findings: Sequence[Finding]) -> str:
-    """Return what the fixes of findings do, as a button has it: ``Set Excess Error to 13.2 mm``; empty without one."""
+    """Return what the fixes of findings do, as a button has it: ``Set Excess Error to 13.2 mm``;
+    empty without one.
+    """
     settings = list(dict.fromkeys(setting for finding in findings for setting in finding.fix))
     parameters = {setting.address[0] for setting in settings}
     if not settings:

@@ -45,7 +45,9 @@ def finding_text(file: ParameterFile, finding: Finding) -> str:
 
 
 def finding_parts(file: ParameterFile, finding: Finding) -> list[str]:
-    """Return what a finding is about with its message and page, then its effective values, then its suggested fix."""
+    """Return what a finding is about with its message and page, then its effective values,
+    then its suggested fix.
+    """
     names = ", ".join(_names(file, finding.addresses[:8]))
     page = f" ({finding.cited})" if finding.cited else ""
     parts = [f"{names}{': ' if names else ''}{finding.message}{page}"]
@@ -62,7 +64,9 @@ def finding_parts(file: ParameterFile, finding: Finding) -> list[str]:
 
 
 def _names(file: ParameterFile, addresses: Iterable[Address]) -> Iterator[str]:
-    """Yield the values, those of a parameter one after the other by their numbers: ``101``, ``102 Characters of the Password``."""
+    """Yield the values, those of a parameter one after the other by their numbers: ``101``,
+    ``102 Characters of the Password``.
+    """
     here = file.machine_schema
     for param, members in groupby(addresses, key=lambda address: address[0]):
         *others, last = members

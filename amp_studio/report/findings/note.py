@@ -24,7 +24,8 @@ class Note:
     fix: str
     page: str
     is_own: bool = False
-    """Whether ``page`` is a source in words: the place in a builder's rules file, or why a rule is so that no manual states."""
+    """Whether ``page`` is a source in words: the place in a builder's rules file,
+    or why a rule is so that no manual states."""
 
     @property
     def cited(self) -> str:

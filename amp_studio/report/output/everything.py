@@ -12,7 +12,9 @@ from .workbook import Cell, WorkbookSheet, workbook
 
 
 def render_json(report: Report) -> bytes:
-    """Return the report as one JSON document; every value to its last digit, as text with its unit beside it."""
+    """Return the report as one JSON document; every value to its last digit, as text with its unit beside
+    it.
+    """
     document = {
         "title": report.title,
         "family": report.family,
@@ -50,7 +52,9 @@ def render_json(report: Report) -> bytes:
 
 
 def render_workbook(report: Report) -> bytes:
-    """Return the report as XLSX: values, findings, what is not set, exchanges, notes, axes, machine. Numbers are numbers."""
+    """Return the report as XLSX: values, findings, what is not set, exchanges, notes, axes, machine.
+    Numbers are numbers.
+    """
     heads = tuple(head.replace("_", " ") for head in HEADS)
     number_columns = {HEADS.index("value"), HEADS.index("default")}
     values = [

@@ -12,7 +12,9 @@ from amp_studio.report.templating.templates import filled
 
 
 def render_html(report: Report, own: Path | None = None) -> bytes:
-    """Return the page in UTF-8; every text is escaped. ``own`` is a template of the project. Raises TemplateMistakeError."""
+    """Return the page in UTF-8; every text is escaped. ``own`` is a template of the project.
+    Raises TemplateMistakeError.
+    """
     language = language_of(report.contents.language)
     help_texts = {
         parameter: [(GRADES.get(title, ""), language.of_help(title), text) for title, text in parts]
@@ -28,7 +30,9 @@ def filled_page(name: str, own: Path | None = None, language: Language = ENGLISH
 
 
 def _drawing(svg: str) -> str:
-    """Return a drawing as the address of an image that is in the page itself: what it names stays apart from the page."""
+    """Return a drawing as the address of an image that is in the page itself:
+    what it names stays apart from the page.
+    """
     return f"data:image/svg+xml;base64,{b64encode(svg.encode()).decode()}"
 
 

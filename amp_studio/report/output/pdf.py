@@ -19,12 +19,7 @@ from typing import Any
 
 from amp_studio.report.language import ENGLISH, Language, language_of
 from amp_studio.report.model import MARKS, Report, printable
-from amp_studio.report.templating.templates import (
-    TEMPLATES,
-    TemplateMistakeError,
-    filled,
-    line_of_source,
-)
+from amp_studio.report.templating.templates import TEMPLATES, TemplateMistakeError, filled, line_of_source
 from amp_studio.schema import Address
 
 _BREAK = "\u200b"
@@ -32,7 +27,8 @@ _BREAK = "\u200b"
 _LONG_RUN = re.compile(r"[^\s\u200b]{17,}")
 _JOINT = re.compile(r"\\.|[^\w-]|_|[^\W_]{8}")
 _FOREIGN = r"[\u0700-\u1cff\u2e80-\ua63f\ua960-\ud7ff\uf900-\ufaff\uff00-\uffef\U00010000-\U0010ffff]"
-"""Scripts missing in Typst's fonts (Chinese, Japanese, Korean, Thai, …); they contain Latin, Greek and Cyrillic."""
+"""Scripts missing in Typst's fonts (Chinese, Japanese, Korean, Thai, …); they contain Latin,
+Greek and Cyrillic."""
 FONT = "Libertinus Serif"
 """The font of a PDF, also in its drawings."""
 _PACKAGE = re.compile(r'(?:import|include)\s*"@')
@@ -107,12 +103,7 @@ def typst_source(report: Report, own: Path | None = None, *, places: bool = Fals
     With ``places`` it has marks at each value.
     """
     source = filled_template(
-        "report.typ.j2",
-        own,
-        language_of(report.contents.language),
-        report=report,
-        marks=MARKS,
-        places=places,
+        "report.typ.j2", own, language_of(report.contents.language), report=report, marks=MARKS, places=places
     )
     if own is not None and _PACKAGE.search(source):
         raise TemplateMistakeError(own, "imports a package of Typst, which would be loaded from the network")
@@ -144,14 +135,18 @@ def _drawing(svg: str) -> Exact:
 
 
 def render_pdf(report: Report, own: Path | None = None) -> bytes:
-    """Return the PDF; equal reports have equal bytes. ``own`` is a template of the project. Raises TemplateMistakeError."""
+    """Return the PDF; equal reports have equal bytes. ``own`` is a template of the project.
+    Raises TemplateMistakeError.
+    """
     source = typst_source(report, own)
     with _mistakes(source, own):
         return _as_pdf(source, own.parent if own else TEMPLATES)
 
 
 def set_pages(report: Report, ppi: int, own: Path | None = None) -> SetReport:
-    """Return each page as PNG, ``ppi`` pixels to the inch; ``own`` is a template of the project. Raises TemplateMistakeError."""
+    """Return each page as PNG, ``ppi`` pixels to the inch; ``own`` is a template of the project.
+    Raises TemplateMistakeError.
+    """
     import typst
 
     source = typst_source(report, own, places=True)
@@ -213,5 +208,7 @@ def _forget_earlier() -> None:
 
 
 def _options(source: str, root: Path) -> dict[str, Any]:
-    """Return how Typst reads a source; the root is given because Typst takes the working folder otherwise, which may be gone."""
+    """Return how Typst reads a source; the root is given because Typst takes the working folder otherwise,
+    which may be gone.
+    """
     return {"root": root, "ignore_system_fonts": re.search(_FOREIGN, source) is None}

@@ -1,4 +1,6 @@
-"""Tables as a workbook (XLSX), written with openpyxl: it writes every number to its last digit, and a text stays a text."""
+"""Tables as a workbook (XLSX), written with openpyxl: it writes every number to its last digit,
+and a text stays a text.
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,6 @@
-"""The printed check list of commissioning: every step with a box to tick, every value that is not set with a blank."""
+"""The printed check list of commissioning: every step with a box to tick,
+every value that is not set with a blank.
+"""
 
 from __future__ import annotations
 
@@ -83,7 +85,9 @@ def build_check_list(
     date: datetime | None = None,
     language: str = "en",
 ) -> CheckList:
-    """Return the check list of a file: the steps that its machine needs; ``language`` is a code of ``language_codes``."""
+    """Return the check list of a file: the steps that its machine needs;
+    ``language`` is a code of ``language_codes``.
+    """
     order = file.schema.commissioning
     source = (
         "" if order is None else f"{order.why} (page {order.page})" if order.order == "manual" else order.why
@@ -190,5 +194,7 @@ CHECK_LIST_FORMATS: dict[str, Callable[[CheckList], bytes]] = {
 
 
 def write_check_list(checks: CheckList, path: Path, notify: Notify = lambda _note: None) -> None:
-    """Write a check list, whole or not at all, in the format of the path's ending; raises ValueError, SaveError."""
+    """Write a check list, whole or not at all, in the format of the path's ending; raises ValueError,
+    SaveError.
+    """
     write_by_ending(path, CHECK_LIST_FORMATS, checks, "a check list", notify)

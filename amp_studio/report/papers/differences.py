@@ -79,10 +79,12 @@ def machines_paper(
     date: datetime | None = None,
     language: str = "en",
 ) -> Paper:
-    """Return a table with a line for each value and a column for each machine; only what differs unless ``everything``.
+    """Return a table with a line for each value and a column for each machine;
+    only what differs unless ``everything``.
 
-    What most machines have is plain, what departs from it is strong. Of many machines those that agree in every value are a group,
-    and each figure has a line with its groups. Raises ValueError for files of different families, or fewer than two.
+    What most machines have is plain, what departs from it is strong. Of many machines those that agree in
+    every value are a group, and each figure has a line with its groups. Raises ValueError for files of
+    different families, or fewer than two.
     """
     lines, same = machine_lines(files, everything=everything, language=language)
     differing = sum(line.differs for line in lines)
@@ -116,7 +118,9 @@ def _side_by_side(lines: Sequence[MachineLine], names: Sequence[str]) -> tuple[P
 
 
 def _grouped(lines: Sequence[MachineLine], names: Sequence[str], language: str) -> Iterator[PaperTable]:
-    """Yield the groups, and a line for each figure that a value has on some of them; all but the first are strong."""
+    """Yield the groups, and a line for each figure that a value has on some of them;
+    all but the first are strong.
+    """
     groups = machine_groups([line.alike for line in lines])
     listed = [
         (str(n), str(len(group)), ", ".join(names[each] for each in group))
@@ -168,7 +172,9 @@ class MachineLine:
 def machine_lines(
     files: Sequence[ParameterFile], *, everything: bool = False, language: str = "en"
 ) -> tuple[list[MachineLine], int]:
-    """Return the rows of ``machine_rows`` in words, and how many values are the same in all; raises ValueError."""
+    """Return the rows of ``machine_rows`` in words, and how many values are the same in all;
+    raises ValueError.
+    """
     rows, same = machine_rows(files, everything=everything)
     first = files[0]
     return [
@@ -196,7 +202,9 @@ def alike_of(values: Sequence[Value | None]) -> tuple[int, ...]:
 
 
 def machine_groups(rows: Sequence[tuple[int, ...]]) -> list[tuple[int, ...]]:
-    """Return the places of the machines that have the same in every row (``alike_of``), the largest group first."""
+    """Return the places of the machines that have the same in every row (``alike_of``),
+    the largest group first.
+    """
     found: dict[tuple[int, ...], list[int]] = {}
     for place, values in enumerate(zip(*rows, strict=True)):
         found.setdefault(values, []).append(place)
@@ -206,7 +214,9 @@ def machine_groups(rows: Sequence[tuple[int, ...]]) -> list[tuple[int, ...]]:
 def groups_by_value(
     alike: tuple[int, ...], groups: Sequence[tuple[int, ...]]
 ) -> list[tuple[int, tuple[int, ...]]]:
-    """Return a machine that has each value of a row, and the numbers of its groups from 1; the most frequent value first."""
+    """Return a machine that has each value of a row, and the numbers of its groups from 1;
+    the most frequent value first.
+    """
     found: dict[int, list[int]] = {}
     for number, group in enumerate(groups, 1):
         found.setdefault(alike[group[0]], []).append(number)
@@ -225,7 +235,9 @@ def machine_names(stems: Sequence[str]) -> list[str]:
 def machine_rows(
     files: Sequence[ParameterFile], *, everything: bool = False
 ) -> tuple[list[tuple[Address, tuple[Value | None, ...]]], int]:
-    """Return each address with its value in each file, and how many are the same in all; only what differs unless ``everything``."""
+    """Return each address with its value in each file, and how many are the same in all;
+    only what differs unless ``everything``.
+    """
     if len(files) < 2:
         raise ValueError("give two files or more")
     families = dict.fromkeys(file.schema.family.name for file in files)
@@ -251,7 +263,9 @@ def _in_one_unit(address: Address, values: tuple[Value | None, ...]) -> tuple[Va
 
 
 def _departing(values: Sequence[Value | None]) -> Iterator[int]:
-    """Yield the places of the values that are not what most have; none where no value is more frequent than another."""
+    """Yield the places of the values that are not what most have;
+    none where no value is more frequent than another.
+    """
     counts = [sum(same_value(value, other) for other in values) for value in values]
     most = max(counts)
     if most * 2 > len(values):

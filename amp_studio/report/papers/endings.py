@@ -14,7 +14,9 @@ T = TypeVar("T")
 def write_by_ending(
     path: Path, formats: Mapping[str, Callable[[T], bytes]], printed: T, what: str, notify: Notify
 ) -> None:
-    """Write what is printed, whole or not at all, in the format of the path's ending; raises ValueError, SaveError."""
+    """Write what is printed, whole or not at all, in the format of the path's ending; raises ValueError,
+    SaveError.
+    """
     render = formats.get(path.suffix.lower())
     if render is None:
         raise ValueError(

@@ -22,7 +22,8 @@ _SHORT = 24
 def form_paper(
     file: ParameterFile, *, everything: bool = False, date: datetime | None = None, language: str = "en"
 ) -> Paper:
-    """Return the form of a file's machine; what is hidden on it and unfitted axes are left out, unless ``everything``. Values stay blank.
+    """Return the form of a file's machine; what is hidden on it and unfitted axes are left out, unless
+    ``everything``. Values stay blank.
 
     ``language`` is a code of ``language_codes``.
     """

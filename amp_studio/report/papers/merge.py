@@ -1,4 +1,6 @@
-"""The paper of a comparison of two or three sources: what each has, what the result takes, and which conflicts are open."""
+"""The paper of a comparison of two or three sources: what each has, what the result takes,
+and which conflicts are open.
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,6 @@
-"""Papers that are tables: differences, machines side by side, results, forms; as PDF, web page, workbook, CSV or text."""
+"""Papers that are tables: differences, machines side by side, results, forms; as PDF, web page, workbook,
+CSV or text.
+"""
 
 from __future__ import annotations
 
@@ -136,6 +138,8 @@ def check_paper_ending(path: Path, endings: Sequence[str] = tuple(PAPER_FORMATS)
 
 
 def write_paper(paper: Paper, path: Path, notify: Notify = lambda _note: None) -> None:
-    """Write a paper in the format of its file extension, whole or not at all; raises ValueError, SaveError."""
+    """Write a paper in the format of its file extension, whole or not at all; raises ValueError,
+    SaveError.
+    """
     check_paper_ending(path)
     write_atomic(path, PAPER_FORMATS[path.suffix.lower()](paper), keep_backup=False, notify=notify)

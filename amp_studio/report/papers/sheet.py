@@ -135,7 +135,10 @@ def text_lines(printed: PrintedSheet) -> Iterator[str]:
 
 def _step_lines(step: Step) -> Iterator[str]:
     entry = step.entry
-    head = f"[{'x' if step.is_ticked else ' '}] {step.at:>4}  {entry.number:<12}{entry.new:>16} {entry.unit:<8}{entry.old or '?':>14}  "
+    head = (
+        f"[{'x' if step.is_ticked else ' '}] {step.at:>4}  {entry.number:<12}{entry.new:>16}"
+        f" {entry.unit:<8}{entry.old or '?':>14}  "
+    )
     about = f"{entry.name}" + (f" = {entry.meaning}" if entry.meaning else "") + f" (page {entry.page})"
     if step.shown:
         about += f"; read back {step.shown}"
@@ -160,7 +163,9 @@ def _wrapped(text: str, head: str) -> list[str]:
 
 
 def render_sheet_csv(printed: PrintedSheet) -> bytes:
-    """Return a table, one line an entry in the order of the steps; the column ``read back`` is to be filled in."""
+    """Return a table, one line an entry in the order of the steps;
+    the column ``read back`` is to be filled in.
+    """
     stream = io.StringIO(newline="")
     table = csv.writer(stream, lineterminator="\r\n")
     table.writerow(HEADS)
@@ -208,5 +213,7 @@ SHEET_FORMATS: dict[str, Callable[[PrintedSheet], bytes]] = {
 
 
 def write_sheet(printed: PrintedSheet, path: Path, notify: Notify = lambda _note: None) -> None:
-    """Write a sheet, whole or not at all, in the format of the path's ending; raises ValueError, SaveError."""
+    """Write a sheet, whole or not at all, in the format of the path's ending; raises ValueError,
+    SaveError.
+    """
     write_by_ending(path, SHEET_FORMATS, printed, "a sheet", notify)

@@ -4,14 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from amp_studio.schema import (
-    BoundRef,
-    Choice,
-    Parameter,
-    Schema,
-    StateRule,
-    label_of,
-)
+from amp_studio.schema import BoundRef, Choice, Parameter, Schema, StateRule, label_of
 
 from .manual_page import GRADES, entry_units, erratum_text
 from .number_text import sharing_numbers
@@ -43,10 +36,13 @@ def definition(schema: Schema, parameter: Parameter) -> dict[str, Any]:
         "default": _default(parameter),
         "available_when": _available(schema, parameter.states),
         "help": _help(parameter),
-        "source": {"document": schema.family.document, "page": parameter.page}
-        | ({"pages": parameter.pages} if parameter.pages else {}),
-        "errata": " ".join(erratum_text(schema.errata[e]) for e in parameter.errata if e in schema.errata)
-        or None,
+        "source": (
+            {"document": schema.family.document, "page": parameter.page}
+            | ({"pages": parameter.pages} if parameter.pages else {})
+        ),
+        "errata": (
+            " ".join(erratum_text(schema.errata[e]) for e in parameter.errata if e in schema.errata) or None
+        ),
         "effect": (parameter.effect or schema.family.effect).model_dump(exclude_none=True),
         "patch": parameter.patchable,
         "access": parameter.access,

@@ -41,7 +41,8 @@ _INDENT = "  "
 def page_of(schema: Schema, param: str, machine: str | None = None) -> str:
     """Return what is known of a parameter, by number or id; raises UnknownParameterError.
 
-    A number that belongs to several parameters, or to another one on another machine type, gives one page for each.
+    A number that belongs to several parameters, or to another one on another machine type,
+    gives one page for each.
     """
     machines = [machine] if machine else [m.key for m in schema.family.machines]
     found = schema.parameters.get(read_address(param.strip().casefold())[0])
@@ -52,9 +53,11 @@ def page_of(schema: Schema, param: str, machine: str | None = None) -> str:
         wanted = [
             a[0]
             for m in machines
-            for a in schema.on(m).addressed_by(param)
-            or schema.on(m).words(param)
-            or _word_of_bit(schema, param, m)
+            for a in (
+                schema.on(m).addressed_by(param)
+                or schema.on(m).words(param)
+                or _word_of_bit(schema, param, m)
+            )
         ]
         if not wanted:
             raise UnknownParameterError(*unknown(schema, param.strip()))
@@ -70,7 +73,9 @@ def _word_of_bit(schema: Schema, param: str, machine: str) -> list[Address]:
 
 
 def _check_instance(schema: Schema, parameter: Parameter, param: str, machines: Sequence[str]) -> None:
-    """Raise UnknownParameterError for an instance that the parameter has nowhere; a letter may be that of an axis."""
+    """Raise UnknownParameterError for an instance that the parameter has nowhere;
+    a letter may be that of an axis.
+    """
     instance = read_address(param.strip())[1]
     offered = {i.casefold() for m in machines for i in schema.on(m).instances(parameter)}
     on_an_axis = any(schema.on(m).kin(schema.on(m).scopes[parameter.id], "axis") for m in machines)
@@ -103,8 +108,7 @@ def _page(schema: Schema, parameter: Parameter, machine: str | None) -> str:
         ]
     rules = [r for r in schema.rules if any(read_address(t)[0] == parameter.id for t in r.reads.values())]
     lines += _section(
-        "Rules that use it",
-        (f"{severity_name(r.severity):14} {r.title} ({r.cited}; {r.id})" for r in rules),
+        "Rules that use it", (f"{severity_name(r.severity):14} {r.title} ({r.cited}; {r.id})" for r in rules)
     )
     return "\n".join(lines).rstrip()
 
@@ -147,7 +151,8 @@ def formula_lines(schema: Schema, parameter: Parameter) -> list[str]:
     lines = []
     for name in parameter.formulas:
         function = formulas(schema.family.family)[name]
-        description = (inspect.getdoc(function) or "").partition("\n")[0].replace("``", "")
+        first = (inspect.getdoc(function) or "").partition("\n\n")[0]
+        description = " ".join(first.split()).replace("``", "")
         lines.append(f"{name}({', '.join(inspect.signature(function).parameters)}): {description}")
     return lines
 
@@ -197,7 +202,9 @@ def facts(schema: Schema, parameter: Parameter, machine: str | None = None) -> l
 
 
 def entry_units(schema: Schema, parameter: Parameter) -> tuple[str, ...]:
-    """Return the units in which a parameter is entered, in degrees too where it belongs to an axis that may turn."""
+    """Return the units in which a parameter is entered,
+    in degrees too where it belongs to an axis that may turn.
+    """
     if parameter.choices or parameter.type in ("text", "format", "bits"):
         return ()
     turns = schema.angular_when(parameter) is not None and any(
@@ -251,7 +258,9 @@ def _choice(choice: Choice, patchable: bool) -> str:
 
 
 def _bits(parameter: Parameter) -> Iterator[str]:
-    """Yield one line for each field of a word; bits with counted names (Axis 2, Axis 3), or none legible, share one."""
+    """Yield one line for each field of a word; bits with counted names (Axis 2, Axis 3), or none legible,
+    share one.
+    """
     fields = list(parameter.bits or ())
     while fields:
         run = [fields.pop(0)]
@@ -297,7 +306,9 @@ def _plain(parameter: Parameter, value: float | bool | str) -> str:
 
 
 def _command(schema: Schema, parameter: Parameter) -> Iterator[str]:
-    """Yield the command that sets the first instance, with a placeholder for each value: ``NOTCH X(…, …)``."""
+    """Yield the command that sets the first instance, with a placeholder for each value: ``NOTCH X(…,
+    …)``.
+    """
     if parameter.storage and parameter.storage.command:
         machines = [schema.family.default_machine, *(m.key for m in schema.family.machines)]
         here = next((schema.on(m) for m in machines if schema.on(m).instances(parameter)), None)

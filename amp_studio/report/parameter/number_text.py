@@ -5,10 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from itertools import groupby, pairwise
 
-from amp_studio.schema import (
-    Parameter,
-    Schema,
-)
+from amp_studio.schema import Parameter, Schema
 
 
 def number_lines(schema: Schema, parameter: Parameter, machine: str | None) -> Iterator[str]:
@@ -22,7 +19,9 @@ def number_lines(schema: Schema, parameter: Parameter, machine: str | None) -> I
 
 
 def instances_without_number(schema: Schema, parameter: Parameter, machine: str | None) -> Iterator[str]:
-    """Yield ``fov.position@1 to fov.position@16 (Pos 1 to Pos 16)`` for instances that no number addresses."""
+    """Yield ``fov.position@1 to fov.position@16 (Pos 1 to Pos 16)`` for instances that no number
+    addresses.
+    """
     texts: dict[str, None] = {}
     for key in [m.key for m in schema.family.machines if machine in (None, m.key)]:
         here = schema.on(key)

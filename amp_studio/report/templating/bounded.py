@@ -43,7 +43,8 @@ class UnknownName(StrictUndefined):
 
 
 class BoundedEnvironment(ImmutableSandboxedEnvironment):
-    """A sandbox in which every loop and every call looks at the clock: a template that only works is ended too.
+    """A sandbox in which every loop and every call looks at the clock:
+    a template that only works is ended too.
 
     It changes nothing of the report, which is printed without it where it fails.
     """

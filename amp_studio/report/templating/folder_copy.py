@@ -1,4 +1,6 @@
-"""A copy of a project's templates, without links: what jinja2 and Typst can read of a template is in it, and nothing else is."""
+"""A copy of a project's templates, without links: what jinja2 and Typst can read of a template is in it,
+and nothing else is.
+"""
 
 from __future__ import annotations
 
@@ -21,8 +23,9 @@ _MOST_FILES = 1_000
 def copied_template(own: Path) -> Iterator[Path]:
     """Give the copy of a template in a copy of its folder, both gone afterwards; raises TemplateMistakeError.
 
-    A link could lead to any file of the user, whose content the report would show: it is left out, and a template that is
-    one itself, or lies in a folder that is one, is refused. What goes wrong inside names the template itself.
+    A link could lead to any file of the user, whose content the report would show: it is left out, and a
+    template that is one itself, or lies in a folder that is one, is refused.
+    What goes wrong inside names the template itself.
     """
     with tempfile.TemporaryDirectory(prefix="amp-studio-templates-") as folder:
         try:
@@ -42,7 +45,9 @@ def copied_template(own: Path) -> Iterator[Path]:
 
 
 def _copy(source: Path, target: Path) -> list[Path]:
-    """Copy the files of a folder and of those in it; returns the links, which are left out. Raises OSError."""
+    """Copy the files of a folder and of those in it; returns the links, which are left out. Raises
+    OSError.
+    """
     links, folders, files, size = list[Path](), [(source, target)], 0, 0
     while folders:
         here, there = folders.pop()

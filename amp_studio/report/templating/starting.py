@@ -13,7 +13,8 @@ NAME = "report.typ.j2"
 def write_starting_template(folder: Path) -> Path:
     """Write the template into the folder ``templates`` of a project; returns its path.
 
-    Raises FileExistsError where there is one; a logo that is already there stays. Raises OSError where it cannot be written.
+    Raises FileExistsError where there is one; a logo that is already there stays.
+    Raises OSError where it cannot be written.
     """
     own = folder / OWN
     path = own / NAME

@@ -1,7 +1,7 @@
 """Templates of documents: those of the program, and those of a project that extend or replace them.
 
-A project's template is the text of somebody else: it is run in jinja2's sandbox, sees the report and nothing else, and has
-a bound for its size and its time. Its mistakes have their line.
+A project's template is the text of somebody else: it is run in jinja2's sandbox, sees the report and nothing
+else, and has a bound for its size and its time. Its mistakes have their line.
 """
 
 from __future__ import annotations
@@ -47,7 +47,9 @@ _MISTAKES = (
 
 
 class TemplateMistakeError(AmpStudioError, ValueError):
-    """A template of a project cannot be used; the text has its file and its line, and is one line that can be read."""
+    """A template of a project cannot be used; the text has its file and its line,
+    and is one line that can be read.
+    """
 
     def __init__(self, own: Path, mistake: str) -> None:
         words = " ".join(mistake.split())
@@ -60,7 +62,9 @@ class TemplateMistakeError(AmpStudioError, ValueError):
 
 
 def own_template(folder: Path | None, name: str) -> Path | None:
-    """Return the template of a project that takes the place of one of the program; None where there is none."""
+    """Return the template of a project that takes the place of one of the program; None where there is
+    none.
+    """
     path = folder / OWN / name if folder is not None else None
     return path if path is not None and path.is_file() else None
 
@@ -113,7 +117,9 @@ def filled(
 
 
 def _mistake(own: Path, error: BaseException, what: str) -> TemplateMistakeError:
-    """Return the text of an error of a template, with its line and without its own full stop: a sentence follows."""
+    """Return the text of an error of a template, with its line and without its own full stop:
+    a sentence follows.
+    """
     return TemplateMistakeError(own, f"{_line(own, error)}{what.rstrip('.')}")
 
 
@@ -129,8 +135,8 @@ def _loader(own: Path | None) -> BaseLoader:
 def _compiled_templates() -> BytecodeCache | None:
     """Return the cache of the program's own templates; None where there is none.
 
-    It lies where Python keeps the program's compiled modules, under the same rights: who can write there can write the
-    program. A project's template is compiled each time.
+    It lies where Python keeps the program's compiled modules, under the same rights: who can write there can
+    write the program. A project's template is compiled each time.
     """
     if sys.dont_write_bytecode:
         return None
@@ -175,7 +181,9 @@ def _check_blocks(environment: Environment, own: Path) -> None:
 
 
 def line_of_source(own: Path, source: str, diagnostic: str) -> str:
-    """Return ``line 7: ``, the line of a template that has written what Typst complains of; empty where it is not known."""
+    """Return ``line 7: ``, the line of a template that has written what Typst complains of;
+    empty where it is not known.
+    """
     try:
         lines = [_EXPRESSION.split(line.strip()) for line in own.read_text("utf-8").splitlines()]
     except (OSError, UnicodeError):  # it has just been saved
@@ -190,7 +198,9 @@ def line_of_source(own: Path, source: str, diagnostic: str) -> str:
 
 
 def _can_write(parts: list[str], text: str) -> bool:
-    """Return whether a line of a template, given as what is between its expressions, can have written a text."""
+    """Return whether a line of a template, given as what is between its expressions, can have written a
+    text.
+    """
     if len("".join(parts).replace(" ", "")) < _LEAST_SHAPE:
         return False
     first, last = parts[0], parts[-1]
@@ -208,7 +218,9 @@ def _can_write(parts: list[str], text: str) -> bool:
 
 
 def _line(own: Path, error: BaseException) -> str:
-    """Return ``line 7: ``, of a template that ``own`` includes ``part.html: line 7: ``; empty where it is not known."""
+    """Return ``line 7: ``, of a template that ``own`` includes ``part.html: line 7: ``;
+    empty where it is not known.
+    """
     line, file = getattr(error, "lineno", None), getattr(error, "filename", None) or str(own)
     trace = error.__traceback__
     while trace is not None and not getattr(error, "lineno", None):

@@ -42,4 +42,5 @@ class Commissioning(Model):
     steps: tuple[CommissioningStep, ...]
     rest: Remainder
     of_one_machine: tuple[ParameterId, ...] = ()
-    """Values that are found on one machine and true of that one alone: a file that is made like it does not get them."""
+    """Values that are found on one machine and true of that one alone:
+    a file that is made like it does not get them."""

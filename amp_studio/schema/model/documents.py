@@ -56,7 +56,8 @@ class ControlMessage(Model):
     code: str = ""
     """The number before the text: ``MOT-022``, ``ALARM:1``, ``40 to 71``."""
     span: tuple[int, int] | None = None
-    """First and last number of a ``code`` that counts axes: the number is the first plus the address of the axis."""
+    """First and last number of a ``code`` that counts axes:
+    the number is the first plus the address of the axis."""
     also: tuple[str, ...] = ()
     """Other spellings that are printed."""
     text: str = ""

@@ -27,7 +27,8 @@ class ScopeInfo(Model):
     label: str
     """``Axis {i}``."""
     of: Scope | None = None
-    """The scope whose instances these are parts of: register ``X.3`` belongs to axis ``X``, and reads what is its."""
+    """The scope whose instances these are parts of: register ``X.3`` belongs to axis ``X``,
+    and reads what is its."""
 
 
 class MachineType(Model):
@@ -94,13 +95,15 @@ class AxisDeclaration(Model):
     letters: ParameterId | None = None
     """A text with the letters of the axes that a control has: the first ones, in order."""
     any_letters: bool = False
-    """The letters may be any of the axes, in any order (``X Z``); ``count`` is then the number of motors, one more for each."""
+    """The letters may be any of the axes, in any order (``X Z``); ``count`` is then the number of motors,
+    one more for each."""
     least: int = 1
     """The fewest axes there can be."""
     most: dict[Key, int] = {}
     """Machine type -> the most axes there can be, for one that has fewer than the family."""
     place: str = ""
-    """What an instance is at the machine, for families where none can be inserted (``address of the encoder card``)."""
+    """What an instance is at the machine, for families where none can be inserted (``address
+    of the encoder card``)."""
 
     @property
     def is_fixed(self) -> bool:
@@ -132,7 +135,8 @@ class UnitSize(Model):
 
     param: ParameterId
     sizes: dict[str, str] = {}
-    """A choice or a number of it -> a length or an angle, as ``0.001 mm``; without any, its own value is the size."""
+    """A choice or a number of it -> a length or an angle, as ``0.001 mm``; without any,
+    its own value is the size."""
     otherwise: str | None = None
     """The size with any other value; without it there is none."""
 
@@ -169,8 +173,8 @@ class WayToControl(Model):
     """One way in which parameters come into a control of the family, and out of it."""
 
     way: Literal["sheet", "line", "gateway"]
-    """Keyed in by hand from a sheet; over a line to the control itself; through a program beside the control that speaks the
-    exchange protocol of AMP Studio (docs/protocols/exchange.md)."""
+    """Keyed in by hand from a sheet; over a line to the control itself; through a program beside the control
+    that speaks the exchange protocol of AMP Studio (docs/protocols/exchange.md)."""
     protocol: Key | None = None
     """The driver of a line, as its family registers it."""
     what: str
@@ -215,7 +219,8 @@ class Family(Model):
     scales: dict[Unit, UnitScale] = {}
     """Units whose size another parameter sets (internal units): what they are in mm or degrees."""
     unit_parameter: ParameterId | None = None
-    """The parameter whose choice keys are the unit systems, where the control keeps bare figures in the chosen one."""
+    """The parameter whose choice keys are the unit systems,
+    where the control keeps bare figures in the chosen one."""
     angular_when: str | None = None
     """Condition under which length-like quantities of an axis are entered in degrees."""
     axes: AxisProfile | None = None
@@ -230,7 +235,8 @@ class Family(Model):
     """Bits that several words have, by the name that is there under ``bits``."""
     conditions: dict[str, Condition] = {}
     ways: tuple[WayToControl, ...] = ()
-    """The ways to a control, the usual first; without any it is keyed in by hand, and nothing is downloaded."""
+    """The ways to a control, the usual first; without any it is keyed in by hand, and nothing is
+    downloaded."""
 
     @property
     def has_line(self) -> bool:
@@ -239,7 +245,9 @@ class Family(Model):
 
     @property
     def by_hand(self) -> str:
-        """What is known of keying values in, in a sentence, where no way to speak to a control is published; else ""."""
+        """What is known of keying values in, in a sentence, where no way to speak to a control is published;
+        else "".
+        """
         sheets = (each.what for each in self.ways if each.way == "sheet")
         return "" if self.has_line else next(sheets, f"No way to a {self.name} but its own screens is known")
 

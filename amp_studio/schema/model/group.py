@@ -22,7 +22,8 @@ class Group(Model):
     """The part of a long group that is in this file (``Position Loop Parameters``)."""
     chapter: str
     states: tuple[GroupState, ...] = ()
-    """Each parameter gets them in front of those it has itself. Compiled, the parameters have them and there are none here."""
+    """Each parameter gets them in front of those it has itself. Compiled,
+    the parameters have them and there are none here."""
     last_states: tuple[GroupState, ...] = ()
     """Each parameter gets them behind its own."""
     parameters: tuple[Parameter, ...]

@@ -116,9 +116,11 @@ class Storage(Model):
     single: bool = False
     """A number is kept as a 32-bit float, and shown with ``decimals``: the control has more than it shows."""
     code: int | None = None
-    """The control's own code of the type of word, which its files name (NUM: 6 for 32 bits in hexadecimal)."""
+    """The control's own code of the type of word, which its files name (NUM: 6 for 32 bits in
+    hexadecimal)."""
     command: str | None = None
-    """The command that sets it: ``{i}`` is the instance, ``{k}`` its place from 0, ``{n}`` its number, ``{v}`` the value,
+    """The command that sets it: ``{i}`` is the instance, ``{k}`` its place from 0, ``{n}`` its number,
+    ``{v}`` the value,
     ``{other.id}`` that of another.
 
     A command of several values is the same at each of them: ``NOTCH {i}({notch.frequency}, {notch.width})``.
@@ -139,7 +141,8 @@ class Numbers(Model):
     """``{n}`` is the number, ``{i}`` the instance (``P21N{i}``, ``Pr{n}``, ``R{n}``)."""
     listed: dict[str, str] | None = None
     starts: dict[str, int] | None = None
-    """What is before the point of an instance -> number of its part 0; the parts follow ``step`` by ``step``."""
+    """What is before the point of an instance -> number of its part 0; the parts follow ``step`` by
+    ``step``."""
     disputed: bool = False
     """The manual prints this number for another parameter too, and that other one is right."""
 
@@ -183,10 +186,11 @@ class Effect(Model):
     """When a change takes effect."""
 
     level: Literal["at-once", "reset", "restart", "online", "command", "unknown"]
-    """``online``: at once where it is changed with a function of the control (``command``), on restart where it is sent; ``unknown``
-    where the manual gives none."""
+    """``online``: at once where it is changed with a function of the control (``command``), on restart where
+    it is sent; ``unknown`` where the manual gives none."""
     command: str | None = None
-    """The command that makes the device read the value (level ``command``), or the function of the control (level ``online``)."""
+    """The command that makes the device read the value (level ``command``),
+    or the function of the control (level ``online``)."""
 
     def __post_init__(self) -> None:
         if (self.command is None) == (self.level in ("command", "online")):
@@ -201,7 +205,9 @@ class HelpNote(Model):
 
 
 class Help(Model):
-    """The parameter in our own words; ``find`` and ``wrong`` are empty only for what the control writes itself."""
+    """The parameter in our own words; ``find`` and ``wrong`` are empty only
+    for what the control writes itself.
+    """
 
     what: str
     find: str = ""
@@ -254,7 +260,8 @@ class Parameter(Model):
     unit: Unit | None = None
     """Fixes the unit where the quantity alone leaves it open (``ms``, ``s``; ``counts``)."""
     bare: str | None = None
-    """What a number without a unit is: ``teeth``, ``blocks``, ``a ratio``; or that the manual prints no unit for it."""
+    """What a number without a unit is: ``teeth``, ``blocks``, ``a ratio``;
+    or that the manual prints no unit for it."""
     decimals: int | None = None
     ranges: Ranges | None = None
     range_variants: tuple[RangeVariant, ...] = ()
@@ -263,19 +270,22 @@ class Parameter(Model):
     """The control has codes that the manual does not print: any code may be given, as ``raw:<code>``."""
     bits: Bits | None = None
     first_axis: int | None = None
-    """Of a word by axes: the place of the axis that bit 0 is of (0 for the first), and so on; None for any other word.
+    """Of a word by axes: the place of the axis that bit 0 is of (0 for the first), and so on;
+    None for any other word.
 
     A file speaks only for the bits of the axes that it has: those of others stay as the control has them.
     """
     default: Default | None = None
     storage: Storage | None = None
     program: tuple[str, ...] = ()
-    """Commands by which programs of the control set it too, in the form of ``storage.command``; all of them with the same value.
+    """Commands by which programs of the control set it too, in the form of ``storage.command``;
+    all of them with the same value.
 
     They are read from a program and changed in it, and never sent.
     """
     angular_when: str | None = None
-    """Instead of the family's: the condition under which its length is in degrees (a lead is one on a spindle too)."""
+    """Instead of the family's: the condition under which its length is
+    in degrees (a lead is one on a spindle too)."""
     states: tuple[StateRule, ...] = ()
     effect: Effect | None = None
     access: Literal["read-write", "read"] = "read-write"
@@ -285,11 +295,14 @@ class Parameter(Model):
     patchable: bool = False
     """Is in the table of values that can be keyed in at the control."""
     optional: bool = False
-    """A file is complete without it: a table an operator fills as he goes (tool offsets), a filter that is not used."""
+    """A file is complete without it: a table an operator fills as he goes (tool offsets),
+    a filter that is not used."""
     in_signature: bool = True
-    """False for what was added when files and controls out there had the family's signature already: it stays as it is."""
+    """False for what was added when files and controls out there had the family's signature already:
+    it stays as it is."""
     secret: bool = False
-    """A password or the like: shown, printed, compared and exported in clear only where a person asks for it."""
+    """A password or the like: shown, printed, compared and exported in clear only where a person asks for
+    it."""
     needs: tuple[Need, ...] = ()
     formulas: tuple[str, ...] = ()
     """Names of the family's published formulas that give its value or use it."""

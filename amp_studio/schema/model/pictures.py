@@ -1,4 +1,6 @@
-"""Which parameters a picture is drawn from: their roles in it. No drawing knows a family; it knows these roles."""
+"""Which parameters a picture is drawn from: their roles in it. No drawing knows a family;
+it knows these roles.
+"""
 
 from collections.abc import Iterator
 from typing import Literal
@@ -55,7 +57,8 @@ class ZoneRole(SpanRole):
     """``either``: an axis that is outside may not enter, one that is inside may not leave."""
     forbidden_by: ForbiddenSide | None = None
     group: ParameterId | None = None
-    """Axes with the same choice bound one body; a direction whose axis is not among them reaches over the whole travel."""
+    """Axes with the same choice bound one body; a direction whose axis is not among them reaches over the
+    whole travel."""
     group_none: Key | None = None
 
     def __post_init__(self) -> None:
@@ -103,7 +106,9 @@ class TimeOf(Model):
 
 
 class Scans(Model):
-    """Within how many scans a ramp of acceleration has to be over; what is longer or shorter the control does not do."""
+    """Within how many scans a ramp of acceleration has to be over;
+    what is longer or shorter the control does not do.
+    """
 
     least: float
     most: float
@@ -126,7 +131,8 @@ class RampKind(Model):
     time: TimeOf | None = None
     """Time constant of an exponential ramp, least time of a sine-squared one."""
     rise: tuple[ParameterId, ...] = ()
-    """The time in ms in which a ramp reaches the feedrate, the first one that is set; in place of an acceleration."""
+    """The time in ms in which a ramp reaches the feedrate, the first one that is set;
+    in place of an acceleration."""
     modes: tuple[str, ...] = ()
     """Values of the ``mode`` with which moves have this ramp: keys of the choice, 0 or 1 of the bit."""
     note: str = ""

@@ -1,4 +1,6 @@
-"""What is plausible in a family, which no manual prints: how like axes, usual figures and smooth tables look."""
+"""What is plausible in a family, which no manual prints: how like axes, usual figures and smooth tables
+look.
+"""
 
 from .record import Model, ParameterId, Unit
 
@@ -32,12 +34,16 @@ class TravelSpan(Model):
 
 
 class Plausible(Model):
-    """``plausible.yaml``: facts of experience, ours and not the manual's; what contradicts them is a recommendation."""
+    """``plausible.yaml``: facts of experience, ours and not the manual's;
+    what contradicts them is a recommendation.
+    """
 
     unlike: tuple[str, ...] = ()
-    """Parameters that differ among axes which are otherwise alike (names, ports, travels): ids, or ``zone.*``."""
+    """Parameters that differ among axes which are otherwise alike (names, ports, travels): ids,
+    or ``zone.*``."""
     may_differ: tuple[str, ...] = ()
-    """Of the others those that like axes have in common as a rule only (screws, gains): asked about where a slip explains it."""
+    """Of the others those that like axes have in common as a rule only (screws, gains):
+    asked about where a slip explains it."""
     smooth: tuple[ParameterId, ...] = ()
     """Tables, part after part, whose values run without a single one that jumps out."""
     axis_words: tuple[ParameterId, ...] = ()

@@ -1,4 +1,6 @@
-"""How the words of a part program are read, and what its codes mean: no reader of blocks knows a family, it knows these roles."""
+"""How the words of a part program are read, and what its codes mean: no reader of blocks knows a family,
+it knows these roles.
+"""
 
 from typing import Literal
 

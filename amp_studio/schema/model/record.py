@@ -35,7 +35,9 @@ class NotEmpty:
 
 
 class Then:
-    """Of a field of a record: what checks or changes the value that was read; the text of a ValueError is what is wrong with it."""
+    """Of a field of a record: what checks or changes the value that was read;
+    the text of a ValueError is what is wrong with it.
+    """
 
     def __init__(self, check: Callable[[Any], Any], **json_schema: Any) -> None:
         self.check, self.json_schema = check, json_schema
@@ -50,7 +52,8 @@ class Then:
 
 
 class First:
-    """Of a field of a record: what changes the given data before they are read, with the family that is read, if any.
+    """Of a field of a record: what changes the given data before they are read,
+    with the family that is read, if any.
 
     ``also`` are the other kinds of data that are taken, for editors.
     """
@@ -87,7 +90,9 @@ Unit = Annotated[str, Then(_known_unit, enum=list(UNITS))]
 
 
 def _counted_out(instances: object, _family: object) -> object:
-    """Write out the spans of a list of instances: ``["1..400"]`` are 400 of them, ``["X.0..9"]`` ten parts of X."""
+    """Write out the spans of a list of instances: ``["1..400"]`` are 400 of them,
+    ``["X.0..9"]`` ten parts of X.
+    """
     if not isinstance(instances, list):
         return instances
     found: list[object] = []
@@ -111,9 +116,10 @@ REQUIRED: Any = object()
 class Model:
     """A frozen record that refuses keys it does not know.
 
-    To construct one, or ``model_validate``, checks all of its data and raises pydantic's ValidationError, a ValueError.
-    ``model_construct`` and ``model_copy`` check nothing: they are for data that have been checked. ``__post_init__``
-    is what a kind of record asks of its fields together.
+    To construct one, or ``model_validate``, checks all of its data and raises pydantic's ValidationError, a
+    ValueError.
+    ``model_construct`` and ``model_copy`` check nothing: they are for data that have been checked.
+    ``__post_init__`` is what a kind of record asks of its fields together.
     """
 
     fields: ClassVar[Mapping[str, Any]] = {}
@@ -130,7 +136,9 @@ class Model:
 
     @classmethod
     def model_validate(cls, data: Any, context: Any = None) -> Self:
-        """Return the record of data from outside; raises pydantic's ValidationError. ``context`` is the family that is read."""
+        """Return the record of data from outside; raises pydantic's ValidationError.
+        ``context`` is the family that is read.
+        """
         from pydantic import TypeAdapter
 
         adapter = cls.__dict__.get("_adapter")
@@ -153,7 +161,9 @@ class Model:
     def model_dump(
         self, *, exclude: Collection[str] = (), exclude_none: bool = False, exclude_defaults: bool = False
     ) -> dict[str, Any]:
-        """Return the fields as YAML and JSON have them; without those that are excluded, None or the default."""
+        """Return the fields as YAML and JSON have them; without those that are excluded, None or the
+        default.
+        """
 
         def plain(value: Any) -> Any:
             if isinstance(value, Model):

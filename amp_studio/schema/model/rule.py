@@ -70,14 +70,18 @@ class Rule(Model):
     """Unit of each of ``values`` that has one, in canonical units."""
     fix: tuple[Fix, ...] = ()
     effective: tuple[Assignment, ...] = ()
-    """What the control really uses while the rule is broken: it corrects, clamps or forces the value silently."""
+    """What the control really uses while the rule is broken: it corrects,
+    clamps or forces the value silently."""
     blames: Blamed = {}
-    """Names of what is wrong, worst first, each with the condition in CEL under which it is; a list of names for always.
+    """Names of what is wrong, worst first, each with the condition in CEL under which it is;
+    a list of names for always.
 
-    Left out: what ``effective`` replaces, else the first of ``reads``. ``it`` is the value at hand, ``at`` its position in a list.
+    Left out: what ``effective`` replaces, else the first of ``reads``. ``it`` is the value at hand,
+    ``at`` its position in a list.
     """
     compares: Blamed = {}
-    """The same for what it is compared with. All other single values it names follow, unless ``blames`` names them."""
+    """The same for what it is compared with. All other single values it names follow,
+    unless ``blames`` names them."""
     page: Page | Literal[""] = ""
     """The page of the manual that states it."""
     reason: str = ""
@@ -131,6 +135,7 @@ class Suppression(Model):
 
     rule: str
     params: tuple[str, ...] = ()
-    """The parameters that the finding is about, by number or id; an id without instance is any, none at all whatever."""
+    """The parameters that the finding is about, by number or id; an id without instance is any,
+    none at all whatever."""
     reason: Annotated[str, NotEmpty()]
     by: Annotated[str, NotEmpty()]

@@ -1,4 +1,6 @@
-"""The machine that a parameter file makes, behind the panel of an emulated control: jog, home, move, stop, and what it shows."""
+"""The machine that a parameter file makes, behind the panel of an emulated control: jog, home, move, stop,
+and what it shows.
+"""
 
 from __future__ import annotations
 
@@ -45,7 +47,9 @@ class FileMachine:
     # -- orders --------------------------------------------------------------------------
 
     def take(self, file: ParameterFile) -> None:
-        """Have the machine be that of a file; places and homing stay. Raises SimulationError where an axis cannot be made."""
+        """Have the machine be that of a file; places and homing stay.
+        Raises SimulationError where an axis cannot be made.
+        """
         if self._machine.is_busy:
             return
         self._file = file
@@ -75,7 +79,10 @@ class FileMachine:
             moving.move(moving.command + sign * way, rate, ramp)
         else:
             moving.go(sign * rate, ramp)
-        return f"{self._letter(name)}{'+' if sign > 0.0 else '-'} at {shown(rate * 60.0, f'{moving.law.unit}/min')}"
+        return (
+            f"{self._letter(name)}{'+' if sign > 0.0 else '-'} at"
+            f" {shown(rate * 60.0, f'{moving.law.unit}/min')}"
+        )
 
     def move(
         self, targets: dict[str, float], feedrate: float | None, then: dict[str, float] | None = None

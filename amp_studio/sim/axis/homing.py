@@ -1,4 +1,6 @@
-"""How an axis is homed: the one sequence of orders for the scenario `home` and for the machine behind an emulated control."""
+"""How an axis is homed: the one sequence of orders for the scenario `home` and
+for the machine behind an emulated control.
+"""
 
 from __future__ import annotations
 
@@ -14,7 +16,8 @@ from .moving_axis import GoOrder, MoveOrder, MovingAxis, Order, Orders, PauseOrd
 MARKERS = 5.0
 """Turns after which a marker that does not come is none, where no alarm gives the number."""
 REST_AFTER = 0.1
-"""s after the stop on the switch at which the following error is compared with the window of zero speed (MOT-030)."""
+"""s after the stop on the switch at which the following error is compared with the window
+of zero speed (MOT-030)."""
 LOCATE = 5.0
 """Pull-offs in which a second approach searches the switch (grblHAL config.h, HOMING_AXIS_LOCATE_SCALAR)."""
 FAR = 1e5
@@ -98,7 +101,10 @@ def _onto(axis: MovingAxis, homing: Homing, ramp: Ramp, around: Around, found: H
     if math.copysign(1.0, homing.leave) != sign:
         return edge
     if found.overrun > around.length:
-        text = f"The axis passed the whole switch of {shown(around.length, axis.axis.unit)} before it stopped: it is too fast for it (page {homing.page})"
+        text = (
+            f"The axis passed the whole switch of {shown(around.length, axis.axis.unit)} before it stopped:"
+            f" it is too fast for it (page {homing.page})"
+        )
         yield from _failed(homing, "fast", ramp, found, text)
     return end
 
@@ -165,7 +171,9 @@ def _off(axis: MovingAxis, homing: Homing, ramp: Ramp, around: Around, found: Ho
 def _coded(
     axis: MovingAxis, homing: Homing, scale: CodedScale, ramp: Ramp, around: Around, found: Homed
 ) -> Orders:
-    """Pass three markers of a coded scale, stop, take its position, and go to the home position (5-5, 5-14)."""
+    """Pass three markers of a coded scale, stop, take its position, and go to the home position (5-5,
+    5-14).
+    """
     sign = math.copysign(1.0, homing.leave)
     here = around.scale + axis.measured
     passed = markers_ahead(scale, here, sign)[scale.markers - 1]
@@ -189,7 +197,9 @@ def _coded(
 
 
 def markers_ahead(scale: CodedScale, here: float, sign: float) -> list[float]:
-    """Return the next markers of a coded scale beyond a place, in u of the scale: odd and even ones in turn."""
+    """Return the next markers of a coded scale beyond a place, in u of the scale: odd and even ones in
+    turn.
+    """
     around = math.floor(here / scale.large)
     places = [
         place

@@ -1,4 +1,6 @@
-"""One run of an axis over a profile: chooses the physics step, runs the kernel plain or compiled, returns columns."""
+"""One run of an axis over a profile: chooses the physics step, runs the kernel plain or compiled,
+returns columns.
+"""
 
 from __future__ import annotations
 
@@ -33,8 +35,8 @@ MOST_ROWS = 2_000_000
 
 @dataclass(frozen=True)
 class Until:
-    """When a run ends: at the latest after ``duration`` s; when the axis was in the ``rest_band`` (u) around the commanded
-    end for ``rest_time`` s; ``settle_time`` s after the end of the command.
+    """When a run ends: at the latest after ``duration`` s; when the axis was in the ``rest_band`` (u) around
+    the commanded end for ``rest_time`` s; ``settle_time`` s after the end of the command.
     """
 
     duration: float
@@ -80,10 +82,12 @@ def run_axis(
 ) -> Motion:
     """Run an axis from rest over a profile (`profiles.py`).
 
-    ``mode`` is a mode of `signals.MODE`; ``share_rate`` in 1/s the speed of a change of the feed share; ``refine`` divides the
-    physics step; ``thin`` keeps one row for each velocity sample; without ``feed_forward`` the law
-    sees the commanded position only; after an alarm, or the emergency stop at ``emergency`` s, the axis runs out for up to
-    ``coast`` s. Raises SimulationError where the run would take too long or its figures are beyond all numbers.
+    ``mode`` is a mode of `signals.MODE`; ``share_rate`` in 1/s the speed of a change of the feed share;
+    ``refine`` divides the physics step; ``thin`` keeps one row for each velocity sample; without
+    ``feed_forward`` the law sees the commanded position only; after an alarm, or the emergency stop at
+    ``emergency`` s, the axis runs out for up to
+    ``coast`` s. Raises SimulationError where the run would take too long
+    or its figures are beyond all numbers.
     """
     axis = with_leader(axis, profile, until, mode=mode, share_rate=share_rate, engine=engine, refine=refine)
     samples, substeps = steps(axis, refine)
@@ -97,7 +101,8 @@ def run_axis(
     filled, io, x = _run(axis, vectors, rows, engine, expected)
     if not np.isfinite(rows[:filled]).all():
         raise SimulationError(
-            f"The figures of axis {axis.axis} are too large or too small to be computed with. Check its gains and model.*"
+            f"The figures of axis {axis.axis} are too large or too small to be computed with. Check its gains"
+            " and model.*"
         )
     names = [*kernel.COLUMNS, *(name for name, _ in axis.monitors)]
     return Motion(
@@ -119,7 +124,9 @@ def with_leader(
     engine: Engine = "auto",
     refine: int = 1,
 ) -> AxisLaw:
-    """Return an axis that goes by the motion of another with that motion, which is run first; any other axis as it is."""
+    """Return an axis that goes by the motion of another with that motion, which is run first;
+    any other axis as it is.
+    """
     if axis.after is None:
         return axis
 
@@ -135,7 +142,8 @@ def with_leader(
 def prepared(
     axis: AxisLaw, profile: list[float], until: Until, stride: int, refine: int = 1, coast: float = 0.0
 ) -> tuple[list[list[float]], npt.NDArray[np.float64]]:
-    """Return the vectors of `kernel.run` for an axis at rest, and room for its rows, one in ``stride`` physics steps.
+    """Return the vectors of `kernel.run` for an axis at rest, and room for its rows,
+    one in ``stride`` physics steps.
 
     Raises SimulationError where the run would take too long.
     """
@@ -188,7 +196,9 @@ def steps(axis: AxisLaw, refine: int = 1) -> tuple[int, int]:
 def _run(
     axis: AxisLaw, vectors: list[list[float]], rows: npt.NDArray[np.float64], engine: Engine, expected: float
 ) -> tuple[int, list[float], list[float]]:
-    """Run the kernel for about ``expected`` steps; return the filled rows, the signals and the state at the end."""
+    """Run the kernel for about ``expected`` steps; return the filled rows,
+    the signals and the state at the end.
+    """
     law = axis.position_sample, axis.velocity_sample
     machine_code = engine == "compiled" or (engine == "auto" and pays(*law, expected))
     if machine_code and can_compile():

@@ -29,7 +29,8 @@ MOVE_SETTINGS = {
 PAUSE = 0.1
 """Time at rest in s at the end of every trace; longer for a slow loop."""
 LONGEST_WAIT = 12.0
-"""Time constants of the position loop after the end of the command, after which an axis is not waited for any more."""
+"""Time constants of the position loop after the end of the command,
+after which an axis is not waited for any more."""
 LONGEST_SETTLING = 5.0
 """s more than that."""
 LONG_STRETCH = 1e5

@@ -1,7 +1,8 @@
-"""An axis that is stepped in its own time: its command changes while it moves, and places in its way are watched.
+"""An axis that is stepped in its own time: its command changes while it moves,
+and places in its way are watched.
 
-One uninterrupted motion over the kernel of every scenario (`kernel.py`): homing, limits, and the machine behind an emulated control
-use this class, so that an axis moves at the desk as it does behind a control.
+One uninterrupted motion over the kernel of every scenario (`kernel.py`): homing, limits, and the machine
+behind an emulated control use this class, so that an axis moves at the desk as it does behind a control.
 """
 
 from __future__ import annotations
@@ -46,18 +47,23 @@ LAW_STATE, MACHINE, PROFILE = 1, 3, 9
 
 @dataclass(frozen=True)
 class Watch:
-    """A place in u that is reported at the first servo sample at which the axis has passed it in a direction."""
+    """A place in u that is reported at the first servo sample at which the axis has passed it in a
+    direction.
+    """
 
     at: float
     sign: float
     """1.0 or -1.0."""
     device: bool = False
-    """Whether it is a place of the position device (a marker, a software limit), not of the load (a switch)."""
+    """Whether it is a place of the position device (a marker, a software limit), not of the load (a
+    switch)."""
 
 
 @dataclass(frozen=True)
 class Seen:
-    """The servo sample that saw a place passed: number of the watch, s, and in u the actual and the measured position."""
+    """The servo sample that saw a place passed: number of the watch, s,
+    and in u the actual and the measured position.
+    """
 
     watch: int
     time: float
@@ -67,7 +73,9 @@ class Seen:
 
 @dataclass(frozen=True)
 class GoOrder:
-    """Go at a velocity until a place is passed, at most ``farthest`` u; what was seen is the answer, None for nothing."""
+    """Go at a velocity until a place is passed, at most ``farthest`` u; what was seen is the answer,
+    None for nothing.
+    """
 
     velocity: float
     ramp: Ramp
@@ -174,7 +182,9 @@ class MovingAxis:
     # -- orders that are carried out at once --------------------------------------------
 
     def go(self, velocity: float, ramp: Ramp, watch: Watch, farthest: float) -> Seen | None:
-        """Go at a velocity until a place is passed, at most ``farthest`` u; None where that does not come, or an alarm does."""
+        """Go at a velocity until a place is passed, at most ``farthest`` u; None where that does not come,
+        or an alarm does.
+        """
         return self.follow(one(GoOrder(velocity, ramp, watch, farthest)))
 
     def stop(self, ramp: Ramp) -> None:
@@ -212,7 +222,9 @@ class MovingAxis:
         )
 
     def passed(self, place: float, sign: float) -> float:
-        """Return how far the load has been beyond a place in a direction, u; where no rows are kept, how far it is."""
+        """Return how far the load has been beyond a place in a direction, u; where no rows are kept,
+        how far it is.
+        """
         if not self._kept:
             return sign * (self.load - place)
         return max(float((sign * (rows[:, 3] - place)).max()) for rows in self._kept)
@@ -234,7 +246,9 @@ class MovingAxis:
         self._orders = self._order = None
 
     def advance(self, duration: float, watches: Sequence[Watch] = ()) -> Seen | None:
-        """Step on for a time, s, with the orders that are under way; ends at a watched place, which is returned."""
+        """Step on for a time, s, with the orders that are under way; ends at a watched place,
+        which is returned.
+        """
         last = self.time + duration
         while not self.is_over and last - self.time > 0.5 * self.axis.servo_period:
             seen = self._work(last, watches) if self._order else self._step(last, watches, to_end=False)
@@ -243,7 +257,9 @@ class MovingAxis:
         return None
 
     def _work(self, last: float, watches: Sequence[Watch] = ()) -> Seen | None:
-        """Step on to the end of the order or to a moment; what the order watched for is returned with a number below 0."""
+        """Step on to the end of the order or to a moment;
+        what the order watched for is returned with a number below 0.
+        """
         order = self._order
         own = (order.watch,) if isinstance(order, GoOrder) else ()
         limit = min(last, self._patience)
@@ -285,7 +301,8 @@ class MovingAxis:
         far = max(order.farthest + self.behind(speed) - length(pieces), 0.0) / speed
         if not far < LONGEST:
             raise SimulationError(
-                f"The move of axis {self.axis.axis} takes more than {LONGEST:g} s: give a shorter distance or a higher speed"
+                f"The move of axis {self.axis.axis} takes more than {LONGEST:g} s: give a shorter distance or"
+                " a higher speed"
             )
         return [*pieces, Piece(far, speed)]
 
@@ -316,7 +333,9 @@ class MovingAxis:
         return LAGS * abs(velocity) / self.axis.position_rate
 
     def switch_off(self) -> None:
-        """Take the output away from the drive, as an emergency stop does, and let the axis run out for the coasting time."""
+        """Take the output away from the drive, as an emergency stop does,
+        and let the axis run out for the coasting time.
+        """
         self.emergency()
         while not self.is_over:
             self._step(math.inf, (), to_end=False)
@@ -327,7 +346,9 @@ class MovingAxis:
         self._vectors[TIMING][kernel.EMERGENCY] = self.time
 
     def restart(self) -> None:
-        """Take the axis up again where it came to rest after an alarm, the command being where the device measures it."""
+        """Take the axis up again where it came to rest after an alarm,
+        the command being where the device measures it.
+        """
         x, at = self._vectors[STATE], self.measured
         motor, load = float(x[kernel.PLANT]), float(x[kernel.PLANT + 2])
         fresh, _ = prepared(self.axis, [], Until(self.axis.servo_period), self._steps // self._samples)
@@ -358,7 +379,9 @@ class MovingAxis:
         return int(self._vectors[STATE][kernel.PIECE]) == len(self._profile) // WIDTH - 1
 
     def _step(self, until: float, watches: Sequence[Watch], *, to_end: bool) -> Seen | None:
-        """Run the kernel to a moment, to the end of the command if asked, to a watched place, or to an alarm."""
+        """Run the kernel to a moment, to the end of the command if asked, to a watched place, or to an
+        alarm.
+        """
         timing, x = self._vectors[TIMING], self._vectors[STATE]
         last = until / self.axis.servo_period - 0.25 if math.isfinite(until) else math.inf
         timing[kernel.TO_END], timing[kernel.WATCHES] = float(to_end), float(len(watches))
@@ -402,7 +425,8 @@ class MovingAxis:
         rows = self._rows[:filled]
         if not np.isfinite(rows).all():
             raise SimulationError(
-                f"The figures of axis {self.axis.axis} are too large or too small to be computed with. Check its gains and model.*"
+                f"The figures of axis {self.axis.axis} are too large or too small to be computed with. Check"
+                " its gains and model.*"
             )
         if filled:
             self.speed = float(rows[-1, 6])

@@ -1,7 +1,8 @@
 """A machine that lives: its axes are stepped in their own time, get orders, and can fault.
 
-It is what an emulated control moves (DESIGN: one machine): the same axes, homing and limits as in the scenarios, made from
-the parameters that the control contains. Positions are in the coordinates of the control.
+It is what an emulated control moves (DESIGN: one machine): the same axes, homing and limits as in the
+scenarios, made from the parameters that the control contains.
+Positions are in the coordinates of the control.
 """
 
 from __future__ import annotations
@@ -31,7 +32,9 @@ LONGEST_ADVANCE = 1.0
 
 
 class SimulatedAxis:
-    """One axis of a machine; ``around`` None puts its switch as far off as it needs to reach the homing speed."""
+    """One axis of a machine; ``around`` None puts its switch as far off as it needs
+    to reach the homing speed.
+    """
 
     def __init__(self, law: AxisLaw, around: Around | None = None, position: float = 0.0) -> None:
         self.law, self._around = law, around
@@ -196,7 +199,9 @@ class SimulatedAxis:
 
 
 def usual_around(law: AxisLaw, homing: Homing, ramp: Ramp) -> Around:
-    """Return switch and marker of a machine of which nothing is known: from the start at 0, far enough to reach the homing speed."""
+    """Return switch and marker of a machine of which nothing is known: from the start at 0,
+    far enough to reach the homing speed.
+    """
     sign = math.copysign(1.0, homing.approach or homing.leave or 1.0)
     edge = sign * reach(law, homing.approach, ramp) if homing.approach else 0.0
     marker = edge + math.copysign(0.25 * homing.turn, homing.leave or 1.0)
@@ -239,7 +244,9 @@ class SimulatedMachine:
         return any(axis.is_busy for axis in self.axes.values())
 
     def line(self, targets: Mapping[str, float], feedrate: float | None) -> None:
-        """Move axes in a straight line at a feedrate in u/s, or as fast as all of them can; each has its share of speed and ramp."""
+        """Move axes in a straight line at a feedrate in u/s, or as fast as all of them can;
+        each has its share of speed and ramp.
+        """
         ways = {name: to - self.axes[name].command for name, to in targets.items()}
         length = math.sqrt(sum(way * way for way in ways.values()))
         ways = {name: way for name, way in ways.items() if way != 0.0}

@@ -1,1 +1,3 @@
-"""The command of an axis: ramps, moves and stops as profiles of closed pieces; the figures of homing, jogging and limits."""
+"""The command of an axis: ramps, moves and stops as profiles of closed pieces; the figures of homing,
+jogging and limits.
+"""

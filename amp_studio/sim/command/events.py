@@ -41,7 +41,9 @@ class Failure:
 
 @dataclass(frozen=True)
 class CodedScale:
-    """Distance-coded markers of a linear scale: odd ones every ``small`` u from its zero, even ones every ``large`` u from ``first`` on."""
+    """Distance-coded markers of a linear scale: odd ones every ``small`` u from its zero,
+    even ones every ``large`` u from ``first`` on.
+    """
 
     small: float
     large: float
@@ -54,14 +56,18 @@ class CodedScale:
 
 @dataclass(frozen=True)
 class Homing:
-    """One homing sequence. Velocities in u/s with their sign in the direction of the machine, lengths in u."""
+    """One homing sequence. Velocities in u/s with their sign in the direction of the machine, lengths in
+    u.
+    """
 
     approach: float
     """Towards the switch; 0 for a sequence without one."""
     leave: float
-    """Off the switch, or towards the marker where there is no switch; 0 where the axis does not move at all."""
+    """Off the switch, or towards the marker where there is no switch; 0 where the axis does not move at
+    all."""
     marker: Literal["nearest", "next", "none"]
-    """The marker that counts: the one nearest to the end of the switch, the next one beyond it, or the end of the switch itself."""
+    """The marker that counts: the one nearest to the end of the switch, the next one beyond it,
+    or the end of the switch itself."""
     turn: float
     """From one marker to the next."""
     coordinate: float
@@ -69,7 +75,8 @@ class Homing:
     search: float = 0.0
     """From the end of the switch to the next marker; 0 to go on as it left."""
     final: float = 0.0
-    """Speed of the move to the home position; 0 where the axis just stops: the coordinate belongs to the place of the marker."""
+    """Speed of the move to the home position; 0 where the axis just stops:
+    the coordinate belongs to the place of the marker."""
     offset: float = 0.0
     """From the marker to the home position."""
     skipped: float = 0.0
@@ -77,19 +84,21 @@ class Homing:
     through: bool = False
     """Whether the axis goes on over the switch to the first marker after it comes on, without a stop."""
     again: float = 0.0
-    """Speed of a second approach, after which the switch counts; the axis backs off by ``pull_off`` before and after it."""
+    """Speed of a second approach, after which the switch counts;
+    the axis backs off by ``pull_off`` before and after it."""
     pull_off: float = 0.0
     passes: int = 1
     """How often the second approach is made."""
     scale: CodedScale | None = None
-    """For an axis without a switch that goes by distance-coded markers: it leaves, and then goes to ``coordinate``."""
+    """For an axis without a switch that goes by distance-coded markers: it leaves,
+    and then goes to ``coordinate``."""
     direction_lost: bool = False
     """Whether ``move.direction`` turns the whole sequence round: the direction is not in the file."""
     stops_by_switch: bool = False
     """Whether the switch stops the axis at once, without a ramp."""
     failures: Mapping[str, Failure] = field(default_factory=dict)
-    """Of: switch (none came), fast (passed before it stopped), moving (not at rest in time), stuck (not left), marker (none came),
-    scatter (another turn than the first time)."""
+    """Of: switch (none came), fast (passed before it stopped), moving (not at rest in time), stuck (not
+    left), marker (none came), scatter (another turn than the first time)."""
     rest_window: float = math.inf
     """Following error that counts as at rest ``REST_AFTER`` s after the stop on the switch."""
     ramp: Ramp | None = None
@@ -125,7 +134,9 @@ class Around:
 
 @dataclass(frozen=True)
 class Jogging:
-    """Speeds of continuous jogs in u/s and distances of incremental ones in u, by name, the usual one first."""
+    """Speeds of continuous jogs in u/s and distances of incremental ones in u, by name, the usual one
+    first.
+    """
 
     speeds: Mapping[str, float]
     increments: Mapping[str, float] = field(default_factory=dict)
@@ -139,7 +150,9 @@ class Jogging:
 
 @dataclass(frozen=True)
 class Travel:
-    """Limits of the travel in the coordinates of the machine: name -> (least, greatest) u; infinite for none."""
+    """Limits of the travel in the coordinates of the machine: name -> (least, greatest) u; infinite for
+    none.
+    """
 
     limits: Mapping[str, tuple[float, float]]
     alarm: str
@@ -147,7 +160,8 @@ class Travel:
     page: str
     notes: tuple[str, ...] = ()
     zones: Mapping[str, tuple[float, float]] | None = None
-    """Zones that a program switches on, by number; each side is a limit. None where zones are not simulated."""
+    """Zones that a program switches on, by number; each side is a limit. None where zones are not
+    simulated."""
     zone_page: str = ""
     zone_note: str = ""
     """Page of the zones, and what is assumed of them."""

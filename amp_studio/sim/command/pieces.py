@@ -1,7 +1,7 @@
 """How the velocity of a command changes: closed pieces from one velocity to another, for every ramp.
 
-Velocities are in u/s along the move and not negative, times in s. The pieces of a change are all that `ramps.py` needs to
-build moves, stops and changes of the feedrate.
+Velocities are in u/s along the move and not negative, times in s. The pieces of a change are all that
+`ramps.py` needs to build moves, stops and changes of the feedrate.
 """
 
 from __future__ import annotations
@@ -20,7 +20,9 @@ TIME_CONSTANTS = 30.0
 
 @dataclass(frozen=True)
 class Piece:
-    """One piece of a profile along the move; s, u/s, u/s2, u/s3. Its start and position follow from the pieces before."""
+    """One piece of a profile along the move; s, u/s, u/s2, u/s3.
+    Its start and position follow from the pieces before.
+    """
 
     duration: float
     velocity: float = 0.0

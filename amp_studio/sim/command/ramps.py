@@ -53,7 +53,8 @@ def move(distance: float, feedrate: float, ramp: Ramp, count: float = 0.0) -> li
 
 
 def leg(distance: float, feedrate: float, ramp: Ramp, entry: float = 0.0, leave: float = 0.0) -> list[Piece]:
-    """Return the pieces of one block from the velocity ``entry`` to ``leave``; lower than ``feedrate`` if it is short.
+    """Return the pieces of one block from the velocity ``entry`` to ``leave``;
+    lower than ``feedrate`` if it is short.
 
     Raises SimulationError where the block is too short for the change of velocity.
     """
@@ -66,7 +67,8 @@ def leg(distance: float, feedrate: float, ramp: Ramp, entry: float = 0.0, leave:
         low, high = max(entry, leave), feedrate
         if taken(low) > distance * (1.0 + 1e-12):
             raise SimulationError(
-                f"A block of {distance:g} is too short to change the velocity from {entry * 60.0:g} to {leave * 60.0:g} a minute"
+                f"A block of {distance:g} is too short to change the velocity from {entry * 60.0:g} to"
+                f" {leave * 60.0:g} a minute"
             )
         for _ in range(BISECTIONS):
             middle = 0.5 * (low + high)
@@ -121,8 +123,8 @@ def overridden(
 ) -> list[float]:
     """Return a move whose feedrate is overridden; the velocity goes to each new one by the ramp.
 
-    A change in the middle of a ramp with jerk comes when that ramp is over, in the middle of a straight one at once. Raises
-    SimulationError where the move never ends.
+    A change in the middle of a ramp with jerk comes when that ramp is over, in the middle of a straight one
+    at once. Raises SimulationError where the move never ends.
     """
     size, sign = abs(distance), math.copysign(1.0, distance)
     if ramp.kind == "exponential":
@@ -171,8 +173,9 @@ def blocks(
 ) -> list[float]:
     """Return several blocks (distance with its sign, feedrate) of one axis.
 
-    With ``exact_stop`` every block ends at rest and waits until the axis is in position, checked every ``check`` s; else the
-    velocity goes through a corner between blocks of the same direction, at the lower of both feedrates.
+    With ``exact_stop`` every block ends at rest and waits until the axis is in position, checked every
+    ``check`` s; else the velocity goes through a corner between blocks of the same direction,
+    at the lower of both feedrates.
     """
     rows: list[float] = []
     start = position = entry = 0.0

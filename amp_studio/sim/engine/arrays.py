@@ -6,7 +6,9 @@ from typing import Protocol
 
 
 class Vector(Protocol):
-    """float64 numbers by index: a numpy array in compiled code, a list in plain Python (which is faster there)."""
+    """float64 numbers by index: a numpy array in compiled code,
+    a list in plain Python (which is faster there).
+    """
 
     def __getitem__(self, index: int, /) -> float:
         """Return a number."""

@@ -1,9 +1,10 @@
 """One kernel for each law: the same source as plain Python or as machine code, with equal results.
 
-numba cannot take the two functions of a law as arguments without a call through a pointer at every sample, and finds a
-function that was made in a closure in no process's cache again. So the functions of kernel and law are copied, with the ones
-they call in their globals, and the copy of ``run`` has a name with a digest of all their code and constants: numba's index on
-disk (file, name, line) then finds the machine code in later processes, and never that of a law or a constant that has changed.
+numba cannot take the two functions of a law as arguments without a call through a pointer at every sample,
+and finds a function that was made in a closure in no process's cache again. So the functions of kernel and
+law are copied, with the ones they call in their globals, and the copy of ``run`` has a name with a digest of
+all their code and constants: numba's index on disk (file, name, line) then finds the machine code in later
+processes, and never that of a law or a constant that has changed.
 """
 
 from __future__ import annotations
@@ -24,11 +25,12 @@ Run = Callable[..., int]
 """`kernel.run`."""
 
 PLAIN_STEPS = 100_000
-"""Physics steps that plain Python computes in about the time of loading numba and its cache (docs/simulation/inside.md)."""
+"""Physics steps that plain Python computes in about the time of loading numba
+and its cache (docs/simulation/inside.md)."""
 
 OPTIONS: dict[str, Any] = {"fastmath": False, "error_model": "numpy", "_nrt": False}
-"""Sums are computed in the written order; a division does not look whether it is by 0; arrays are not counted (``_nrt``), as
-nothing here makes one: counting them at every call took more time than a law."""
+"""Sums are computed in the written order; a division does not look whether it is by 0; arrays are not counted
+(``_nrt``), as nothing here makes one: counting them at every call took more time than a law."""
 
 _loaded: set[tuple[Sample, Sample | None]] = set()
 _plain_steps: dict[tuple[Sample, Sample | None], float] = {}
@@ -65,7 +67,9 @@ def compiled(position_sample: Sample, velocity_sample: Sample | None) -> Run:
 def compiled_batch(
     batch: Callable[..., None], position_sample: Sample, velocity_sample: Sample | None
 ) -> Callable[..., None]:
-    """Return a function that calls `kernel.run` as machine code (`variations/batch.py`), with that of a law in its place."""
+    """Return a function that calls `kernel.run` as machine code (`variations/batch.py`),
+    with that of a law in its place.
+    """
     import numba
 
     vector, table = numba.float64[::1], numba.float64[:, ::1]
@@ -103,13 +107,17 @@ def _machine_code(
 def kernel_name(
     position_sample: Sample, velocity_sample: Sample | None, entry: Callable[..., Any] = kernel.run
 ) -> str:
-    """Return the name of the machine code of a law: another one as soon as any of its code or constants is another."""
+    """Return the name of the machine code of a law:
+    another one as soon as any of its code or constants is another.
+    """
     described = [repr(OPTIONS), *_described(entry, _own(position_sample, velocity_sample), {})]
     return f"{entry.__name__}_{hashlib.sha256(chr(10).join(described).encode()).hexdigest()[:16]}"
 
 
 def can_compile() -> bool:
-    """Return whether there is machine code: the extra ``fast`` is installed, and NUMBA_DISABLE_JIT does not ask for plain Python."""
+    """Return whether there is machine code: the extra ``fast`` is installed,
+    and NUMBA_DISABLE_JIT does not ask for plain Python.
+    """
     if os.environ.get("NUMBA_DISABLE_JIT", "0") not in ("", "0"):
         return False
     try:
@@ -120,7 +128,9 @@ def can_compile() -> bool:
 
 
 def pays(position_sample: Sample, velocity_sample: Sample | None, steps: float) -> bool:
-    """Return whether machine code is worth its loading for so many physics steps more, after all that this process has computed without it."""
+    """Return whether machine code is worth its loading for so many physics steps more,
+    after all that this process has computed without it.
+    """
     law = position_sample, velocity_sample
     if law in _loaded:
         return True
@@ -154,7 +164,9 @@ def _called(function: Callable[..., Any], own: dict[str, FunctionType]) -> dict[
 def _described(
     function: Callable[..., Any], own: dict[str, FunctionType], seen: dict[FunctionType, None]
 ) -> list[str]:
-    """Return what decides about the machine code: code and constants of a function and of all that it calls."""
+    """Return what decides about the machine code: code and constants of a function and of all that it
+    calls.
+    """
     source = cast(FunctionType, function)
     if source in seen:
         return []

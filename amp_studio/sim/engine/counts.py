@@ -8,6 +8,7 @@ TO_WHOLE = 1.5 * 2.0**52
 def nearest(number: float) -> float:
     """Return the nearest whole number, the even one of two; up to 2**51.
 
-    Added and taken away again, ``TO_WHOLE`` leaves no room for a fraction: faster than a conversion to an integer and back.
+    Added and taken away again, ``TO_WHOLE`` leaves no room for a fraction:
+    faster than a conversion to an integer and back.
     """
     return number + TO_WHOLE - TO_WHOLE

@@ -1,11 +1,12 @@
 """One axis from servo sample to servo sample: the loop that every law shares, over flat arrays.
 
-Once a servo period the command is evaluated, the position measured, and ``position_sample`` of the law called; once a
-velocity period ``velocity_sample``; in between the plant moves in physics steps. The output is constant between the samples (zero-order
+Once a servo period the command is evaluated, the position measured, and ``position_sample`` of the law
+called; once a velocity period ``velocity_sample``; in between the plant moves in physics steps. The output is
+constant between the samples (zero-order
 hold: G. F. Franklin, J. D. Powell, M. L. Workman, Digital Control of Dynamic Systems, 1998).
 
-`compiled.py` makes one copy of ``run`` for each law, with the law's two functions in the place of those here, plain or as
-machine code; both give equal results.
+`compiled.py` makes one copy of ``run`` for each law, with the law's two functions in the place of those here,
+plain or as machine code; both give equal results.
 """
 
 from __future__ import annotations
@@ -55,14 +56,16 @@ COLUMNS = (
     "output",
     "torque",
 )
-"""Columns of the rows; the monitors of the law follow. ``position`` and ``velocity`` are those of the load."""
+"""Columns of the rows; the monitors of the law follow. ``position`` and ``velocity`` are those of the
+load."""
 
 SERVO_PERIOD, VELOCITY_SAMPLES, SUBSTEPS, STEP = 0, 1, 2, 3
 """s; velocity samples in a servo period, physics steps in a velocity sample; s."""
 SHARE_RATE = 4
 """1/s: how fast the share of the feedrate changes; infinite for at once."""
 REST_BAND, REST_TIME, SETTLE_TIME = 5, 6, 7
-"""u, s, s: the run ends when the axis was within the band for the time, or so long after the end of the command."""
+"""u, s, s: the run ends when the axis was within the band for the time,
+or so long after the end of the command."""
 STRIDE = 8
 """Physics steps for one row."""
 MONITORS = 9
@@ -84,24 +87,29 @@ TO_END = 16
 WATCHES = 17
 """How many places are watched; a run is interrupted before the servo sample that sees one passed."""
 WATCH = 18
-"""The first place: signal (`AT_LOAD` or `AT_DEVICE`), direction (1 or -1), place (u), and the command (u) beyond which it counts."""
+"""The first place: signal (`AT_LOAD` or `AT_DEVICE`), direction (1 or -1), place (u), and the command (u)
+beyond which it counts."""
 WATCH_WIDTH, MOST_WATCHES = 4, 4
 TIMING_SIZE = 34
 
 AT_LOAD, AT_DEVICE = 0.0, 1.0
-"""What a watch reads: where the load is (a switch), what the position device measures (a marker, a software limit)."""
+"""What a watch reads: where the load is (a switch), what the position device measures (a marker,
+a software limit)."""
 
 STANDSTILL = 1e-9
-"""u/s: an axis that runs out is at rest below; a drive with a velocity loop brings it to 0 in no finite time."""
+"""u/s: an axis that runs out is at rest below; a drive with a velocity loop brings it to 0 in no finite
+time."""
 
 ENDED, ALARM_ROW = 0, 1
 """Of a run: sample at which the command ended and row of the alarm, both -1 before."""
 PLANT = 2
 """State of the plant: the first of the seven figures of `plant.State`."""
 SAMPLE, RESTLESS, PIECE, MOMENT, SHARE = 9, 10, 11, 12, 13
-"""Where the run is: servo sample, that of the last motion, piece and moment of the command, share of the feedrate."""
+"""Where the run is: servo sample, that of the last motion, piece and moment of the command,
+share of the feedrate."""
 SLOT, SINCE, COASTING = 14, 15, 16
-"""Place in the delay line, physics steps since the last row, s that the axis may still run out after an alarm."""
+"""Place in the delay line, physics steps since the last row,
+s that the axis may still run out after an alarm."""
 SEEN = 17
 """Number of the watch that interrupted the run, from 1; 0 for none."""
 STATE_SIZE = 18
@@ -126,7 +134,9 @@ def counted(m: Vector, position: float, count: int, counts: int) -> float:
 
 
 def fed(timing: Vector, time: float, share: float, wanted: float) -> tuple[float, float]:
-    """Return the time of the command a servo period later, and its share of the feedrate, which goes towards the wanted one."""
+    """Return the time of the command a servo period later, and its share of the feedrate,
+    which goes towards the wanted one.
+    """
     most = timing[SHARE_RATE] * timing[SERVO_PERIOD]
     after = min(max(wanted, share - most), share + most)
     return time + 0.5 * (share + after) * timing[SERVO_PERIOD], after
@@ -156,13 +166,16 @@ def run(
     push: Vector,
     rows: npt.NDArray[np.float64],
 ) -> int:
-    """Run the axis until the command is over and the axis at rest, an alarm, an interruption, or all rows are filled; return the rows.
+    """Run the axis until the command is over and the axis at rest, an alarm, an interruption,
+    or all rows are filled; return the rows.
 
-    After an interruption the same call goes on where it was, with the profile and the watches that it then gets.
+    After an interruption the same call goes on where it was,
+    with the profile and the watches that it then gets.
 
-    ``p``, ``s`` parameters and state of the law, ``io`` the signals, ``m`` the machine over a physics step, ``before`` and ``after``
-    over its two parts where a delayed output arrives in it, ``x`` the state of run and plant, ``line`` the delay line, ``timing`` and ``profile`` as their indices say, ``push`` the torque on the load at each servo sample (as many as there are);
-    all but p, timing, profile and push are changed.
+    ``p``, ``s`` parameters and state of the law, ``io`` the signals, ``m`` the machine over a physics step,
+    ``before`` and ``after`` over its two parts where a delayed output arrives in it, ``x`` the state of run
+    and plant, ``line`` the delay line, ``timing`` and ``profile`` as their indices say, ``push`` the torque
+    on the load at each servo sample (as many as there are); all but p, timing, profile and push are changed.
     """
     period, h = timing[SERVO_PERIOD], timing[STEP]
     samples, substeps, stride = int(timing[VELOCITY_SAMPLES]), int(timing[SUBSTEPS]), int(timing[STRIDE])

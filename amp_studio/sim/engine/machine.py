@@ -1,8 +1,8 @@
 """The machine of one axis without its control: mechanics, drive and measuring devices, as plain figures.
 
-Lengths are in the unit u of the axis (mm or deg), times in s. "Output" is what the law gives to the drive, in the law's
-own unit. Torque is in the unit of the output where the output is a torque (``velocity_per_output`` 0), in % of rated
-torque where the drive closes a velocity loop itself.
+Lengths are in the unit u of the axis (mm or deg), times in s. "Output" is what the law gives to the drive, in
+the law's own unit. Torque is in the unit of the output where the output is a torque (``velocity_per_output``
+0), in % of rated torque where the drive closes a velocity loop itself.
 """
 
 from __future__ import annotations
@@ -13,7 +13,8 @@ from dataclasses import dataclass, fields
 from amp_studio.sim.errors import SimulationError
 
 CONTACT = 150.0
-"""Hz: resonance of motor and load in contact, of an axis that has backlash but no given resonance; an assumption."""
+"""Hz: resonance of motor and load in contact, of an axis that has backlash but no given resonance;
+an assumption."""
 CONTACT_DAMPING = 1.0
 """Damping ratio of that contact: it adds no further oscillation; an assumption."""
 RESONANCE_DAMPING = 0.05
@@ -45,8 +46,8 @@ class Machine:
     acceleration_per_output: float
     """u/s2 for one unit of torque, motor and load together, without friction."""
     inertia_ratio: float = 0.0
-    """Inertia of the load / inertia of the motor. It only divides the axis in two masses; it does not change the
-    acceleration."""
+    """Inertia of the load / inertia of the motor. It only divides the axis in two masses; it does not change
+    the acceleration."""
     viscous_friction: float = 0.0
     """Torque for 1 u/s."""
     coulomb_friction: float = 0.0
@@ -68,7 +69,8 @@ class Machine:
     spring: float = 0.0
     """Torque for 1 u away from the start."""
     velocity_per_output: float = 0.0
-    """u/s for one unit of output of a drive that closes a velocity loop; 0 for a drive that gives a torque."""
+    """u/s for one unit of output of a drive that closes a velocity loop; 0 for a drive that gives a
+    torque."""
     velocity_bandwidth: float = 0.0
     """Hz: the velocity loop of such a drive."""
     velocity_integral: float = 0.0
@@ -101,7 +103,8 @@ class Machine:
                 )
             if abs(value) > LARGEST.get(field.name, math.inf):
                 raise SimulationError(
-                    f"{words(field.name)} of the machine is {value:g}; at most {LARGEST[field.name]:g} is simulated"
+                    f"{words(field.name)} of the machine is {value:g}; at most {LARGEST[field.name]:g} is"
+                    " simulated"
                 )
         if self.acceleration_per_output == 0.0:
             raise SimulationError("The acceleration per output of the machine is 0; it must be above 0")
@@ -119,7 +122,9 @@ class Machine:
 
     @property
     def coupling(self) -> tuple[float, float, float]:
-        """Frequency (Hz) and damping ratio of motor and load against each other, inertia of the load / inertia of the motor."""
+        """Frequency (Hz) and damping ratio of motor and load against each other,
+        inertia of the load / inertia of the motor.
+        """
         usual = RESONANCE_DAMPING if self.resonance > 0.0 else CONTACT_DAMPING
         return (
             self.resonance or CONTACT,
@@ -149,28 +154,32 @@ def words(name: str) -> str:
 # -- the flat array for the plant (`plant.py`) ------------------------------------------------------
 
 KEEP, KICK, COULOMB, STATIC = 0, 1, 2, 3
-"""Of the one mass: share of the speed that viscous friction leaves after a step, u/s for one unit of torque in a step, dry
-friction in motion and at rest. Of motor and load of two masses the same four from MOTOR and LOAD on."""
+"""Of the one mass: share of the speed that viscous friction leaves after a step, u/s for one unit of torque
+in a step, dry friction in motion and at rest.
+Of motor and load of two masses the same four from MOTOR and LOAD on."""
 MOTOR, LOAD = 4, 8
 STIFFNESS, DAMPING, HALF_GAP = 12, 13, 14
-"""Of the coupling, by the mean difference of speeds in a step: torque for 1 u of stretch, for 1 u/s at its start, u."""
+"""Of the coupling, by the mean difference of speeds in a step: torque for 1 u of stretch,
+for 1 u/s at its start, u."""
 FROM_TORQUE, FROM_WEIGHT = 15, 16
 """Torque in the coupling for one unit of torque on the motor, on the load."""
 GRAVITY, SPRING = 17, 18
 LAG, LAG_MEAN = 20, 21
-"""What is left of a difference between wanted and present torque after one physics step, and its mean in the step."""
+"""What is left of a difference between wanted and present torque after one physics step,
+and its mean in the step."""
 DELAY_STEPS, DELAY_SHARE = 22, 23
 """Delay as whole physics steps and the share of one more."""
 OUTPUT_LIMIT, TORQUE_POSITIVE, TORQUE_NEGATIVE = 24, 25, 26
 VELOCITY_PER_OUTPUT, VELOCITY_GAIN, VELOCITY_INTEGRAL, TORQUE_PER_OUTPUT = 27, 28, 29, 19
-"""u/s for one unit of output, torque for 1 u/s, torque for 1 u of the integral, torque for one unit of output."""
+"""u/s for one unit of output, torque for 1 u/s, torque for 1 u of the integral,
+torque for one unit of output."""
 MOTOR_COUNT, POSITION_COUNT, LOAD_SENSOR, TWO_MASSES = 30, 31, 32, 33
 MOTOR_COUNTS, POSITION_COUNTS = 34, 35
 """Counts in 1 u."""
 BRAKE = 36
 GIVEN_BACK, TORQUE_OF_CHANGE, HALF_CHANGE = 37, 38, 39
-"""Of a drive with a velocity loop: share of the torque against it in a step, torque for a change of 1 u/s in a step, u/s in half a
-step for one unit of torque."""
+"""Of a drive with a velocity loop: share of the torque against it in a step, torque for a change of 1 u/s in
+a step, u/s in half a step for one unit of torque."""
 SIZE = 40
 
 WHOLE = 1e-9
@@ -207,7 +216,8 @@ def machine_array(machine: Machine, step: float) -> list[float]:
             min(limit, machine.output_limit) for limit in m[TORQUE_POSITIVE : TORQUE_NEGATIVE + 1]
         )
     else:
-        # So an ideal current loop makes the velocity an exact first-order lag, whatever the step is, and exact under a constant load.
+        # So an ideal current loop makes the velocity an exact first-order lag, whatever the step is, and
+        # exact under a constant load.
         rate = 2.0 * math.pi * machine.velocity_bandwidth
         share = -math.expm1(-rate * step)
         m[GIVEN_BACK], m[TORQUE_OF_CHANGE] = 1.0 - share / (rate * step), 1.0 / (step * total)
@@ -225,7 +235,9 @@ def machine_array(machine: Machine, step: float) -> list[float]:
 
 
 def _mass(machine: Machine, acceleration: float, share: float, step: float) -> list[float]:
-    """Return the four figures of one mass that has this share of the friction; viscous friction by the mean speed of a step."""
+    """Return the four figures of one mass that has this share of the friction;
+    viscous friction by the mean speed of a step.
+    """
     drag = 0.5 * step * acceleration * machine.viscous_friction * share
     static = max(machine.static_friction, machine.coulomb_friction)
     kick = step * acceleration / (1.0 + drag)

@@ -1,10 +1,12 @@
-"""The plant: one physics step of drive and mechanics over flat arrays, compiled with the kernel or run as it is.
+"""The plant: one physics step of drive and mechanics over flat arrays,
+compiled with the kernel or run as it is.
 
-``m`` is the array of `machine.machine_array`, ``x`` the state. Torque is constant over a step, so that one rigid mass moves
-exactly; two masses move by drift, kick, drift (the leapfrog scheme, E. Hairer, C. Lubich, G. Wanner, Geometric Numerical
-Integration, 2006), of second order and without a drift of energy. Dry friction after D. Karnopp, Computer Simulation of
-Stick-Slip Friction in Mechanical Dynamic Systems (ASME Journal of Dynamic Systems, Measurement, and Control 107, 1985);
-backlash as a spring with a gap, that can push but not pull.
+``m`` is the array of `machine.machine_array`, ``x`` the state. Torque is constant over a step, so that one
+rigid mass moves exactly; two masses move by drift, kick, drift (the leapfrog scheme, E. Hairer, C. Lubich, G.
+Wanner, Geometric Numerical Integration, 2006), of second order and without a drift of energy. Dry friction
+after D. Karnopp, Computer Simulation of Stick-Slip Friction in Mechanical Dynamic Systems (ASME Journal of
+Dynamic Systems, Measurement, and Control 107, 1985); backlash as a spring with a gap,
+that can push but not pull.
 """
 
 from __future__ import annotations
@@ -43,14 +45,16 @@ from .machine import (
 )
 
 PlantState = tuple[float, float, float, float, float, float, float]
-"""Motor position and speed, load position and speed, torque of the motor at the end of the last step; in a drive with a velocity
-loop the integral of the velocity error (u) and the torque of friction and load in the last step."""
+"""Motor position and speed, load position and speed, torque of the motor at the end of the last step; in a
+drive with a velocity loop the integral of the velocity error (u)
+and the torque of friction and load in the last step."""
 
 
 def delayed(line: Vector, slot: int, steps: int, output: float) -> tuple[float, float]:
     """Return the outputs at the drive at the start of this step and at its end.
 
-    ``line`` are the outputs of the last steps, ``slot`` the place of this one; the delay is ``steps`` physics steps, or a share of one more.
+    ``line`` are the outputs of the last steps, ``slot`` the place of this one;
+    the delay is ``steps`` physics steps, or a share of one more.
     """
     line[slot] = output
     newer = slot - steps
@@ -65,9 +69,11 @@ def delayed(line: Vector, slot: int, steps: int, output: float) -> tuple[float, 
 def wanted_torque(
     m: Vector, output: float, speed: float, error_sum: float, against: float, h: float
 ) -> tuple[float, float]:
-    """Return the torque that the drive asks its current loop for, limited, and the integral of the velocity error.
+    """Return the torque that the drive asks its current loop for, limited,
+    and the integral of the velocity error.
 
-    ``against`` is the torque of friction and load: the speed that it takes in a step the loop gives back in the same step.
+    ``against`` is the torque of friction and load:
+    the speed that it takes in a step the loop gives back in the same step.
     """
     torque, error = output, 0.0
     if m[VELOCITY_PER_OUTPUT] > 0.0:
@@ -86,10 +92,12 @@ def wanted_torque(
 
 
 def speed_after(m: Vector, k: int, speed: float, push: float) -> float:
-    """Return the speed in u/s after a step under the torque ``push`` and friction, of the mass whose figures begin at ``k``.
+    """Return the speed in u/s after a step under the torque ``push`` and friction,
+    of the mass whose figures begin at ``k``.
 
-    A mass at rest stays there until the push is above the static friction; one whose speed changes its sign comes to rest
-    unless the push is above it: then friction turns with the speed, in the part of the step that is left.
+    A mass at rest stays there until the push is above the static friction; one whose speed changes its sign
+    comes to rest unless the push is above it: then friction turns with the speed,
+    in the part of the step that is left.
     """
     if speed == 0.0:
         if abs(push) <= m[k + STATIC]:
@@ -111,11 +119,12 @@ def brake(m: Vector) -> None:
 
 
 def stretch(gap: float, twist: float, half: float) -> float:
-    """Return the mean stretch of a spring with ``gap`` u of play to each side, in u, over a step that takes its twist from
+    """Return the mean stretch of a spring with ``gap`` u of play to each side, in u, over a step that takes
+    its twist from
     ``twist - half`` to ``twist + half``.
 
-    The mean of the whole way, not the stretch in its middle: so contact takes up and gives back the same energy, wherever in a
-    step it begins.
+    The mean of the whole way, not the stretch in its middle: so contact takes up and gives back the same
+    energy, wherever in a step it begins.
     """
     if abs(twist) - abs(half) >= gap:
         return twist - math.copysign(gap, twist)
@@ -128,8 +137,8 @@ def stretch(gap: float, twist: float, half: float) -> float:
 def coupling_torque(
     m: Vector, twist: float, half: float, difference: float, torque: float, weight: float
 ) -> float:
-    """Return the torque from motor to load; ``twist`` in u and ``difference`` in u/s, motor less load, ``half`` the change of the
-    twist in half a step.
+    """Return the torque from motor to load; ``twist`` in u and ``difference`` in u/s, motor less load,
+    ``half`` the change of the twist in half a step.
     """
     stretched = stretch(m[HALF_GAP], twist, half)
     if stretched == 0.0:
@@ -153,7 +162,9 @@ def advance(
     output: float,
     h: float,
 ) -> PlantState:
-    """Return the state of the plant one physics step of ``h`` s later; ``output`` is what reaches the drive."""
+    """Return the state of the plant one physics step of ``h`` s later; ``output`` is what reaches the
+    drive.
+    """
     target, error_sum = wanted_torque(m, output, motor, error_sum, against, h)
     mean = target
     if m[LAG_MEAN] > 0.0:  # a current loop that is not ideal

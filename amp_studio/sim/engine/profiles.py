@@ -1,8 +1,8 @@
 """The command of an axis as closed pieces of motion.
 
-A piece is one row of figures: from its start on for its duration, position, velocity and acceleration follow from closed
-equations, so that the command is exact at any time. Lengths are in the unit u of the axis, times in s; every profile starts
-at position 0 and ends with a piece without end, at rest.
+A piece is one row of figures: from its start on for its duration, position, velocity and acceleration follow
+from closed equations, so that the command is exact at any time. Lengths are in the unit u of the axis, times
+in s; every profile starts at position 0 and ends with a piece without end, at rest.
 """
 
 from __future__ import annotations
@@ -22,10 +22,11 @@ POLYNOMIAL = 0.0
 EXPONENTIAL = 1.0
 """The acceleration decays: a = ACCELERATION exp(-t / FIGURE), FIGURE the time constant in s."""
 SINE_SQUARED = 2.0
-"""a = ACCELERATION sin2(pi t / FIGURE), FIGURE in s: the velocity changes by ACCELERATION FIGURE / 2 without a jerk."""
+"""a = ACCELERATION sin2(pi t / FIGURE), FIGURE in s:
+the velocity changes by ACCELERATION FIGURE / 2 without a jerk."""
 SINE = 3.0
-"""x = POSITION + VELOCITY sin(ACCELERATION t + JERK t2/2 + FIGURE): amplitude in u, rate in rad/s, change of the rate in
-rad/s2, phase in rad."""
+"""x = POSITION + VELOCITY sin(ACCELERATION t + JERK t2/2 + FIGURE): amplitude in u, rate in rad/s, change of
+the rate in rad/s2, phase in rad."""
 IN_POSITION = 4.0
 """At rest until the axis is in position, checked once in DURATION s: the end of an exact stop."""
 

@@ -1,7 +1,8 @@
 """The signals between the kernel and a law: indices into the array ``io`` of a sample function.
 
-The kernel writes those marked "in" before it calls a sample function, the law writes those marked "out". Lengths are in
-the unit u of the axis (mm or deg), times in s. An "out" keeps its value until the law writes another.
+The kernel writes those marked "in" before it calls a sample function, the law writes those marked "out".
+Lengths are in the unit u of the axis (mm or deg), times in s.
+An "out" keeps its value until the law writes another.
 """
 
 from __future__ import annotations
@@ -29,7 +30,8 @@ MODE = 9
 TORQUE = 10
 """in: torque of the motor now, in the output unit (a velocity drive: in % of rated torque)."""
 REFERENCE_LAG = 11
-"""out: u by which the position that the control takes as its reference is behind COMMAND (a filter, an interpolation time)."""
+"""out: u by which the position that the control takes as its reference is behind COMMAND (a filter,
+an interpolation time)."""
 MONITOR = 16
 """out: the first of the columns that the law names in ``AxisLaw.monitors``."""
 

@@ -1,6 +1,8 @@
-"""What a record shows beside inertia and friction: a time shift between its channels, static friction, and what the fit leaves.
+"""What a record shows beside inertia and friction: a time shift between its channels, static friction,
+and what the fit leaves.
 
-Everything is computed on the filtered rows of the fit (`friction.py`): a filter takes the same part of torque and motion.
+Everything is computed on the filtered rows of the fit (`friction.py`):
+a filter takes the same part of torque and motion.
 """
 
 from __future__ import annotations
@@ -30,7 +32,8 @@ LEAST_GAIN = 0.02
 """Share by which the squares have to become fewer for a static friction."""
 BINS = 16
 DEPENDS, WORTH = 0.35, 0.02
-"""Share of the residual that its means by speed (or position) explain, and of the torque that they are, for a doubt."""
+"""Share of the residual that its means by speed (or position) explain, and of the torque that they are,
+for a doubt."""
 
 
 @dataclass(frozen=True)
@@ -90,7 +93,8 @@ class StaticFriction:
 
 
 def static_friction(fit: FrictionFit, coulomb: float) -> StaticFriction | None:
-    """Return the static friction by R. Stribeck's curve, coulomb + (static - coulomb) exp(-(v/v_s)²); None where the record shows none.
+    """Return the static friction by R. Stribeck's curve, coulomb + (static - coulomb) exp(-(v/v_s)²);
+    None where the record shows none.
 
     Rows of low speed that the fit left out are used, where the axis keeps its direction.
     """
@@ -123,7 +127,9 @@ def static_friction(fit: FrictionFit, coulomb: float) -> StaticFriction | None:
 
 
 def residual_doubts(fit: FrictionFit, unit: str) -> Iterator[str]:
-    """Yield what the fit leaves that depends on the speed or on the position: friction that is no line, a screw, a cable, a bent rail."""
+    """Yield what the fit leaves that depends on the speed or on the position: friction that is no line,
+    a screw, a cable, a bent rail.
+    """
     used = fit.is_used
     rest = (fit.torque - fit.predicted)[used]
     size = float(np.sqrt(np.mean(fit.torque[used] ** 2)))
@@ -138,6 +144,7 @@ def residual_doubts(fit: FrictionFit, unit: str) -> Iterator[str]:
         if explained > DEPENDS and largest > WORTH * size:
             at = float(edges[int(np.argmax(np.abs(means)))])
             yield (
-                f"What inertia and friction leave depends on the {name}: up to {shown(largest, unit, 2)}, most near"
-                f" {shown(at * (60.0 if name == 'speed' else 1.0), '', 3)}; the friction of this axis is not the same everywhere"
+                f"What inertia and friction leave depends on the {name}: up to {shown(largest, unit, 2)},"
+                f" most near {shown(at * (60.0 if name == 'speed' else 1.0), '', 3)}; the friction of this"
+                " axis is not the same everywhere"
             )

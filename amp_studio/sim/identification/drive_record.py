@@ -1,6 +1,8 @@
-"""Reads the record of a drive: time, velocity or position, and torque, as columns with their units in the heads.
+"""Reads the record of a drive: time, velocity or position, and torque,
+as columns with their units in the heads.
 
-Nothing is guessed that could scale a figure: a column without a unit and a number that can be read in two ways are refused.
+Nothing is guessed that could scale a figure:
+a column without a unit and a number that can be read in two ways are refused.
 """
 
 from __future__ import annotations
@@ -22,27 +24,48 @@ MOST_ROWS = 500_000
 LARGEST = 1e12
 _LONGEST_LINE = 10_000
 _HEAD_WITHIN = 60
-"""Lines from the top in which the heads are looked for; oscilloscopes and drives write their settings above."""
+"""Lines from the top in which the heads are looked for; oscilloscopes and drives write their settings
+above."""
 _NUMBER = re.compile(r"[+-]?(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][+-]?[0-9]{1,3})?")
 _BRACKETED = re.compile(r"(.*?)\s*[\[(]\s*([^\])(]*?)\s*[\])]\s*")
 _TRAILING = re.compile(r"(.*?)(?:_|\s*,\s*|\s+in\s+|\s+)(\S+)")
 _TIMES = {"s": 1.0, "ms": 1e-3, "us": 1e-6}
 _ALSO = {
-    "m": ("mm", 1e3), "m/s": ("mm/s", 1e3), "m/min": ("mm/min", 1e3), "rad": ("deg", 180.0 / np.pi),
-    "rad/s": ("deg/s", 180.0 / np.pi), "°/s": ("deg/s", 1.0), "counts/min": ("counts/s", 1.0 / 60.0),
-}  # fmt: skip
+    "m": ("mm", 1e3),
+    "m/s": ("mm/s", 1e3),
+    "m/min": ("mm/min", 1e3),
+    "rad": ("deg", 180.0 / np.pi),
+    "rad/s": ("deg/s", 180.0 / np.pi),
+    "°/s": ("deg/s", 1.0),
+    "counts/min": ("counts/s", 1.0 / 60.0),
+}
 """Units of records that no parameter has -> one that has a size, and how much of it."""
 TORQUE_UNITS = {
-    "%": ("%", 1.0), "percent": ("%", 1.0), "pct": ("%", 1.0), "arms": ("A", 1.0), "v": ("V", 1.0), "mv": ("V", 1e-3), "a": ("A", 1.0), "ma": ("A", 1e-3), "nm": ("Nm", 1.0),
-    "mnm": ("Nm", 1e-3), "ncm": ("Nm", 1e-2), "n": ("N", 1.0), "kn": ("N", 1e3),
-}  # fmt: skip
-"""Unit of a torque, a force or a current without blanks and dots -> its own unit, and how much of that it is."""
+    "%": ("%", 1.0),
+    "percent": ("%", 1.0),
+    "pct": ("%", 1.0),
+    "arms": ("A", 1.0),
+    "v": ("V", 1.0),
+    "mv": ("V", 1e-3),
+    "a": ("A", 1.0),
+    "ma": ("A", 1e-3),
+    "nm": ("Nm", 1.0),
+    "mnm": ("Nm", 1e-3),
+    "ncm": ("Nm", 1e-2),
+    "n": ("N", 1.0),
+    "kn": ("N", 1e3),
+}
+"""Unit of a torque, a force or a current without blanks and dots -> its own unit, and how much of that it
+is."""
 
 _KINDS: dict[str, tuple[str, ...]] = {
     "time": ("time|t|zeit",),
     "velocity": (
         "velocity|speed|vel|v|geschwindigkeit",
-        "((actual|measured|feedback|axis|load) (velocity|speed)|velocity (actual|feedback)|istgeschwindigkeit|v ?ist)",
+        (
+            "((actual|measured|feedback|axis|load) (velocity|speed)|velocity"
+            " (actual|feedback)|istgeschwindigkeit|v ?ist)"
+        ),
     ),
     "position": (
         "position|pos|lage|weg",
@@ -50,8 +73,14 @@ _KINDS: dict[str, tuple[str, ...]] = {
     ),
     "torque": (
         "torque|force|current|drehmoment|moment|kraft|strom",
-        "((actual|measured|motor|axis) (torque|force|current)|torque (actual|feedback)|iq|i q|istmoment|iststrom)",
-        "((torque|force|current) (command|demand|reference|setpoint)|commanded (torque|current)|sollmoment|sollstrom)",
+        (
+            "((actual|measured|motor|axis) (torque|force|current)|torque (actual|feedback)|iq|i"
+            " q|istmoment|iststrom)"
+        ),
+        (
+            "((torque|force|current) (command|demand|reference|setpoint)|commanded"
+            " (torque|current)|sollmoment|sollstrom)"
+        ),
         "output",
     ),
 }
@@ -75,7 +104,9 @@ class DriveRecord:
 
 
 def read_drive_record(path: Path) -> DriveRecord:
-    """Read a record from a file; raises SimulationError with its name, and OSError where it cannot be read."""
+    """Read a record from a file; raises SimulationError with its name, and OSError where it cannot be
+    read.
+    """
     text = read_table_text(path)
     try:
         return drive_record_of(text)
@@ -84,7 +115,9 @@ def read_drive_record(path: Path) -> DriveRecord:
 
 
 def drive_record_of(text: str) -> DriveRecord:
-    """Read a record from a text of comma, semicolon or tab separated columns; raises SimulationError naming the line."""
+    """Read a record from a text of comma, semicolon or tab separated columns;
+    raises SimulationError naming the line.
+    """
     lines = [
         (n, line) for n, line in enumerate(text.splitlines(), 1) if line.strip() and line.lstrip()[0] != "#"
     ]
@@ -114,7 +147,9 @@ _Lines = Sequence[tuple[int, str]]
 
 
 def _heads(lines: _Lines) -> tuple[dict[str, int], list[tuple[str, str]], str, _Lines]:
-    """Return what each used column is, name and unit of all columns, the separator, and the lines of numbers."""
+    """Return what each used column is, name and unit of all columns, the separator, and the lines of
+    numbers.
+    """
     for place, (n, line) in enumerate(lines[:_HEAD_WITHIN]):
         separator = next((sign for sign in ";\t," if sign in line), ",")
         cells = _cells(line, separator, n)
@@ -131,7 +166,9 @@ def _heads(lines: _Lines) -> tuple[dict[str, int], list[tuple[str, str]], str, _
 
 
 def named_columns(text: str, wanted: Mapping[str, str]) -> dict[str, tuple[int, str]]:
-    """Return place and unit of each wanted column (name -> pattern) in the first line of a text that names one; {} where none does."""
+    """Return place and unit of each wanted column (name -> pattern)
+    in the first line of a text that names one; {} where none does.
+    """
     for n, line in enumerate(text.splitlines()[:_HEAD_WITHIN], 1):
         separator = next((sign for sign in ";\t," if sign in line), ",")
         heads = [_name_and_unit(cell) for cell in _cells(line, separator, n)]
@@ -187,7 +224,9 @@ def _line_of_units(cells: Sequence[str], width: int) -> list[str]:
 
 
 def _unit(head: tuple[str, str], kind: str) -> tuple[str, float]:
-    """Return the unit of a column and how much of it one is; raises SimulationError for one that does not fit."""
+    """Return the unit of a column and how much of it one is;
+    raises SimulationError for one that does not fit.
+    """
     name, text = head
     if not text:
         raise SimulationError(f"The column {name} has no unit. Write it in its head: {_EXAMPLE}")
@@ -234,7 +273,9 @@ def torque_figure(text: str) -> tuple[float, str]:
 
 
 def read_number_table(text: str, used: Sequence[int]) -> list[Series]:
-    """Return the columns at the places ``used`` of a text, below its first line that has no number; raises SimulationError naming the line."""
+    """Return the columns at the places ``used`` of a text, below its first line that has no number;
+    raises SimulationError naming the line.
+    """
     lines = [
         (n, line) for n, line in enumerate(text.splitlines(), 1) if line.strip() and line.lstrip()[0] != "#"
     ]
@@ -289,7 +330,8 @@ def _columns(lines: _Lines, used: Sequence[int], width: int, separator: str) -> 
             column.append(number)
     if len(signs) > 1:
         raise SimulationError(
-            f"line {signs[',']} has a decimal comma and line {signs['.']} a decimal point: write all numbers in one way"
+            f"line {signs[',']} has a decimal comma and line {signs['.']} a decimal point: write all numbers"
+            " in one way"
         )
     return [np.array(column) for column in columns]
 

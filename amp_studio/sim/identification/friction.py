@@ -1,10 +1,11 @@
 """Inertia, friction and weight of an axis out of a record of its motion, by least squares.
 
-The torque of a rigid axis is J·a + b·v + c+ while it moves in the positive direction, and J·a + b·v + c- in the negative
-one. The equation is linear in J, b, c+ and c-, so it stays true when torque, velocity and acceleration pass the same filter,
-which takes out noise and the steps of counts without a bias (the filter of an inverse dynamic identification:
-M. Gautier, *Dynamic identification of robots with power model*, IEEE ICRA 1997). What is left of the noise in the acceleration
-would make J too small; the filter is the shortest one with which that is below ``WANTED_NOISE``.
+The torque of a rigid axis is J·a + b·v + c+ while it moves in the positive direction, and J·a + b·v + c- in
+the negative one. The equation is linear in J, b, c+ and c-, so it stays true when torque, velocity and
+acceleration pass the same filter, which takes out noise and the steps of counts without a bias (the filter of
+an inverse dynamic identification: M. Gautier, *Dynamic identification of robots with power model*, IEEE ICRA
+1997). What is left of the noise in the acceleration would make J too small; the filter is the shortest one
+with which that is below ``WANTED_NOISE``.
 """
 
 from __future__ import annotations
@@ -22,15 +23,18 @@ LEAST_ROWS = 100
 WANTED_NOISE, MOST_NOISE = 1e-3, 2e-2
 """Share of noise in the variance of the filtered acceleration: J is too small by it."""
 STANDSTILL = 0.02
-"""Share of the top speed below which the axis counts as standing: there the friction has any value up to the static one."""
+"""Share of the top speed below which the axis counts as standing:
+there the friction has any value up to the static one."""
 LEAST_SPREAD, LEAST_CRUISE_SPREAD = 0.15, 0.05
-"""Standard deviation of the speed over the top speed, of all rows and of those without acceleration, where there are many."""
+"""Standard deviation of the speed over the top speed, of all rows and of those without acceleration,
+where there are many."""
 CRUISING, MANY = 0.1, 0.3
 """Share of the largest acceleration below which a row has none; share of rows that are many."""
 MOST_CONDITION = 200.0
 """Of the normalised columns of the equation."""
 FLAT_RUN, FLAT_SHARE = 10, 0.02
-"""Rows of exactly the largest (or smallest) torque one after the other, and their share of the record: a limit."""
+"""Rows of exactly the largest (or smallest) torque one after the other, and their share of the record:
+a limit."""
 LEAST_FIT = 0.5
 """r² below which the record does not show this axis."""
 MOST_ERROR = 0.2
@@ -63,7 +67,9 @@ class FrictionFit:
 def fit_friction(
     time: Series, torque: Series, *, velocity: Series | None = None, position: Series | None = None
 ) -> FrictionFit:
-    """Return the fit of a record, by its velocity or its position; raises SimulationError for what it cannot show."""
+    """Return the fit of a record, by its velocity or its position;
+    raises SimulationError for what it cannot show.
+    """
     moved = velocity if velocity is not None else position
     assert moved is not None
     if len(time) < LEAST_ROWS:
@@ -110,7 +116,8 @@ def fit_friction(
 
 
 def _refuse_limit(torque: Series, speed: Series) -> None:
-    """Raise SimulationError for a torque that stays at its largest or smallest value in motion: what was missing is not in the record.
+    """Raise SimulationError for a torque that stays at its largest or smallest value in motion:
+    what was missing is not in the record.
 
     A drive that is off, with the brake closed, has its smallest torque too, at rest.
     """
@@ -135,7 +142,8 @@ def _refuse_motion(velocity: Series, acceleration: Series) -> None:
     top = float(np.abs(velocity).max(initial=0.0))
     if not (velocity > 0.0).any() or not (velocity < 0.0).any():
         raise SimulationError(
-            "The axis moves in one direction only: dry friction and weight look the same. Record moves in both directions"
+            "The axis moves in one direction only: dry friction and weight look the same. Record moves in"
+            " both directions"
         )
     if min((velocity > 0.0).sum(), (velocity < 0.0).sum()) < LEAST_ROWS // 5:
         raise SimulationError(
@@ -173,7 +181,9 @@ def even_record(time: Series, moved: Series, torque: Series) -> tuple[Series, tu
 
 
 def _noise(moved: Series) -> float:
-    """Return the variance of the noise of a signal, counts included: of its third differences, which motion hardly has."""
+    """Return the variance of the noise of a signal, counts included: of its third differences,
+    which motion hardly has.
+    """
     return float(np.mean(np.diff(moved, 3) ** 2)) / 20.0
 
 
@@ -196,7 +206,9 @@ def _box(values: Series, width: int) -> Series:
 
 
 def _smooth(values: Series, width: int) -> Series:
-    """Return what a filter of three boxes leaves: 3 width - 2 rows long, without a delay, shorter by them at both ends."""
+    """Return what a filter of three boxes leaves: 3 width - 2 rows long, without a delay,
+    shorter by them at both ends.
+    """
     middle = float(values.mean())  # so that sums of a distant position lose no digits
     return middle + _box(_box(_box(values - middle, width), width), width)
 
@@ -236,7 +248,8 @@ def _solved(
     sizes = np.sqrt((known**2).sum(axis=0))
     if (sizes == 0.0).any() or np.linalg.cond(known / sizes) > MOST_CONDITION:
         raise SimulationError(
-            "Acceleration, speed and direction change together in this record: record moves at several speeds and accelerations"
+            "Acceleration, speed and direction change together in this record: record moves at several speeds"
+            " and accelerations"
         )
     coefficients = _least_squares(known / sizes, given, noise / sizes[0] ** 2) / sizes
     if coefficients[1] < 0.0:  # no friction falls with the speed in the simulator: the best one that does not
@@ -252,7 +265,8 @@ def _solved(
     r_squared = 1.0 - float((rest**2).sum()) / spread if spread else 0.0
     if coefficients[0] <= 0.0:
         raise SimulationError(
-            "Torque and acceleration have opposite signs: turn the sign of one column, or take the torque of this axis"
+            "Torque and acceleration have opposite signs: turn the sign of one column, or take the torque of"
+            " this axis"
         )
     covariance = _covariance(table, torque - table @ coefficients, used, width, sizes)
     if r_squared < LEAST_FIT:
@@ -268,9 +282,19 @@ def _solved(
     predicted = table @ coefficients
     predicted[standing] = table[standing, :2] @ coefficients[:2] + 0.5 * (coefficients[2] + coefficients[3])
     return FrictionFit(
-        coefficients, covariance, r_squared, period, (3 * width - 2) * period, rows, int(used.sum()),
-        time, speed, torque, predicted, used,
-    )  # fmt: skip
+        coefficients,
+        covariance,
+        r_squared,
+        period,
+        (3 * width - 2) * period,
+        rows,
+        int(used.sum()),
+        time,
+        speed,
+        torque,
+        predicted,
+        used,
+    )
 
 
 def _least_squares(known: Matrix, given: Series, noise: float) -> Series:
@@ -285,7 +309,8 @@ def _covariance(
 ) -> Matrix:
     """Return the covariance of the coefficients after W. Newey and K. West (Econometrica 55, 1987).
 
-    Neighbouring filters share rows, and what the model leaves out lasts for a while: the errors are not independent.
+    Neighbouring filters share rows, and what the model leaves out lasts for a while:
+    the errors are not independent.
     """
     step = max(1, width // 2)
     scaled = (table / sizes)[::step]

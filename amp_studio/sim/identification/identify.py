@@ -44,8 +44,10 @@ def identify(
 ) -> Trace:
     """Return the figures of an axis' machine, measured and predicted torque over the time.
 
-    ``scale`` is the torque of the record for 1 of the simulator's unit (``0.056 A``), needed where they have other units;
-    ``system`` as in `simulate`; ``turn`` is the travel for a turn of the motor (``10 mm``), for a record in rpm. Raises SimulationError for what the record cannot show, OSError where it cannot be read.
+    ``scale`` is the torque of the record for 1 of the simulator's unit (``0.056 A``), needed where they have
+    other units;
+    ``system`` as in `simulate`; ``turn`` is the travel for a turn of the motor (``10 mm``), for a record in
+    rpm. Raises SimulationError for what the record cannot show, OSError where it cannot be read.
     """
     law = law_of(file.schema.family.family)
     if "velocity" not in law.scenarios:
@@ -61,8 +63,8 @@ def identify(
         later = np.interp(record.time - shift.value, record.time, torque)
         fit = _fit(record, bound, record.time, later, factor)
         notes.append(
-            f"The motion is {shown(1e3 * shift.value, 'ms', 3)} later than the torque in this record, and was shifted so. Whether the axis or"
-            " the recording delays it, one record does not show."
+            f"The motion is {shown(1e3 * shift.value, 'ms', 3)} later than the torque in this record, and was"
+            " shifted so. Whether the axis or the recording delays it, one record does not show."
         )
     result = _figures(fit, bound)
     result |= {
@@ -73,21 +75,31 @@ def identify(
     if static is not None:
         unit = result["coulomb_friction"][1]
         result |= {
-            "static_friction": (static.static.value, unit), "static_friction_standard_error": (static.static.error, unit),
+            "static_friction": (static.static.value, unit),
+            "static_friction_standard_error": (static.static.error, unit),
             "stribeck_speed": (60.0 * static.speed.value, f"{bound.unit}/min"),
             "stribeck_speed_standard_error": (60.0 * static.speed.error, f"{bound.unit}/min"),
-        }  # fmt: skip
+        }
     return in_unit(
         Trace(
-            scenario=IDENTIFY, axis=bound.axis, letter=axis_name(file.evaluation, bound.axis),
-            model=f"{path.name}: {fit.used} of {fit.rows} rows, by {', '.join(record.columns)}; "
-            f"a filter of {shown(1e3 * fit.window, 'ms', 3)}",
-            columns=_columns(fit), units=_units(bound), result=result, alarms=(), recommendations=(),
-            assumptions=tuple(notes), limits={},
+            scenario=IDENTIFY,
+            axis=bound.axis,
+            letter=axis_name(file.evaluation, bound.axis),
+            model=(
+                f"{path.name}: {fit.used} of {fit.rows} rows, by {', '.join(record.columns)}; "
+                f"a filter of {shown(1e3 * fit.window, 'ms', 3)}"
+            ),
+            columns=_columns(fit),
+            units=_units(bound),
+            result=result,
+            alarms=(),
+            recommendations=(),
+            assumptions=tuple(notes),
+            limits={},
             doubts=(*_doubts(result), *residual_doubts(fit, torque_unit(bound))),
         ),
         length_unit(file, system),
-    )  # fmt: skip
+    )
 
 
 def _fit(record: DriveRecord, bound: AxisLaw, time: Series, torque: Series, factor: float) -> FrictionFit:
@@ -101,7 +113,9 @@ def _fit(record: DriveRecord, bound: AxisLaw, time: Series, torque: Series, fact
 
 
 def record_scale(record: DriveRecord, bound: AxisLaw, scale: str | None) -> float:
-    """Return the record's torque for 1 of the simulator's; raises SimulationError where the units do not fit."""
+    """Return the record's torque for 1 of the simulator's; raises SimulationError where the units do not
+    fit.
+    """
     own, wanted = record.torque_unit, torque_unit(bound)
     if scale is None:
         if own == wanted:
@@ -163,7 +177,8 @@ def _doubts(result: dict[str, Figure]) -> list[str]:
     fit = result["r_squared"][0] or 0.0
     if fit < DOUBTFUL_FIT:
         doubts.append(
-            f"Inertia and friction explain {shown(100.0 * fit, '%', 3)} of the torque; look at the picture of the fit"
+            f"Inertia and friction explain {shown(100.0 * fit, '%', 3)} of the torque; look at the picture of"
+            " the fit"
         )
     for name in FIGURES[:3]:
         value, error = result[name][0] or 0.0, result[f"{name}_standard_error"][0] or 0.0
@@ -177,16 +192,23 @@ def _doubts(result: dict[str, Figure]) -> list[str]:
 def _columns(fit: FrictionFit) -> dict[str, np.ndarray]:
     rest = np.where(fit.is_used, fit.torque - fit.predicted, math.nan)
     return {
-        "time_s": fit.time, "velocity": 60.0 * fit.velocity, "torque": fit.torque, "predicted_torque": fit.predicted,
+        "time_s": fit.time,
+        "velocity": 60.0 * fit.velocity,
+        "torque": fit.torque,
+        "predicted_torque": fit.predicted,
         "residual": rest,
-    }  # fmt: skip
+    }
 
 
 def _units(bound: AxisLaw) -> dict[str, str]:
     torque = torque_unit(bound)
     return {
-        "time_s": "s", "velocity": f"{bound.unit}/min", "torque": torque, "predicted_torque": torque, "residual": torque,
-    }  # fmt: skip
+        "time_s": "s",
+        "velocity": f"{bound.unit}/min",
+        "torque": torque,
+        "predicted_torque": torque,
+        "residual": torque,
+    }
 
 
 # -- what is shown -----------------------------------------------------------------------------------
@@ -209,12 +231,21 @@ def figure_text(result: dict[str, Figure], name: str) -> str:
 
 
 _WORDS = {
-    "acceleration_per_output": "acceleration per output", "inertia_ratio": "inertia of load / motor",
-    "viscous_friction": "viscous friction", "coulomb_friction": "Coulomb friction", "static_friction": "static friction",
-    "backlash": "backlash", "resonance": "resonance", "damping": "its damping ratio", "delay": "delay", "gravity": "gravity",
-    "stribeck_speed": "Stribeck speed", "time_shift": "time shift, torque to motion", "torque_forward": "dry friction and gravity, +",
+    "acceleration_per_output": "acceleration per output",
+    "inertia_ratio": "inertia of load / motor",
+    "viscous_friction": "viscous friction",
+    "coulomb_friction": "Coulomb friction",
+    "static_friction": "static friction",
+    "backlash": "backlash",
+    "resonance": "resonance",
+    "damping": "its damping ratio",
+    "delay": "delay",
+    "gravity": "gravity",
+    "stribeck_speed": "Stribeck speed",
+    "time_shift": "time shift, torque to motion",
+    "torque_forward": "dry friction and gravity, +",
     "torque_backward": "dry friction and gravity, -",
-}  # fmt: skip
+}
 MACHINE = (*list(_WORDS)[:10],)
 """Figures that are settings of the machine, in the order in which they are written."""
 
@@ -247,13 +278,17 @@ def identified_text(trace: Trace) -> str:
         f"{each.parameter} at {shown(each.value, each.unit)}: {each.why} {each.price}"
         for each in trace.recommendations
     ]
-    return "\n".join([
-        f"identify, axis {trace.axis_title}: {trace.model}",
-        *(f"DOUBTFUL: {doubt}" for doubt in trace.doubts),
-        *(f"  {name.ljust(width)}  {text}" for name, text in rows),
-        *(["Recommendations"] if advice else []), *(f"  {text}" for text in advice),
-        "Assumptions", *(f"  {text}" for text in trace.assumptions),
-    ])  # fmt: skip
+    return "\n".join(
+        [
+            f"identify, axis {trace.axis_title}: {trace.model}",
+            *(f"DOUBTFUL: {doubt}" for doubt in trace.doubts),
+            *(f"  {name.ljust(width)}  {text}" for name, text in rows),
+            *(["Recommendations"] if advice else []),
+            *(f"  {text}" for text in advice),
+            "Assumptions",
+            *(f"  {text}" for text in trace.assumptions),
+        ]
+    )
 
 
 _FITS = {"r_squared": "r²"}

@@ -1,4 +1,6 @@
-"""The machine of an axis out of its frequency response, as a trace with a Bode picture and as settings of the simulator."""
+"""The machine of an axis out of its frequency response,
+as a trace with a Bode picture and as settings of the simulator.
+"""
 
 from __future__ import annotations
 
@@ -26,7 +28,8 @@ from .plant_fit import QUANTITIES, Pair, PlantFit, fit_plant
 from .response import FrequencyResponse, is_response, read_response, response_of_record
 
 DOUBTFUL_ERROR, DOUBTFUL_MISFIT = 0.1, 0.12
-"""Share of a figure that its standard deviation is, and Np or rad that are left, from which there is a doubt."""
+"""Share of a figure that its standard deviation is, and Np or rad that are left, from which there is a
+doubt."""
 NOTCH_DAMPING = 0.5
 """Damping ratio of the poles of a notch: an octave wide, usual."""
 
@@ -40,10 +43,11 @@ def identify_response(
     quantity: str | None = None,
     turn: str | None = None,
 ) -> Trace:
-    """Return the figures of an axis' machine out of a response (CSV of frequency, gain, phase, coherence) or the record of a chirp.
+    """Return the figures of an axis' machine out of a response (CSV of frequency, gain, phase, coherence)
+    or the record of a chirp.
 
-    A gain is motion in u/s or u (u/s² for an acceleration) for 1 of the torque; ``scale`` is the torque of the response for 1 of the
-    simulator's unit. Raises SimulationError, OSError.
+    A gain is motion in u/s or u (u/s² for an acceleration) for 1 of the torque; ``scale`` is the torque of
+    the response for 1 of the simulator's unit. Raises SimulationError, OSError.
     """
     law = law_of(file.schema.family.family)
     if "velocity" not in law.scenarios:
@@ -85,20 +89,33 @@ def _of_record(
 def _trace(found: FrequencyResponse, fitted: PlantFit, bound: AxisLaw, path: Path, letter: str) -> Trace:
     columns = {
         "frequency_hz": found.frequency,
-        "plant_gain_db": _db(found.response), "plant_phase_deg": _phase(found.response),
-        "plant_gain_db_model": _db(fitted.model), "plant_phase_deg_model": _phase(fitted.model),
-    }  # fmt: skip
+        "plant_gain_db": _db(found.response),
+        "plant_phase_deg": _phase(found.response),
+        "plant_gain_db_model": _db(fitted.model),
+        "plant_phase_deg_model": _phase(fitted.model),
+    }
     units = {"frequency_hz": "Hz", **{name: "dB" if "gain" in name else "deg" for name in list(columns)[1:]}}
     if found.coherence is not None:
         columns["coherence"], units["coherence"] = found.coherence, ""
     side = "the load" if fitted.at_load else "the motor"
     return Trace(
-        scenario=IDENTIFY, axis=bound.axis, letter=letter,
-        model=f"{path.name}: {len(found.frequency)} frequencies from {shown(float(found.frequency[0]), 'Hz', 3)} to"
-        f" {shown(float(found.frequency[-1]), 'Hz', 3)}, the {fitted.quantity} of {side}",
-        columns=columns, units=units, result=_result(found, fitted, bound), alarms=(), recommendations=_notches(fitted.pairs),
-        assumptions=_assumed(fitted, bound), limits={}, doubts=tuple(_doubts(found, fitted)),
-    )  # fmt: skip
+        scenario=IDENTIFY,
+        axis=bound.axis,
+        letter=letter,
+        model=(
+            f"{path.name}: {len(found.frequency)} frequencies from"
+            f" {shown(float(found.frequency[0]), 'Hz', 3)} to {shown(float(found.frequency[-1]), 'Hz', 3)},"
+            f" the {fitted.quantity} of {side}"
+        ),
+        columns=columns,
+        units=units,
+        result=_result(found, fitted, bound),
+        alarms=(),
+        recommendations=_notches(fitted.pairs),
+        assumptions=_assumed(fitted, bound),
+        limits={},
+        doubts=tuple(_doubts(found, fitted)),
+    )
 
 
 def _db(response: Response) -> np.ndarray:
@@ -113,9 +130,13 @@ def _phase(response: Response) -> np.ndarray:
 def _result(found: FrequencyResponse, fitted: PlantFit, bound: AxisLaw) -> dict[str, Figure]:
     torque = torque_unit(bound)
     scales = {
-        "acceleration_per_output": (1.0, f"{bound.unit}/s2"), "viscous_friction": (1.0 / AT_SPEED, torque),
-        "delay": (1e3, "ms"), "resonance": (1.0, "Hz"), "damping": (1.0, ""), "inertia_ratio": (1.0, ""),
-    }  # fmt: skip
+        "acceleration_per_output": (1.0, f"{bound.unit}/s2"),
+        "viscous_friction": (1.0 / AT_SPEED, torque),
+        "delay": (1e3, "ms"),
+        "resonance": (1.0, "Hz"),
+        "damping": (1.0, ""),
+        "inertia_ratio": (1.0, ""),
+    }
     result: dict[str, Figure] = {}
     for name, (value, error) in fitted.figures.items():
         factor, unit = scales[name]
@@ -141,8 +162,8 @@ def _notches(pairs: tuple[Pair, ...]) -> tuple[Recommendation, ...]:
             "notch",
             round(pair.resonance, 1),
             "Hz",
-            f"a resonance with a damping ratio of {shown(pair.damping, digits=2)}: zeros with this damping, poles with {NOTCH_DAMPING:g},"
-            " where the control or its drive has a notch.",
+            f"a resonance with a damping ratio of {shown(pair.damping, digits=2)}: zeros with this damping,"
+            f" poles with {NOTCH_DAMPING:g}, where the control or its drive has a notch.",
             f"Phase is lost below it: {shown(_lost(pair), 'deg', 2)} at half of its frequency.",
         )
         for pair in pairs
@@ -162,11 +183,15 @@ def _assumed(fitted: PlantFit, bound: AxisLaw) -> tuple[str, ...]:
         fitted.quantity
     ]
     notes = [
-        f"The gain is taken as {unit} for 1 {torque_unit(bound)} of torque; its slope and phase are those of a {fitted.quantity}."
+        (
+            f"The gain is taken as {unit} for 1 {torque_unit(bound)} of torque; its slope and phase are those"
+            f" of a {fitted.quantity}."
+        )
     ]
     if fitted.figures["delay"][0] > 0.0:
         notes.append(
-            "Whatever lags in proportion to the frequency is in the delay: computing, current loop, filters of the measurement."
+            "Whatever lags in proportion to the frequency is in the delay: computing, current loop, filters"
+            " of the measurement."
         )
     if fitted.at_load and fitted.pairs:
         notes.append(
@@ -185,11 +210,13 @@ def _doubts(found: FrequencyResponse, fitted: PlantFit) -> list[str]:
         doubts.append(f"{found.left_out} frequencies were left out, their coherence is below 0.8")
     if fitted.misfit > DOUBTFUL_MISFIT:
         doubts.append(
-            f"{shown(100.0 * fitted.misfit, '%', 2)} of the response are left on average; look at the picture of the fit"
+            f"{shown(100.0 * fitted.misfit, '%', 2)} of the response are left on average; look at the picture"
+            " of the fit"
         )
     for name, (value, error) in fitted.figures.items():
         if name != "viscous_friction" and error > DOUBTFUL_ERROR * abs(value):
             doubts.append(
-                f"{name.replace('_', ' ').capitalize()} is known to {shown(100.0 * error / abs(value) if value else 100.0, '%', 2)} only"
+                f"{name.replace('_', ' ').capitalize()} is known to"
+                f" {shown(100.0 * error / abs(value) if value else 100.0, '%', 2)} only"
             )
     return doubts

@@ -1,4 +1,6 @@
-"""Non-linear least squares by K. Levenberg (1944) and D. Marquardt (1963), over few parameters, with the covariance at the end."""
+"""Non-linear least squares by K. Levenberg (1944) and D. Marquardt (1963), over few parameters,
+with the covariance at the end.
+"""
 
 from __future__ import annotations
 
@@ -28,7 +30,9 @@ class LeastSquares:
 
 
 def fit(residual: Callable[[Series], Series], start: Series) -> LeastSquares:
-    """Return the parameters with the least sum of squares from a start on; the covariance is that of the residuals' own spread."""
+    """Return the parameters with the least sum of squares from a start on;
+    the covariance is that of the residuals' own spread.
+    """
     there, rest = np.array(start, dtype=float), residual(start)
     cost, damping = float(rest @ rest), 1e-3
     for _ in range(STEPS):

@@ -7,7 +7,8 @@
       acceleration_per_output: 41.5 mm/s2
       viscous_friction: "0.35"
 
-Each entry of ``model`` is a setting as ``--set model.NAME=`` takes it; ``identified`` is where they come from, and is not read.
+Each entry of ``model`` is a setting as ``--set model.NAME=`` takes it;
+``identified`` is where they come from, and is not read.
 """
 
 from __future__ import annotations
@@ -47,7 +48,9 @@ class MachineFile:
 
 
 def read_machine(path: Path) -> MachineFile:
-    """Read the description of a machine; raises SimulationError for what is none, OSError where it cannot be read."""
+    """Read the description of a machine; raises SimulationError for what is none,
+    OSError where it cannot be read.
+    """
     try:
         data = read_yaml_file(path, FileError, most=_MOST_BYTES).data
     except FileError as error:
@@ -74,7 +77,9 @@ def _text(name: str, key: str, value: Any) -> str:
 
 
 def machine_for(file: ParameterFile, machine: MachineFile, axis: str | None) -> tuple[str, dict[str, str]]:
-    """Return the axis that a machine is of and its settings; raises SimulationError for a machine that does not fit."""
+    """Return the axis that a machine is of and its settings;
+    raises SimulationError for a machine that does not fit.
+    """
     family = file.schema.family.family
     if machine.family != family:
         raise SimulationError(f"{machine.name} is of family {machine.family}, and the file of {family}")
@@ -86,7 +91,8 @@ def machine_for(file: ParameterFile, machine: MachineFile, axis: str | None) -> 
         )
     if machine.torque != torque_unit(bound):
         raise SimulationError(
-            f"{machine.name} has torques in {machine.torque}, and axis {letter} has them in {torque_unit(bound)}: identify it again"
+            f"{machine.name} has torques in {machine.torque}, and axis {letter} has them in"
+            f" {torque_unit(bound)}: identify it again"
         )
     return bound.axis, machine.settings
 
@@ -97,15 +103,30 @@ def machine_text(trace: Trace, family: str) -> str:
     figures = [(name.removeprefix("model."), text) for name, text in machine_settings(trace).items()]
     result = dict(trace.result)
     found = [
-        ("record", trace.model), *((name, figure_text(result, name)) for name in result if f"{name}_standard_error" in result),
-        *((name, shown(result[name][0] or 0.0, digits=5)) for name in ("r_squared", "misfit") if name in result),
-    ]  # fmt: skip
-    return "\n".join([
-        f"# The machine of axis {axis}, as the record of its drive shows it. To simulate with it: --machine and this file.",
-        f"family: {scalar_text(family)}", f"axis: {scalar_text(axis)}", f"torque: {scalar_text(torque)}",
-        "model:", *(f"  {name}: {scalar_text(text)}" for name, text in figures),
-        "identified:  # with standard errors", *(f"  {name}: {scalar_text(text)}" for name, text in found), "",
-    ])  # fmt: skip
+        ("record", trace.model),
+        *((name, figure_text(result, name)) for name in result if f"{name}_standard_error" in result),
+        *(
+            (name, shown(result[name][0] or 0.0, digits=5))
+            for name in ("r_squared", "misfit")
+            if name in result
+        ),
+    ]
+    return "\n".join(
+        [
+            (
+                f"# The machine of axis {axis}, as the record of its drive shows it. To simulate with it:"
+                " --machine and this file."
+            ),
+            f"family: {scalar_text(family)}",
+            f"axis: {scalar_text(axis)}",
+            f"torque: {scalar_text(torque)}",
+            "model:",
+            *(f"  {name}: {scalar_text(text)}" for name, text in figures),
+            "identified:  # with standard errors",
+            *(f"  {name}: {scalar_text(text)}" for name, text in found),
+            "",
+        ]
+    )
 
 
 def write_machine(trace: Trace, family: str, path: Path, notify: Notify = lambda _note: None) -> None:

@@ -1,7 +1,9 @@
-"""The record of a machine laid over a simulated move: shifted to where both agree best, with the difference and its root mean square.
+"""The record of a machine laid over a simulated move: shifted to where both agree best,
+with the difference and its root mean square.
 
-The lag is sought by the correlation of the first signal that both have (command, position, velocity, following error, torque), to a part of
-a row by a parabola (C. Knapp, G. Carter, IEEE Transactions on Acoustics, Speech, and Signal Processing 24, 1976).
+The lag is sought by the correlation of the first signal that both have (command, position, velocity,
+following error, torque), to a part of a row by a parabola (C. Knapp, G. Carter, IEEE Transactions on
+Acoustics, Speech, and Signal Processing 24, 1976).
 """
 
 from __future__ import annotations
@@ -34,13 +36,16 @@ MOST_ROWS = 20_000
 
 
 def read_channels(path: Path, trace: Trace) -> tuple[Series, dict[str, Series]]:
-    """Return time in s and the signals of a record that the trace has too, in its units; raises SimulationError, OSError."""
+    """Return time in s and the signals of a record that the trace has too, in its units;
+    raises SimulationError, OSError.
+    """
     name, text = text_of_name(path.name), read_table_text(path)
     places = named_columns(text, {"time": _TIME, **SIGNALS})
     known = {signal: place for signal, place in places.items() if signal in trace.columns}
     if "time" not in places or not known:
         raise SimulationError(
-            f"{name}: it needs a column of time and one of {', '.join(each for each in SIGNALS if each in trace.columns)}, with their units"
+            f"{name}: it needs a column of time and one of"
+            f" {', '.join(each for each in SIGNALS if each in trace.columns)}, with their units"
         )
     columns = read_number_table(text, [place for place, _ in (places["time"], *known.values())])
     if len(columns[0]) < LEAST_ROWS:
@@ -58,7 +63,9 @@ def read_channels(path: Path, trace: Trace) -> tuple[Series, dict[str, Series]]:
 
 
 def _factor(name: str, signal: str, unit: str, wanted: str) -> float:
-    """Return how much of the trace's unit one of the record's is; a column without a unit is in that of the trace."""
+    """Return how much of the trace's unit one of the record's is;
+    a column without a unit is in that of the trace.
+    """
     if unit in ("", wanted):
         return 1.0
     try:
@@ -73,7 +80,8 @@ def _factor(name: str, signal: str, unit: str, wanted: str) -> float:
 
 
 def laid_over(trace: Trace, path: Path) -> Trace:
-    """Return a trace with the signals of a record (``recorded_…``) and the differences (``difference_…``, record less simulation).
+    """Return a trace with the signals of a record (``recorded_…``) and the differences (``difference_…``,
+    record less simulation).
 
     Raises SimulationError for a record that does not fit, OSError where it cannot be read.
     """
@@ -93,7 +101,10 @@ def laid_over(trace: Trace, path: Path) -> Trace:
         result[f"difference_peak_{signal}"] = float(np.nanmax(np.abs(off))), unit
     if not result:
         raise SimulationError(f"{text_of_name(path.name)}: the record and the simulated move do not overlap")
-    note = f"The record was laid over the simulation by its {first.replace('_', ' ')}: 0 s of the simulation is {lag:.6g} s of the record."
+    note = (
+        f"The record was laid over the simulation by its {first.replace('_', ' ')}: 0 s of the simulation is"
+        f" {lag:.6g} s of the record."
+    )
     found = {**trace.result, "record_lag": (lag, "s"), **result}
     return replace(trace, columns=columns, units=units, result=found, assumptions=(note, *trace.assumptions))
 

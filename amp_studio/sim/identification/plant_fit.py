@@ -1,10 +1,12 @@
-"""The machine in a frequency response: acceleration, viscous friction, pairs of antiresonance and resonance, delay.
+"""The machine in a frequency response: acceleration, viscous friction, pairs of antiresonance and resonance,
+delay.
 
-The velocity for one unit of torque is A / (s + A b) times exp(-s T) times, for each pair at the motor, (s²/z² + 2 d s/z + 1) / (s²/p² +
-2 e s/p + 1), or at the load 1 over the same (a load that swings behind its motor has no antiresonance); a position has 1/s more, an acceleration s.
-The logarithm of measured by modelled response is made small: gain in Np and phase in rad weigh equally, a decade above like a decade
-below (R. Pintelon, J. Schoukens, *System Identification*, 2012, 9.11). A pair is added where the information criterion of
-G. Schwarz (Annals of Statistics 6, 1978) becomes smaller by it.
+The velocity for one unit of torque is A / (s + A b) times exp(-s T) times, for each pair at the motor, (s²/z²
++ 2 d s/z + 1) / (s²/p² + 2 e s/p + 1), or at the load 1 over the same (a load that swings behind its motor
+has no antiresonance); a position has 1/s more, an acceleration s. The logarithm of measured by modelled
+response is made small: gain in Np and phase in rad weigh equally, a decade above like a decade below (R.
+Pintelon, J. Schoukens, *System Identification*, 2012, 9.11). A pair is added where the information criterion
+of G. Schwarz (Annals of Statistics 6, 1978) becomes smaller by it.
 """
 
 from __future__ import annotations
@@ -39,7 +41,9 @@ LEAST_FIT = 0.35
 
 @dataclass(frozen=True)
 class Pair:
-    """Resonance and, at the motor, antiresonance before it, in Hz, with the damping ratio of the resonance."""
+    """Resonance and, at the motor, antiresonance before it, in Hz, with the damping ratio of the
+    resonance.
+    """
 
     resonance: float
     damping: float
@@ -48,13 +52,15 @@ class Pair:
 
 @dataclass(frozen=True, eq=False)
 class PlantFit:
-    """The machine, in the unit of the response's motion, s and Hz; each figure with its standard deviation."""
+    """The machine, in the unit of the response's motion, s and Hz; each figure with its standard
+    deviation.
+    """
 
     quantity: str
     at_load: bool
     figures: dict[str, tuple[float, float]]
-    """acceleration_per_output (u/s²), viscous_friction (torque for 1 u/s), delay (s), and of the first pair resonance (Hz),
-    damping, inertia_ratio."""
+    """acceleration_per_output (u/s²), viscous_friction (torque for 1 u/s), delay (s), and of the first pair
+    resonance (Hz), damping, inertia_ratio."""
     pairs: tuple[Pair, ...]
     model: Response
     misfit: float
@@ -110,15 +116,21 @@ def fit_plant(found: FrequencyResponse, quantity: str | None = None) -> PlantFit
     misfit = math.sqrt(fitted.cost / count / weights)
     if misfit > LEAST_FIT:
         raise SimulationError(
-            f"The response is not that of inertia, friction, resonances and a delay: on average {misfit:.2g} Np or rad are left"
+            f"The response is not that of inertia, friction, resonances and a delay: on average {misfit:.2g}"
+            " Np or rad are left"
         )
     others = [other.cost for each, other in fits if each.quantity != shape.quantity]
     sure = all(cost > WORSE * fitted.cost + 1e-9 for cost in others)
     s = _rates(found)
     return PlantFit(
-        shape.quantity, shape.at_load, _figures(shape, fitted), tuple(_pairs(shape, fitted)),
-        shape.response(fitted.parameters, s), misfit, sure,
-    )  # fmt: skip
+        shape.quantity,
+        shape.at_load,
+        _figures(shape, fitted),
+        tuple(_pairs(shape, fitted)),
+        shape.response(fitted.parameters, s),
+        misfit,
+        sure,
+    )
 
 
 def _corner(fitted: LeastSquares) -> float:

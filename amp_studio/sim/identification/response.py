@@ -1,8 +1,9 @@
 """The frequency response of an axis: read as a table, or estimated from the record of a chirp.
 
-H1 = Sxy / Sxx of torque and motion (J. Bendat, A. Piersol, *Random Data*, 2010, 6.1; P. Welch, IEEE Transactions on Audio and
-Electroacoustics 15, 1967), with its coherence. Motion is differenced to an acceleration before, which has no drift to leak from one frequency
-to the others, and the answer of the differences is taken out again exactly.
+H1 = Sxy / Sxx of torque and motion (J. Bendat, A. Piersol, *Random Data*, 2010, 6.1; P. Welch, IEEE
+Transactions on Audio and Electroacoustics 15, 1967), with its coherence. Motion is differenced to an
+acceleration before, which has no drift to leak from one frequency to the others, and the answer of the
+differences is taken out again exactly.
 """
 
 from __future__ import annotations
@@ -50,7 +51,9 @@ class FrequencyResponse:
 
     @property
     def weights(self) -> Series:
-        """The weight of each frequency: the reciprocal standard deviation of its logarithm, up to a factor."""
+        """The weight of each frequency: the reciprocal standard deviation of its logarithm, up to a
+        factor.
+        """
         if self.coherence is None:
             return np.ones(len(self.frequency))
         sure = np.clip(self.coherence, LEAST_COHERENCE, 0.9999)
@@ -66,7 +69,9 @@ def is_response(path: Path) -> bool:
 
 
 def read_response(path: Path) -> FrequencyResponse:
-    """Read frequency (Hz), gain (dB), phase (deg) and coherence; raises SimulationError with the file's name."""
+    """Read frequency (Hz), gain (dB), phase (deg) and coherence; raises SimulationError with the file's
+    name.
+    """
     try:
         return response_of_text(read_table_text(path))
     except SimulationError as error:
@@ -95,7 +100,9 @@ def response_of_text(text: str) -> FrequencyResponse:
 
 
 def _heads(text: str) -> dict[str, int]:
-    """Return what each column is, by the first line that names frequency, gain and phase; empty where none does."""
+    """Return what each column is, by the first line that names frequency, gain and phase;
+    empty where none does.
+    """
     for line in text.splitlines()[:60]:
         separator = next((sign for sign in ";\t," if sign in line), ",")
         cells = [" ".join(cell.strip().strip("\"'").casefold().split()) for cell in line.split(separator)]
@@ -110,15 +117,17 @@ def _heads(text: str) -> dict[str, int]:
 
 
 def coherent(frequency: Series, response: Response, coherence: Series | None) -> FrequencyResponse:
-    """Return the frequencies whose coherence is high enough; raises SimulationError where these are too few."""
+    """Return the frequencies whose coherence is high enough; raises SimulationError where these are too
+    few.
+    """
     used: npt.NDArray[np.bool_] = np.isfinite(response) & (np.abs(response) > 0.0)
     low = 0
     if coherence is not None:
         low = int((coherence < LEAST_COHERENCE).sum())
         if 2 * low > len(coherence):
             raise SimulationError(
-                f"The coherence is below {LEAST_COHERENCE:g} at {low} of {len(coherence)} frequencies: excite the axis more, average longer,"
-                " or keep other motion away from it"
+                f"The coherence is below {LEAST_COHERENCE:g} at {low} of {len(coherence)} frequencies: excite"
+                " the axis more, average longer, or keep other motion away from it"
             )
         used &= coherence >= LEAST_COHERENCE
     if int(used.sum()) < LEAST_POINTS:

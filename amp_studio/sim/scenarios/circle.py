@@ -1,6 +1,8 @@
-"""Scenario `circle`: two axes on a circle, as a ball-bar measures it: radius error and what every reversal leaves.
+"""Scenario `circle`: two axes on a circle, as a ball-bar measures it:
+radius error and what every reversal leaves.
 
-The circle is run with a rising feedrate for half a turn, then until what the start left has died away, then measured for one turn.
+The circle is run with a rising feedrate for half a turn, then until what the start left has died away,
+then measured for one turn.
 """
 
 from __future__ import annotations
@@ -27,7 +29,10 @@ from .sweep import DIES
 SECOND = "move.second_axis"
 SETTINGS = {
     "move.radius": "radius (mm or deg); default: 20 mm or deg, or 20000 counts",
-    "move.feedrate": "feedrate on the circle (mm/min or deg/min); default: 3000 mm/min or deg/min, at most half the rapid feedrate",
+    "move.feedrate": (
+        "feedrate on the circle (mm/min or deg/min); default: 3000 mm/min or deg/min, at most half the rapid"
+        " feedrate"
+    ),
     SECOND: "the other axis of the plane; default: the next one",
 }
 RADIUS, FEEDRATE = 20.0, 50.0
@@ -43,7 +48,9 @@ AWAY = (-6.0, 40.0)
 
 @dataclass(frozen=True)
 class _Circle:
-    """Radius in u, programmed feedrate in u/s, final rate in rad/s, time of the rise in s, whole turns until it is measured."""
+    """Radius in u, programmed feedrate in u/s, final rate in rad/s, time of the rise in s,
+    whole turns until it is measured.
+    """
 
     radius: float
     programmed: float
@@ -65,12 +72,15 @@ class _Circle:
 
 
 def run_circle(axis: AxisLaw, settings: Settings, second: AxisLaw | None = None) -> Trace:
-    """Run two axes on a circle; ``second`` None takes the same axis twice. Raises SimulationError for impossible settings."""
+    """Run two axes on a circle; ``second`` None takes the same axis twice.
+    Raises SimulationError for impossible settings.
+    """
     refuse_unknown(settings, SETTINGS)
     other = second or axis
     if other.unit != axis.unit:
         raise SimulationError(
-            f"Axis {axis.axis} moves in {axis.unit}, axis {other.axis} in {other.unit}. A circle needs two axes with the same unit",
+            f"Axis {axis.axis} moves in {axis.unit}, axis {other.axis} in {other.unit}. A circle needs two"
+            " axes with the same unit",
             SECOND,
         )
     models = (linear_model(axis), linear_model(other))
@@ -118,8 +128,8 @@ def _circle(
     turns = max(1, math.ceil(dies * rate / (2.0 * math.pi) + 0.5))
     if turns > MOST_TURNS:
         raise SimulationError(
-            f"A circle of {radius:.4g} {axis.unit} at {feedrate * 60.0:.4g} {axis.unit}/min needs more than {MOST_TURNS} turns until"
-            " the axes follow evenly. Give a larger radius or a lower feedrate",
+            f"A circle of {radius:.4g} {axis.unit} at {feedrate * 60.0:.4g} {axis.unit}/min needs more than"
+            f" {MOST_TURNS} turns until the axes follow evenly. Give a larger radius or a lower feedrate",
             "move.radius",
         )
     return _Circle(radius, programmed, rate, 2.0 * RISE / rate, turns)
@@ -132,7 +142,9 @@ def _limit(axis: AxisLaw, other: AxisLaw, radius: float) -> float | None:
 
 
 def _columns(circle: _Circle, first: Motion, second: Motion) -> dict[str, Series]:
-    """Return the measured turn by the angle at which the axes are; the whole run where they do not come so far."""
+    """Return the measured turn by the angle at which the axes are;
+    the whole run where they do not come so far.
+    """
     rows = min(len(first.columns["time_s"]), len(second.columns["time_s"]))
     one, two = ({name: column[:rows] for name, column in m.columns.items()} for m in (first, second))
     x, y = circle.radius + one["position"], two["position"]
@@ -194,14 +206,17 @@ def _figures(
 
 
 def _predicted(radius: float, first: complex, second: complex) -> float:
-    """Return the mean radius error of the ellipse that two axes make of a circle by their answers at its rate."""
+    """Return the mean radius error of the ellipse that two axes make of a circle
+    by their answers at its rate.
+    """
     turn = np.linspace(0.0, 2.0 * math.pi, PATH, endpoint=False)
     path = np.hypot((first * np.exp(1j * turn)).real, (second * np.exp(1j * turn)).imag)
     return radius * (1.0 - float(path.mean()))
 
 
 def _spike(radius: float, angle: Series, deviation: Series) -> tuple[float | None, float | None]:
-    """Return the largest departure near a reversal from the even path (offset and ellipse), and where it is in deg.
+    """Return the largest departure near a reversal from the even path (offset and ellipse),
+    and where it is in deg.
 
     1 / r² of an ellipse has harmonics 0 and 2 of the angle alone, however unequal its axes are.
     """
@@ -229,7 +244,8 @@ def _unstable(axis: AxisLaw, other: AxisLaw, models: tuple[LinearModel, LinearMo
                 Alarm(
                     "UNSTABLE",
                     0.0,
-                    f"The position loop of axis {each.axis} is not stable{by}.{' ' if each.undamped else ''}{each.undamped}",
+                    f"The position loop of axis {each.axis} is not"
+                    f" stable{by}.{' ' if each.undamped else ''}{each.undamped}",
                 ),
             )
     return ()
@@ -240,8 +256,9 @@ def _assumptions(axis: AxisLaw, other: AxisLaw, second: AxisLaw | None) -> tuple
     every = dict.fromkeys([*assumptions(axis), *assumptions(other)])
     notes = [
         (
-            "A radius error above 0 is a circle that is too small. Predicted is the linear model of both axes at this rate; the"
-            " first-order figure is v² / (2 R Kv²) of two lags of first order without feed-forward."
+            "A radius error above 0 is a circle that is too small. Predicted is the linear model of both axes"
+            " at this rate; the first-order figure is v² / (2 R Kv²) of two lags of first order without"
+            " feed-forward."
         )
     ]
     if second is None:

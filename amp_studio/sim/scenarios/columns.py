@@ -35,7 +35,9 @@ def column_units(axis: AxisLaw) -> dict[str, str]:
 def alarms_of(
     axis: AxisLaw, motion: Motion, stable: bool = True, margins: Margins | None = None
 ) -> tuple[Alarm, ...]:
-    """Return the alarm that ended a run, after those for a loop that is not stable (``margins`` are its own) and for an axis at rest."""
+    """Return the alarm that ended a run, after those for a loop that is not stable (``margins`` are its own)
+    and for an axis at rest.
+    """
     alarms = []
     if not stable or motion.stop == int(DIVERGED):
         moment = 0.0 if motion.alarm_row is None else float(motion.columns["time_s"][motion.alarm_row])
@@ -43,7 +45,8 @@ def alarms_of(
             Alarm(
                 "UNSTABLE",
                 0.0 if not stable else moment,
-                f"The loop of axis {axis.axis} is not stable{_margins(margins)}{'. ' if axis.undamped else ''}{axis.undamped}",
+                f"The loop of axis {axis.axis} is not"
+                f" stable{_margins(margins)}{'. ' if axis.undamped else ''}{axis.undamped}",
             )
         )
     alarms.extend(_standstill(axis, motion))
@@ -58,7 +61,9 @@ def alarms_of(
 
 
 def _standstill(axis: AxisLaw, motion: Motion) -> Iterator[Alarm]:
-    """Yield an alarm for an axis that friction keeps at rest although a way was commanded, longer than what counts as in position."""
+    """Yield an alarm for an axis that friction keeps at rest although a way was commanded,
+    longer than what counts as in position.
+    """
     machine, columns = axis.machine, {name: column[motion.driven] for name, column in motion.columns.items()}
     friction = max(machine.static_friction, machine.coulomb_friction)
     moved = np.flatnonzero(columns["command_velocity"])
@@ -73,8 +78,8 @@ def _standstill(axis: AxisLaw, motion: Motion) -> Iterator[Alarm]:
     yield Alarm(
         "NO MOTION",
         float(time[moved[0]]),
-        f"Axis {axis.axis} does not move: its friction at rest is {shown(friction, unit, 3)}{weight}, and the torque was at most"
-        f" {shown(peak, unit, 3)}",
+        f"Axis {axis.axis} does not move: its friction at rest is {shown(friction, unit, 3)}{weight}, and the"
+        f" torque was at most {shown(peak, unit, 3)}",
     )
 
 

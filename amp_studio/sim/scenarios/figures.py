@@ -15,14 +15,15 @@ STEADY_SPEED = 1e-3
 NOISE_COUNTS = 3.0
 """Counts between which a measured figure may go to and fro and is still steady."""
 RIPPLE, DRIFT = 0.01, 0.005
-"""Shares of a steady figure that it may go to and fro, and that it would still change if it were waited for."""
+"""Shares of a steady figure that it may go to and fro, and that it would still change if it were waited
+for."""
 
 
 def steady(series: Series, noise: float) -> float | None:
     """Return the mean of the last tenth of a series; None where it swings or still changes.
 
-    From the means of the last three tenths follows where a change that dies away geometrically would end: an axis that is
-    slow is not called steady because little happens in a tenth.
+    From the means of the last three tenths follows where a change that dies away geometrically would end: an
+    axis that is slow is not called steady because little happens in a tenth.
     """
     tenth = len(series) // 10
     if tenth < 3:
@@ -48,7 +49,8 @@ def at_servo_samples(motion: Motion, column: str) -> Series:
 def steady_at_feedrate(axis: AxisLaw, motion: Motion, feedrate: float, column: str) -> float | None:
     """Return the size of the steady mean of a column in the longest stretch at the full feedrate (u/s).
 
-    What goes to and fro around 0 has a mean of 0. None if the stretch is shorter than STEADY_LAGS time constants or the figure is not steady in it.
+    What goes to and fro around 0 has a mean of 0. None if the stretch is shorter than STEADY_LAGS time
+    constants or the figure is not steady in it.
     """
     series = at_servo_samples(motion, column)
     speed = np.abs(at_servo_samples(motion, "command_velocity"))
@@ -68,15 +70,18 @@ def steady_at_feedrate(axis: AxisLaw, motion: Motion, feedrate: float, column: s
 
 
 def settled(axis: AxisLaw, motion: Motion, target: float) -> tuple[float | None, float | None]:
-    """Return (time in s from the start, time in s from the end of the command) of reaching the target for good.
+    """Return (time in s from the start, time in s from the end of the command)
+    of reaching the target for good.
 
-    Settled is the first servo sample from which the measured position stays within the in-position band. (None, None) where
-    the command or the axis does not get there, or where the axis still swings in the end and more than it did.
+    Settled is the first servo sample from which the measured position stays within the in-position band.
+    (None, None) where the command or the axis does not get there,
+    or where the axis still swings in the end and more than it did.
     """
     if motion.stop != 0 or motion.command_end is None:
         return None, None
     time = at_servo_samples(motion, "time_s")
-    # Where the control takes the axis to be: what it adds to the command for itself (REFERENCE_LAG) is no error.
+    # Where the control takes the axis to be: what it adds to the command for itself (REFERENCE_LAG) is no
+    # error.
     off = target - at_servo_samples(motion, "command_position") + at_servo_samples(motion, "following_error")
     band = max(axis.inposition_band, axis.machine.position_count, 1e-9 * abs(target))
     outside = np.flatnonzero(np.abs(off) > band * (1.0 + 1e-9))
@@ -88,7 +93,9 @@ def settled(axis: AxisLaw, motion: Motion, target: float) -> tuple[float | None,
 
 
 def grows(series: Series, count: float) -> bool:
-    """Return whether what is left of an error swings more in its second half than in its first, by more than 3 counts."""
+    """Return whether what is left of an error swings more in its second half than in its first,
+    by more than 3 counts.
+    """
     half = len(series) // 2
     if half < 4:
         return False

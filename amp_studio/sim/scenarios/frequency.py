@@ -1,6 +1,7 @@
 """Scenario `frequency`: a sine of many frequencies on the simulated axis, beside the linear model of its law.
 
-The open loop follows from the closed one without feed-forward: T = L / (1 + L), both of the measured position.
+The open loop follows from the closed one without feed-forward: T = L / (1 + L),
+both of the measured position.
 """
 
 from __future__ import annotations
@@ -66,8 +67,8 @@ class _Swept:
 
 
 _LINEAR = (
-    "The linear model is the law at rest on the machine without dry friction, backlash, counts and limits; it is sampled as"
-    " the control samples, and its loop is cut where the position is measured."
+    "The linear model is the law at rest on the machine without dry friction, backlash, counts and limits; it"
+    " is sampled as the control samples, and its loop is cut where the position is measured."
 )
 
 
@@ -167,7 +168,9 @@ _UNITS = {"frequency_hz": "Hz"} | {
 def _measured(
     loop: _Loop, curve: Series, places: npt.NDArray[np.int64], settings: Settings
 ) -> tuple[_Swept, tuple[Alarm, ...], str]:
-    """Sweep the axis; return closed and open loop, an alarm that ended it, and how the open loop was found."""
+    """Sweep the axis; return closed and open loop, an alarm that ended it, and how the open loop was
+    found.
+    """
     axis, model = loop.axis, loop.model
     tones = tones_of(axis, model, curve[places].tolist(), above_zero(settings, "move.amplitude"))
     first = last = sweep(axis, tones)
@@ -191,11 +194,16 @@ def _measured(
 
 
 def _faster(loop: _Loop, frequencies: Series, sensed: Response) -> tuple[str, Response]:
-    """Return the swept answer of a loop in the motor's device, where the command goes to it as it is; else nothing."""
+    """Return the swept answer of a loop in the motor's device, where the command goes to it as it is;
+    else nothing.
+    """
     if np.allclose(loop.model.follows(frequencies), loop.cut.feedback(frequencies), rtol=2e-2):
         return "", sensed
     return (
-        "The open loop was not swept: the law closes it with the motor's device and delays or smooths the command before it.",
+        (
+            "The open loop was not swept: the law closes it with the motor's device and delays or smooths the"
+            " command before it."
+        ),
         np.full(len(frequencies), np.nan, dtype=np.complex128),
     )
 
@@ -221,7 +229,9 @@ def _db(response: Response) -> Series:
 
 
 def _figures(loop: _Loop, curve: Series, swept: _Swept) -> dict[str, Figure]:
-    """Return the named figures; the margins are those of the loop that is unstable, where the velocity loop is."""
+    """Return the named figures; the margins are those of the loop that is unstable,
+    where the velocity loop is.
+    """
     inside = loop.inner.margins() if loop.inner else None
     margins = loop.margins if loop.model.is_stable_inside() or inside is None else inside
     inertias = stable_inertias(loop.axis) if loop.stable else None
@@ -250,7 +260,9 @@ def _figures(loop: _Loop, curve: Series, swept: _Swept) -> dict[str, Figure]:
 
 
 def _difference(axis: AxisLaw, result: Mapping[str, Figure]) -> str:
-    """Return why the sweep has another bandwidth than the linear model; empty where both have the same one."""
+    """Return why the sweep has another bandwidth than the linear model; empty where both have the same
+    one.
+    """
     swept, model, machine = result["swept_bandwidth"][0], result["bandwidth"][0], axis.machine
     if swept is None or model is None or abs(swept / model - 1.0) < _LEAST_DIFFERENCE:
         return ""
@@ -261,8 +273,8 @@ def _difference(axis: AxisLaw, result: Mapping[str, Figure]) -> str:
     }
     present = [name for name, amount in parts.items() if amount]
     return (
-        f"The sweep has another bandwidth than the linear model ({shown(swept)} and {shown(model)} Hz): it contains"
-        f" {', '.join([*present, 'limits'])} and what the control itself does not do in proportion."
+        f"The sweep has another bandwidth than the linear model ({shown(swept)} and {shown(model)} Hz): it"
+        f" contains {', '.join([*present, 'limits'])} and what the control itself does not do in proportion."
     )
 
 
@@ -280,7 +292,10 @@ def _unstable(loop: _Loop) -> str:
         if margins.gain and margins.gain < 0.0
         else ""
     )
-    return f"The {'velocity' if inside else 'position'} loop is not stable: {grows} {double}{by}. It was not swept.{' ' if loop.axis.undamped else ''}{loop.axis.undamped}"
+    return (
+        f"The {'velocity' if inside else 'position'} loop is not stable: {grows} {double}{by}. It was not"
+        f" swept.{' ' if loop.axis.undamped else ''}{loop.axis.undamped}"
+    )
 
 
 def _falls(curve: Series, size: Series, level: float) -> float | None:

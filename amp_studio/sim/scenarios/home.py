@@ -1,4 +1,6 @@
-"""Scenario `home`: onto the switch, off it, to the marker and to the home position, as the control does it."""
+"""Scenario `home`: onto the switch, off it, to the marker and to the home position, as the control does
+it.
+"""
 
 from __future__ import annotations
 
@@ -23,28 +25,44 @@ from amp_studio.sim.trace import Alarm, Figure, Trace
 from .columns import alarms_of, column_units, per_minute
 
 SETTINGS = {
-    "move.direction": "plus or minus, where no printed parameter gives the direction; default: that of the file, or plus",
-    "move.switch": "distance from the start to the home switch (mm or deg); default: enough to reach the homing speed",
+    "move.direction": (
+        "plus or minus, where no printed parameter gives the direction; default: that of the file, or plus"
+    ),
+    "move.switch": (
+        "distance from the start to the home switch (mm or deg); default: enough to reach the homing speed"
+    ),
     "move.switch_length": "how long the switch stays on (mm or deg); default: to the end of the travel",
-    "move.marker": "distance from the end of the switch to a marker, in the direction off the switch (mm or deg), or none; default: a quarter turn",
+    "move.marker": (
+        "distance from the end of the switch to a marker, in the direction off the switch (mm or deg), or"
+        " none; default: a quarter turn"
+    ),
     "move.turn": "from one marker to the next (mm or deg); default: that of the file, or the assumed one",
     "move.dog": "stuck for a switch that never goes off; default: one that works",
-    "move.travel": "how far the axis can go from the start towards the switch (mm or deg); default: as far as the switch",
+    "move.travel": (
+        "how far the axis can go from the start towards the switch (mm or deg); default: as far as the switch"
+    ),
     "move.scale": "place of the start on a distance-coded scale (mm or deg); default: 5.3 periods",
     "move.homings": "how often the axis is homed, for the repeatability; default: 1",
-    "move.scatter": "by how much the switch comes on at another place each time, at most (mm or deg); default: 0",
+    "move.scatter": (
+        "by how much the switch comes on at another place each time, at most (mm or deg); default: 0"
+    ),
 }
 QUARTER = 0.25
 DOUBTFUL = 0.45
-"""Share of a turn between switch and nearest marker from which a sample more or less may take another marker."""
+"""Share of a turn between switch and nearest marker from which a sample more or less may take another
+marker."""
 MOST_TURNS = 100.0
 """Turns from the switch to the marker that is given."""
 MOST_HOMINGS = 100
 ON_SCALE = 5.3
 """Periods of a coded scale from its zero to the start."""
 GOLDEN = 0.6180339887498949
-"""Shares of the scatter come evenly: the multiples of the golden ratio without their whole part (van der Corput's idea)."""
-SEEN = "ASSUMED: switch and marker are seen at the servo sample after they change; logic and input filters, which no manual here times, come later."
+"""Shares of the scatter come evenly: the multiples of the golden ratio without their whole part (van der
+Corput's idea)."""
+SEEN = (
+    "ASSUMED: switch and marker are seen at the servo sample after they change; logic and input filters,"
+    " which no manual here times, come later."
+)
 
 
 def run_home(axis: AxisLaw, settings: Settings) -> Trace:
@@ -102,7 +120,9 @@ def _turned(homing: Homing, settings: Settings) -> Homing:
 
 
 def _around(axis: AxisLaw, homing: Homing, ramp: Ramp, settings: Settings) -> Around:
-    """Return where switch, markers and the end of the way are, from the start; raises SimulationError for impossible ones."""
+    """Return where switch, markers and the end of the way are, from the start;
+    raises SimulationError for impossible ones.
+    """
     length, travel = above_zero(settings, "move.switch_length"), above_zero(settings, "move.travel")
     given, has_markers = _marker(axis, homing, settings)
     if settings.get("move.dog") not in (None, "stuck"):
@@ -140,7 +160,8 @@ def _marker(axis: AxisLaw, homing: Homing, settings: Settings) -> tuple[float | 
     given = number(settings, "move.marker")
     if given is not None and abs(given) > MOST_TURNS * homing.turn:
         raise SimulationError(
-            f"move.marker is {given:g}; give the distance to a marker near the switch, a turn is {shown(homing.turn, axis.unit)}",
+            f"move.marker is {given:g}; give the distance to a marker near the switch, a turn is"
+            f" {shown(homing.turn, axis.unit)}",
             "move.marker",
         )
     return given, True
@@ -156,7 +177,9 @@ def _on_scale(homing: Homing, settings: Settings) -> float:
 
 
 def _scattered(around: Around, homing: Homing, settings: Settings) -> list[Around]:
-    """Return what is around the axis at the further homings: the switch at another place within its scatter."""
+    """Return what is around the axis at the further homings: the switch at another place within its
+    scatter.
+    """
     times, scatter = number(settings, "move.homings") or 1.0, number(settings, "move.scatter") or 0.0
     if not (times == int(times) and 1 <= times <= MOST_HOMINGS):
         raise SimulationError(
@@ -171,7 +194,9 @@ def _scattered(around: Around, homing: Homing, settings: Settings) -> list[Aroun
 
 
 def _compare(homing: Homing, found: Homed, others: Sequence[Homed]) -> None:
-    """Have the control compare the turn between switch and marker with that of the first homing, where it does."""
+    """Have the control compare the turn between switch and marker with that of the first homing,
+    where it does.
+    """
     failure, first = homing.failures.get("scatter"), _grid(homing, found)
     for other in others:
         again = _grid(homing, other)
@@ -194,13 +219,14 @@ def _doubts(axis: AxisLaw, homing: Homing, around: Around, found: Homed) -> list
         away = abs(found.marker - found.left.measured) / homing.turn
         if away > DOUBTFUL:
             notes.append(
-                f"The marker is {shown(away, digits=2)} turns from where the switch goes off: half a turn away it may be another one each time"
-                f" (page {homing.page}). Move the switch or the encoder."
+                f"The marker is {shown(away, digits=2)} turns from where the switch goes off: half a turn"
+                f" away it may be another one each time (page {homing.page}). Move the switch or the encoder."
             )
     if found.overrun is not None and found.overrun > around.length and not found.alarm:
         notes.append(
-            f"ASSUMED: the axis runs {shown(found.overrun, axis.unit)} over a switch of {shown(around.length, axis.unit)}, stops behind it and comes back over it; the"
-            " control waits until it goes off again."
+            f"ASSUMED: the axis runs {shown(found.overrun, axis.unit)} over a switch of"
+            f" {shown(around.length, axis.unit)}, stops behind it and comes back over it; the control waits"
+            " until it goes off again."
         )
     return notes
 

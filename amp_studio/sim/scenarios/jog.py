@@ -68,7 +68,9 @@ def run_jog(axis: AxisLaw, settings: Settings) -> Trace:
 
 
 def _pressed(speed: float, hold: float, up: float, down: float) -> float:
-    """Return how far a straight ramp takes an axis whose button is pressed for ``hold`` s; lower than ``speed`` for a short one."""
+    """Return how far a straight ramp takes an axis whose button is pressed for ``hold`` s;
+    lower than ``speed`` for a short one.
+    """
     reached = min(speed, up * hold)
     return reached * hold - 0.5 * reached * reached / up + 0.5 * reached * reached / down
 

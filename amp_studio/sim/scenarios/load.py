@@ -1,7 +1,8 @@
-"""Scenario `load`: a torque comes at once on the load of an axis at rest, stays, and goes; then the same from the other side.
+"""Scenario `load`: a torque comes at once on the load of an axis at rest, stays, and goes;
+then the same from the other side.
 
-What a machine is judged by at the tool: how far the load moves, how long the control takes to bring it back, and what is left between both
-sides when nothing pushes any more.
+What a machine is judged by at the tool: how far the load moves, how long the control takes to bring it back,
+and what is left between both sides when nothing pushes any more.
 """
 
 from __future__ import annotations
@@ -26,7 +27,9 @@ from .figures import stability
 SETTINGS = {
     "move.load": "torque on the load (torque); default: a tenth of the range of the output",
     "move.duration": "time with the torque, and as long without it (s); default: as the loop needs",
-    "move.force_per_torque": "force at the load for one unit of torque (N); with it the stiffness is in µm/N too",
+    "move.force_per_torque": (
+        "force at the load for one unit of torque (N); with it the stiffness is in µm/N too"
+    ),
 }
 SHARE = 0.1
 """Share of the range of the output that the torque has when none is given."""
@@ -64,7 +67,9 @@ class Loaded:
         return abs(_end(self.ways[2]) - _end(self.ways[4]))
 
     def recovery(self, band: float) -> float | None:
-        """Return the time in s until the load is back within ``band`` u for good; None where it is not by the end of the torque."""
+        """Return the time in s until the load is back within ``band`` u for good;
+        None where it is not by the end of the torque.
+        """
         outside = np.flatnonzero(np.abs(self.ways[1]) > band)
         after = int(outside[-1]) + 1 if outside.size else 0
         return float(self.times[1][after]) if after < self.times[1].size else None
@@ -104,8 +109,8 @@ def run_load(axis: AxisLaw, settings: Settings) -> Trace:
 
 
 NOTE = (
-    "Stiffness is the largest way of the load for one unit of torque: a smaller figure is a stiffer axis. The torque acts on the load; dry"
-    " friction takes its part of it."
+    "Stiffness is the largest way of the load for one unit of torque: a smaller figure is a stiffer axis. The"
+    " torque acts on the load; dry friction takes its part of it."
 )
 
 
@@ -132,8 +137,7 @@ def _loaded(motion: Motion, lasts: float) -> Loaded:
     parts = [(time >= n * lasts - 1e-9) & (time < (n + 1) * lasts - 1e-9) for n in range(len(PHASES))]
     rest = _end(position[parts[0]])
     return Loaded(
-        [position[part] - rest for part in parts],
-        [time[part] - n * lasts for n, part in enumerate(parts)],
+        [position[part] - rest for part in parts], [time[part] - n * lasts for n, part in enumerate(parts)]
     )
 
 

@@ -22,7 +22,9 @@ from amp_studio.sim.zones import Zone
 SETTINGS = {
     "move.start": "where the axes start, a figure for each (mm or deg); default: 0 for each",
     "move.to": "where they are sent, a figure for each (mm or deg)",
-    "move.feedrate": "feedrate along the way (mm/min or deg/min); default: the lowest rapid feedrate of the axes",
+    "move.feedrate": (
+        "feedrate along the way (mm/min or deg/min); default: the lowest rapid feedrate of the axes"
+    ),
     "move.zone": "zones that are switched on, by their numbers, or none; default: those of power-up",
     "move.mode": "jog or program; default: jog",
 }
@@ -31,12 +33,17 @@ MOST_PERIODS = 50
 """Servo samples between two looks at the zones, far from their edges."""
 WAIT = 20.0
 """s at most after the command."""
-BY_LINE = "ASSUMED: the axes go in a straight line, each with its share of speed and ramp, and are checked once in a servo sample, on the measured positions."
+BY_LINE = (
+    "ASSUMED: the axes go in a straight line, each with its share of speed and ramp, and are checked once in"
+    " a servo sample, on the measured positions."
+)
 AT_ONCE = "ASSUMED: the command of every axis stops at once where no stop is printed."
 
 
 def run_plane(machine: BoundMachine, settings: Settings) -> Trace:
-    """Send several axes along a line; raises SimulationError for a point that is none or not allowed at the start."""
+    """Send several axes along a line; raises SimulationError for a point that is none
+    or not allowed at the start.
+    """
     refuse_unknown(settings, SETTINGS)
     axes = {name: machine.bind(name, {}) for name in machine.chosen}
     if len({axis.unit for axis in axes.values()}) > 1:
@@ -80,7 +87,9 @@ def _point(settings: Settings, name: str, axes: Mapping[str, AxisLaw]) -> AxisPo
 
 
 def _active(machine: BoundMachine, axes: Mapping[str, AxisLaw], settings: Settings) -> list[Zone]:
-    """Return the limits of the axes and the zones that are on; raises SimulationError for one that is not set."""
+    """Return the limits of the axes and the zones that are on;
+    raises SimulationError for one that is not set.
+    """
     found = list(_limits(machine, axes))
     zones = tuple(machine.law.zones(machine, tuple(axes))) if machine.law.zones else ()
     wanted = settings.get("move.zone")
@@ -165,7 +174,10 @@ def _travelled(
     alarms = []
     if first is not None and refused:
         code = first[1].reads_ahead or first[1].code
-        text = f"The way would break {first[1].name} after {shown(first[0] * far, _unit(axes))}: the block is not begun (page {first[1].page})"
+        text = (
+            f"The way would break {first[1].name} after {shown(first[0] * far, _unit(axes))}: the block is"
+            f" not begun (page {first[1].page})"
+        )
         alarms.append(Alarm(code, 0.0, text))
     elif hit is not None:
         zone, moment = hit
@@ -191,7 +203,8 @@ def _travelled(
         {machine.letter(axis) or axis for zone in zones for axis in zone.sides if axis not in axes}
     ):
         notes[
-            f"ASSUMED: {', '.join(open_axes)} is where the zones are: give it with --axis to have its place checked."
+            f"ASSUMED: {', '.join(open_axes)} is where the zones are: give it with --axis to have its place"
+            " checked."
         ] = None
     return Trace(
         scenario="travel",
@@ -255,9 +268,11 @@ def _moved(
         periods = (
             1
             if hit
-            else max(1, min(MOST_PERIODS, int(0.5 * room / (feed * period))))
-            if math.isfinite(room)
-            else MOST_PERIODS
+            else (
+                max(1, min(MOST_PERIODS, int(0.5 * room / (feed * period))))
+                if math.isfinite(room)
+                else MOST_PERIODS
+            )
         )
         for course in courses.values():
             course.advance(periods * period)

@@ -1,4 +1,6 @@
-"""Scenario `probe`: a probe or a registration mark met at a speed: the position that is taken, how far it is wrong, and the overrun."""
+"""Scenario `probe`: a probe or a registration mark met at a speed: the position that is taken,
+how far it is wrong, and the overrun.
+"""
 
 from __future__ import annotations
 
@@ -16,10 +18,16 @@ from amp_studio.sim.trace import Alarm, Figure, Trace
 from .columns import alarms_of, column_units, per_minute
 
 SETTINGS = {
-    "move.speed": "speed at which the probe is met (mm/min or deg/min); --speed is the same; default: that of the file",
+    "move.speed": (
+        "speed at which the probe is met (mm/min or deg/min); --speed is the same; default: that of the file"
+    ),
     "move.cycle": "which cycle of the control, as G31 or G38; default: the first one",
-    "move.expected": "where the signal is expected, from the start (mm or deg); default: far enough to reach the speed",
-    "move.touch": "where the probe is met, from the start (mm or deg), or none; default: where it is expected",
+    "move.expected": (
+        "where the signal is expected, from the start (mm or deg); default: far enough to reach the speed"
+    ),
+    "move.touch": (
+        "where the probe is met, from the start (mm or deg), or none; default: where it is expected"
+    ),
     "move.latency": "from the signal to the position that is taken (s); default: that of the control",
     "move.overtravel": "how far the probe can be pushed over (mm or deg); default: not checked",
 }

@@ -1,4 +1,6 @@
-"""Scenario `spindle`: what an S word makes of a spindle: its gear, the output, the ramp, the watch of its speed, and an orient."""
+"""Scenario `spindle`: what an S word makes of a spindle: its gear, the output, the ramp,
+the watch of its speed, and an orient.
+"""
 
 from __future__ import annotations
 
@@ -16,7 +18,10 @@ from amp_studio.sim.spindle import Gear, Orient, SpeedWatch, Spindle
 from amp_studio.sim.trace import Alarm, Figure, Trace
 
 SETTINGS = {
-    "move.speed": "programmed speed with its sign, minus for M4 (rpm), or highest; S1500 behind the scenario is the same",
+    "move.speed": (
+        "programmed speed with its sign, minus for M4 (rpm), or highest; S1500 behind the scenario is the"
+        " same"
+    ),
     "move.spindle": "which spindle, by its number; default: the first",
     "move.gear": "the gear it is in, or the range that is programmed; default: none",
     "move.from": "speed before (rpm); default: 0",
@@ -37,7 +42,10 @@ AFTER = 5.0
 LONGEST = 600.0
 """s of a ramp that are simulated."""
 HALF_TURN = 180.0
-LAG = "ASSUMED: the drive follows its command as a lag of {0}; nothing of the drive or the inertia of the spindle is in the file (move.drive_time)."
+LAG = (
+    "ASSUMED: the drive follows its command as a lag of {0}; nothing of the drive or the inertia of the"
+    " spindle is in the file (move.drive_time)."
+)
 
 
 def run_spindle(machine: BoundMachine, settings: Settings) -> Trace:
@@ -120,7 +128,8 @@ def _geared(spindle: Spindle, settings: Settings, speed: float) -> tuple[Gear | 
         gear = spindle.gears[0]
         if not gear.low <= abs(speed) <= gear.high and speed != 0.0:
             notes.append(
-                f"{shown(abs(speed), 'rpm')} is outside of {shown(gear.low, 'rpm')} to {shown(gear.high, 'rpm')}: the nearest end is used (page {spindle.page})."
+                f"{shown(abs(speed), 'rpm')} is outside of {shown(gear.low, 'rpm')} to"
+                f" {shown(gear.high, 'rpm')}: the nearest end is used (page {spindle.page})."
             )
         return gear, notes, []
     found: Gear | None
@@ -146,7 +155,9 @@ def ramp_time(before: float, after: float, gear: Gear) -> float:
 
 
 def ramp(before: float, after: float, gear: Gear, iteration: float) -> Callable[[Series], Series]:
-    """Return the commanded speed over time: a straight ramp, in steps of an iteration where the control makes them."""
+    """Return the commanded speed over time: a straight ramp,
+    in steps of an iteration where the control makes them.
+    """
     lasts = ramp_time(before, after, gear)
 
     def course(time: Series) -> Series:
@@ -177,7 +188,9 @@ def _watched(
     columns: dict[str, Series],
     units: dict[str, str],
 ) -> dict[str, Figure]:
-    """Add the expected speed to the columns; returns for how long the flag is set, and the band at the end."""
+    """Add the expected speed to the columns; returns for how long the flag is set, and the band at the
+    end.
+    """
     share = np.clip(time / watch.time, 0.0, 1.0) if watch.time else np.ones_like(time)
     expected = before + (after - before) * share
     columns["expected_speed"], units["expected_speed"] = expected, "rpm"
@@ -226,12 +239,17 @@ def _oriented(spindle: Spindle, settings: Settings) -> Trace:
     time, position, velocity, done = rows
     end = at + way
     notes.append(
-        f"Before the marker is known the direction is that of the file, then the marker and its calibration are passed (page {orient.page})."
+        "Before the marker is known the direction is that of the file, then the marker and its calibration"
+        f" are passed (page {orient.page})."
         if unknown == "unknown"
-        else f"A spindle that turns goes on in its direction, one at rest the shortest way (page {orient.page})."
+        else (
+            "A spindle that turns goes on in its direction, one at rest the shortest way (page"
+            f" {orient.page})."
+        )
     )
     notes.append(
-        "ASSUMED: the marker is where the angle is 0; at the end the position loop is a first-order lag of its gain, without the lag of the drive."
+        "ASSUMED: the marker is where the angle is 0; at the end the position loop is a first-order lag of"
+        " its gain, without the lag of the drive."
     )
     result: dict[str, Figure] = {
         "orient_angle": (angle % 360.0, "deg"),
@@ -285,7 +303,9 @@ def _approach(
     *,
     turning: bool,
 ) -> tuple[Series, Series, Series, float]:
-    """Return time, angle, speed, and when the spindle is oriented: a ramp, an even way, and the loop that ends it."""
+    """Return time, angle, speed, and when the spindle is oriented: a ramp, an even way,
+    and the loop that ends it.
+    """
     rate = orient.speed * 6.0  # deg/s
     loop = rate / gear.gain  # deg: where the position loop gives the orient speed
     goes = math.copysign(1.0, way) if way else sign

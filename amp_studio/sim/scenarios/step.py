@@ -22,8 +22,9 @@ from .figures import settled, stability, steady_at_feedrate
 COAST = 2.0
 """s in which an axis is watched after an alarm."""
 RUN_OUT = (
-    "ASSUMED: after an alarm the drive gets 0. A torque drive lets the axis run out against its friction and the brake"
-    " (model.brake), a velocity drive brakes it by its own loop; dynamic braking is in no manual here."
+    "ASSUMED: after an alarm the drive gets 0. A torque drive lets the axis run out against its friction and"
+    " the brake (model.brake), a velocity drive brakes it by its own loop; dynamic braking is in no manual"
+    " here."
 )
 
 
@@ -90,7 +91,9 @@ def _figures(axis: AxisLaw, motion: Motion, moved: Move, stable: bool) -> dict[s
 
 
 def _at_limit(axis: AxisLaw, torque: Series) -> float | None:
-    """Return the share of the move in % in which the torque is at its limit; None without a limit in the machine."""
+    """Return the share of the move in % in which the torque is at its limit;
+    None without a limit in the machine.
+    """
     machine = axis.machine
     limits = [machine.torque_limit_positive, machine.torque_limit_negative]
     if machine.velocity_per_output == 0.0:

@@ -1,7 +1,7 @@
 """A stepped sine on the simulated axis: amplitude and phase of its position at one frequency after the other.
 
-At each frequency the axis follows a sine until what the start left has died away; then amplitude and phase are taken from whole
-cycles by least squares (R. Pintelon, J. Schoukens, System Identification, 2012).
+At each frequency the axis follows a sine until what the start left has died away; then amplitude and phase
+are taken from whole cycles by least squares (R. Pintelon, J. Schoukens, System Identification, 2012).
 """
 
 from __future__ import annotations
@@ -60,7 +60,8 @@ class Sweep:
 def tones_of(
     axis: AxisLaw, model: LinearModel, frequencies: Sequence[float], amplitude: float | None
 ) -> list[Tone]:
-    """Return the tones of a sweep one after the other; each lasts whole cycles. ``amplitude`` in u, None for a fitting one.
+    """Return the tones of a sweep one after the other; each lasts whole cycles. ``amplitude`` in u,
+    None for a fitting one.
 
     Raises SimulationError where the sweep would take too long.
     """
@@ -76,14 +77,17 @@ def tones_of(
         start = end
     if start > LONGEST:
         raise SimulationError(
-            f"The sweep takes {start:.6g} s of the axis; {LONGEST:.0f} s are simulated at most. Raise move.lowest",
+            f"The sweep takes {start:.6g} s of the axis; {LONGEST:.0f} s are simulated at most. Raise"
+            " move.lowest",
             "move.lowest",
         )
     return tones
 
 
 def _amplitude(axis: AxisLaw, model: LinearModel, frequency: float) -> float:
-    """Return an amplitude in u within a quarter of feedrate, torque and limits, and above 50 counts where it can be."""
+    """Return an amplitude in u within a quarter of feedrate, torque and limits,
+    and above 50 counts where it can be.
+    """
     rate, machine = 2.0 * math.pi * frequency, axis.machine
     answer = complex(model.follows(np.array([frequency]))[0])
     follows, error = max(abs(answer), 1e-3), max(abs(1.0 - answer), 1e-3)

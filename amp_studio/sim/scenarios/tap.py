@@ -1,4 +1,6 @@
-"""Scenario `tap`: solid tapping to a depth and back: how far the axis is from the thread that the spindle makes, worst at the reversal."""
+"""Scenario `tap`: solid tapping to a depth and back:
+how far the axis is from the thread that the spindle makes, worst at the reversal.
+"""
 
 from __future__ import annotations
 
@@ -40,8 +42,14 @@ NEAR = 0.25
 SETTLE = 8.0
 """Time constants of the position loop after the command."""
 LAGS = 3.0
-DRIVEN = "ASSUMED: the spindle follows its command by a position loop of {0} and a drive with a lag of {1}; nothing of the drive is in the file (move.drive_time)."
-LED = "ASSUMED: the spindle goes along its ramp exactly, and the axis follows its measured angle; the torque of the cut is left out."
+DRIVEN = (
+    "ASSUMED: the spindle follows its command by a position loop of {0} and a drive with a lag of {1};"
+    " nothing of the drive is in the file (move.drive_time)."
+)
+LED = (
+    "ASSUMED: the spindle goes along its ramp exactly, and the axis follows its measured angle; the torque of"
+    " the cut is left out."
+)
 
 
 def run_tap(machine: BoundMachine, settings: Settings) -> Trace:
@@ -118,7 +126,10 @@ def _tapped(
     deepest = float(np.max(-position))
     alarms = alarms_of(axis, motion)
     if asked > tapping.speed:
-        text = f"{shown(asked, 'rpm')} is above the highest tapping speed of gear {gear.name}, {shown(tapping.speed, 'rpm')} (page {tapping.page})"
+        text = (
+            f"{shown(asked, 'rpm')} is above the highest tapping speed of gear {gear.name},"
+            f" {shown(tapping.speed, 'rpm')} (page {tapping.page})"
+        )
         alarms = (Alarm("TAPPING SPEED", 0.0, text), *alarms)
     result: dict[str, Figure] = {
         "reversal_error": (abs(float(error[at])), axis.unit),
@@ -167,7 +178,9 @@ def _there_and_back(there: list[Piece], depth: float) -> list[float]:
 
 
 def _followed(time: Series, command: Series, tapping: Tapping, lag: float) -> Series:
-    """Return where the thread is by the angle of a spindle that follows a command: position loop, then the lag of its drive."""
+    """Return where the thread is by the angle of a spindle that follows a command: position loop,
+    then the lag of its drive.
+    """
     step = float(time[1] - time[0])
     share = 1.0 - math.exp(-step / lag)
     rate = np.gradient(command, step) * tapping.forward

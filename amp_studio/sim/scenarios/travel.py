@@ -25,7 +25,10 @@ from .plane import run_plane
 from .step import COAST, RUN_OUT
 
 SETTINGS = {
-    "move.start": "where the axis starts in the coordinates of the machine (mm or deg); default: as near to the limit as it reaches its speed",
+    "move.start": (
+        "where the axis starts in the coordinates of the machine (mm or deg); default: as near to the limit"
+        " as it reaches its speed"
+    ),
     "move.zone": "a programmable zone that is on, by its number; default: the limits of the travel alone",
     "move.direction": "plus or minus; default: plus",
     "move.feedrate": "feedrate against the limit (mm/min or deg/min); default: the rapid feedrate",
@@ -145,7 +148,9 @@ def run_travel(axis: AxisLaw, settings: Settings) -> Trace:
 def _slowed(
     travel: Travel, settings: Settings, sign: float, start: float, edge: float
 ) -> tuple[float, float] | None:
-    """Return where an external deceleration is requested, and the feedrate behind it in u/s; None where nothing requests it."""
+    """Return where an external deceleration is requested, and the feedrate behind it in u/s;
+    None where nothing requests it.
+    """
     place = number(settings, "move.slow_from")
     if place is None:
         return None
@@ -170,7 +175,10 @@ def _hit(axis: AxisLaw, hard: float | None, sign: float, columns: dict[str, Seri
         return ()
     at = int(beyond[0])
     speed = shown(abs(float(columns["velocity"][at])), f"{axis.unit}/min")
-    text = f"The axis meets its hard stop at {shown(hard, axis.unit)} with {speed}: move the limit away from it, or slow down before it"
+    text = (
+        f"The axis meets its hard stop at {shown(hard, axis.unit)} with {speed}: move the limit away from it,"
+        " or slow down before it"
+    )
     return (Alarm("HARD STOP", float(columns["time_s"][at]), text),)
 
 

@@ -1,6 +1,8 @@
-"""Scenario `tune`: the gains of an axis for an aim in a word, by the one solver; what they give, before and after.
+"""Scenario `tune`: the gains of an axis for an aim in a word, by the one solver; what they give,
+before and after.
 
-The picture is a load of one unit of torque that comes at once, by the linear model with the present and with the new gains.
+The picture is a load of one unit of torque that comes at once,
+by the linear model with the present and with the new gains.
 """
 
 from __future__ import annotations
@@ -129,7 +131,8 @@ def _notes(solved: Solved, slowest: float, others: Sequence[Trial]) -> list[str]
         names = ", ".join(other.axis.axis for other in others)
         said.append(f"The position gain is the one that all axes of the contour can have ({names}).")
     said.append(
-        "Stiffness is the largest way of the load for one unit of torque that comes at once; a smaller figure is a stiffer axis."
+        "Stiffness is the largest way of the load for one unit of torque that comes at once; a smaller figure"
+        " is a stiffer axis."
     )
     return said
 

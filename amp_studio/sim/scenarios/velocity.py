@@ -1,6 +1,7 @@
 """Scenario `velocity`: a step of the velocity command on the velocity loop alone, and back to rest.
 
-The tuning procedures of the manuals look at this: rise, overshoot, and whether the axis swings at speed or at rest.
+The tuning procedures of the manuals look at this: rise, overshoot,
+and whether the axis swings at speed or at rest.
 """
 
 from __future__ import annotations

@@ -1,8 +1,8 @@
 """Recommendations: one parameter, its value, the reason and the price, from the one solver (`solver.py`).
 
-A scenario that shows how an axis is damped recommends gains where it is not sound, and raises none while figures of the machine are
-assumed, unless nothing else makes it sound: that is a person's choice, and the recommendation names it as one. `tune` is asked by a
-person and recommends whatever its aim asks for.
+A scenario that shows how an axis is damped recommends gains where it is not sound, and raises none while
+figures of the machine are assumed, unless nothing else makes it sound: that is a person's choice, and the
+recommendation names it as one. `tune` is asked by a person and recommends whatever its aim asks for.
 """
 
 from __future__ import annotations
@@ -29,8 +29,8 @@ HALVINGS = 5
 SHOWN_BY = ("frequency", "velocity")
 """Scenarios that are about the loops: their results have the gains of the solver."""
 CHATTER = (
-    "Inside of its backlash the motor moves without its load, and this loop is too fast for the motor alone: it is not stable there,"
-    " and chatters to and fro in the gap."
+    "Inside of its backlash the motor moves without its load, and this loop is too fast for the motor alone:"
+    " it is not stable there, and chatters to and fro in the gap."
 )
 NONE_SOUND = "No gains within their bounds make it sound on this machine."
 ASK_TUNE = "The scenario tune finds gains."
@@ -55,7 +55,9 @@ def recommendations(
 
 
 def sounder(trial: Tried) -> Solved:
-    """Return gains for an axis that is not sound; on an assumed machine without raising one, where raising them keeps no more of the aim."""
+    """Return gains for an axis that is not sound; on an assumed machine without raising one,
+    where raising them keeps no more of the aim.
+    """
     if not trial.axis.assumed:
         return solve(trial, NORMAL)
     kept = solve(trial, NORMAL, raising=False)
@@ -131,7 +133,10 @@ def why_not_sound(loops: Loops) -> str:
             return f"The velocity loop is not stable: {margins_text(loops.inner.margins)}"
         ratio = loops.axis.machine.inertia_ratio
         load = f" with a load of {shown(ratio, digits=3)} times the inertia of the motor" if ratio else ""
-        return f"The velocity loop has too little margin{load}: {_with_ms(loops.inner.margins, loops.inner.sensitivity)}"
+        return (
+            f"The velocity loop has too little margin{load}:"
+            f" {_with_ms(loops.inner.margins, loops.inner.sensitivity)}"
+        )
     if not loops.stable:
         return f"The position loop is not stable: {margins_text(loops.outer.margins)}"
     return (
@@ -165,7 +170,8 @@ def margins_text(margins: Margins) -> str:
 
 
 def stable_inertias(axis: AxisLaw) -> tuple[float, float] | None:
-    """Return between which shares of its total inertia a stable axis stays stable, within INERTIAS; None where it does not
+    """Return between which shares of its total inertia a stable axis stays stable, within INERTIAS; None
+    where it does not
     matter: a drive with a velocity loop is taken to fit its load.
     """
     if axis.machine.velocity_per_output > 0.0:
@@ -193,7 +199,9 @@ def _with_inertia(axis: AxisLaw, inertia: float) -> LinearModel:
 
 
 def chatters_in_gap(axis: AxisLaw) -> bool:
-    """Return whether a motor without its load, as it is inside of the backlash, is in a loop that is not stable."""
+    """Return whether a motor without its load, as it is inside of the backlash,
+    is in a loop that is not stable.
+    """
     machine = axis.machine
     if machine.backlash == 0.0 or machine.velocity_per_output > 0.0:
         return False

@@ -1,4 +1,6 @@
-"""What an axis is tuned for, in a word and in numbers. The numbers are choices of this program; each result names them."""
+"""What an axis is tuned for, in a word and in numbers. The numbers are choices of this program;
+each result names them.
+"""
 
 from __future__ import annotations
 
@@ -26,8 +28,9 @@ class Aim:
         """Return it as words."""
         equal = "; the position gain is that of the slowest axis" if self.equal else ""
         return (
-            f"{self.title}: {self.need.text()}; with 0.5 to 2 times the inertia and 0 to 2 times the friction {self.spread.text()};"
-            f" a count of the feedback moves the output by up to {100.0 * self.jolt:g} % of its range{equal}."
+            f"{self.title}: {self.need.text()}; with 0.5 to 2 times the inertia and 0 to 2 times the friction"
+            f" {self.spread.text()}; a count of the feedback moves the output by up to {100.0 * self.jolt:g}"
+            f" % of its range{equal}."
         )
 
 

@@ -1,7 +1,8 @@
 """The linear model of an axis, sampled as its control samples it: margins, bandwidth and poles.
 
-The law is not written twice: its own sample functions are differentiated at rest, where a linear function is zero, so that the
-differences are exact to rounding. The position loop is cut where the control measures the position, with every inner loop closed.
+The law is not written twice: its own sample functions are differentiated at rest, where a linear function is
+zero, so that the differences are exact to rounding. The position loop is cut where the control measures the
+position, with every inner loop closed.
 """
 
 from __future__ import annotations
@@ -82,11 +83,15 @@ class LinearModel(SampledLoop):
         return values.astype(np.complex128), vectors.astype(np.complex128)
 
     def is_stable_inside(self) -> bool:
-        """Return whether the loop is stable where it is cut: what is inside of it does not run away by itself."""
+        """Return whether the loop is stable where it is cut:
+        what is inside of it does not run away by itself.
+        """
         return bool(np.all(np.abs(np.linalg.eigvals(self.open)) < 1.0 + 1e-7))
 
     def is_stable(self, *, drift: bool = False) -> bool:
-        """Return whether every motion of the closed loop dies away; with ``drift`` a position may stay where it is."""
+        """Return whether every motion of the closed loop dies away;
+        with ``drift`` a position may stay where it is.
+        """
         return bool(np.all(np.abs(self.poles()) < (1.0 + 1e-7 if drift else 1.0 - 1e-9)))
 
     def loop(self, frequencies: Matrix) -> Response:
@@ -124,20 +129,25 @@ class LinearModel(SampledLoop):
         return _around(found, self.period, points, CLOSE if points >= _POINTS else CLOSE // 4)
 
     def margins(self, points: int = _POINTS) -> Margins:
-        """Return the least phase and gain margin of the loop, sought on a grid of ``points`` frequencies and more at poles."""
+        """Return the least phase and gain margin of the loop,
+        sought on a grid of ``points`` frequencies and more at poles.
+        """
         grid = self.grid(points)
         halvings = HALVINGS if points >= _POINTS else COARSE
         size = _crossings(lambda f: np.log(np.abs(self.loop(f)) + _NOTHING), grid, halvings)
         phase = _least([(_phase_margin(self._at(f)), f) for f in size])
         real = _crossings(lambda f: self.loop(f).imag, grid, halvings)
-        gains = [(-20.0 * math.log10(abs(at)), f) for f in [*real, self.nyquist] if (at := self._at(f)).real < 0.0
-                 and abs(at.imag) < 1e-3 * abs(at)]  # fmt: skip
+        gains = [
+            (-20.0 * math.log10(abs(at)), f)
+            for f in [*real, self.nyquist]
+            if (at := self._at(f)).real < 0.0 and abs(at.imag) < 1e-3 * abs(at)
+        ]
         gain = _least(gains)
         return Margins(*phase, *gain)
 
     def sensitivity(self) -> tuple[float, float]:
-        """Return Ms, the largest size of the sensitivity 1 / (1 + L), and its frequency in Hz: 1 / Ms is the least distance of the
-        Nyquist curve from -1.
+        """Return Ms, the largest size of the sensitivity 1 / (1 + L), and its frequency in Hz: 1 / Ms is the
+        least distance of the Nyquist curve from -1.
         """
         grid = self.grid()
         for _ in range(2):
@@ -150,7 +160,9 @@ class LinearModel(SampledLoop):
         return float(size[most]), float(grid[most])
 
     def quick(self, points: int) -> tuple[Margins, float]:
-        """Return margins and Ms by straight lines between ``points`` frequencies: within half a percent, for values that are tried."""
+        """Return margins and Ms by straight lines between ``points`` frequencies: within half a percent,
+        for values that are tried.
+        """
         grid = _around(self.poles(), self.period, points, CLOSE // 4)
         loop = self.loop(grid)
         size, angle = np.log(np.abs(loop) + _NOTHING), np.angle(loop)
@@ -170,8 +182,8 @@ class LinearModel(SampledLoop):
         return Margins(*phase, *_least(found)), float(np.max(1.0 / np.abs(1.0 + loop)))
 
     def yields(self, window: float, longest: float = LONGEST_STEP) -> tuple[float, float]:
-        """Return the largest way of the load for one unit of torque that comes at once and stays, and its mean in the first ``window`` s;
-        infinite for an axis that does not come to rest within ``longest`` s.
+        """Return the largest way of the load for one unit of torque that comes at once and stays, and its
+        mean in the first ``window`` s; infinite for an axis that does not come to rest within ``longest`` s.
         """
         slowest = float(np.max(np.abs(self._poles), initial=0.0))
         if slowest >= 1.0 - 1e-12:
@@ -185,7 +197,9 @@ class LinearModel(SampledLoop):
         return max(float(way.max()), abs(stays)), float(way[: max(1, round(window / self.period))].mean())
 
     def pushed_way(self, steps: int) -> Matrix:
-        """Return the position of the load at so many samples after one unit of torque came, from a sample later on."""
+        """Return the position of the load at so many samples after one unit of torque came,
+        from a sample later on.
+        """
         states, move = self.pushed, self.closed
         while states.shape[1] < steps:  # twice as many steps each time: x[n + k] = A^n x[k] + x[n]
             states = np.hstack([states, move @ states + states[:, -1:]])
@@ -193,7 +207,9 @@ class LinearModel(SampledLoop):
         return np.asarray((self.position @ states)[0, :steps])
 
     def bandwidth(self, *, forward: bool = True) -> float | None:
-        """Return the frequency in Hz from which the axis follows less than -3 dB, with its feed-forward or without; None if it always does."""
+        """Return the frequency in Hz from which the axis follows less than -3 dB,
+        with its feed-forward or without; None if it always does.
+        """
         answer = self.follows if forward else self.feedback
         fall = _crossings(lambda f: np.log(np.abs(answer(f)) / HALF_POWER + _NOTHING), self.grid())
         return fall[0] if fall else None
@@ -211,8 +227,8 @@ class LinearModel(SampledLoop):
 
     @cached_property
     def _modes(self) -> tuple[Response, Response, Response] | None:
-        """Poles and eigenvectors of the closed loop, both ways, by which many frequencies cost little; None where they are
-        too close together for that.
+        """Poles and eigenvectors of the closed loop, both ways, by which many frequencies cost little; None
+        where they are too close together for that.
         """
         values, vectors = self._eigen
         if not values.size:
@@ -267,7 +283,9 @@ class LawMatrices:
 
 
 def linear_model(axis: AxisLaw, law: LawMatrices | None = None) -> LinearModel:
-    """Return the model of the position loop of an axis, its velocity loop closed; ``law`` where it is known already."""
+    """Return the model of the position loop of an axis, its velocity loop closed;
+    ``law`` where it is known already.
+    """
     law = law or LawMatrices.of(axis)
     plant = plant_of(axis.machine)
     loop = sampled(plant, law.position, law.velocity, law.places, axis.servo_period, axis.velocity_period)
@@ -290,8 +308,8 @@ class AxisModel:
     """The velocity loop alone; None for a law without one."""
 
     def damping(self, crossing: float | None) -> float:
-        """Return the damping ratio of the position loop: of the slowest oscillation near ``crossing``, the frequency in Hz where its
-        gain is 1; 1 for none, and for a loop that never has that gain.
+        """Return the damping ratio of the position loop: of the slowest oscillation near ``crossing``, the
+        frequency in Hz where its gain is 1; 1 for none, and for a loop that never has that gain.
         """
         if crossing is None:
             return 1.0
@@ -301,7 +319,9 @@ class AxisModel:
 
 
 def axis_model(axis: AxisLaw, law: LawMatrices | None = None) -> AxisModel:
-    """Return the models of an axis; a law that closes its position loop with the motor's device is cut there."""
+    """Return the models of an axis; a law that closes its position loop with the motor's device is cut
+    there.
+    """
     law = law or LawMatrices.of(axis)
     whole, inner = linear_model(axis, law), velocity_model(axis, law)
     if inner is not None and not np.any(whole.measured):
@@ -310,7 +330,9 @@ def axis_model(axis: AxisLaw, law: LawMatrices | None = None) -> AxisModel:
 
 
 def velocity_model(axis: AxisLaw, law: LawMatrices | None = None) -> LinearModel | None:
-    """Return the model of the velocity loop alone, cut where it measures the motor; None for a law without one."""
+    """Return the model of the velocity loop alone, cut where it measures the motor;
+    None for a law without one.
+    """
     law = law or LawMatrices.of(axis)
     if law.velocity is None:
         return None

@@ -1,7 +1,7 @@
 """What the loops of an axis keep: margins, Ms and stiffness, and whether that is what is asked for.
 
-Every sentence of the program about a sound loop is made here: a scenario, the solver (`solver.py`) and the check of a file ask
-the same question with the same numbers and cannot contradict each other.
+Every sentence of the program about a sound loop is made here: a scenario, the solver (`solver.py`) and the
+check of a file ask the same question with the same numbers and cannot contradict each other.
 """
 
 from __future__ import annotations
@@ -20,7 +20,8 @@ from .linear import AxisModel, LawMatrices, LinearModel, Margins, axis_model
 POINTS = 120
 """Points of the grid for a value that is tried."""
 LASTING = 0.25
-"""s in which a loop shall have taken a load up again: the mean way of the load in this time counts beside the largest one."""
+"""s in which a loop shall have taken a load up again:
+the mean way of the load in this time counts beside the largest one."""
 
 
 @dataclass(frozen=True)
@@ -42,14 +43,14 @@ class LoopDemand:
         """Return it as words."""
         damping = f", damping ratio from {self.damping:g}" if self.damping else ""
         return (
-            f"Ms up to {self.sensitivity:g}, phase margin from {self.phase:g} deg (velocity loop {self.inner_phase:g} deg),"
-            f" gain margin from {self.gain:g} dB{damping}"
+            f"Ms up to {self.sensitivity:g}, phase margin from {self.phase:g} deg (velocity loop"
+            f" {self.inner_phase:g} deg), gain margin from {self.gain:g} dB{damping}"
         )
 
 
 SOUND = LoopDemand(1.6, 45.0, 40.0, 8.0)
-"""What every sound axis keeps. Ms 1.6 is the middle of the 1.4 to 2 that K. J. Åström and T. Hägglund name (Advanced PID Control,
-2006, 4.6); the phase margins are usual for a position loop and a velocity loop."""
+"""What every sound axis keeps. Ms 1.6 is the middle of the 1.4 to 2 that K. J. Åström and T. Hägglund name
+(Advanced PID Control, 2006, 4.6); the phase margins are usual for a position loop and a velocity loop."""
 
 
 @dataclass(frozen=True)
@@ -67,7 +68,9 @@ class LoopFigures:
         return cls(model.margins(), model.sensitivity()[0])
 
     def lacks(self, phase: float, need: LoopDemand) -> float:
-        """Return by which share of it the worst figure misses what is needed; 0 and below for a loop that keeps it."""
+        """Return by which share of it the worst figure misses what is needed;
+        0 and below for a loop that keeps it.
+        """
         missing = [self.sensitivity / need.sensitivity - 1.0]
         if self.margins.phase is not None:
             missing.append(1.0 - self.margins.phase / phase)
@@ -126,7 +129,9 @@ class Loops:
 
     @cached_property
     def yields(self) -> tuple[float, float]:
-        """The largest way of the load, in u, for one unit of torque that comes at once and stays, and its mean in `LASTING` s."""
+        """The largest way of the load, in u, for one unit of torque that comes at once and stays,
+        and its mean in `LASTING` s.
+        """
         return self.models.whole.yields(LASTING)
 
     def inner_sound(self, need: LoopDemand = SOUND) -> bool:
@@ -138,7 +143,9 @@ class Loops:
         return self.stable and self.inner_stable and self.lacks(need) <= 0.0
 
     def lacks(self, need: LoopDemand = SOUND) -> float:
-        """Return by which share the worst figure misses what is needed; infinite for an axis that is not stable."""
+        """Return by which share the worst figure misses what is needed;
+        infinite for an axis that is not stable.
+        """
         if not (self.stable and self.inner_stable):
             return math.inf
         missing = [self.outer.lacks(need.phase, need)]
@@ -150,14 +157,15 @@ class Loops:
 
 
 SPREAD = ((0.5, 0.0), (2.0, 0.0))
-"""Shares of inertia and of viscous friction that a machine may have beside those it is taken to have. Twice the friction takes phase away
-from no loop: the campaign of tests/sim/tuning_campaign.py checks it."""
+"""Shares of inertia and of viscous friction that a machine may have beside those it is taken to have. Twice
+the friction takes phase away from no loop: the campaign of tests/sim/tuning_campaign.py checks it."""
 
 
 def spread_of(axis: AxisLaw) -> list[AxisLaw]:
     """Return an axis with other machines: half and twice the inertia, without friction.
 
-    A drive with a velocity loop keeps its gains, so that its loop is as much faster or slower as the machine is lighter or heavier.
+    A drive with a velocity loop keeps its gains,
+    so that its loop is as much faster or slower as the machine is lighter or heavier.
     """
     return [replace(axis, machine=machine) for machine in dict.fromkeys(_others(axis.machine))]
 

@@ -1,7 +1,8 @@
 """A law and its machine as one matrix a servo period: the loop as the control samples it.
 
-The machine is discretised exactly over each velocity period with a constant output, delay included (K. J. Åström, B. Wittenmark,
-Computer-Controlled Systems, 1997, chapter 3); the law is the matrices of its two sample functions.
+The machine is discretised exactly over each velocity period with a constant output, delay included (K. J.
+Åström, B. Wittenmark, Computer-Controlled Systems, 1997, chapter 3);
+the law is the matrices of its two sample functions.
 """
 
 from __future__ import annotations
@@ -27,7 +28,9 @@ _STEP = 2.0**-23
 
 @dataclass(frozen=True, eq=False)
 class Plant:
-    """The machine as a linear system: dx/dt = a x + b u(t - delay) + push w, positions of motor and load in x."""
+    """The machine as a linear system: dx/dt = a x + b u(t - delay) + push w,
+    positions of motor and load in x.
+    """
 
     a: Matrix
     b: Matrix
@@ -53,8 +56,8 @@ class Places:
 class SampledLoop:
     """x' = open x + measured w + command (r, dr/dt, d2r/dt2) + pushed d; one step is one ``period`` in s.
 
-    ``w`` is the position that the control measures, ``sensed x`` the position that it would measure, ``position x``
-    the position of the load, ``d`` a torque on the load.
+    ``w`` is the position that the control measures, ``sensed x`` the position that it would measure,
+    ``position x`` the position of the load, ``d`` a torque on the load.
     """
 
     period: float
@@ -73,7 +76,9 @@ class SampledLoop:
 
 @lru_cache(maxsize=256)
 def plant_of(machine: Machine) -> Plant:
-    """Return the linear machine: no dry friction, no backlash (motor and load in contact), no limits, no weight."""
+    """Return the linear machine: no dry friction, no backlash (motor and load in contact), no limits,
+    no weight.
+    """
     motor, motor_speed, load, load_speed, torque, error_sum = range(6)
     a, b = np.zeros((6, 6)), np.zeros((6, 1))
     acceleration = machine.acceleration_per_output
@@ -139,7 +144,8 @@ def sampled(
     waiting = int(whole) + (1 if rest > 1e-9 else 0)
     if waiting > LONGEST_DELAY:
         raise SimulationError(
-            f"The delay of the machine is {waiting} samples of the loop; at most {LONGEST_DELAY} are simulated",
+            f"The delay of the machine is {waiting} samples of the loop; at most {LONGEST_DELAY} are"
+            " simulated",
             "model.delay",
         )
     x, law = len(plant.a), len(position)
@@ -168,7 +174,9 @@ def sampled(
 
 
 def jacobian(sample: Callable[[Matrix], Matrix], rest: Matrix) -> Matrix:
-    """Return the matrix of a sample function at rest, by differences, which are exact for a linear function."""
+    """Return the matrix of a sample function at rest, by differences, which are exact for a linear
+    function.
+    """
     still, columns = sample(rest), []
     for n in range(len(rest)):
         ahead = rest.copy()
@@ -203,7 +211,9 @@ def held(a: Matrix, b: Matrix, time: float) -> tuple[Matrix, Matrix]:
 
 @dataclass(frozen=True, eq=False)
 class _Move:
-    """One velocity period of the machine: its input is a number of outputs old, which wait in a queue, the oldest first."""
+    """One velocity period of the machine: its input is a number of outputs old, which wait in a queue,
+    the oldest first.
+    """
 
     phi: Matrix
     old: Matrix

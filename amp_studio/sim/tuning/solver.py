@@ -1,12 +1,13 @@
 """The one solver of gains: the stiffest loop that keeps what an aim asks for.
 
-Stiffest is the loop whose load moves least under a torque that comes at once and stays: at its worst moment, and in the mean of
-the first quarter second, so that an integral gain counts for what it is there for. Every gain that is tried is
-a value the control can have: within its printed bounds, in its steps, bound by the law as the file would be, with the file's
-own filter, delay, sample time and counts. The search does not begin at the present gains, so that what it finds depends on the
-machine alone and a second run has nothing to add: from the inner loop outwards the largest gain that is sound is found by
-halves, shares of it are taken, and the best of all is moved about in ever smaller steps (R. Hooke, T. A. Jeeves, "Direct Search"
-Solution of Numerical and Statistical Problems, Journal of the ACM 8, 1961).
+Stiffest is the loop whose load moves least under a torque that comes at once and stays: at its worst moment,
+and in the mean of the first quarter second, so that an integral gain counts for what it is there for. Every
+gain that is tried is a value the control can have: within its printed bounds, in its steps, bound by the law
+as the file would be, with the file's own filter, delay, sample time and counts. The search does not begin at
+the present gains, so that what it finds depends on the machine alone and a second run has nothing to add:
+from the inner loop outwards the largest gain that is sound is found by halves, shares of it are taken, and
+the best of all is moved about in ever smaller steps (R. Hooke, T. A. Jeeves, "Direct Search" Solution of
+Numerical and Statistical Problems, Journal of the ACM 8, 1961).
 """
 
 from __future__ import annotations
@@ -28,7 +29,8 @@ from .linear import LawMatrices
 from .loops import SOUND, LoopDemand, Loops, spread_of
 
 SHARES = (1.0, 0.87, 0.74, 0.6, 0.45, 0.3, 0.15)
-"""Of the largest gain of a loop that are tried with every gain outside of it; 0 as well for an integral one."""
+"""Of the largest gain of a loop that are tried with every gain outside of it; 0 as well for an integral
+one."""
 COARSE = 2.0
 """Factor between two gains on the way down to the first sound one."""
 CLOSE = 1.06
@@ -36,7 +38,8 @@ CLOSE = 1.06
 STEPS = (1.25, 1.1, 1.04, 1.015)
 """Factors by which the best gains are moved about."""
 STARTS = 3
-"""Points, of different innermost gains, from which is moved about: the best gains of one may be in another valley."""
+"""Points, of different innermost gains, from which is moved about:
+the best gains of one may be in another valley."""
 DIGITS = 3
 """Digits of a gain that is no whole number."""
 SMALLEST, LARGEST = 1e-8, 1e5
@@ -153,7 +156,9 @@ def _tighter(need: LoopDemand, reserve: float) -> LoopDemand:
 
 
 def levels_of(aim: Aim, slowest: float = math.inf) -> list[Level]:
-    """Return all of an aim; without its counts; on the machine as it is taken to be alone; what a sound axis keeps."""
+    """Return all of an aim; without its counts; on the machine as it is taken to be alone;
+    what a sound axis keeps.
+    """
     return [
         Level(aim.need, aim.spread, aim.jolt, slowest),
         Level(aim.need, aim.spread, math.inf, slowest),
@@ -322,7 +327,9 @@ class Search:
                 found.append(point)
 
     def _largest(self, inner: GainPoint, levels: Sequence[Level], level: int) -> float | None:
-        """Return the largest value of the next gain that keeps the level with the least of those outside of it."""
+        """Return the largest value of the next gain that keeps the level with the least
+        of those outside of it.
+        """
         index = len(inner)
         gain, rest = self.gains[index], self._outer(index)
 
@@ -380,9 +387,9 @@ class Search:
 def solve(trial: Tried, aim: Aim, *, raising: bool = True, slowest: float = math.inf) -> Solved:
     """Return the gains of an axis for an aim.
 
-    Without ``raising`` no gain becomes larger than it is. ``slowest`` in 1/s is the greatest position gain of a contour. Where
-    no gains keep the aim, the machine alone as it is taken to be counts, then what a sound axis keeps; where none do that either, the gains that
-    miss it by least, if that is less than now.
+    Without ``raising`` no gain becomes larger than it is. ``slowest`` in 1/s is the greatest position gain of
+    a contour. Where no gains keep the aim, the machine alone as it is taken to be counts, then what a sound
+    axis keeps; where none do that either, the gains that miss it by least, if that is less than now.
     """
     gains = gains_of(trial)
     ceiling = None if raising else {gain.parameter: abs(gain.present) for gain in gains}

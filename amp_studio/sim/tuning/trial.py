@@ -12,7 +12,9 @@ from amp_studio.sim.law import AxisLaw
 
 
 def address_of(file: ParameterFile, parameter: str, axis: str) -> Address | None:
-    """Return the address of a parameter that a result for an axis names; None if it is not one of the file's."""
+    """Return the address of a parameter that a result for an axis names; None if it is not one of the
+    file's.
+    """
     found = file.schema.parameters.get(parameter)
     if found is None:
         return None
@@ -70,7 +72,9 @@ class Trial:
         return storage.decimals if storage else None
 
     def bound(self, numbers: Mapping[str, float]) -> AxisLaw | None:
-        """Return the axis with other values of parameters; None if one is out of range or it cannot be simulated."""
+        """Return the axis with other values of parameters;
+        None if one is out of range or it cannot be simulated.
+        """
         wanted: dict[Address, Value] = {}
         for parameter, number in numbers.items():
             address, old = address_of(self._file, parameter, self.axis.axis), self.value(parameter)

@@ -1,8 +1,9 @@
 """Many runs of one law over flat arrays, each figured out where it was made: no rows leave the kernel.
 
-``batch`` calls `kernel.run` once for each variation into one scratch array, and ``measure`` reduces its rows to the figures of the scenario
-`step`, with the definitions of scenarios/step.py and scenarios/figures.py; tests/sim/test_sweep.py compares both. Like
-the kernel it is plain Python and machine code (`compiled.compiled_batch`) with equal results.
+``batch`` calls `kernel.run` once for each variation into one scratch array, and ``measure`` reduces its rows
+to the figures of the scenario `step`, with the definitions of scenarios/step.py and scenarios/figures.py;
+tests/sim/test_sweep.py compares both. Like the kernel it is plain Python and machine code
+(`compiled.compiled_batch`) with equal results.
 """
 
 from __future__ import annotations
@@ -73,7 +74,9 @@ class Sliced(Vector, Protocol):
 
 
 def span(rows: npt.NDArray[np.float64], first: int, last: int, every: int, target: float) -> float:
-    """Return the difference of the largest and the smallest distance from the target at the samples from ``first`` to before ``last``."""
+    """Return the difference of the largest and the smallest distance from the target
+    at the samples from ``first`` to before ``last``.
+    """
     least = most = target - rows[first * every, 1] + rows[first * every, 5]
     for n in range(first + 1, last):
         off = target - rows[n * every, 1] + rows[n * every, 5]
@@ -90,7 +93,9 @@ def measure(
     end: float,
     out: Vector,
 ) -> None:
-    """Write the figures of a motion to ``out``: ``driven`` rows, one in ``every`` a servo sample, the command at its end at ``end`` s."""
+    """Write the figures of a motion to ``out``: ``driven`` rows, one in ``every`` a servo sample,
+    the command at its end at ``end`` s.
+    """
     sign = 1.0 if wanted[TARGET] >= 0.0 else -1.0
     peak = furthest = most = squares = output = 0.0
     for n in range(driven):
@@ -137,7 +142,8 @@ def batch(
     rows: npt.NDArray[np.float64],
     out: Sequence[Vector],
 ) -> None:
-    """Run all variations; each has its row in the arrays, ``profiles`` from one of ``starts`` to the next, ``lines`` long a delay line.
+    """Run all variations; each has its row in the arrays, ``profiles`` from one of ``starts`` to the next,
+    ``lines`` long a delay line.
 
     ``s``, ``io``, ``x``, ``line`` and ``rows`` are scratch.
     """
@@ -177,9 +183,11 @@ def batch(
 def run_batch(
     runs: Sequence[tuple[AxisLaw, list[float], Until, float, float]], *, machine_code: bool | None = None
 ) -> npt.NDArray[np.float64]:
-    """Return the figures (runs, FIGURES) of runs of one law: axis, profile, when it ends, its target in u, rate of the feed share in 1/s.
+    """Return the figures (runs, FIGURES) of runs of one law: axis, profile, when it ends, its target in u,
+    rate of the feed share in 1/s.
 
-    ``machine_code`` None is as `motion.run_axis` chooses. A run whose numbers leave all bounds has ``nan`` figures and the stop DIVERGED.
+    ``machine_code`` None is as `motion.run_axis` chooses.
+    A run whose numbers leave all bounds has ``nan`` figures and the stop DIVERGED.
     """
     ready = [_ready(*each) for each in runs]
     vectors = [each[0] for each in ready]

@@ -1,7 +1,8 @@
 """The part of a sweep that can be done anywhere: plain data in, an array of figures out.
 
-A `SweepJob` is pickled once for every process or cluster that takes part; `figures_of` binds the axis for each point, as the file would be
-with it, and computes what is asked for. Where no parameter is varied the law is bound once and the machine alone is another each time.
+A `SweepJob` is pickled once for every process or cluster that takes part; `figures_of` binds the axis for
+each point, as the file would be with it, and computes what is asked for. Where no parameter is varied the law
+is bound once and the machine alone is another each time.
 """
 
 from __future__ import annotations
@@ -178,8 +179,8 @@ class _Axes:
     def _machine_alone(self) -> tuple[AxisLaw, LawMatrices] | None:
         """Return an axis whose machine alone is another at each point; None where something else is too.
 
-        That is tried: at the ends and in the middle of what is varied, all numbers of the law are the same, and the machine is
-        the one that settings make of this axis.
+        That is tried: at the ends and in the middle of what is varied, all numbers of the law are the same,
+        and the machine is the one that settings make of this axis.
         """
         varied = [each for each in self.job.varied if not each.name.startswith("move.")]
         if any(each.address for each in varied):
@@ -201,10 +202,19 @@ class _Axes:
 def _numbers(axis: AxisLaw) -> tuple[object, ...]:
     """Return all of an axis that a run depends on, but for its machine."""
     return (
-        list(axis.parameters), axis.linear_parameters and list(axis.linear_parameters), axis.state_size, axis.servo_period,
-        axis.velocity_period, axis.position_rate, axis.feedrate, axis.inposition_band, axis.rest_band, dict(axis.ramps),
-        axis.after is None, list(axis.push),
-    )  # fmt: skip
+        list(axis.parameters),
+        axis.linear_parameters and list(axis.linear_parameters),
+        axis.state_size,
+        axis.servo_period,
+        axis.velocity_period,
+        axis.position_rate,
+        axis.feedrate,
+        axis.inposition_band,
+        axis.rest_band,
+        dict(axis.ramps),
+        axis.after is None,
+        list(axis.push),
+    )
 
 
 def _nothing(_parameter: str, _instance: str) -> ParameterValue:
@@ -223,6 +233,8 @@ def refuse_impossible(job: SweepJob, points: Matrix, found: Matrix) -> None:
 
 
 def bound_at_present(job: SweepJob) -> AxisLaw:
-    """Return the axis as the file has it; raises SimulationError for a varied setting that it does not have."""
+    """Return the axis as the file has it; raises SimulationError for a varied setting that it does not
+    have.
+    """
     axes = _axes(job)
     return bind_axis(axes.file, axes.law, job.axis, axes.model)

@@ -5,8 +5,8 @@
     model.inertia_ratio=0.5:2                between two values, for --samples
     model.coulomb_friction=4.1+-0.3          a normal distribution, for --samples
 
-Samples are stratified (M. McKay, R. Beckman, W. Conover, Technometrics 21, 1979): of N samples one is in each N-th part of
-every distribution, so that percentiles need fewer of them.
+Samples are stratified (M. McKay, R. Beckman, W. Conover, Technometrics 21, 1979): of N samples one is in each
+N-th part of every distribution, so that percentiles need fewer of them.
 """
 
 from __future__ import annotations
@@ -115,7 +115,9 @@ def _steps(name: str, text: str) -> int:
 
 
 def _placed(file: ParameterFile, axis: str, varied: Varied) -> Varied:
-    """Return it with the address and unit of a parameter; raises SimulationError for one that is none, or has no number."""
+    """Return it with the address and unit of a parameter; raises SimulationError for one that is none,
+    or has no number.
+    """
     if varied.name.partition(".")[0] in SETTINGS:
         return varied
     address = swept_address(file, varied.name, axis)
@@ -137,7 +139,9 @@ def _placed(file: ParameterFile, axis: str, varied: Varied) -> Varied:
 
 
 def swept_address(file: ParameterFile, name: str, axis: str) -> Address:
-    """Return the address of a parameter; one of an axis without its axis is that of the swept one. Raises SimulationError."""
+    """Return the address of a parameter; one of an axis without its axis is that of the swept one.
+    Raises SimulationError.
+    """
     found = file.schema.parameters.get(name)
     if found is not None and axis in file.machine_schema.instances(found):
         return name, axis
@@ -169,7 +173,9 @@ def points_of(varied: Sequence[Varied], samples: int | None, seed: int) -> Matri
 
 
 def typed(varied: Varied, file: ParameterFile, number: float) -> Value:
-    """Return the value of a parameter for a number: whole where it is whole, with the decimals that the control keeps."""
+    """Return the value of a parameter for a number: whole where it is whole,
+    with the decimals that the control keeps.
+    """
     assert varied.address is not None
     old = file.get(varied.address)
     assert old is not None

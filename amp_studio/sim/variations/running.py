@@ -1,8 +1,9 @@
-"""Spreads a job over the cores of this computer or an existing cluster; keeps what is done, so that a stopped sweep goes on.
+"""Spreads a job over the cores of this computer or an existing cluster; keeps what is done,
+so that a stopped sweep goes on.
 
-Locally this process works too, beside one process for each further core: the starting of those is not waited for. It takes chunks from the
-end of the list while they begin at its start. With `--scheduler` the same chunks go to a Dask cluster (the extra ``cluster``), whose
-workers have the same version of this program.
+Locally this process works too, beside one process for each further core: the starting of those is not waited
+for. It takes chunks from the end of the list while they begin at its start. With `--scheduler` the same
+chunks go to a Dask cluster (the extra ``cluster``), whose workers have the same version of this program.
 """
 
 from __future__ import annotations
@@ -34,7 +35,8 @@ SweepProgress = Callable[[str, int, int], None]
 """progress(stage, done, of all)."""
 STAGE = "sweep"
 SMALL = 500
-"""Variations for which no further process is worth its start; of those with loops each counts as many times as below."""
+"""Variations for which no further process is worth its start;
+of those with loops each counts as many times as below."""
 LOOPS_COUNT = 10
 SCHEMES = ("tcp://", "tls://")
 SUFFIX = ".part"
@@ -110,8 +112,8 @@ def run_job(
 ) -> Matrix:
     """Return the figures (points, columns).
 
-    ``progress`` is called with every part that is done, and may raise to stop; with ``output`` what is done is kept beside it and
-    used by the next call. Raises SimulationError for a cluster that cannot be reached.
+    ``progress`` is called with every part that is done, and may raise to stop; with ``output`` what is done
+    is kept beside it and used by the next call. Raises SimulationError for a cluster that cannot be reached.
     """
     kept = Kept.beside(output, job, points)
     starts = [start for start in range(0, len(points), AT_ONCE) if start not in kept.done]

@@ -1,7 +1,8 @@
-"""Scenario `sweep`: many variations of one axis: maps of two values, percentiles of many, the best one, and what is safe.
+"""Scenario `sweep`: many variations of one axis: maps of two values, percentiles of many, the best one,
+and what is safe.
 
-Without a word about what is varied it is the map of the two gains that decide an axis, a quarter to four times the present ones, with
-the region in which both loops are sound and the present point.
+Without a word about what is varied it is the map of the two gains that decide an axis, a quarter to four
+times the present ones, with the region in which both loops are sound and the present point.
 """
 
 from __future__ import annotations
@@ -38,7 +39,9 @@ from .text import MORE_IS_BETTER
 
 OVER, SAMPLES, FIGURE, SEED = "sweep.over", "sweep.samples", "sweep.figure", "sweep.seed"
 SETTINGS = {
-    OVER: "what is varied, NAME=FROM:TO:STEPS, several with a semicolon between; default: two gains of the axis",
+    OVER: (
+        "what is varied, NAME=FROM:TO:STEPS, several with a semicolon between; default: two gains of the axis"
+    ),
     SAMPLES: "how many samples instead of all steps; a default seed gives the same ones each time",
     FIGURE: f"what is drawn and sought the best of: {', '.join((*FIGURES[1:], *LOOP_FIGURES[:-1]))}",
     SEED: "seed of the samples; default: 1",
@@ -49,7 +52,8 @@ SIDE, ALONE = 15, 41
 FURTHEST = 4.0
 """Times the present gain, and its part, between which is swept then."""
 MOST_LOOPS = 2500
-"""Variations of which the loops are computed too, where they are not asked for: each takes some milliseconds."""
+"""Variations of which the loops are computed too, where they are not asked for: each takes some
+milliseconds."""
 PERCENTILES = (5, 25, 50, 75, 95)
 
 
@@ -112,7 +116,9 @@ def _job(
     loops: bool,
     others: Mapping[str, float] | None = None,
 ) -> SweepJob:
-    """Return the job of a sweep, with ``others`` as values of parameters that are not varied; its move is one for all variations."""
+    """Return the job of a sweep, with ``others`` as values of parameters that are not varied;
+    its move is one for all variations.
+    """
     file = trial.file.copy()
     for parameter, figure in (others or {}).items():
         address = address_of(file, parameter, trial.axis.axis)
@@ -173,7 +179,9 @@ def _varied(trial: Trial, text: str) -> tuple[Varied, ...]:
 
 
 def _two_gains(trial: Trial, also: Mapping[str, float]) -> tuple[Varied, ...]:
-    """Return the innermost gain and the position gain around their present values, and around those of ``also`` by parameter."""
+    """Return the innermost gain and the position gain around their present values,
+    and around those of ``also`` by parameter.
+    """
     gains = [gain for gain in gains_of(trial) if gain.present]
     wanted = [gain for gain in gains if gain.name == "position_gain"] or gains[-1:]
     wanted = [*wanted, *(gain for gain in gains[:1] if gain not in wanted)]
@@ -223,7 +231,9 @@ def _trace(job: SweepJob, trial: Trial, points: Matrix, found: Matrix, figure: s
 
 
 def _safe(job: SweepJob, columns: dict[str, Series]) -> Series:
-    """Return 1 where an axis is safe: its loops are sound where they were computed, and its motion ends and stays in position."""
+    """Return 1 where an axis is safe: its loops are sound where they were computed,
+    and its motion ends and stays in position.
+    """
     safe = np.ones(len(next(iter(columns.values()))), dtype=bool)
     if job.loops:
         safe &= columns["sound"] == 1.0
@@ -241,11 +251,23 @@ def _note(job: SweepJob) -> str:
 def _units(axis: AxisLaw) -> dict[str, str]:
     u, torque = axis.unit, torque_unit(axis)
     return {
-        "stop": "", "peak_following_error": u, "overshoot": u, "settle_time": "s", "in_position_time": "s",
-        "peak_torque": torque, "rms_torque": torque, "peak_output": axis.output_unit, "rest_error": u,
-        "Ms": "", "phase_margin": "deg", "gain_margin": "dB", "stiffness": f"{u}/{torque}", "damping_ratio": "",
-        "velocity_loop_Ms": "", "sound": "",
-    }  # fmt: skip
+        "stop": "",
+        "peak_following_error": u,
+        "overshoot": u,
+        "settle_time": "s",
+        "in_position_time": "s",
+        "peak_torque": torque,
+        "rms_torque": torque,
+        "peak_output": axis.output_unit,
+        "rest_error": u,
+        "Ms": "",
+        "phase_margin": "deg",
+        "gain_margin": "dB",
+        "stiffness": f"{u}/{torque}",
+        "damping_ratio": "",
+        "velocity_loop_Ms": "",
+        "sound": "",
+    }
 
 
 def setting_unit(axis: AxisLaw, name: str) -> str:

@@ -42,11 +42,14 @@ def spread_lines(spread: Spread, width: int) -> Iterator[str]:
     for name, parts in spread.items():
         unit = next(iter(parts.values()))[1]
         texts = ["–" if value is None else shown(value, "", 4) for value, _ in parts.values()]
-        yield f"  {name.replace('_', ' ').ljust(width)}  {''.join(text.rjust(11) for text in texts)} {unit}".rstrip()
+        columns = "".join(text.rjust(11) for text in texts)
+        yield f"  {name.replace('_', ' ').ljust(width)}  {columns} {unit}".rstrip()
 
 
 def best_row(trace: Trace) -> int | None:
-    """Return the safe variation that has the best of the figure that a sweep is about; None where none is safe."""
+    """Return the safe variation that has the best of the figure that a sweep is about;
+    None where none is safe.
+    """
     values = np.where(trace.columns["safe"] == 1.0, trace.columns[trace.figure], math.nan)
     if not np.isfinite(values).any():
         return None
@@ -92,16 +95,20 @@ def variations_summary(trace: Trace) -> dict[str, Any]:
     row, spread = best_row(trace), parted(trace)[1]
     measured = [name for name in trace.columns if name not in trace.over]
     return {
-        "percentiles": {name: {part: value for part, (value, _) in parts.items()} for name, parts in spread.items()},
-        "best": None if row is None else {
-            "at": _figures(trace, trace.over, row), "figures": _figures(trace, measured, row),
+        "percentiles": {
+            name: {part: value for part, (value, _) in parts.items()} for name, parts in spread.items()
         },
+        "best": (
+            None
+            if row is None
+            else {"at": _figures(trace, trace.over, row), "figures": _figures(trace, measured, row)}
+        ),
         "safe": {
             "count": int(trace.columns["safe"].sum()),
             "ranges": {name: list(ends) for name, ends in safe_ranges(trace).items()},
         },
         "present": {name: {"value": value, "unit": unit} for name, (value, unit) in _present(trace).items()},
-    }  # fmt: skip
+    }
 
 
 def _figures(trace: Trace, names: Any, row: int) -> dict[str, dict[str, Any]]:

@@ -1,7 +1,7 @@
 """The known controls of a folder against their files: which contain something else, and since when.
 
-A control is known from the record of exchanges, with the file that was last put into it, and from ``project.yaml``, with the one
-file of the project where there is only one.
+A control is known from the record of exchanges, with the file that was last put into it, and from
+``project.yaml``, with the one file of the project where there is only one.
 """
 
 from __future__ import annotations
@@ -128,7 +128,9 @@ def _when(known: ControlWithFile) -> str:
 
 
 def drift_of_all(controls: Sequence[ControlWithFile], exchange_of: ExchangeOf) -> list[Drift]:
-    """Compare each control with its file, side by side, and record each look beside the file; in the order of the controls."""
+    """Compare each control with its file, side by side, and record each look beside the file;
+    in the order of the controls.
+    """
     opened = {known.address: _opened(known) for known in controls}
     by_address = {known.address: known for known in controls}
 

@@ -1,4 +1,6 @@
-"""Which driver speaks to a control: named in the endpoint, registered by the family, or the house protocol."""
+"""Which driver speaks to a control: named in the endpoint, registered by the family, or the house
+protocol.
+"""
 
 from __future__ import annotations
 
@@ -13,19 +15,23 @@ from amp_studio.transfer.waiting import Waiting
 from amp_studio.transfer.ways import HOUSE, PRINT_SHEET, in_order_of_ways
 
 RECOGNISED, RECOGNISED_SERIAL = 0.3, 2.5
-"""Seconds in which a control may answer by which it is known; one on a serial line may restart when it is opened."""
+"""Seconds in which a control may answer by which it is known;
+one on a serial line may restart when it is opened."""
 ASK_AGAIN = 0.15  # seconds
 LONGEST_GREETING = 4_096  # bytes
 
 GATEWAY = {HOUSE: "amp_studio.transfer.house.driver:HouseDriver.at"}
-"""The protocol of gateways, and of the emulated controls of families whose controls themselves cannot be spoken to."""
+"""The protocol of gateways, and of the emulated controls
+of families whose controls themselves cannot be spoken to."""
 
 
 def open_driver(endpoint: Endpoint | str, family: str = "") -> ControlDriver:
-    """Return the driver for a control, which must be of ``family`` where one is given; connects to nothing yet.
+    """Return the driver for a control, which must be of ``family`` where one is given;
+    connects to nothing yet.
 
-    ``?protocol=NAME`` of the endpoint chooses; else it is the first way to its controls that the family's facts list. Raises
-    ValueError for text that is no endpoint, for an unknown protocol, and for a family to whose controls no way is known.
+    ``?protocol=NAME`` of the endpoint chooses; else it is the first way to its controls that the family's
+    facts list. Raises ValueError for text that is no endpoint, for an unknown protocol,
+    and for a family to whose controls no way is known.
     """
     place = parse_endpoint(endpoint) if isinstance(endpoint, str) else endpoint
     offered = protocols_of(family)
@@ -42,9 +48,9 @@ def open_driver(endpoint: Endpoint | str, family: str = "") -> ControlDriver:
 def open_driver_at(address: str, family: str = "", exchange: Exchange = QUIET) -> ControlDriver:
     """Return the driver for a control, whose protocol is found out where neither it nor a family is named.
 
-    Only what does nothing to any machine is sent for that: the frames of the house protocol may contain what a Grbl takes for
-    a feed hold or a reset. Raises as ``open_driver``, CancelledError, and NoConnectionError where
-    its password is not known; any other control that cannot be reached is left to the driver.
+    Only what does nothing to any machine is sent for that: the frames of the house protocol may contain what
+    a Grbl takes for a feed hold or a reset. Raises as ``open_driver``, CancelledError, and NoConnectionError
+    where its password is not known; any other control that cannot be reached is left to the driver.
     """
     place = parse_endpoint(address)
     if not family and not place.protocol:
@@ -58,7 +64,9 @@ def open_driver_at(address: str, family: str = "", exchange: Exchange = QUIET) -
 
 
 def _recognise(place: Endpoint, exchange: Exchange) -> str:
-    """Return the protocol of a control that is known by its answer; "" for any other. Raises LinkError, CancelledError."""
+    """Return the protocol of a control that is known by its answer; "" for any other. Raises LinkError,
+    CancelledError.
+    """
     places = (registration_of(family).recognised for family in registered_families())
     known: list[Recognised] = [load_part(part) for part in places if part]
     waiting = Waiting()

@@ -47,9 +47,11 @@ class WantedContent:
     ``content``    its bytes, or what makes them of those that the control contains; raises ImageError
     ``signature``  of the schema under which it was made
     ``expected``   the SHA-256 of what may be replaced; None for whatever is there
-    ``known``      was fetched from this control before: it is not fetched again if the control states its digest, as it must
+    ``known``      was fetched from this control before: it is not fetched again if the control states its
+    digest, as it must
                    for the commit too
-    ``is_return``  the control has contained it before: one that remembers what it contained decides by itself whether it takes it
+    ``is_return``  the control has contained it before: one that remembers what it contained decides by itself
+    whether it takes it
     ``what``       the first word of the result
     """
 
@@ -70,9 +72,11 @@ class Outcome:
     """How a download ended.
 
     ``at_control``  what the control contains now: the "old" content, the "new" one, "mixed", or "unknown"
-    ``verified``    whether the new content was read back and is equal: all of it, or on a slow line its digest and some of it
+    ``verified``    whether the new content was read back and is equal: all of it, or on a slow line its
+    digest and some of it
     ``written``     whether the control had to take anything
-    ``kept``        where the image before it is kept, byte for byte; None when nothing was replaced or it was empty
+    ``kept``        where the image before it is kept, byte for byte; None when nothing was replaced or it was
+    empty
     ``restart``     "not needed"; "done" (the image is current); "needed" (by hand); "missed" (not come back)
     ``sha256``      of the image, in hexadecimal
     ``text``        all of it in one sentence or two
@@ -95,7 +99,9 @@ def upload(driver: ControlDriver, exchange: Exchange = QUIET) -> bytes:
 
 
 def look_at(driver: ControlDriver, exchange: Exchange = QUIET) -> tuple[ControlIdentity, bytes, str]:
-    """Return who the control is, what it contains, and the SHA-256 of that in hexadecimal; raises TransferError."""
+    """Return who the control is, what it contains, and the SHA-256 of that in hexadecimal;
+    raises TransferError.
+    """
     with _only_looking():
         control = driver.identify(exchange)
         content = driver.fetch(exchange)
@@ -104,7 +110,9 @@ def look_at(driver: ControlDriver, exchange: Exchange = QUIET) -> tuple[ControlI
 
 @contextlib.contextmanager
 def _only_looking() -> Iterator[None]:
-    """Leave out of an error what the control contains: who only looks replaces nothing, and an earlier download may have."""
+    """Leave out of an error what the control contains: who only looks replaces nothing,
+    and an earlier download may have.
+    """
     try:
         yield
     except TransferError as error:
@@ -123,9 +131,10 @@ def download(
 ) -> Outcome:
     """Put a content into a control, and prove it.
 
-    Fetches what the control contains, of which ``wanted`` makes what it shall contain, and hands it to ``keep`` before anything
-    is replaced; when one of them raises, nothing is written. Then sends, waits up to ``restart_wait`` seconds for the restart,
-    reads everything back and compares. ``meanwhile`` is done while the control restarts. Raises TransferError, whose
+    Fetches what the control contains, of which ``wanted`` makes what it shall contain, and hands it to
+    ``keep`` before anything is replaced; when one of them raises, nothing is written. Then sends, waits up to
+    ``restart_wait`` seconds for the restart, reads everything back and compares. ``meanwhile`` is done while
+    the control restarts. Raises TransferError, whose
     ``at_control`` and ``kept`` give what the control contains and where its old image is.
     """
     if not driver.abilities.can_send:
@@ -189,7 +198,7 @@ def _check_signature(control: ControlIdentity, signature: str) -> None:
 def _check_expected(expected: bytes | None, found: bytes | None) -> None:
     if expected is not None and found is not None and expected != found:
         raise ImageChangedError(
-            f"the control contains something else than what was approved to be replaced "
+            "the control contains something else than what was approved to be replaced "
             f"(sha256 {short(found)}…, approved {short(expected)}…)"
         )
 
@@ -227,7 +236,9 @@ _RESTART_TEXT = {
 
 @dataclass(frozen=True)
 class _Proof:
-    """A download that the control has taken: ``content`` in the place of ``old``, which is ``kept``; ``what`` was done."""
+    """A download that the control has taken: ``content`` in the place of ``old``, which is ``kept``;
+    ``what`` was done.
+    """
 
     driver: ControlDriver
     content: bytes

@@ -31,7 +31,8 @@ ExchangeOf = Callable[[str], Exchange]
 
 @dataclass(frozen=True)
 class FleetResult(Generic[T]):
-    """How the exchange with one control ended: with a result, or with an error; with neither where it was not tried.
+    """How the exchange with one control ended: with a result, or with an error;
+    with neither where it was not tried.
 
     ``state`` is what a control whose exchange failed contains, as ``TransferError.at_control``.
     """
@@ -68,9 +69,9 @@ def with_each(
 ) -> list[FleetResult[T]]:
     """Exchange with each control and return the results in the order of the addresses.
 
-    All exchanges run side by side; with ``stop_on_failure`` one after the other, and after the first that ``failed`` or raised
-    no other is begun. One that is stopped before it is begun is not tried. Raises ValueError for addresses that cannot be used,
-    before anything is begun.
+    All exchanges run side by side; with ``stop_on_failure`` one after the other, and after the first that
+    ``failed`` or raised no other is begun. One that is stopped before it is begun is not tried. Raises
+    ValueError for addresses that cannot be used, before anything is begun.
     """
     check_addresses(addresses)
     is_over = threading.Event()
@@ -108,7 +109,8 @@ def _one(address: str, work: FleetWork[T], exchange: Exchange) -> FleetResult[T]
 class FleetRow:
     """One control in the table of results: how its exchange ended, in a word and in a sentence.
 
-    ``ending``  "well"; "differs" of a comparison; "failed", and then ``state`` is what the control contains; "not tried"
+    ``ending``  "well"; "differs" of a comparison; "failed", and then ``state`` is what the control contains;
+    "not tried"
     """
 
     address: str
@@ -165,11 +167,7 @@ def _downloaded(found: FleetResult[Outcome]) -> FleetRow:
 
 
 def verify_each(
-    file: ParameterFile,
-    addresses: Sequence[str],
-    exchange_of: ExchangeOf,
-    *,
-    stop_on_failure: bool = False,
+    file: ParameterFile, addresses: Sequence[str], exchange_of: ExchangeOf, *, stop_on_failure: bool = False
 ) -> list[FleetRow]:
     """Compare a file with what each control contains, and record that."""
     family = file.schema.family.family
@@ -182,11 +180,7 @@ def verify_each(
         return compared, sha256(content)
 
     found = with_each(
-        addresses,
-        work,
-        exchange_of,
-        failed=lambda pair: not pair[0].is_same,
-        stop_on_failure=stop_on_failure,
+        addresses, work, exchange_of, failed=lambda pair: not pair[0].is_same, stop_on_failure=stop_on_failure
     )
     return [_compared(each) for each in found]
 

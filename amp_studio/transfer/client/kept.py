@@ -1,7 +1,8 @@
-"""Copies of what a control contained: kept byte for byte before anything is replaced, and put back as they are.
+"""Copies of what a control contained: kept byte for byte before anything is replaced,
+and put back as they are.
 
-``NAME.before-STAMP.img`` is the image itself, ``NAME.before-STAMP.img.sha256`` its digest as ``sha256sum`` writes
-it. ``NAME.before-STAMP.amp`` is there as well where a parameter file contains exactly the same.
+``NAME.before-STAMP.img`` is the image itself, ``NAME.before-STAMP.img.sha256`` its digest as ``sha256sum``
+writes it. ``NAME.before-STAMP.amp`` is there as well where a parameter file contains exactly the same.
 """
 
 from __future__ import annotations
@@ -51,7 +52,8 @@ class Copy:
     ``file``       what it means; None where this program cannot read it
     ``fault``      why it cannot
     ``is_checked`` whether it was compared with a digest beside it
-    ``is_kept``    whether it is what a control contained, byte for byte: an image, or a parameter file beside its image
+    ``is_kept``    whether it is what a control contained, byte for byte: an image,
+    or a parameter file beside its image
     """
 
     image: bytes
@@ -63,17 +65,20 @@ class Copy:
 
     @property
     def family(self) -> str:
-        """The family the control must be of; "" for an image of the house that a control has contained: it decides itself."""
+        """The family the control must be of; "" for an image of the house that a control has contained:
+        it decides itself.
+        """
         if self.file is not None and not self.is_kept:
             return self.file.schema.family.family
         return family_of(self.image)
 
 
 def keep_image(image: bytes, folder: Path, stem: str, *, readable: bool = True) -> Path:
-    """Keep an image under a name that was free, and where possible a parameter file beside it; returns the image's path.
+    """Keep an image under a name that was free, and where possible a parameter file beside it;
+    returns the image's path.
 
-    Without ``readable`` the parameter file is left to ``keep_readable``, for which there is time later: the image is the
-    copy. Raises OSError, and then nothing is left behind.
+    Without ``readable`` the parameter file is left to ``keep_readable``, for which there is time later: the
+    image is the copy. Raises OSError, and then nothing is left behind.
     """
     stem = stem.encode()[:_STEM].decode(errors="ignore")
     stamp = datetime.now().astimezone().strftime("%Y%m%d-%H%M%S")
@@ -117,7 +122,9 @@ def _need_free(path: Path) -> None:
 
 
 def keep_readable(image: bytes, kept: Path) -> None:
-    """Write the parameter file of an image, which is ``kept``, beside it where it comes back as the same bytes."""
+    """Write the parameter file of an image, which is ``kept``,
+    beside it where it comes back as the same bytes.
+    """
     path = kept.with_suffix(ENDING)
     with contextlib.suppress(ImageError, ParameterFileError, OSError):
         kind = kind_of(image)
@@ -134,7 +141,9 @@ def digest_path(path: Path) -> Path:
 
 
 def open_copy(path: Path) -> Copy:
-    """Read a copy, checked against the digest beside it where there is one; raises CopyError, ParameterFileError, OSError."""
+    """Read a copy, checked against the digest beside it where there is one; raises CopyError,
+    ParameterFileError, OSError.
+    """
     if path.suffix == ENDING:
         file = open_file(path).file
         beside = path.with_suffix(IMAGE)

@@ -1,7 +1,8 @@
 """Values changed in a control that is connected, one after the other, and put back if they are not to stay.
 
-The parameter file is not touched: what is changed is what the control contains. Everything goes through a download of the
-driver, so each change is read back, an error names what the control contains then, and what it contained at first is kept.
+The parameter file is not touched: what is changed is what the control contains. Everything goes through a
+download of the driver, so each change is read back, an error names what the control contains then,
+and what it contained at first is kept.
 """
 
 from __future__ import annotations
@@ -36,17 +37,22 @@ class LiveTuning:
         self._start = b""
         self._held = b""
         self.file: ParameterFile | None = None
-        """What the control contains, as it was last read; None before, and after an error until it was read again."""
+        """What the control contains, as it was last read; None before,
+        and after an error until it was read again."""
         self.start_file: ParameterFile | None = None
         """What it contained at the first look."""
 
     @property
     def is_live(self) -> bool:
-        """Whether single values go into the control while it is at work; else each change is a download of everything."""
+        """Whether single values go into the control while it is at work;
+        else each change is a download of everything.
+        """
         return isinstance(self._driver, TakesLiveValues)
 
     def look(self, exchange: Exchange = QUIET) -> ParameterFile:
-        """Read what the control contains, the first time or after an error; raises TransferError, ImageError."""
+        """Read what the control contains, the first time or after an error; raises TransferError,
+        ImageError.
+        """
         _, content, _ = look_at(self._driver, exchange)
         self._held, self.file = content, decode_content(content)
         if self.start_file is None:
@@ -54,7 +60,9 @@ class LiveTuning:
         return self.file
 
     def set(self, values: Mapping[Address, Value | None], exchange: Exchange = QUIET) -> Outcome:
-        """Change values in the control and read them back; raises RangeError, ImageError and TransferError."""
+        """Change values in the control and read them back; raises RangeError, ImageError and
+        TransferError.
+        """
         wanted = self._present().copy()
         wanted.set_many(values)
         return self._send(lambda held: self._driver.encode(wanted, held), "tune", exchange)

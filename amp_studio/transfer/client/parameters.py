@@ -42,11 +42,13 @@ def download_file(
     expected: str | None = None,
     known: bytes | None = None,
 ) -> Outcome:
-    """Put a file into the control at ``address``; what it contained is kept before anything is replaced, and all of it recorded.
+    """Put a file into the control at ``address``; what it contained is kept before anything is replaced,
+    and all of it recorded.
 
-    ``expected`` is the digest of what may be replaced, None for whatever is there; ``known`` is what was fetched from this
-    control just before. Raises TransferError, whose text names what the control contains, ImageError for a file no image can
-    carry or that sets what the control cannot take, and ValueError for an address or a digest that is none.
+    ``expected`` is the digest of what may be replaced, None for whatever is there; ``known`` is what was
+    fetched from this control just before. Raises TransferError, whose text names what the control contains,
+    ImageError for a file no image can carry or that sets what the control cannot take,
+    and ValueError for an address or a digest that is none.
     """
     approved = read_digest(expected)
     family = file.schema.family.family
@@ -70,7 +72,9 @@ def download_content(driver: ControlDriver, wanted: WantedContent, recording: Re
 
 
 def remarks_of(kind: ContentKind, file: ParameterFile, held: bytes) -> list[str]:
-    """Return what of a file is not sent to a control that contains ``held``, and what stays there, each in a sentence."""
+    """Return what of a file is not sent to a control that contains ``held``, and what stays there,
+    each in a sentence.
+    """
     texts = (
         ("Not sent", kind.left_out(file, held)),
         ("Not in the file, and as the control has it", kind.stays(file, held)),
@@ -81,7 +85,8 @@ def remarks_of(kind: ContentKind, file: ParameterFile, held: bytes) -> list[str]
 def restore_copy(copy: Copy, address: str, exchange: Exchange, *, expected: str | None = None) -> Outcome:
     """Put back what a control has contained, byte for byte; what it contains instead is kept first.
 
-    What is kept goes back whatever it is, for the control to decide whether it has contained it. Raises as ``download_file``.
+    What is kept goes back whatever it is, for the control to decide whether it has contained it.
+    Raises as ``download_file``.
     """
     approved = read_digest(expected)
     with closing(open_driver(address, copy.family)) as driver:
@@ -94,7 +99,9 @@ def restore_copy(copy: Copy, address: str, exchange: Exchange, *, expected: str 
 
 
 class _Keeping:
-    """Keeps what a control contained in a folder: its bytes at once, the parameter file beside them when there is time."""
+    """Keeps what a control contained in a folder: its bytes at once,
+    the parameter file beside them when there is time.
+    """
 
     def __init__(self, kind: ContentKind, recording: Recording) -> None:
         place = recording.exchange.keep
@@ -111,7 +118,9 @@ class _Keeping:
         self.finish()
 
     def keep(self, content: bytes) -> str:
-        """Keep the bytes and return where; raises CopyError for less than the last copy of the control has, OSError."""
+        """Keep the bytes and return where; raises CopyError for less than the last copy of the control has,
+        OSError.
+        """
         self._recording.check_whole(self._kind, content, self._folder)
         path = keep_image(content, self._folder, self._stem, readable=False)
         self._kept = content, path
@@ -147,5 +156,7 @@ def fetch_image(address: str, exchange: Exchange = QUIET, *, family: str = "") -
 
 
 def fetch_file(address: str, exchange: Exchange = QUIET, *, family: str = "") -> ParameterFile:
-    """Return what the control at ``address`` contains as a parameter file; raises TransferError, ImageError."""
+    """Return what the control at ``address`` contains as a parameter file; raises TransferError,
+    ImageError.
+    """
     return decode_content(fetch_image(address, exchange, family=family))

@@ -1,4 +1,6 @@
-"""What was last put into a control from a file: the record of exchanges and the kept copies lead back to it."""
+"""What was last put into a control from a file: the record of exchanges and the kept copies lead back to
+it.
+"""
 
 from __future__ import annotations
 
@@ -50,12 +52,15 @@ def last_download(file: ParameterFile, path: Path) -> LastDownload:
             found = _changed(_empty(file), each, file)
             return LastDownload(completed(found, b"", file), last.when, last.control)
     raise NoDownloadError(
-        f"The last download of {path.name} cannot be shown: the copy that was kept before it is not in {place.parent}."
+        f"The last download of {path.name} cannot be shown: the copy that was kept before it is not in"
+        f" {place.parent}."
     )
 
 
 def _content(each: RecordedExchange, wanted: str, file: ParameterFile, folder: Path) -> ParameterFile | None:
-    """Return the content whose digest is ``wanted``: the copy that an exchange kept, or that with its changes."""
+    """Return the content whose digest is ``wanted``: the copy that an exchange kept,
+    or that with its changes.
+    """
     path = Path(each.kept)
     path = path if path.is_file() else folder / path.name  # the folder may have been moved
     try:
@@ -74,7 +79,9 @@ def _content(each: RecordedExchange, wanted: str, file: ParameterFile, folder: P
 
 
 def _changed(held: ParameterFile, each: RecordedExchange, file: ParameterFile) -> ParameterFile:
-    """Return a content after the changes of an exchange; secrets, which are recorded without what they were, as in ``file``."""
+    """Return a content after the changes of an exchange; secrets, which are recorded without what they were,
+    as in ``file``.
+    """
     found = held.copy()
     for entry, _, text in each.changes:
         address = read_address(entry)

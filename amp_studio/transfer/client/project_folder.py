@@ -1,4 +1,6 @@
-"""What lies in a project folder: parameter files, their backups and the copies of controls, and when each was last exchanged."""
+"""What lies in a project folder: parameter files, their backups and the copies of controls,
+and when each was last exchanged.
+"""
 
 from __future__ import annotations
 

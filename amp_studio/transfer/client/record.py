@@ -1,4 +1,5 @@
-"""The record of exchanges: one line of JSON for each, appended to ``exchanges.jsonl`` in the folder of the file.
+"""The record of exchanges: one line of JSON for each,
+appended to ``exchanges.jsonl`` in the folder of the file.
 
 Nothing is ever taken out of it. It goes where files do not, so it contains no secret in clear.
 """
@@ -40,7 +41,8 @@ class RecordedExchange:
     ``verb``      download, restore, upload or verify; ``file``: the name of the parameter file or copy
     ``control``   its address
     ``before``, ``after``  SHA-256 of what it contained, in hexadecimal; "" if not known
-    ``state``     what it contains after it: "new", "old", "mixed", "defaults", "unknown"; "" where nothing was to be sent
+    ``state``     what it contains after it: "new", "old", "mixed", "defaults", "unknown"; "" where nothing
+    was to be sent
     ``kept``      the copy of what it contained before; "" where nothing was replaced
     ``text``      how it ended
     ``changes``   (parameter, before, after) of what was sent; a secret is masked
@@ -71,7 +73,8 @@ def record_path(beside: Path) -> Path:
 
 
 def add_exchange(beside: Path, exchange: RecordedExchange) -> str:
-    """Append an exchange to the record in the folder of a file; returns why it could not be, empty where it was.
+    """Append an exchange to the record in the folder of a file; returns why it could not be,
+    empty where it was.
 
     An exchange that cannot be recorded has happened anyway.
     """
@@ -85,7 +88,9 @@ def add_exchange(beside: Path, exchange: RecordedExchange) -> str:
 
 
 def record_look(verb: str, exchange: Exchange, family: str, control: str, content: bytes, text: str) -> None:
-    """Record that a control was read and nothing replaced, where the exchange is recorded; notifies where it could not be."""
+    """Record that a control was read and nothing replaced, where the exchange is recorded;
+    notifies where it could not be.
+    """
     if exchange.record is None:
         return
     digest = digest_of(content)
@@ -101,7 +106,8 @@ def exchange_now(verb: str, file: Path, family: str, control: str, **facts: obje
 
 
 def read_exchanges(folder: Path, file: str = "") -> list[RecordedExchange]:
-    """Return the exchanges recorded in a folder, oldest first; of one file, or of all. A line that is none is left out.
+    """Return the exchanges recorded in a folder, oldest first; of one file, or of all.
+    A line that is none is left out.
 
     Raises OSError where there is a record that cannot be read.
     """
@@ -140,7 +146,9 @@ def _exchange(line: str) -> RecordedExchange | None:
 
 
 def changes_of(before: bytes, after: bytes) -> tuple[tuple[str, str, str], ...]:
-    """Return the parameters in which two contents of a control differ; none where one of them cannot be read."""
+    """Return the parameters in which two contents of a control differ; none where one of them cannot be
+    read.
+    """
     try:
         old, new = (decode_content(content) if content else None for content in (before, after))
     except ImageError:

@@ -17,7 +17,9 @@ from .record import add_exchange, changes_of, digest_of, exchange_now, read_exch
 
 
 class Recording:
-    """Records one ``verb`` with the control at an address, in the folder that ``exchange`` names; nothing where it names none."""
+    """Records one ``verb`` with the control at an address, in the folder that ``exchange`` names;
+    nothing where it names none.
+    """
 
     def __init__(self, verb: str, family: str, address: str, exchange: Exchange) -> None:
         self.exchange = exchange
@@ -33,7 +35,9 @@ class Recording:
         *,
         meanwhile: Callable[[], None] = lambda: None,
     ) -> Outcome:
-        """Download and record it; one that ended before the control was read is left out. Raises as ``download``."""
+        """Download and record it; one that ended before the control was read is left out.
+        Raises as ``download``.
+        """
 
         def content(held: bytes) -> bytes:
             made = wanted.of(held)
@@ -54,8 +58,8 @@ class Recording:
     def check_whole(self, kind: ContentKind, content: bytes, folder: Path) -> None:
         """Refuse to keep less than the newest copy of the same control has; raises CopyError.
 
-        The record leads to that copy, in the ``folder`` where the next one is kept. Where there is none that can be read,
-        there is nothing to compare.
+        The record leads to that copy, in the ``folder`` where the next one is kept. Where there is none that
+        can be read, there is nothing to compare.
         """
         beside = self.exchange.record
         try:
@@ -76,8 +80,8 @@ class Recording:
                 continue
             if lacking:
                 raise CopyError(
-                    f"this reading lacks {lacking}, which {path.name} has: try once more; where another control is connected there "
-                    "now, keep its copies in another folder"
+                    f"this reading lacks {lacking}, which {path.name} has: try once more; where another"
+                    " control is connected there now, keep its copies in another folder"
                 )
             return
 

@@ -72,7 +72,10 @@ class ImageComparison:
             parts.append(f"the header ({', '.join(d.line for d in self.head)})")
         if self.other_units:
             parts.append("the units of some values")
-        return f"All values are the same; only {' and '.join(parts)} {'differ' if self.other_units else 'differs'}."
+        return (
+            f"All values are the same; only {' and '.join(parts)}"
+            f" {'differ' if self.other_units else 'differs'}."
+        )
 
 
 def verify_content(file: ParameterFile, fetched: bytes) -> ImageComparison:
@@ -111,10 +114,11 @@ def verify_content(file: ParameterFile, fetched: bytes) -> ImageComparison:
 
 
 def completed(content: ParameterFile, image: bytes, file: ParameterFile) -> ParameterFile:
-    """Return the content of a control to be compared with a file: what no control of its kind keeps is as the file has it.
+    """Return the content of a control to be compared with a file:
+    what no control of its kind keeps is as the file has it.
 
-    ``image`` are the bytes that show of which kind the control is; empty where they are not known. Both files are of one
-    schema; header, marks and what the schema does not know are the file's own.
+    ``image`` are the bytes that show of which kind the control is; empty where they are not known. Both files
+    are of one schema; header, marks and what the schema does not know are the file's own.
     """
     found = file.copy()
     found.values.clear()

@@ -28,12 +28,7 @@ from .memory import Memory
 from .record import Identity, StateError, is_answer, load_json, load_record, to_json, written
 from .staging import PendingDownload, Staging
 
-ACTIVE, PREVIOUS, OUTGOING, INTENT = (
-    "active.img",
-    "previous.img",
-    "outgoing.img",
-    "commit.json",
-)
+ACTIVE, PREVIOUS, OUTGOING, INTENT = ("active.img", "previous.img", "outgoing.img", "commit.json")
 CAPACITY = 1 << 20  # bytes
 
 
@@ -42,8 +37,8 @@ class Control:
 
     A new folder begins with the image ``initial``. ``estop`` and ``autostart`` are as remembered when not
     given, at first on. ``accept`` raises, best ValueError, for an image the control does not take. Raises
-    StateError when the folder is another control's, damaged or in use. Requests raise RefusalError and then have
-    changed nothing.
+    StateError when the folder is another control's, damaged or in use. Requests raise RefusalError and then
+    have changed nothing.
     """
 
     def __init__(
@@ -113,7 +108,9 @@ class Control:
     # -- at the operator's panel -------------------------------------------------------------------
 
     def set_estop(self, on: bool) -> None:
-        """Press or release the emergency stop; raises StateError where the control does not come out of it."""
+        """Press or release the emergency stop; raises StateError where the control does not come out of
+        it.
+        """
         if self._held and not on:
             raise StateError(f"the control stays in E-stop: {self._held}")
         self._remember(estop=on)
@@ -133,7 +130,9 @@ class Control:
         self._remember(incarnation=self.incarnation + 1, running=True, restart_needed=False)
 
     def patch(self, change: Callable[[bytes], bytes]) -> None:
-        """Change the image at the control itself; raises RefusalError, OSError, and what ``change`` raises."""
+        """Change the image at the control itself; raises RefusalError, OSError, and what ``change``
+        raises.
+        """
         self._need_estop("change its image")
         changed = change(self._active)
         self.memory.replace(ACTIVE, changed)
@@ -142,7 +141,9 @@ class Control:
         self._remember(restart_needed=True, changed_at_control=True)
 
     def tune(self, change: Callable[[bytes], bytes], *, in_estop: bool) -> None:
-        """Change the image on line, where it counts at once; raises RefusalError, OSError, and what ``change`` raises."""
+        """Change the image on line, where it counts at once; raises RefusalError, OSError,
+        and what ``change`` raises.
+        """
         if in_estop:
             self._need_estop("change it on line")
         changed = change(self._active)

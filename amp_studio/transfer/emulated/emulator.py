@@ -43,7 +43,9 @@ COMMANDS = "estop on|off, autostart on|off, restart, patch KEY=VALUE, status, qu
 
 
 class Caller:
-    """An open line; ``last_frame`` is when it brought a whole frame, at first when it was opened (seconds)."""
+    """An open line; ``last_frame`` is when it brought a whole frame, at first when it was opened
+    (seconds).
+    """
 
     def __init__(self, link: Link, responder: Responder, now: float) -> None:
         self.link = link
@@ -120,7 +122,9 @@ class Emulator:
             self._hang_up()
 
     def turn(self) -> None:
-        """Do what the operator asks for, and give each client its turn; waits 0.05 s at most for something to do."""
+        """Do what the operator asks for, and give each client its turn;
+        waits 0.05 s at most for something to do.
+        """
         if isinstance(self._panel, TimedPanel):
             before, self._now = self._now, self._clock()
             self._panel.advance(self._control, self._now - before)
@@ -239,13 +243,17 @@ class Emulator:
         return f"restarted {self._control.incarnation}"
 
     def _prepare_start(self) -> None:
-        """Ask the panel for the next start, while there is time; again if somebody has changed the control since."""
+        """Ask the panel for the next start, while there is time;
+        again if somebody has changed the control since.
+        """
         state = self._control.sha256, self._control.flags & Flags.CHANGED_AT_CONTROL
         if self._start is None or self._start[0] != state:
             self._start = state, self._panel.started(self._control)
 
     def _started(self) -> None:
-        """Show what the family's control shows at a start, and keep it in E-stop where it does not come out of it."""
+        """Show what the family's control shows at a start,
+        and keep it in E-stop where it does not come out of it.
+        """
         self._prepare_start()
         assert self._start is not None
         _, start = self._start
@@ -314,8 +322,8 @@ def serve(
 ) -> int:
     """Run an emulated control until ``quit``, an interrupt or ``stop``; return the exit code 0.
 
-    Prints ``listening on ADDRESS`` when it is ready. ``commands`` are the operator's lines; by default those of
-    standard input if that is a terminal or a pipe. Raises ValueError for an address that is none,
+    Prints ``listening on ADDRESS`` when it is ready. ``commands`` are the operator's lines; by default those
+    of standard input if that is a terminal or a pipe. Raises ValueError for an address that is none,
     LinkError for one that cannot be listened on.
     """
     show = say or print_line

@@ -1,4 +1,6 @@
-"""An emulated control of a family, as it is delivered: on the line that the endpoint names, in the protocol it names."""
+"""An emulated control of a family, as it is delivered: on the line that the endpoint names,
+in the protocol it names.
+"""
 
 from __future__ import annotations
 
@@ -44,20 +46,22 @@ class EmulatedOptions:
 
 
 Emulate = Callable[[Endpoint, EmulatedOptions], int]
-"""Be a control until asked to quit; prints ``listening on ADDRESS`` when it is ready and returns the exit code."""
+"""Be a control until asked to quit; prints ``listening on ADDRESS`` when it is ready
+and returns the exit code."""
 
 
 def emulate(listen: Endpoint | str, options: EmulatedOptions) -> int:
     """Run an emulated control of a family until it is asked to quit; returns the exit code.
 
-    ``?protocol=NAME`` of the address chooses what it speaks; else it is the family's first protocol that has an emulated
-    control. Raises ValueError for an address that is none and for a protocol without one.
+    ``?protocol=NAME`` of the address chooses what it speaks; else it is the family's first protocol that has
+    an emulated control. Raises ValueError for an address that is none and for a protocol without one.
     """
     place = parse_endpoint(listen) if isinstance(listen, str) else listen
     offered = emulators_of(options.family)
     if not offered:
         raise ValueError(
-            f"There is no emulated control of {options.family}: its facts list no way to a control (see 'ways' in family.yaml)"
+            f"There is no emulated control of {options.family}: its facts list no way to a control (see"
+            " 'ways' in family.yaml)"
         )
     name = place.protocol or next(iter(offered))
     if name not in offered:
@@ -71,11 +75,11 @@ def emulate(listen: Endpoint | str, options: EmulatedOptions) -> int:
 
 
 def emulators_of(family: str) -> dict[str, str]:
-    """Return protocol -> emulated control, the usual one first; none where no way to a control of the family is known."""
+    """Return protocol -> emulated control, the usual one first;
+    none where no way to a control of the family is known.
+    """
     return in_order_of_ways(
-        family,
-        registration_of(family).emulators,
-        "amp_studio.transfer.emulated.family_control:emulate_house",
+        family, registration_of(family).emulators, "amp_studio.transfer.emulated.family_control:emulate_house"
     )
 
 

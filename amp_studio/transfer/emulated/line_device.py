@@ -1,6 +1,7 @@
 """An emulated control that speaks in its family's own way: one device behind one line.
 
-What it sends and obeys is its family's code (``Registration.emulators``); the line, the operator and the faults are here.
+What it sends and obeys is its family's code (``Registration.emulators``); the line,
+the operator and the faults are here.
 """
 
 from __future__ import annotations
@@ -40,7 +41,9 @@ class LineDevice(Protocol):
         """Return the next bytes to be sent, some hundred at most; b"" for nothing."""
 
     def command(self, line: str) -> str:
-        """Do what the operator asks for and return what he reads; raises ValueError with what he is to read."""
+        """Do what the operator asks for and return what he reads; raises ValueError with what he is to
+        read.
+        """
 
 
 @runtime_checkable
@@ -77,7 +80,9 @@ DeviceFactory = Callable[[DeviceSetup], LineDevice]
 
 
 class DeviceService:
-    """Serves one client at a time until ``quit`` or ``stop``; a new connection takes the line over from the old one."""
+    """Serves one client at a time until ``quit`` or ``stop``;
+    a new connection takes the line over from the old one.
+    """
 
     def __init__(
         self,
@@ -102,7 +107,9 @@ class DeviceService:
         self._clock, self._now = clock, clock()
 
     def command(self, line: str) -> None:
-        """Give an operator's command; may be called from any other thread, and waits there while too many are waiting."""
+        """Give an operator's command; may be called from any other thread,
+        and waits there while too many are waiting.
+        """
         self._commands.put(line)
 
     def run(self) -> None:
@@ -173,8 +180,9 @@ def serve_device(
 ) -> int:
     """Run a device until ``quit``, an interrupt or ``stop``; returns the exit code 0.
 
-    Prints ``listening on ADDRESS`` when it is ready; ``commands`` are the operator's lines, by default those of
-    standard input. Raises LinkError for a place that cannot be listened on, ValueError for a folder of something else.
+    Prints ``listening on ADDRESS`` when it is ready; ``commands`` are the operator's lines, by default those
+    of standard input. Raises LinkError for a place that cannot be listened on,
+    ValueError for a folder of something else.
     """
     show = say or print_line
     stop = stop or threading.Event()

@@ -48,7 +48,9 @@ class Memory:
             return 0
 
     def replace(self, name: str, content: bytes) -> None:
-        """Give a file new content: after a crash at any step it contains the old content or the new, whole."""
+        """Give a file new content: after a crash at any step it contains the old content or the new,
+        whole.
+        """
         temporary = self.folder / (name + TEMPORARY)
         try:
             self.on_step(f"write {temporary.name}")
@@ -101,7 +103,9 @@ class Memory:
 
     @contextlib.contextmanager
     def _open(self, path: Path, flags: int) -> Iterator[int]:
-        """Open a file to write to it; raises OSError for a link, a pipe or a device that somebody put in its place."""
+        """Open a file to write to it; raises OSError for a link,
+        a pipe or a device that somebody put in its place.
+        """
         try:
             handle = os.open(path, flags | NO_LINK | HARMLESS, 0o666)
             try:

@@ -1,4 +1,6 @@
-"""What the control of a family does besides taking and giving contents: at each start, and at its own screen."""
+"""What the control of a family does besides taking and giving contents: at each start, and at its own
+screen.
+"""
 
 from __future__ import annotations
 
@@ -21,7 +23,9 @@ class Start:
 
 
 class OperatorPanel(Protocol):
-    """A family's own behaviour, found by its ``Registration.emulators``. It waits for nothing and opens nothing."""
+    """A family's own behaviour, found by its ``Registration.emulators``.
+    It waits for nothing and opens nothing.
+    """
 
     words: str
     """The operator's commands that it knows, for the list of all."""
@@ -30,7 +34,9 @@ class OperatorPanel(Protocol):
         """Return what happens at a start of the control, whatever its content is."""
 
     def command(self, control: Control, verb: str, rest: str) -> str | None:
-        """Do an operator's command and return what he reads; None for one of others. Raises ValueError, RefusalError, OSError."""
+        """Do an operator's command and return what he reads; None for one of others. Raises ValueError,
+        RefusalError, OSError.
+        """
 
 
 @runtime_checkable

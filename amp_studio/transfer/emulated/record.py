@@ -23,7 +23,9 @@ class StateError(ValueError):
 
 @dataclass(frozen=True)
 class Identity:
-    """What a control answers about itself: family id, signature of its schema, its name, its software revision."""
+    """What a control answers about itself: family id, signature of its schema, its name,
+    its software revision.
+    """
 
     family: str
     signature: str
@@ -35,8 +37,8 @@ class Identity:
 class Record:
     """The state of a control.
 
-    ``committed`` is its answer to the last commit, in words JSON has; ``images`` are the digests of what it has
-    contained, the newest last.
+    ``committed`` is its answer to the last commit, in words JSON has; ``images`` are the digests of what it
+    has contained, the newest last.
     """
 
     family: str

@@ -41,7 +41,8 @@ class PendingDownload:
 class Staging:
     """At most one download, taken up again after a restart. ``size`` is how many of its bytes have come.
 
-    Raises StateError, OSError for what cannot be read, and has written nothing then; ``tidy`` removes the rest.
+    Raises StateError, OSError for what cannot be read, and has written nothing then;
+    ``tidy`` removes the rest.
     """
 
     def __init__(self, memory: Memory) -> None:

@@ -14,7 +14,8 @@ MOST = 32  # kept at most, the newest
 
 
 class BrokenTransfers:
-    """The transfer ids of begun downloads in a folder, a file each; a folder that cannot be written keeps none.
+    """The transfer ids of begun downloads in a folder, a file each;
+    a folder that cannot be written keeps none.
 
     An id is forgotten before its commit is asked for, so that an id taken up again was never committed.
     """
@@ -23,7 +24,9 @@ class BrokenTransfers:
         self._folder = folder
 
     def find(self, what: bytes) -> bytes | None:
-        """Return the id under which exactly this was begun, or None; ``what`` names image, control and all it depends on."""
+        """Return the id under which exactly this was begun, or None; ``what`` names image,
+        control and all it depends on.
+        """
         path = self._path(what)
         try:
             if time.time() - path.stat().st_mtime > LASTING:

@@ -99,7 +99,8 @@ class Connection:
     def greet(self, tries: int = 3) -> Welcome:
         """Send Hello on the line there is, or on a new one.
 
-        Raises LinkError, NoAnswerError, RefusalError; WrongFamilyError and ProtocolMismatchError, after which the line is closed.
+        Raises LinkError, NoAnswerError, RefusalError; WrongFamilyError and ProtocolMismatchError,
+        after which the line is closed.
         """
         talk = self._talk
         if talk is None:

@@ -35,8 +35,8 @@ ABORT_WAIT = 0.5  # seconds
 class Sent:
     """An image that a control has committed.
 
-    ``committed`` is what it answered, ``reconnections`` how often the line was made again, ``resumed_at`` the byte up
-    to which an earlier run of the program had sent it.
+    ``committed`` is what it answered, ``reconnections`` how often the line was made again, ``resumed_at`` the
+    byte up to which an earlier run of the program had sent it.
     """
 
     committed: Committed
@@ -45,7 +45,9 @@ class Sent:
 
 
 class DownloadTransfer:
-    """Sends one image under one transfer id; ``at_control`` is what the control contains as far as can be known."""
+    """Sends one image under one transfer id; ``at_control`` is what the control contains as far
+    as can be known.
+    """
 
     def __init__(self, line: Connection, replacement: Replacement, broken: BrokenTransfers) -> None:
         self._line = line
@@ -97,8 +99,8 @@ class DownloadTransfer:
                 return self._line.persist(self._attempt)
             except RefusalError as refusal:
                 # Staged bytes that are lost or spoilt are sent again under the same id. On a serial line a
-                # control may also have started again without the client's noticing; then it answers how much it
-                # has.
+                # control may also have started again without the client's noticing; then it answers how much
+                # it has.
                 if refusal.code == Code.DIGEST:
                     spoilt, self._reached = spoilt + 1, 0
                 elif refusal.code in (Code.UNKNOWN_TRANSFER, Code.INCOMPLETE):

@@ -19,11 +19,7 @@ from amp_studio.transfer.waiting import OpenLink
 from .broken_transfers import BrokenTransfers, NoBrokenTransfers
 from .connection import Connection, OutOfTimeError
 from .download_transfer import DownloadTransfer, Sent
-from .message import (
-    RefusalError,
-    Welcome,
-    shorten,
-)
+from .message import RefusalError, Welcome, shorten
 from .refusals import error_of
 from .retry_timer import RetryPolicy
 from .transaction import NoAnswerError
@@ -93,7 +89,8 @@ class Session:
     def hello(self, exchange: Exchange = QUIET) -> Welcome:
         """Return who the control is and what it contains; connects where there is no line yet.
 
-        Raises NoConnectionError, ControlSilentError, ControlBusyError, WrongFamilyError, ProtocolMismatchError, CancelledError.
+        Raises NoConnectionError, ControlSilentError, ControlBusyError, WrongFamilyError,
+        ProtocolMismatchError, CancelledError.
         """
         self._line.cancel, self._line.progress = exchange.cancel, exchange.progress
         self._line.begin()
@@ -143,8 +140,8 @@ class Session:
     def fetch(self, exchange: Exchange = QUIET, stage: str = "upload", sent: bytes | None = None) -> bytes:
         """Return the control's active image, checked against its digest; raises TransferError.
 
-        ``sent`` is what was committed before: on a slow line only some of it is read, and ``sampled`` is how many pieces of
-        how many; None after every other upload.
+        ``sent`` is what was committed before: on a slow line only some of it is read, and ``sampled`` is how
+        many pieces of how many; None after every other upload.
         """
         self._line.cancel, self._line.progress = exchange.cancel, exchange.progress
         upload = UploadTransfer(self._line, stage, sent)

@@ -27,8 +27,8 @@ USELESS = 2_000
 
 
 def window_limit(chunk: int, offered: int, bytes_per_second: float | None) -> int:
-    """Return how many pieces may be under way: what the control offers, fewer where they are large or the line
-    is slow.
+    """Return how many pieces may be under way: what the control offers, fewer where they are large or the
+    line is slow.
     """
     offered = min(offered, MAX_FLYING // chunk)
     if bytes_per_second is None:
@@ -95,12 +95,11 @@ def pull(talk: Transaction, size: int, chunk: int, limit: int, pieces: dict[int,
 
 
 def _run(
-    talk: Transaction,
-    window: Window,
-    send: Callable[[int, int], int],
-    answer: Callable[[int, Message], bool],
+    talk: Transaction, window: Window, send: Callable[[int, int], int], answer: Callable[[int, Message], bool]
 ) -> None:
-    """Keep the window full until every piece has arrived; ``answer`` returns whether it was a step forward."""
+    """Keep the window full until every piece has arrived; ``answer`` returns whether it was a step
+    forward.
+    """
     missed = useless = 0
     while not window.is_done:
         while (piece := window.next_piece()) is not None:

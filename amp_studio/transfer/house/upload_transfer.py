@@ -27,10 +27,10 @@ FEWEST = 6  # pieces that are read back at least
 class UploadTransfer:
     """Fetches the active image; ``stage`` is the name it gives to ``progress``.
 
-    ``sent`` is an image that the control has committed in this session, after the digest it stated was right for everything
-    it had before. Where a line of known rate would take longer than ``SLOW`` and the control states the digest of ``sent``
-    for what it contains now, only pieces chosen at random are read, and ``sampled`` is their number and that of all.
-    Whatever does not fit is read whole.
+    ``sent`` is an image that the control has committed in this session, after the digest it stated was right
+    for everything it had before. Where a line of known rate would take longer than ``SLOW`` and the control
+    states the digest of ``sent`` for what it contains now, only pieces chosen at random are read, and
+    ``sampled`` is their number and that of all. Whatever does not fit is read whole.
     """
 
     def __init__(self, line: Connection, stage: str, sent: bytes | None = None) -> None:
@@ -104,7 +104,9 @@ class UploadTransfer:
         return is_sent and rate is not None and ready.size / rate > SLOW
 
     def _take_as_read(self, image: bytes, chunk: int) -> None:
-        """Leave only pieces to be read that nobody could know before: the first, the last, and some at random."""
+        """Leave only pieces to be read that nobody could know before: the first, the last,
+        and some at random.
+        """
         offsets = range(0, len(image), chunk)
         count = min(len(offsets), max(FEWEST, len(offsets) // ONE_OF))
         chance = random.Random(self._line.random(16))  # noqa: S311  # seeded by what the control cannot know

@@ -23,8 +23,8 @@ def in_time(
 ) -> Made:
     """Return what ``work`` makes within ``timeout`` seconds; raises what ``look`` raises.
 
-    Where it fails or takes too long, raises what ``error_of`` makes of its error or of a TimeoutError. What it makes
-    when nobody waits for it any more is given to ``put_away``.
+    Where it fails or takes too long, raises what ``error_of`` makes of its error or of a TimeoutError. What
+    it makes when nobody waits for it any more is given to ``put_away``.
     """
     attempt = _Attempt(work, put_away)
     threading.Thread(target=attempt.run, name="connect", daemon=True).start()

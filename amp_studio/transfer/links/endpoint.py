@@ -1,4 +1,6 @@
-"""Where a control is reached: ``tcp://host:port``, ``serial:/dev/ttyUSB0?baud=9600&bits=7&parity=even``, ``pty:``."""
+"""Where a control is reached: ``tcp://host:port``, ``serial:/dev/ttyUSB0?baud=9600&bits=7&parity=even``,
+``pty:``.
+"""
 
 from __future__ import annotations
 
@@ -33,7 +35,8 @@ class Endpoint:
     ``host`` and ``port``       of tcp, tls and rfc2217
     ``device``                  of serial
     ``baud`` (bit/s) to ``flow``  of serial and rfc2217; None where they are left to the protocol on the line
-    ``ca``, ``fingerprint``     of tls: a file of certificates to trust, or the SHA-256 of the only one, in hexadecimal
+    ``ca``, ``fingerprint``     of tls: a file of certificates to trust, or the SHA-256 of the only one, in
+    hexadecimal
     ``security``                what is asked of who connects, where this is listened on
     ``protocol``                how it is spoken to; "" for the usual way of the control's family
     """
@@ -106,7 +109,9 @@ def is_endpoint(text: str) -> bool:
 
 
 def _is_device(text: str) -> bool:
-    """Whether a text names a device, there or not; a file below /dev is a file (/dev/shm is a disk in memory)."""
+    """Whether a text names a device, there or not;
+    a file below /dev is a file (/dev/shm is a disk in memory).
+    """
     if not text.startswith("/dev/"):
         return False
     with contextlib.suppress(OSError, ValueError):  # a name too long for a file, or with a NUL, is none
@@ -123,7 +128,8 @@ def _network(text: str, kind: str) -> Endpoint:
     if found is None:
         name = {"tcp": "TCP", "tls": "TLS", "rfc2217": "RFC 2217"}[kind]
         raise ValueError(
-            f"{quoted(text)} is no {name} address: write {kind}://host:port, for example {kind}://192.168.0.5:7090"
+            f"{quoted(text)} is no {name} address: write {kind}://host:port, for example"
+            f" {kind}://192.168.0.5:7090"
         )
     port = int(found[3])
     if port > 65_535:

@@ -25,9 +25,10 @@ def connect(
 ) -> Link:
     """Open the line to a control, within ``timeout`` seconds; raises LinkError.
 
-    ``look`` is called at least every 0.1 s while opening and writing wait, and may raise to break off. ``own_flow``
-    leaves Xon and Xoff to the protocol on the line: they are read as bytes, whatever the endpoint's ``flow`` is.
-    A way of speaking with other usual settings than 115200 8N1 gives ``endpoint.with_usual(…)``.
+    ``look`` is called at least every 0.1 s while opening and writing wait, and may raise to break off.
+    ``own_flow`` leaves Xon and Xoff to the protocol on the line: they are read as bytes, whatever the
+    endpoint's ``flow`` is. A way of speaking with other usual settings than 115200 8N1 gives
+    ``endpoint.with_usual(…)``.
     """
     if endpoint.kind in ("tcp", "tls"):
         from .passwords import find_password
@@ -47,7 +48,9 @@ def connect(
 
 
 def _network_link(endpoint: Endpoint, password: str, timeout: float, look: Callable[[], None]) -> Link:
-    """Open a connection, prove the password on it if there is one, and else notice when the control asks for one."""
+    """Open a connection, prove the password on it if there is one,
+    and else notice when the control asks for one.
+    """
     from .password import NO_TLS, GuardedLink, PasswordError, ProvenLink, prove
     from .passwords import ENVIRONMENT, ask_password
 
@@ -83,7 +86,8 @@ def _network_link(endpoint: Endpoint, password: str, timeout: float, look: Calla
 def listen(endpoint: Endpoint) -> Listener:
     """Open the control's side of a line; raises LinkError when the place is taken or does not exist.
 
-    What it listens on names the protocol that ``endpoint`` names, so that a person can hand it to a client as it is.
+    What it listens on names the protocol that ``endpoint`` names,
+    so that a person can hand it to a client as it is.
     """
     listener = _listener(endpoint)
     listener.endpoint = replace(listener.endpoint, protocol=endpoint.protocol)

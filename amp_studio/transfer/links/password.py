@@ -42,14 +42,17 @@ def key_of(password: str, salt: bytes) -> bytes:
 
 
 def proof_of(key: bytes, end: bytes, challenge: bytes, certificate: bytes, nonce: bytes) -> bytes:
-    """Return the proof of one end (``client`` or ``server``) for one challenge over one certificate, in hexadecimal."""
+    """Return the proof of one end (``client`` or ``server``) for one challenge over one certificate,
+    in hexadecimal.
+    """
     return hmac.new(key, b"\0".join((end, challenge, certificate, nonce)), "sha256").hexdigest().encode()
 
 
 def prove(
     link: Link, place: object, password: str, certificate: bytes, seconds: float, look: Callable[[], None]
 ) -> bytes:
-    """Prove to a control that this end knows its password, and have it prove the same; raises PasswordError, LinkError.
+    """Prove to a control that this end knows its password, and have it prove the same; raises PasswordError,
+    LinkError.
 
     Returns what the control has sent behind its proof: a greeting of its protocol, for one.
     """
@@ -94,7 +97,8 @@ class ProvenLink:
 class GuardedLink:
     """A link without a password that notices when the control asks for one, and is opened again with it.
 
-    ``reopen`` returns a link on which the password is proven, and raises PasswordError where nobody knows one.
+    ``reopen`` returns a link on which the password is proven,
+    and raises PasswordError where nobody knows one.
     """
 
     def __init__(self, link: Link, reopen: Callable[[], Link]) -> None:
@@ -172,9 +176,10 @@ class Gate:
             return b"LATER %d\n" % max(1, round(left)), False
         if hmac.compare_digest(found[2], proof_of(self._key, b"client", challenge, certificate, found[1])):
             self._wrong.pop(host, None)
-            return b"WELCOME " + proof_of(
-                self._key, b"server", challenge, certificate, found[1]
-            ) + b"\n", True
+            return (
+                b"WELCOME " + proof_of(self._key, b"server", challenge, certificate, found[1]) + b"\n",
+                True,
+            )
         self._wrong.pop(host, None)
         self._wrong[host] = count + 1, self._clock() + min(LONGEST_DELAY, 2.0 ** min(count - 1, 9))
         if len(self._wrong) > HOSTS:

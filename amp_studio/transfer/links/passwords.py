@@ -1,4 +1,5 @@
-"""Where the password of a control comes from: the environment, the system's keyring, or the person at the terminal.
+"""Where the password of a control comes from: the environment, the system's keyring,
+or the person at the terminal.
 
 Never the command line, an address or a file: those are shown, logged and kept.
 """
@@ -13,7 +14,8 @@ from .endpoint import Endpoint
 
 ENVIRONMENT = "AMP_STUDIO_PASSWORD"
 SERVICE = "amp-studio"
-"""Under which the keyring has passwords, each with its address: ``keyring set amp-studio tcp://host:port``."""
+"""Under which the keyring has passwords, each with its address: ``keyring set amp-studio
+tcp://host:port``."""
 
 Ask = Callable[[str], str]
 
@@ -30,7 +32,9 @@ _known = _Known()
 
 
 def ask_with(ask: Ask | None, *, forget: bool = True) -> None:
-    """Have a person asked for a password that is in no other place; ``ask`` gets the address and may raise KeyboardInterrupt."""
+    """Have a person asked for a password that is in no other place;
+    ``ask`` gets the address and may raise KeyboardInterrupt.
+    """
     _known.ask = ask
     if forget:
         _known.entered.clear()
@@ -66,5 +70,6 @@ def _from_keyring(place: str) -> str:
         return import_module("keyring").get_password(SERVICE, place) or ""
     except ModuleNotFoundError:
         return ""
-    except Exception:  # a keyring that is locked, broken or not there has no password for us; the control asks if it needs one
+    # a keyring that is locked, broken or not there has no password for us; the control asks if it needs one
+    except Exception:
         return ""

@@ -54,7 +54,9 @@ class PtyLink:
                 raise LinkError(self._endpoint, str(error)) from None
 
     def client_settings(self) -> tuple[int, int]:
-        """Return the rate in bit/s and the stop bits that the client has set; a pseudo terminal knows no parity."""
+        """Return the rate in bit/s and the stop bits that the client has set;
+        a pseudo terminal knows no parity.
+        """
         import termios
 
         set_to = termios.tcgetattr(self._slave)

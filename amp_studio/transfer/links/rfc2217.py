@@ -1,8 +1,8 @@
 """Links over RFC 2217: a serial port of another computer, whose rate and parity are set from here.
 
-The client's side of the standard over a TCP link, without a thread: what comes is read when it is asked for, so that a flood
-waits in the network. (pyserial has a client too; its reader stores whatever comes, without end, dies of some of it, and can be
-replaced through its private parts only.)
+The client's side of the standard over a TCP link, without a thread: what comes is read when it is asked for,
+so that a flood waits in the network. (pyserial has a client too; its reader stores whatever comes, without
+end, dies of some of it, and can be replaced through its private parts only.)
 """
 
 from __future__ import annotations

@@ -1,4 +1,6 @@
-"""The control's side of TLS and passwords: a caller is let in once both are done, and delays nobody else meanwhile."""
+"""The control's side of TLS and passwords: a caller is let in once both are done,
+and delays nobody else meanwhile.
+"""
 
 from __future__ import annotations
 
@@ -25,7 +27,9 @@ Entering = tuple[TcpLink, float, Generator[Link | None]]
 
 
 class SecuredListener:
-    """A listener whose ``accept`` returns only links that have passed TLS and password; either may be None."""
+    """A listener whose ``accept`` returns only links that have passed TLS and password; either may be
+    None.
+    """
 
     def __init__(
         self,
@@ -75,7 +79,9 @@ class SecuredListener:
         self._entering.append((caller, self._clock() + TIME_TO_ENTER, self._enter(caller)))
 
     def _most_numerous(self) -> Entering:
-        """Return the first of those who wait from the host that has most of them: a crowd displaces only its own."""
+        """Return the first of those who wait from the host that has most of them:
+        a crowd displaces only its own.
+        """
         hosts = Counter(neighbourhood(caller.peer.host) for caller, _, _ in self._entering)
         return max(self._entering, key=lambda entry: hosts[neighbourhood(entry[0].peer.host)])
 
@@ -96,7 +102,9 @@ class SecuredListener:
         return None
 
     def _enter(self, caller: TcpLink) -> Generator[Link | None]:
-        """Yield None until the link is through, and then the link; raises LinkError. Closed before that, it hangs up."""
+        """Yield None until the link is through, and then the link; raises LinkError. Closed before that,
+        it hangs up.
+        """
         link, is_through = caller, False
         try:
             if self._context is not None:
@@ -144,7 +152,9 @@ class SecuredListener:
 
 
 def neighbourhood(host: str) -> str:
-    """Return what counts as one host: an IPv4 address, or the 64 bits of an IPv6 network, in which anybody has any address."""
+    """Return what counts as one host: an IPv4 address, or the 64 bits of an IPv6 network,
+    in which anybody has any address.
+    """
     try:
         found = ipaddress.ip_address(host.partition("%")[0])
     except ValueError:

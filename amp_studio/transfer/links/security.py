@@ -30,7 +30,9 @@ class Security:
 
 
 def read_password(path: Path) -> str:
-    """Return the first line of a file; raises ValueError where it is no password, OSError where it cannot be read."""
+    """Return the first line of a file; raises ValueError where it is no password,
+    OSError where it cannot be read.
+    """
     with path.open("rb") as stream:
         content = stream.read(_LARGEST_FILE)
     try:
@@ -50,7 +52,9 @@ def can_others_read(path: Path) -> bool:
 
 
 def server_context(security: Security) -> ssl.SSLContext | None:
-    """Return what TLS needs to listen, None without a certificate; raises ValueError where it cannot be used."""
+    """Return what TLS needs to listen, None without a certificate; raises ValueError where it cannot be
+    used.
+    """
     if security.certificate is None:
         return None
     import ssl  # not before it is needed: it takes 15 ms of every start
@@ -94,10 +98,18 @@ def is_public(host: str) -> bool:
 
 
 def exposure(host: str, *, has_tls: bool, has_password: bool) -> str:
-    """Return a sentence about what others can do to a control that listens at a host; "" where they cannot."""
+    """Return a sentence about what others can do to a control that listens at a host; "" where they
+    cannot.
+    """
     if not is_public(host) or (has_tls and has_password):
         return ""
     if not has_password:
         missing = "a password" if has_tls else "TLS and a password"
-        return f"{host} can be reached from the network, without {missing}: anybody there can read and replace the parameters"
-    return f"{host} can be reached from the network, without TLS: who can read or change what passes there is not kept out"
+        return (
+            f"{host} can be reached from the network, without {missing}: anybody there can read and replace"
+            " the parameters"
+        )
+    return (
+        f"{host} can be reached from the network, without TLS: who can read or change what passes there is"
+        " not kept out"
+    )

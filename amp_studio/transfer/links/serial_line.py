@@ -72,7 +72,9 @@ class SerialLink:
             self._look()
 
     def drain(self) -> None:
-        """Wait until everything that was written has left; raises LinkError where the other end takes nothing."""
+        """Wait until everything that was written has left;
+        raises LinkError where the other end takes nothing.
+        """
         waiting, end = -1, 0.0
         while (left := self._leaving()) > 0:
             self._look()
@@ -83,7 +85,9 @@ class SerialLink:
             time.sleep(MOMENT)
 
     def close(self) -> None:
-        """Give the line up; what the other end stops by flow control is lost, or the system would wait for it."""
+        """Give the line up; what the other end stops by flow control is lost,
+        or the system would wait for it.
+        """
         with contextlib.suppress(OSError, TypeError, AttributeError):
             waiting, end = -1, 0.0
             while self.is_open and self._held_limit == HELD_LIMIT and (left := self._port.out_waiting) > 0:
@@ -122,7 +126,8 @@ class SerialLink:
             raise self._lost(error) from None
 
     def _lost(self, error: Exception) -> LinkError:
-        # pyserial meets a port that was closed with any of these, and one that was pulled out with an OSError.
+        # pyserial meets a port that was closed with any of these, and one that was pulled out with an
+        # OSError.
         if not self.is_open or isinstance(error, TypeError | AttributeError | ValueError):
             return LinkError(self._endpoint, "the port is closed")
         if "rite timeout" in str(error):
@@ -133,7 +138,9 @@ class SerialLink:
 
 
 def port_settings(endpoint: Endpoint, own_flow: bool) -> dict[str, Any]:
-    """Return the settings of a line as pyserial takes them; ``own_flow`` leaves Xon and Xoff to the reader."""
+    """Return the settings of a line as pyserial takes them; ``own_flow`` leaves Xon and Xoff to the
+    reader.
+    """
     settings = endpoint.serial_settings()
     flow: Flow = "none" if own_flow and settings.flow == "xonxoff" else settings.flow
     return {
@@ -186,7 +193,8 @@ def _need_port(endpoint: Endpoint) -> None:
 def _claim(port: Any) -> None:
     """Keep programs out that do not ask for the lock pyserial takes.
 
-    Not from a pseudo terminal: its other end keeps it open, and would keep the mark of a program that was killed.
+    Not from a pseudo terminal: its other end keeps it open,
+    and would keep the mark of a program that was killed.
     """
     if os.name != "posix" or os.major(os.fstat(port.fileno()).st_rdev) in PSEUDO_TERMINALS:
         return

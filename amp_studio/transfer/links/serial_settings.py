@@ -26,5 +26,7 @@ class SerialSettings:
 
     @property
     def bytes_per_second(self) -> float:
-        """What the line carries each way: a start bit, the data bits, the parity bit and the stop bits make a byte."""
+        """What the line carries each way: a start bit, the data bits,
+        the parity bit and the stop bits make a byte.
+        """
         return self.baud / (1 + self.bits + (self.parity != "none") + self.stop)

@@ -137,7 +137,9 @@ class TcpListener:
 
 
 def connect_tcp(endpoint: Endpoint, timeout: float, look: Callable[[], None] = keep_waiting) -> TcpLink:
-    """Connect to a listening control within ``timeout`` seconds; raises LinkError, and what ``look`` raises."""
+    """Connect to a listening control within ``timeout`` seconds; raises LinkError, and what ``look``
+    raises.
+    """
     # Nothing ends the search for a host's address before its time.
     made = in_time(
         partial(_connected, endpoint, timeout),

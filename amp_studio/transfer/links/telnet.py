@@ -38,7 +38,9 @@ class _State(Enum):
 
 
 class TelnetReader:
-    """Takes bytes as they come, cut anywhere. What is no telnet is left out; an option that is too long too."""
+    """Takes bytes as they come, cut anywhere. What is no telnet is left out; an option that is too long
+    too.
+    """
 
     def __init__(self) -> None:
         self._state = _State.PLAIN

@@ -79,7 +79,8 @@ def is_ready(connection: ssl.SSLSocket, wish: ssl.SSLError, seconds: float) -> b
 def connect_tls(
     endpoint: Endpoint, timeout: float, look: Callable[[], None] = keep_waiting
 ) -> tuple[TlsLink, bytes]:
-    """Connect and check the certificate within ``timeout`` seconds; return the link and the digest of the certificate.
+    """Connect and check the certificate within ``timeout`` seconds;
+    return the link and the digest of the certificate.
 
     Raises LinkError, and what ``look`` raises.
     """
@@ -113,7 +114,9 @@ def _connected(endpoint: Endpoint, timeout: float) -> ssl.SSLSocket:
 
 
 def client_context(endpoint: Endpoint) -> ssl.SSLContext:
-    """Return what a certificate is checked by: the one fingerprint, a file of certificates (or both), or those of the system."""
+    """Return what a certificate is checked by: the one fingerprint, a file of certificates (or both),
+    or those of the system.
+    """
     if endpoint.fingerprint and not endpoint.ca:
         context = ssl.SSLContext(ssl.PROTOCOL_TLS_CLIENT)
         context.check_hostname = False
@@ -136,8 +139,8 @@ def tls_message(error: Exception) -> str:
     """Return an error of TLS or of the socket below in words."""
     if isinstance(error, ssl.SSLCertVerificationError):
         return (
-            f"its certificate is not trusted ({error.verify_message or 'no reason given'}): "
-            "name the file of its authority (?ca=FILE) or the fingerprint that it prints (?fingerprint=sha256:…)"
+            f"its certificate is not trusted ({error.verify_message or 'no reason given'}): name the file of"
+            " its authority (?ca=FILE) or the fingerprint that it prints (?fingerprint=sha256:…)"
         )
     if isinstance(error, ssl.SSLEOFError | ssl.SSLZeroReturnError):
         return "the other end has closed the connection"

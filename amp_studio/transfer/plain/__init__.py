@@ -1,4 +1,6 @@
-"""Plain files to and from any control that takes one: XMODEM, YMODEM, and raw as a tape punch and reader do it."""
+"""Plain files to and from any control that takes one: XMODEM, YMODEM,
+and raw as a tape punch and reader do it.
+"""
 
 from typing import TYPE_CHECKING
 

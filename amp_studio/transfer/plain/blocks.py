@@ -1,4 +1,6 @@
-"""The blocks of XMODEM and YMODEM: a header, a number and its complement, 128 or 1024 bytes, a checksum or CRC-16."""
+"""The blocks of XMODEM and YMODEM: a header, a number and its complement, 128 or 1024 bytes,
+a checksum or CRC-16.
+"""
 
 from __future__ import annotations
 
@@ -9,7 +11,8 @@ WANT_CRC = ord("C")
 SHORT, LONG = 128, 1024
 LENGTHS = {SOH: SHORT, STX: LONG}
 CANCEL = bytes([CAN] * 8 + [0x08] * 8)
-"""What gives a transfer up: two are enough, the rest is for noise; backspaces clear them from a command line."""
+"""What gives a transfer up: two are enough, the rest is for noise; backspaces clear them from a command
+line."""
 
 
 def encode_block(number: int, content: bytes, *, crc: bool) -> bytes:
@@ -23,7 +26,9 @@ def encode_block(number: int, content: bytes, *, crc: bool) -> bytes:
 
 
 def check_of(content: bytes, *, crc: bool) -> bytes:
-    """Return what follows the content: CRC-16 of polynomial 1021h from 0, high byte first, or the sum of the bytes."""
+    """Return what follows the content: CRC-16 of polynomial 1021h from 0, high byte first,
+    or the sum of the bytes.
+    """
     return crc_hqx(content, 0).to_bytes(2, "big") if crc else bytes([sum(content) & 0xFF])
 
 

@@ -43,7 +43,9 @@ def send_files(
     progress: Progress = quiet,
     cancel: threading.Event | None = None,
 ) -> None:
-    """Send files (one, unless by YMODEM); raises PlainFileError, whose ``at_control`` is "unknown" once some has arrived."""
+    """Send files (one, unless by YMODEM); raises PlainFileError,
+    whose ``at_control`` is "unknown" once some has arrived.
+    """
     if protocol == "raw":
         _need_fitting(endpoint, files[0].content)
     if protocol == "ymodem":
@@ -68,7 +70,10 @@ def send_files(
                 error.what += (
                     "; how much has arrived is not known: look at the control"
                     if protocol == "raw"
-                    else f"; {sender.taken} of {total} bytes were acknowledged: look at the control what it has made of them"
+                    else (
+                        f"; {sender.taken} of {total} bytes were acknowledged: look at the control what it"
+                        " has made of them"
+                    )
                 )
             raise
 

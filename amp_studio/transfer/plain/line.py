@@ -30,9 +30,10 @@ class PlainFileError(TransferError):
 
 @dataclass(frozen=True)
 class Patience:
-    """Limits in seconds. ``start`` until the other end begins, ``answer`` for an answer, ``ask`` between two requests to begin,
-    ``gap`` between two bytes of a block, ``noise`` for an answer that was disturbed, ``quiet`` after which a disturbed line has come to rest, ``stall`` without
-    progress until the transfer is cancelled.
+    """Limits in seconds. ``start`` until the other end begins, ``answer`` for an answer, ``ask`` between two
+    requests to begin,
+    ``gap`` between two bytes of a block, ``noise`` for an answer that was disturbed, ``quiet`` after which a
+    disturbed line has come to rest, ``stall`` without progress until the transfer is cancelled.
     """
 
     start: float = 60.0
@@ -45,7 +46,9 @@ class Patience:
 
 
 class ByteLine:
-    """Reads and writes bytes; every wait has an end. Raises PlainFileError when the line is gone or ``cancel`` is set."""
+    """Reads and writes bytes; every wait has an end.
+    Raises PlainFileError when the line is gone or ``cancel`` is set.
+    """
 
     def __init__(
         self,
@@ -65,7 +68,9 @@ class ByteLine:
 
     @property
     def quiet(self) -> float:
-        """Seconds after which a disturbed line has come to rest; on a serial line a gap is a fault much sooner."""
+        """Seconds after which a disturbed line has come to rest;
+        on a serial line a gap is a fault much sooner.
+        """
         return min(self.patience.quiet, SERIAL_QUIET) if self._link.bytes_per_second else self.patience.quiet
 
     @property

@@ -1,4 +1,6 @@
-"""Raw text as a tape punch and reader have it: a leader, ``%``, the text, ``%``, a trailer; nothing is acknowledged."""
+"""Raw text as a tape punch and reader have it: a leader, ``%``, the text, ``%``, a trailer;
+nothing is acknowledged.
+"""
 
 from __future__ import annotations
 
@@ -17,7 +19,9 @@ _LAST = re.compile(rb"[\r\n\0]%[ \0\x7f]*\Z")
 
 @dataclass(frozen=True)
 class Tape:
-    """``leader`` bytes of ``filler`` come before and after; ``percent`` marks begin and end of the text by ``%``."""
+    """``leader`` bytes of ``filler`` come before and after;
+    ``percent`` marks begin and end of the text by ``%``.
+    """
 
     leader: int = 0
     filler: bytes = b"\0"

@@ -46,7 +46,9 @@ class BlockReceiver:
         return bytes(content)
 
     def block(self, number: int, *, is_first: bool) -> bytes | None:
-        """Return the block of a number, acknowledged; None at the end of the file. ``is_first``: it has to be asked for."""
+        """Return the block of a number, acknowledged; None at the end of the file. ``is_first``:
+        it has to be asked for.
+        """
         line = self._line
         patience = line.patience
         end, tries, silences = line.now() + (patience.start if is_first else patience.stall), 0, 0
@@ -96,7 +98,9 @@ class BlockReceiver:
         return bytes([WANT_CRC if self._crc else NAK])
 
     def _next(self, seconds: float) -> tuple[int, bytes] | Came:
-        """Return number and content of the next block, or what came instead; raises where the other end gives up."""
+        """Return number and content of the next block, or what came instead;
+        raises where the other end gives up.
+        """
         line = self._line
         header = line.get(1, seconds)
         if not header:
@@ -111,7 +115,9 @@ class BlockReceiver:
         return decode_block(header[0], rest, crc=self._crc) or Came.DAMAGED
 
     def _is_end(self, *, is_repeated: bool) -> bool:
-        """Whether an EOT is one: it comes again when it is asked for. One of the file before is only acknowledged."""
+        """Whether an EOT is one: it comes again when it is asked for.
+        One of the file before is only acknowledged.
+        """
         line = self._line
         if is_repeated:
             line.put(bytes([ACK]))

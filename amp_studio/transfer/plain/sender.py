@@ -12,7 +12,8 @@ EASY = 32  # short blocks after one that needed several tries; then long ones ag
 class BlockSender:
     """Sends numbered blocks.
 
-    ``has_begun`` once a block was on the line, whatever became of it; ``taken`` counts the bytes that were acknowledged.
+    ``has_begun`` once a block was on the line, whatever became of it;
+    ``taken`` counts the bytes that were acknowledged.
     """
 
     def __init__(self, line: ByteLine, *, long_blocks: bool) -> None:
@@ -74,7 +75,9 @@ class BlockSender:
         raise PlainFileError(f"{what} was not acknowledged")
 
     def _answer(self, since: float, seconds: float, wanted: tuple[int, ...]) -> int | None:
-        """Return the first wanted byte, or None where none has come so long after a time; raises where the other end gives up."""
+        """Return the first wanted byte, or None where none has come so long after a time;
+        raises where the other end gives up.
+        """
         end, cancels = since + seconds, 0
         while (left := end - self._line.now()) > 0:
             came = self._line.get(1, left)

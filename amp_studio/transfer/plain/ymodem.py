@@ -72,7 +72,9 @@ def read_header(block: bytes) -> tuple[str, int | None]:
 
 
 def file_name(name: str) -> str:
-    """Return the name under which a file of a stranger may be saved in a folder: no path, nothing that is hidden or special."""
+    """Return the name under which a file of a stranger may be saved in a folder: no path,
+    nothing that is hidden or special.
+    """
     last = re.split(r"[/\\]", name)[-1]
     last = "".join(sign if sign.isprintable() else "_" for sign in _UNSUITABLE.sub("_", last)).strip(" .")
     return last[:LONGEST_NAME] or "file"

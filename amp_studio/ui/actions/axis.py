@@ -1,4 +1,6 @@
-"""What the axis menu does: name, configure type and servo, add, delete, copy, swap and compare, as far as the family can."""
+"""What the axis menu does: name, configure type and servo, add, delete, copy, swap and compare,
+as far as the family can.
+"""
 
 from __future__ import annotations
 

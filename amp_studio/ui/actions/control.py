@@ -42,11 +42,7 @@ class ControlDesk(Translated):
     """Exchange with the control of the project, or with the emulated one."""
 
     def __init__(
-        self,
-        window: StudioWindow,
-        files: Files,
-        centre: QStackedWidget,
-        show_values: Callable[[], None],
+        self, window: StudioWindow, files: Files, centre: QStackedWidget, show_values: Callable[[], None]
     ) -> None:
         self.window, self._files, self._centre, self._show_values = window, files, centre, show_values
         self.emulated = EmulatedControl(window)
@@ -69,7 +65,9 @@ class ControlDesk(Translated):
         action.setIcon(icon("warning-fill", "warn") if warns else icon("cpu"))
 
     def live(self) -> None:
-        """Show what the control of the file in front states of itself now; raises ValueError while something is sent."""
+        """Show what the control of the file in front states of itself now;
+        raises ValueError while something is sent.
+        """
         from amp_studio.ui.control.live import LivePage
 
         if self.is_sending:
@@ -198,7 +196,9 @@ class ControlDesk(Translated):
         page.setFocus()
 
     def _has_a_way(self, workspace: Workspace) -> bool:
-        """Return whether a way to a control of the family is known; else the sheet to key in is made instead."""
+        """Return whether a way to a control of the family is known; else the sheet to key in is made
+        instead.
+        """
         from amp_studio.transfer.client import protocols_of
 
         return bool(protocols_of(workspace.file.schema.family.family))
@@ -311,7 +311,9 @@ class ControlDesk(Translated):
         tune(self.window, self.exchanges)
 
     def restore(self) -> None:
-        """Ask for a backup and offer to put it back; raises ValueError for a file with errors that is no proven backup."""
+        """Ask for a backup and offer to put it back;
+        raises ValueError for a file with errors that is no proven backup.
+        """
         workspace = self.window.workspace
         folder = workspace.path.parent if workspace is not None else Path()
         text, _ = QFileDialog.getOpenFileName(self.window, self.tr("Restore"), str(folder), COPIES)
@@ -346,7 +348,9 @@ class ControlDesk(Translated):
         self.show("read", address or "")
 
     def _save_upload(self, file: ParameterFile | None) -> None:
-        """Ask about each value out of range, and save an upload as a new file; another name when it cannot be written."""
+        """Ask about each value out of range, and save an upload as a new file;
+        another name when it cannot be written.
+        """
         if file is None or not settle(file, "an upload", AskInDialogs(self.window)):
             self.window.show_status(self.tr("Upload cancelled. No file was written."))
             return
@@ -374,9 +378,13 @@ def state_in_words(session: ControlSession | None) -> tuple[str, bool]:
     if session.phase == "ready" and session.in_estop is False:
         return tr("not in E-stop"), True
     words = {
-        "away": tr("connection lost") if session.error else tr("not connected"), "connecting": tr("connecting"),
-        "ready": tr("ready"), "running": tr("sending"), "done": tr("ready"), "failed": tr("did not reach its end"),
-    }  # fmt: skip
+        "away": tr("connection lost") if session.error else tr("not connected"),
+        "connecting": tr("connecting"),
+        "ready": tr("ready"),
+        "running": tr("sending"),
+        "done": tr("ready"),
+        "failed": tr("did not reach its end"),
+    }
     return words[session.phase], session.phase == "failed" or (
         session.phase == "away" and bool(session.error)
     )

@@ -1,4 +1,6 @@
-"""What is printed of the open file: the report, tables to fill in by hand, and a template of the project to begin with."""
+"""What is printed of the open file: the report, tables to fill in by hand,
+and a template of the project to begin with.
+"""
 
 from __future__ import annotations
 
@@ -45,7 +47,9 @@ def form(window: StudioWindow) -> None:
 
 
 def new_template(window: StudioWindow) -> None:
-    """Write a template to begin with beside the open file, and show its folder; raises FileExistsError where there is one."""
+    """Write a template to begin with beside the open file, and show its folder;
+    raises FileExistsError where there is one.
+    """
     from amp_studio.report import write_starting_template
 
     folder = real_path(window.workspace_in_front.path).parent
@@ -58,4 +62,12 @@ def show_about(window: StudioWindow) -> None:
     """Show what the program is, and its version."""
     from amp_studio.version import __version__
 
-    show_message(window, tr("About AMP Studio"), tr("AMP Studio {version}\n\nThe numbered parameters of machine controls: edit, check, print, exchange and simulate them.").format(version=__version__), QMessageBox.Icon.Information)  # fmt: skip
+    show_message(
+        window,
+        tr("About AMP Studio"),
+        tr(
+            "AMP Studio {version}\n\nThe numbered parameters of machine controls: edit, check, print,"
+            " exchange and simulate them."
+        ).format(version=__version__),
+        QMessageBox.Icon.Information,
+    )

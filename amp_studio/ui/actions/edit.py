@@ -34,7 +34,9 @@ class Edits(Translated):
         return self.commit_to(self.window.workspace_in_front, address, text)
 
     def commit_to(self, workspace: Workspace, address: Address, text: str) -> bool:
-        """Set a value from typed text; asks before a value out of range is forced. Returns whether it was set."""
+        """Set a value from typed text; asks before a value out of range is forced.
+        Returns whether it was set.
+        """
         name = describe(workspace.file, address)
         try:
             workspace.enter(address, text)
@@ -52,7 +54,8 @@ class Edits(Translated):
     def _ask_force(self, workspace: Workspace, address: Address, text: str, problem: str) -> bool:
         force = self.tr("&Force and Mark")
         question = self.tr(
-            "{problem}.\n\nNothing was changed. A forced value is marked in the file, the findings and the report."
+            "{problem}.\n\nNothing was changed. A forced value is marked in the file, the findings and the"
+            " report."
         ).format(problem=problem)
         icon = QMessageBox.Icon.Warning
         if (
@@ -173,7 +176,9 @@ class Edits(Translated):
             self.window.show_status("; ".join([f"Suppression saved in {path}", *notes]))
 
     def fix(self, finding: Finding) -> None:
-        """Apply the suggested fix of a finding as one step, if the finding still exists and its fix was tried."""
+        """Apply the suggested fix of a finding as one step,
+        if the finding still exists and its fix was tried.
+        """
         if finding not in self.window.workspace_in_front.findings:
             raise ValueError(
                 self.tr(
@@ -193,7 +198,8 @@ class Edits(Translated):
         if not workspace.do(self.tr("Fix several"), wanted):
             raise ValueError(
                 self.tr(
-                    "These findings have changed or no longer exist. Select them again in the list of findings."
+                    "These findings have changed or no longer exist. Select them again in the list of"
+                    " findings."
                 )
             )
 

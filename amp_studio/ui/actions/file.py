@@ -97,8 +97,13 @@ class Files(Translated):
 
     def ask_path(self, title: str, near: Path) -> Path | None:
         """Ask where to save; adds the file extension and asks before a file is replaced."""
-        text, _ = QFileDialog.getSaveFileName(self.window, title, str(self._own_folder() / near.with_suffix(".amp")), FILTER,
-                                              options=QFileDialog.Option.DontConfirmOverwrite)  # fmt: skip
+        text, _ = QFileDialog.getSaveFileName(
+            self.window,
+            title,
+            str(self._own_folder() / near.with_suffix(".amp")),
+            FILTER,
+            options=QFileDialog.Option.DontConfirmOverwrite,
+        )
         if not text:
             return None
         path = Path(text)
@@ -113,14 +118,17 @@ class Files(Translated):
         return real_path(path) if path.exists() else path  # of a link it is the file that is replaced
 
     def _own_folder(self) -> Path:
-        """Return the folder of the file in front, or the user's documents; never that of the program's examples."""
+        """Return the folder of the file in front, or the user's documents;
+        never that of the program's examples.
+        """
         workspace = self.window.workspace
         if workspace and examples_folder() not in real_path(workspace.path).parents:
             return workspace.path.parent
         return Path(QStandardPaths.writableLocation(QStandardPaths.StandardLocation.DocumentsLocation))
 
     def write_new(self, path: Path, write: Callable[[], Document], instead: FilePage | None = None) -> None:
-        """Show the document that ``write`` makes, in the place of a page if one is given; an existing file is backed up first.
+        """Show the document that ``write`` makes, in the place of a page if one is given;
+        an existing file is backed up first.
 
         Raises ValueError for a file that is open here.
         """
@@ -156,7 +164,8 @@ class Files(Translated):
             self.open_path(Path(text))
 
     def open_path(self, path: Path) -> None:
-        """Open a file, or come back to it where it is open; offers unsaved work, and to look at it when another program edits it.
+        """Open a file, or come back to it where it is open; offers unsaved work,
+        and to look at it when another program edits it.
 
         Raises ParameterFileError.
         """
@@ -169,11 +178,7 @@ class Files(Translated):
         except InUseError as error:
             question = self.tr("{error}.\n\nOpen it read-only?").format(error=error)
             if ask(
-                self.window,
-                self.tr("File in use"),
-                question,
-                self.tr("&Open Read-Only"),
-                self.tr("Cancel"),
+                self.window, self.tr("File in use"), question, self.tr("&Open Read-Only"), self.tr("Cancel")
             ) != self.tr("&Open Read-Only"):
                 return
             opened = in_background(self.window, self.tr("Opening"), lambda: _opened(Document.view, path))
@@ -252,7 +257,10 @@ class Files(Translated):
         )
         changes = len(unsaved.changes) + len(unsaved.header)
         count = counted(changes, "change")
-        text = (self.tr("The program ended before {count} from {day_and_time} ({who}) could be saved.{note}\n\nRecover the unsaved work? You can undo this.").format(count=count, day_and_time=day_and_time(unsaved.when), who=unsaved.who, note=note))  # fmt: skip
+        text = self.tr(
+            "The program ended before {count} from {day_and_time} ({who}) could be saved.{note}\n\nRecover"
+            " the unsaved work? You can undo this."
+        ).format(count=count, day_and_time=day_and_time(unsaved.when), who=unsaved.who, note=note)
         answer = ask(
             self.window,
             self.tr("Unsaved work found"),
@@ -340,7 +348,9 @@ def _opened(how: Callable[[Path], Document], path: Path) -> CheckedDocument:
 
 
 def checked(document: Document) -> Validator:
-    """Return the validator of a document, already run, with the builder's rules beside the file and what it was."""
+    """Return the validator of a document, already run,
+    with the builder's rules beside the file and what it was.
+    """
     own = rules_beside(document.path, document.file)
     validator = Validator(document.file, own, earlier_of(document))
     validator.run()

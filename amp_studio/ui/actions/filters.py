@@ -12,9 +12,17 @@ from amp_studio.ui.table.filter_bar import mark_names
 from amp_studio.ui.window.studio_window import StudioWindow
 
 _LETTERS: dict[Mark, str] = {
-    "not-set": "n", "changed": "c", "findings": "f", "axes-differ": "x", "unsaved": "s", "since-download": "d",
-    "restart": "r", "recent": "e", "bookmarked": "b", "noted": "w",
-}  # fmt: skip
+    "not-set": "n",
+    "changed": "c",
+    "findings": "f",
+    "axes-differ": "x",
+    "unsaved": "s",
+    "since-download": "d",
+    "restart": "r",
+    "recent": "e",
+    "bookmarked": "b",
+    "noted": "w",
+}
 """The letter that is underlined in the name of each filter, as far as its language has it."""
 
 
@@ -49,7 +57,9 @@ def _read_download(window: StudioWindow, page: FilePage) -> None:
 
 
 def toggle_bookmark(window: StudioWindow) -> None:
-    """Bookmark the parameter of the current cell, or take its bookmark away; bookmarks are a person's, not the file's."""
+    """Bookmark the parameter of the current cell, or take its bookmark away; bookmarks are a person's,
+    not the file's.
+    """
     page = window.page_in_front
     address = page.table_view.address()
     if address is None:

@@ -59,7 +59,8 @@ class FindSearch(Translated):
         self._families: tuple[Finder, ...] | None = None
         """The families without a file, once somebody has asked for a message without one."""
         self._is_read = False
-        """Whether the commands are those of the present menus; they are read at the first key, as Qt gives the focus at odd moments."""
+        """Whether the commands are those of the present menus; they are read at the first key,
+        as Qt gives the focus at odd moments."""
         self.box.entered.connect(self._forget_menus)
 
     # -- the files ---------------------------------------------------------------------
@@ -82,7 +83,8 @@ class FindSearch(Translated):
             finder.forget_values()
 
     def _index(self) -> None:
-        """Index the words of the families of the open files in threads; a question that waits for one is asked again.
+        """Index the words of the families of the open files in threads;
+        a question that waits for one is asked again.
 
         What the first edit of a machine type needs is worked out there too.
         """
@@ -142,7 +144,9 @@ class FindSearch(Translated):
         return replace(hit, detail=f"{value}   {hit.detail}")
 
     def _messages(self, query: str) -> list[Hit]:
-        """Return messages of the controls of every family, for who has no file open; loaded in a thread at the first question."""
+        """Return messages of the controls of every family, for who has no file open;
+        loaded in a thread at the first question.
+        """
         found = []
         for finder in self._every_finder():
             family = finder.schema.family
@@ -153,7 +157,9 @@ class FindSearch(Translated):
         return found
 
     def _every_finder(self) -> tuple[Finder, ...]:
-        """Return a finder of each family; loaded in a thread at the first question, which is asked again then."""
+        """Return a finder of each family; loaded in a thread at the first question,
+        which is asked again then.
+        """
         if self._families is None:
             self._families = ()
             task = Task(lambda *_: _every_family())
@@ -170,7 +176,9 @@ class FindSearch(Translated):
         self._is_read = False
 
     def _read_menus(self) -> None:
-        """Learn which commands can be used now, again if a menu was filled again meanwhile: its old commands are deleted."""
+        """Learn which commands can be used now, again if a menu was filled again meanwhile:
+        its old commands are deleted.
+        """
         if self._is_read and all(is_alive(action) for action in self._commands.values()):
             return
         self._is_read = True
@@ -198,7 +206,9 @@ class FindSearch(Translated):
         return [FindRow(text, icon="table", every=ids)]
 
     def _nothing(self, query: str, nearest: str) -> list[FindRow]:
-        """Return the ways on from a question without an answer: the nearest one, other families, where everything is."""
+        """Return the ways on from a question without an answer: the nearest one, other families,
+        where everything is.
+        """
         rows = [FindRow(self.box.tr("Nothing found"))]
         if nearest:
             text = self.box.tr("Did you mean “{words}”?").format(words=nearest)

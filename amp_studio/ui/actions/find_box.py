@@ -1,4 +1,5 @@
-"""The find box of the tool bar: one question over numbers, names, values, messages and commands, answered at each key.
+"""The find box of the tool bar: one question over numbers, names, values, messages and commands,
+answered at each key.
 
 The list below it is a part of the window that never takes the focus, so the cursor stays where one types.
 """
@@ -118,7 +119,9 @@ class FindBox(QLineEdit):
         return not self._popup.isHidden()
 
     def close_list(self) -> None:
-        """Hide the list; the question stays. A window that goes takes the list away before this field loses the focus."""
+        """Hide the list; the question stays. A window that goes takes the list away
+        before this field loses the focus.
+        """
         with contextlib.suppress(RuntimeError):
             self._popup.hide()
 

@@ -5,14 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 from typing import NamedTuple
 
-from PySide6.QtCore import (
-    QAbstractListModel,
-    QModelIndex,
-    QPersistentModelIndex,
-    QRect,
-    QSize,
-    Qt,
-)
+from PySide6.QtCore import QAbstractListModel, QModelIndex, QPersistentModelIndex, QRect, QSize, Qt
 from PySide6.QtGui import QAction, QFontMetrics, QKeySequence, QPainter
 from PySide6.QtWidgets import QStyle, QStyledItemDelegate, QStyleOptionViewItem
 
@@ -21,9 +14,14 @@ from amp_studio.ui.base.theme import FINDING_ROW, GAP, GAP2, ROW, SMALL_ICON, co
 from amp_studio.ui.base.translated import tr
 
 _ICONS: dict[HitKind, str] = {
-    "parameter": "hash", "value": "equals", "choice": "list-bullets", "message": "warning-circle",
-    "group": "tree-structure", "command": "terminal-window", "note": "note-pencil",
-}  # fmt: skip
+    "parameter": "hash",
+    "value": "equals",
+    "choice": "list-bullets",
+    "message": "warning-circle",
+    "group": "tree-structure",
+    "command": "terminal-window",
+    "note": "note-pencil",
+}
 _MOST: dict[HitKind, int] = {
     "parameter": 8,
     "value": 6,
@@ -62,10 +60,14 @@ class FindRow(NamedTuple):
 
 def _head(kind: HitKind) -> str:
     return {
-        "parameter": tr("Parameters"), "value": tr("Values"), "choice": tr("Choices"),
-        "message": tr("Messages of the control"), "group": tr("Groups"),
-        "command": tr("Commands"), "note": tr("Notes"),
-    }[kind]  # fmt: skip
+        "parameter": tr("Parameters"),
+        "value": tr("Values"),
+        "choice": tr("Choices"),
+        "message": tr("Messages of the control"),
+        "group": tr("Groups"),
+        "command": tr("Commands"),
+        "note": tr("Notes"),
+    }[kind]
 
 
 def rows_of(hits: Sequence[Hit], actions: dict[str, QAction]) -> list[FindRow]:
@@ -154,8 +156,12 @@ class FindDelegate(QStyledItemDelegate):
         if state & QStyle.StateFlag.State_Selected:
             painter.fillRect(place, colour("selbg"))
         inside = place.adjusted(GAP2 + GAP, 0, -GAP2 - GAP, 0)
-        paint_icon(painter, QRect(inside.left(), place.center().y() - SMALL_ICON // 2, SMALL_ICON, SMALL_ICON), row.icon,
-                   colour("dim"))  # fmt: skip
+        paint_icon(
+            painter,
+            QRect(inside.left(), place.center().y() - SMALL_ICON // 2, SMALL_ICON, SMALL_ICON),
+            row.icon,
+            colour("dim"),
+        )
         inside.setLeft(inside.left() + SMALL_ICON + GAP2)
         if row.right:
             wide = self._wide(row.right, inside.width() // 2)

@@ -71,7 +71,9 @@ class TextFormats(Translated):
                 self.window.show_status("; ".join(self._notes))
 
     def _decided(self, path: Path) -> bool:
-        """Ask what a text leaves open: which of several listings, the machine type. Returns whether to go on."""
+        """Ask what a text leaves open: which of several listings, the machine type. Returns whether to go
+        on.
+        """
         from amp_studio.formats import offer_of
 
         self._machine, self._listing = "", 0
@@ -101,7 +103,9 @@ class TextFormats(Translated):
         return names.index(chosen) if is_taken else None
 
     def _understood(self, path: Path) -> ParameterFile | None:
-        """Return the imported file; asks for the family, and whether to keep lines that are not recognised."""
+        """Return the imported file; asks for the family, and whether to keep lines that are not
+        recognised.
+        """
         from amp_studio.formats import FamilyNotGivenError, FormatError
 
         try:
@@ -128,7 +132,9 @@ class TextFormats(Translated):
         return names[chosen] if taken else None
 
     def _kept(self, path: Path, family: str | None, error: FormatError) -> ParameterFile | None:
-        """Return the imported file with unrecognised lines kept, if the user agrees; raises when that is not possible."""
+        """Return the imported file with unrecognised lines kept, if the user agrees;
+        raises when that is not possible.
+        """
         from amp_studio.formats import FormatError
 
         try:
@@ -137,7 +143,8 @@ class TextFormats(Translated):
             raise error from None
         listed = "\n".join(list(file.unknown)[:_SHOWN])
         question = self.tr(
-            "{error}.\n\nKeep the lines that are not recognised, so that an export writes them back?\n{listed}"
+            "{error}.\n\nKeep the lines that are not recognised, so that an export writes them"
+            " back?\n{listed}"
         ).format(error=error, listed=listed)
         wanted = ask(
             self.window, self.tr("Import"), question, self.tr("&Keep Them"), self.tr("Cancel"), default=1
@@ -228,7 +235,9 @@ class TextFormats(Translated):
     def _is_accepted(
         self, title: str, file: ParameterFile, account: Account, name: str, yes: str, named: str = ""
     ) -> bool:
-        """Return whether the user accepts the account; asked only where a value does not go across as it is."""
+        """Return whether the user accepts the account; asked only where a value does not go across as it
+        is.
+        """
         from amp_studio.formats import account_lines
 
         lines = list(account_lines(file, account, named))

@@ -62,7 +62,9 @@ def _step(window: StudioWindow) -> SetupStep:
 
 
 def mark(window: StudioWindow, step: SetupStep | None = None) -> None:
-    """Tick a step as done, that of the selected value by default, or take the tick away; it is saved with the file."""
+    """Tick a step as done, that of the selected value by default, or take the tick away;
+    it is saved with the file.
+    """
     workspace, step = window.page_in_front.workspace, step or _step(window)
     is_ticked = bool(workspace.progress.of(step).ticked)
     by = None if is_ticked else tr("{now} by {user}").format(now=now(), user=user())
@@ -77,7 +79,9 @@ def mark(window: StudioWindow, step: SetupStep | None = None) -> None:
 
 
 def keep_defaults(window: StudioWindow, step: SetupStep | None = None) -> None:
-    """Set what is not set in a step, that of the selected value by default, to the printed defaults, as one step to undo."""
+    """Set what is not set in a step, that of the selected value by default, to the printed defaults,
+    as one step to undo.
+    """
     workspace, step = window.page_in_front.workspace, step or _step(window)
     wanted = {a: workspace.file.default(a) for a in workspace.progress.of(step).open}
     known = {a: value for a, value in wanted.items() if value is not None}

@@ -55,8 +55,9 @@ def report_problem(window: StudioWindow) -> None:
     with_machine = False
     if window.workspace is not None or last_details():
         question = tr(
-            "May the report name the family and the findings of the open file, and the message of the last fault?\n\n"
-            "They can contain names and values of your machine. Without them it has versions and settings alone."
+            "May the report name the family and the findings of the open file, and the message of the last"
+            " fault?\n\nThey can contain names and values of your machine. Without them it has versions and"
+            " settings alone."
         )
         yes, no = tr("&With Them"), tr("With&out Them")
         answer = ask(window, tr("Report a Problem"), question, yes, no, tr("Cancel"), default=1)
@@ -71,15 +72,19 @@ def report_problem(window: StudioWindow) -> None:
 
 
 def problem_text(window: StudioWindow, with_machine: bool) -> str:
-    """Return the text of a report: versions, settings, the last fault; ``with_machine`` adds what may be of the machine."""
+    """Return the text of a report: versions, settings, the last fault;
+    ``with_machine`` adds what may be of the machine.
+    """
     size, settings = window.size(), window.settings
     lines = [
-        "What happened, and what did you expect?", "", "",
+        "What happened, and what did you expect?",
+        "",
+        "",
         f"AMP Studio {__version__}, Python {platform.python_version()}, Qt {qVersion()}",
         f"{platform.system()} {platform.release()} {platform.machine()}",
         f"Language {settings.language()}, theme {settings.theme()}",
         f"Window {size.width()} x {size.height()}, scale {window.devicePixelRatio():g}",
-    ]  # fmt: skip
+    ]
     details = last_details().splitlines()
     frames = [line for line in details if line.startswith('  File "')]
     if details:

@@ -37,7 +37,9 @@ class Pictures(QObject):
         window.tabs.current_changed.connect(lambda _: self._early.start())
 
     def _prepare(self) -> None:
-        """Load what pictures need; then show them for a file that comes to the front as for the files before it."""
+        """Load what pictures need; then show them for a file that comes to the front as
+        for the files before it.
+        """
         page, layout = self.window.page, self.window.settings.pictures()
         if page is None:
             return

@@ -43,7 +43,9 @@ class ReportPreview(QObject):
         return not self.window.docks.preview.isHidden()
 
     def _look(self) -> None:
-        """Follow the file in front while the preview is seen; it is made after the window has been painted."""
+        """Follow the file in front while the preview is seen; it is made after the window has been
+        painted.
+        """
         self.window.menus["view.preview"].setChecked(self.is_shown)
         if self.is_shown:
             QTimer.singleShot(0, self, self._load)
@@ -51,7 +53,9 @@ class ReportPreview(QObject):
             self.panel.show_page(None)
 
     def _load(self) -> None:
-        """Load what is needed in one turn of the event loop, and make it in the next, so that none takes long."""
+        """Load what is needed in one turn of the event loop, and make it in the next,
+        so that none takes long.
+        """
         if self.panel is None:
             import_module("amp_studio.ui.paper.preview_panel")
         QTimer.singleShot(0, self, self._show)

@@ -133,9 +133,7 @@ def check(window: StudioWindow) -> None:
     if not paths:
         raise ValueError(tr("The project has no files yet."))
     checking = ProgressDialog(
-        tr("Check All Files"),
-        lambda progress, cancelled: check_files(paths, progress, cancelled),
-        window,
+        tr("Check All Files"), lambda progress, cancelled: check_files(paths, progress, cancelled), window
     )
     ProjectCheckDialog(checking.run(PATIENCE_MS), partial(show_at, window), window).show()
 

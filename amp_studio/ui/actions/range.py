@@ -1,4 +1,6 @@
-"""What the edit menu does with the selected cells: copy, paste, fill, set to default, clear. One step to undo each."""
+"""What the edit menu does with the selected cells: copy, paste, fill, set to default, clear.
+One step to undo each.
+"""
 
 from __future__ import annotations
 
@@ -17,13 +19,7 @@ from amp_studio.files import (
     plan_entry,
     plan_values,
 )
-from amp_studio.formats import (
-    BlockCell,
-    block_html,
-    block_text,
-    read_block,
-    two_ways,
-)
+from amp_studio.formats import BlockCell, block_html, block_text, read_block, two_ways
 from amp_studio.schema import Address, InvalidValueError, Value, quoted, write_value
 from amp_studio.ui.base.modal import run_dialog
 from amp_studio.ui.base.translated import tr
@@ -108,7 +104,9 @@ class RangeEdits:
     # -- paste -------------------------------------------------------------------
 
     def paste(self) -> None:
-        """Set values from the clipboard; a block is shown first, with what would change and what is refused."""
+        """Set values from the clipboard; a block is shown first, with what would change and what is
+        refused.
+        """
         data = QGuiApplication.clipboard().mimeData()
         # A clipboard that nothing was ever copied into has no content at all.
         rows = read_block(data.text(), data.html() if data.hasHtml() else "") if data else []
@@ -131,7 +129,8 @@ class RangeEdits:
         def read(address: Address, text: str) -> Value | None:
             if text in doubtful:
                 raise InvalidValueError(
-                    f"{quoted(text)} can be read two ways, as other cells have a decimal comma: write it without groups"
+                    f"{quoted(text)} can be read two ways, as other cells have a decimal comma: write it"
+                    " without groups"
                 )
             if text == page.table.typed_value(address):
                 return workspace.file.get(address)  # in another unit what is shown is rounded to nine digits
@@ -167,7 +166,9 @@ class RangeEdits:
         return found, [some] if beyond else []
 
     def _by_name(self, rows: list[list[str]]) -> tuple[dict[Address, str], list[str]]:
-        """Return the text for each address of a block that has numbers and heads, wherever its rows are now."""
+        """Return the text for each address of a block that has numbers and heads, wherever its rows are
+        now.
+        """
         table = self.window.page_in_front.table
         heads = [table.column_head(c) for c in range(len(table.columns))]
         columns = {
@@ -200,7 +201,9 @@ class RangeEdits:
         self._fill_lines(self.window.page_in_front.table_view.cells.block_to_fill(down=True))
 
     def fill_across(self) -> None:
-        """Give every selected cell the value of the leftmost one; a single column gets that of the axis before it."""
+        """Give every selected cell the value of the leftmost one;
+        a single column gets that of the axis before it.
+        """
         block = self.window.page_in_front.table_view.cells.block_to_fill(down=False)
         self._fill_lines([list(column) for column in zip(*block, strict=True)])
 
@@ -215,7 +218,9 @@ class RangeEdits:
         self.fill_from(pairs)
 
     def fill_from(self, pairs: Mapping[Address, Address]) -> None:
-        """Give each target the value of its source, all or none: what is refused is listed, and nothing is changed."""
+        """Give each target the value of its source, all or none: what is refused is listed,
+        and nothing is changed.
+        """
         workspace = self.window.page_in_front.workspace
         file, texts = workspace.file, {}
         for target, source in pairs.items():

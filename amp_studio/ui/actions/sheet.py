@@ -37,7 +37,9 @@ def sheet_of_control(page: ControlPage) -> None:
 
 
 def sheet_of_file(page: ControlPage) -> None:
-    """Ask for a file or backup with what the control contains; raises the errors of reading it, and SheetError."""
+    """Ask for a file or backup with what the control contains; raises the errors of reading it,
+    and SheetError.
+    """
     assert page.workspace is not None
     folder = str(page.workspace.path.parent)
     text, _ = QFileDialog.getOpenFileName(page, tr("What the control contains"), folder, _FILES)
@@ -54,8 +56,14 @@ def _make(page: ControlPage, present: ParameterFile, against: str, seen: object 
 
     def make() -> tuple[Sheet, Ticks]:
         own = rules_beside(workspace.path, workspace.file)
-        sheet = make_sheet(workspace.file, present, of=workspace.path.name, against=against, own=own,
-                           secrets=workspace.secrets)  # fmt: skip
+        sheet = make_sheet(
+            workspace.file,
+            present,
+            of=workspace.path.name,
+            against=against,
+            own=own,
+            secrets=workspace.secrets,
+        )
         return sheet, Ticks(ticks_path(workspace.path), sheet)
 
     page.hand.make(make, seen)

@@ -1,6 +1,7 @@
 """The actions of the window: one table, which menus, keys, tool bar and find box read.
 
-A new action is one row here and a function that does it. Its text needs a translation (``make translations`` names it).
+A new action is one row here and a function that does it.
+Its text needs a translation (``make translations`` names it).
 """
 
 from __future__ import annotations
@@ -36,55 +37,110 @@ def menus() -> tuple[Menu[PartsWindow], ...]:
 
 
 def _file() -> Menu[PartsWindow]:
-    return Menu("file", tr("&File"), (
-        Action("file.new", tr("&New…"), lambda w: w.files.new(), _KEY.New, "", "file-plus", tr("New")),
-        Action("file.open", tr("&Open…"), lambda w: w.files.open(), _KEY.Open, "", "folder-open", tr("Open")),
-        FilledMenu(lambda w: w.files.recent.menu),
-        Action("file.save", tr("&Save"), lambda w: w.save(), _KEY.Save, "edit", "floppy-disk"),
-        Action("file.save_as", tr("Save &As…"), lambda w: w.files.save_as(), "Ctrl+Shift+S"),
-        Action("file.close", tr("&Close"), lambda w: w.files.close(), _KEY.Close),
-        None,
-        Action("file.compare", tr("Compare and Merge &With…"), lambda w: w.files.comparing.compare(), "Ctrl+Shift+M",
-               icon="git-diff", short=tr("Compare")),
-        Action("file.recover", tr("Recover &Backup…"), lambda w: w.files.recover(), needs="edit"),
-        None,
-        Action("file.import", tr("&Import…"), lambda w: w.files.formats.read(), needs=""),
-        Action("file.export", tr("Ex&port…"), lambda w: w.files.formats.write()),
-        None,
-        Action("file.report", tr("&Report…"), document.report, _KEY.Print, icon="printer", short=tr("Report")),
-        Action("file.form", tr("&Form to Fill In…"), document.form),
-        Action("file.template", tr("New Report &Template…"), document.new_template),
-        Action("file.facts", tr("&Machine Facts…"), lambda w: w.files.facts(), needs="edit"),
-        None,
-        Action("file.exit", tr("E&xit"), lambda w: w.close(), _KEY.Quit, ""),
-    ))  # fmt: skip
+    return Menu(
+        "file",
+        tr("&File"),
+        (
+            Action("file.new", tr("&New…"), lambda w: w.files.new(), _KEY.New, "", "file-plus", tr("New")),
+            Action(
+                "file.open", tr("&Open…"), lambda w: w.files.open(), _KEY.Open, "", "folder-open", tr("Open")
+            ),
+            FilledMenu(lambda w: w.files.recent.menu),
+            Action("file.save", tr("&Save"), lambda w: w.save(), _KEY.Save, "edit", "floppy-disk"),
+            Action("file.save_as", tr("Save &As…"), lambda w: w.files.save_as(), "Ctrl+Shift+S"),
+            Action("file.close", tr("&Close"), lambda w: w.files.close(), _KEY.Close),
+            None,
+            Action(
+                "file.compare",
+                tr("Compare and Merge &With…"),
+                lambda w: w.files.comparing.compare(),
+                "Ctrl+Shift+M",
+                icon="git-diff",
+                short=tr("Compare"),
+            ),
+            Action("file.recover", tr("Recover &Backup…"), lambda w: w.files.recover(), needs="edit"),
+            None,
+            Action("file.import", tr("&Import…"), lambda w: w.files.formats.read(), needs=""),
+            Action("file.export", tr("Ex&port…"), lambda w: w.files.formats.write()),
+            None,
+            Action(
+                "file.report", tr("&Report…"), document.report, _KEY.Print, icon="printer", short=tr("Report")
+            ),
+            Action("file.form", tr("&Form to Fill In…"), document.form),
+            Action("file.template", tr("New Report &Template…"), document.new_template),
+            Action("file.facts", tr("&Machine Facts…"), lambda w: w.files.facts(), needs="edit"),
+            None,
+            Action("file.exit", tr("E&xit"), lambda w: w.close(), _KEY.Quit, ""),
+        ),
+    )
 
 
 def _edit() -> Menu[PartsWindow]:
-    return Menu("edit", tr("&Edit"), (
-        Action("edit.undo", tr("&Undo"), lambda w: w.edits.undo(), _KEY.Undo, "undo", "arrow-u-up-left", tr("Undo"),
-               follows=show_undo),
-        Action("edit.redo", tr("&Redo"), lambda w: w.edits.redo(), _KEY.Redo, "redo", "arrow-u-up-right", tr("Redo"),
-               follows=show_redo),
-        Action("edit.steps", tr("Histor&y of Steps…"), lambda w: w.edits.steps(), "Ctrl+Shift+H"),
-        None,
-        Action("edit.value", tr("&Edit Value"), lambda w: w.edits.edit(), "F2", "edit", of_a_cell=True),
-        *_cells(),
-        Action("edit.note", tr("N&ote…"), lambda w: w.edits.note(), "Alt+Return", icon="note-pencil", of_a_cell=True),
-        None,
-        Action("edit.quick", tr("&Quick Edit by Number…"), lambda w: w.edits.quick_edit(), "F4", "edit"),
-        Action("edit.calculator", tr("Ca&lculator…"), lambda w: w.edits.calculator(), "F3"),
-        Action("edit.tables", tr("&Tables of the Manual…"), lambda w: w.edits.tables(), "Shift+F3"),
-        None,
-        Action("edit.fix", tr("F&ix Selected Finding"), lambda w: w.edits.fix_selected(), "F8", "edit"),
-        Action("edit.fix_several", tr("Fix Se&veral…"), lambda w: w.edits.fix_several(), "Shift+F8", "edit", "magic-wand"),
-        Action("edit.fix_safe", tr("Apply All &Safe Fixes"), lambda w: w.edits.fix_safe(), needs="edit"),
-        Action("edit.explain", tr("S&how Explanation of Finding"), lambda w: w.edits.explain_selected(), "Shift+F1"),
-        None,
-        Action("edit.find", tr("&Find…"), lambda w: w.finder.box.begin(), ("Ctrl+F", "Ctrl+K"), ""),
-        Action("edit.go_to", tr("&Go to Number…"), lambda w: w.finder.box.begin(), "Ctrl+G"),
-        Action("edit.bookmark", tr("Boo&kmark"), filters.toggle_bookmark, "Ctrl+B", icon="bookmark-simple"),
-    ))  # fmt: skip
+    return Menu(
+        "edit",
+        tr("&Edit"),
+        (
+            Action(
+                "edit.undo",
+                tr("&Undo"),
+                lambda w: w.edits.undo(),
+                _KEY.Undo,
+                "undo",
+                "arrow-u-up-left",
+                tr("Undo"),
+                follows=show_undo,
+            ),
+            Action(
+                "edit.redo",
+                tr("&Redo"),
+                lambda w: w.edits.redo(),
+                _KEY.Redo,
+                "redo",
+                "arrow-u-up-right",
+                tr("Redo"),
+                follows=show_redo,
+            ),
+            Action("edit.steps", tr("Histor&y of Steps…"), lambda w: w.edits.steps(), "Ctrl+Shift+H"),
+            None,
+            Action("edit.value", tr("&Edit Value"), lambda w: w.edits.edit(), "F2", "edit", of_a_cell=True),
+            *_cells(),
+            Action(
+                "edit.note",
+                tr("N&ote…"),
+                lambda w: w.edits.note(),
+                "Alt+Return",
+                icon="note-pencil",
+                of_a_cell=True,
+            ),
+            None,
+            Action("edit.quick", tr("&Quick Edit by Number…"), lambda w: w.edits.quick_edit(), "F4", "edit"),
+            Action("edit.calculator", tr("Ca&lculator…"), lambda w: w.edits.calculator(), "F3"),
+            Action("edit.tables", tr("&Tables of the Manual…"), lambda w: w.edits.tables(), "Shift+F3"),
+            None,
+            Action("edit.fix", tr("F&ix Selected Finding"), lambda w: w.edits.fix_selected(), "F8", "edit"),
+            Action(
+                "edit.fix_several",
+                tr("Fix Se&veral…"),
+                lambda w: w.edits.fix_several(),
+                "Shift+F8",
+                "edit",
+                "magic-wand",
+            ),
+            Action("edit.fix_safe", tr("Apply All &Safe Fixes"), lambda w: w.edits.fix_safe(), needs="edit"),
+            Action(
+                "edit.explain",
+                tr("S&how Explanation of Finding"),
+                lambda w: w.edits.explain_selected(),
+                "Shift+F1",
+            ),
+            None,
+            Action("edit.find", tr("&Find…"), lambda w: w.finder.box.begin(), ("Ctrl+F", "Ctrl+K"), ""),
+            Action("edit.go_to", tr("&Go to Number…"), lambda w: w.finder.box.begin(), "Ctrl+G"),
+            Action(
+                "edit.bookmark", tr("Boo&kmark"), filters.toggle_bookmark, "Ctrl+B", icon="bookmark-simple"
+            ),
+        ),
+    )
 
 
 def _cells() -> tuple[Action[PartsWindow], ...]:
@@ -92,141 +148,352 @@ def _cells() -> tuple[Action[PartsWindow], ...]:
     own = partial(Action, of_a_cell=True, only_in_table=True)
     return (
         own("edit.copy", tr("&Copy"), lambda w: w.edits.range.copy(), _KEY.Copy),
-        own("edit.copy_named", tr("Copy with Na&mes"), lambda w: w.edits.range.copy_with_names(), "Ctrl+Shift+C"),
+        own(
+            "edit.copy_named",
+            tr("Copy with Na&mes"),
+            lambda w: w.edits.range.copy_with_names(),
+            "Ctrl+Shift+C",
+        ),
         own("edit.paste", tr("&Paste…"), lambda w: w.edits.range.paste(), _KEY.Paste, "edit"),
         own("edit.fill_down", tr("Fill &Down"), lambda w: w.edits.range.fill_down(), "Ctrl+D", "edit"),
-        own("edit.fill_across", tr("Fill &Across Axes"), lambda w: w.edits.range.fill_across(), "Ctrl+R", "edit"),
-        own("edit.default", tr("&Back to Default"), lambda w: w.edits.range.to_default(), "Ctrl+Backspace", "edit"),
+        own(
+            "edit.fill_across",
+            tr("Fill &Across Axes"),
+            lambda w: w.edits.range.fill_across(),
+            "Ctrl+R",
+            "edit",
+        ),
+        own(
+            "edit.default",
+            tr("&Back to Default"),
+            lambda w: w.edits.range.to_default(),
+            "Ctrl+Backspace",
+            "edit",
+        ),
         own("edit.clear", tr("Clear (&Not Set)"), lambda w: w.edits.range.clear(), _KEY.Delete, "edit"),
-        Action("edit.all_axes", tr("Copy to All A&xes of the Type"), lambda w: w.edits.range.to_all_axes(), "Ctrl+Shift+A",
-               "axes", of_a_cell=True),
-    )  # fmt: skip
+        Action(
+            "edit.all_axes",
+            tr("Copy to All A&xes of the Type"),
+            lambda w: w.edits.range.to_all_axes(),
+            "Ctrl+Shift+A",
+            "axes",
+            of_a_cell=True,
+        ),
+    )
 
 
 def _axis() -> Menu[PartsWindow]:
-    return Menu("axis", tr("&Axis"), (
-        Action("axis.name", tr("&Name Axis…"), axis.name, "Ctrl+Shift+N", "edit", why_not=axis.why_no_name),
-        Action("axis.type", tr("Configure Axis &Type…"), axis.configure_type, "Ctrl+T", "edit", why_not=axis.why_no_type),
-        Action("axis.servo", tr("Configure &Servo…"), axis.configure_servo, "Ctrl+Shift+T", "edit",
-               why_not=axis.why_no_servo),
-        None,
-        Action("axis.add", tr("&Add Axis…"), axis.add, needs="edit", why_not=axis.why_no_more),
-        Action("axis.delete", tr("&Delete Axis…"), axis.delete, needs="edit", why_not=axis.why_none_less),
-        None,
-        Action("axis.copy", tr("&Copy Axis…"), axis.copy, needs="edit", why_not=axis.why_no_other),
-        Action("axis.swap", tr("S&wap Axes…"), axis.swap, needs="edit", why_not=axis.why_no_other),
-        Action("axis.compare", tr("Com&pare Axes…"), axis.compare, why_not=axis.why_no_other),
-    ), shows_tips=True)  # fmt: skip
+    return Menu(
+        "axis",
+        tr("&Axis"),
+        (
+            Action(
+                "axis.name", tr("&Name Axis…"), axis.name, "Ctrl+Shift+N", "edit", why_not=axis.why_no_name
+            ),
+            Action(
+                "axis.type",
+                tr("Configure Axis &Type…"),
+                axis.configure_type,
+                "Ctrl+T",
+                "edit",
+                why_not=axis.why_no_type,
+            ),
+            Action(
+                "axis.servo",
+                tr("Configure &Servo…"),
+                axis.configure_servo,
+                "Ctrl+Shift+T",
+                "edit",
+                why_not=axis.why_no_servo,
+            ),
+            None,
+            Action("axis.add", tr("&Add Axis…"), axis.add, needs="edit", why_not=axis.why_no_more),
+            Action("axis.delete", tr("&Delete Axis…"), axis.delete, needs="edit", why_not=axis.why_none_less),
+            None,
+            Action("axis.copy", tr("&Copy Axis…"), axis.copy, needs="edit", why_not=axis.why_no_other),
+            Action("axis.swap", tr("S&wap Axes…"), axis.swap, needs="edit", why_not=axis.why_no_other),
+            Action("axis.compare", tr("Com&pare Axes…"), axis.compare, why_not=axis.why_no_other),
+        ),
+        shows_tips=True,
+    )
 
 
 def _guide() -> Menu[PartsWindow]:
-    return Menu("guide", tr("&Guide"), (
-        Action("guide.next", tr("&Next Not Set"), guide.go_on, "Ctrl+."),
-        Action("guide.done", tr("Mark Step as &Done"), guide.mark, "Ctrl+Shift+.", "edit"),
-        Action("guide.defaults", tr("Keep De&faults of This Step"), guide.keep_defaults, needs="edit"),
-        None,
-        Action("guide.later", tr("&Show Later Findings"), guide.show_later,
-               is_on=lambda w: w.workspace is not None and w.workspace.shows_later),
-        Action("guide.check_list", tr("&Check List…"), guide.save_check_list),
-    ))  # fmt: skip
+    return Menu(
+        "guide",
+        tr("&Guide"),
+        (
+            Action("guide.next", tr("&Next Not Set"), guide.go_on, "Ctrl+."),
+            Action("guide.done", tr("Mark Step as &Done"), guide.mark, "Ctrl+Shift+.", "edit"),
+            Action("guide.defaults", tr("Keep De&faults of This Step"), guide.keep_defaults, needs="edit"),
+            None,
+            Action(
+                "guide.later",
+                tr("&Show Later Findings"),
+                guide.show_later,
+                is_on=lambda w: w.workspace is not None and w.workspace.shows_later,
+            ),
+            Action("guide.check_list", tr("&Check List…"), guide.save_check_list),
+        ),
+    )
 
 
 def _view() -> Menu[PartsWindow]:
-    return Menu("view", tr("&View"), (
-        ChoiceMenu("view.units", tr("&Units"), view.units, lambda w: w.workspace_in_front.file.header.units, view.set_units, "file"),
-        ChoiceMenu("view.machine", tr("Control &Type"), view.machines, lambda w: w.workspace_in_front.file.machine, view.set_machine, "edit"),
-        Action("view.switch_units", tr("S&witch mm / inch"), view.switch_units, "Ctrl+M", "units", "ruler", tr("mm / inch")),
-        Action("view.as_entered", tr("Show Values &As Entered"), view.show_as_entered, "Ctrl+E",
-               is_on=lambda w: w.workspace.as_entered if w.workspace else None),
-        Action("view.unfitted_axes", tr("Show Un&fitted Axes"), view.show_columns, "Ctrl+U",
-               is_on=lambda w: w.table.all_axes if w.table else None),
-        Action("view.hidden", tr("Show &Hidden Parameters"), view.show_columns, "Ctrl+H",
-               is_on=lambda w: w.table.hidden_too if w.table else None),
-        Action("view.secrets", tr("Show Se&crets"), view.show_secrets, is_on=lambda w: w.workspace.secrets if w.workspace else None,
-               tip=tr("Show passwords in clear text, also in exports"), follows=view.show_secrets_where_some_are),
-        None,
-        _places(),
-        None,
-        Action("view.next_file", tr("Ne&xt File"), lambda w: w.tabs.turn(1), "Ctrl+Tab"),
-        Action("view.previous_file", tr("Pre&vious File"), lambda w: w.tabs.turn(-1), "Ctrl+Shift+Tab"),
-        Action("view.beside", tr("Show File &Beside"), lambda w: w.tabs.move_across(), "Ctrl+\\"),
-        None,
-        Action("view.motion", tr("&Motion…"), view.open_motion, "F9", icon="activity", short=tr("Motion"),
-               follows=view.show_motion),
-        Action("view.pictures", tr("&Pictures"), lambda w: w.pictures.toggle(), "F12", icon="frame-corners",
-               short=tr("Pictures"), is_on=lambda w: w.page is not None and w.page.shows_pictures),
-        Action("view.save_picture", tr("Save P&icture As SVG…"), lambda w: w.pictures.save()),
-        Action("view.preview", tr("Rep&ort Preview"), lambda w: w.preview.toggle(), "Ctrl+5", icon="article",
-               short=tr("Preview"), is_on=lambda w: w.preview.is_shown),
-        Menu("filter", tr("Filte&r"), (
-            *(Action(f"filter.{mark}", name, partial(filters.toggle, mark=mark), tip=tip) for mark, name, tip in filters.listed()),
+    return Menu(
+        "view",
+        tr("&View"),
+        (
+            ChoiceMenu(
+                "view.units",
+                tr("&Units"),
+                view.units,
+                lambda w: w.workspace_in_front.file.header.units,
+                view.set_units,
+                "file",
+            ),
+            ChoiceMenu(
+                "view.machine",
+                tr("Control &Type"),
+                view.machines,
+                lambda w: w.workspace_in_front.file.machine,
+                view.set_machine,
+                "edit",
+            ),
+            Action(
+                "view.switch_units",
+                tr("S&witch mm / inch"),
+                view.switch_units,
+                "Ctrl+M",
+                "units",
+                "ruler",
+                tr("mm / inch"),
+            ),
+            Action(
+                "view.as_entered",
+                tr("Show Values &As Entered"),
+                view.show_as_entered,
+                "Ctrl+E",
+                is_on=lambda w: w.workspace.as_entered if w.workspace else None,
+            ),
+            Action(
+                "view.unfitted_axes",
+                tr("Show Un&fitted Axes"),
+                view.show_columns,
+                "Ctrl+U",
+                is_on=lambda w: w.table.all_axes if w.table else None,
+            ),
+            Action(
+                "view.hidden",
+                tr("Show &Hidden Parameters"),
+                view.show_columns,
+                "Ctrl+H",
+                is_on=lambda w: w.table.hidden_too if w.table else None,
+            ),
+            Action(
+                "view.secrets",
+                tr("Show Se&crets"),
+                view.show_secrets,
+                is_on=lambda w: w.workspace.secrets if w.workspace else None,
+                tip=tr("Show passwords in clear text, also in exports"),
+                follows=view.show_secrets_where_some_are,
+            ),
             None,
-            Action("filter.none", tr("&All Rows"), filters.show_all_rows, "Ctrl+0"),
-        )),
-        ChoiceMenu("view.theme", tr("Th&eme"), view.themes, lambda _: scheme().choice, view.choose_theme),
-        ChoiceMenu("view.language", tr("La&nguage"), view.languages, lambda w: w.settings.language(), view.choose_language),
-    ))  # fmt: skip
+            _places(),
+            None,
+            Action("view.next_file", tr("Ne&xt File"), lambda w: w.tabs.turn(1), "Ctrl+Tab"),
+            Action("view.previous_file", tr("Pre&vious File"), lambda w: w.tabs.turn(-1), "Ctrl+Shift+Tab"),
+            Action("view.beside", tr("Show File &Beside"), lambda w: w.tabs.move_across(), "Ctrl+\\"),
+            None,
+            Action(
+                "view.motion",
+                tr("&Motion…"),
+                view.open_motion,
+                "F9",
+                icon="activity",
+                short=tr("Motion"),
+                follows=view.show_motion,
+            ),
+            Action(
+                "view.pictures",
+                tr("&Pictures"),
+                lambda w: w.pictures.toggle(),
+                "F12",
+                icon="frame-corners",
+                short=tr("Pictures"),
+                is_on=lambda w: w.page is not None and w.page.shows_pictures,
+            ),
+            Action("view.save_picture", tr("Save P&icture As SVG…"), lambda w: w.pictures.save()),
+            Action(
+                "view.preview",
+                tr("Rep&ort Preview"),
+                lambda w: w.preview.toggle(),
+                "Ctrl+5",
+                icon="article",
+                short=tr("Preview"),
+                is_on=lambda w: w.preview.is_shown,
+            ),
+            Menu(
+                "filter",
+                tr("Filte&r"),
+                (
+                    *(
+                        Action(f"filter.{mark}", name, partial(filters.toggle, mark=mark), tip=tip)
+                        for mark, name, tip in filters.listed()
+                    ),
+                    None,
+                    Action("filter.none", tr("&All Rows"), filters.show_all_rows, "Ctrl+0"),
+                ),
+            ),
+            ChoiceMenu("view.theme", tr("Th&eme"), view.themes, lambda _: scheme().choice, view.choose_theme),
+            ChoiceMenu(
+                "view.language",
+                tr("La&nguage"),
+                view.languages,
+                lambda w: w.settings.language(),
+                view.choose_language,
+            ),
+        ),
+    )
 
 
 def _places() -> Menu[PartsWindow]:
-    return Menu("places", tr("&Go To"), (
-        Action("view.table", tr("&Table"), view.to_table, "Ctrl+1"),
-        Action("view.groups", tr("&Groups"), lambda w: w.docks.toggle("Groups"), "Ctrl+2"),
-        Action("view.parameter", tr("&Parameter Help"), lambda w: w.docks.toggle("Parameter"), "Ctrl+3"),
-        Action("view.findings", tr("&Findings"), lambda w: w.docks.toggle("Findings"), "Ctrl+4"),
-        Action("view.next_finding", tr("&Next Finding"), lambda w: w.step_findings(1), "Alt+Down"),
-        Action("view.previous_finding", tr("Pre&vious Finding"), lambda w: w.step_findings(-1), "Alt+Up"),
-        Action("view.reset", tr("&Reset Layout"), lambda w: w.docks.reset()),
-    ))  # fmt: skip
+    return Menu(
+        "places",
+        tr("&Go To"),
+        (
+            Action("view.table", tr("&Table"), view.to_table, "Ctrl+1"),
+            Action("view.groups", tr("&Groups"), lambda w: w.docks.toggle("Groups"), "Ctrl+2"),
+            Action("view.parameter", tr("&Parameter Help"), lambda w: w.docks.toggle("Parameter"), "Ctrl+3"),
+            Action("view.findings", tr("&Findings"), lambda w: w.docks.toggle("Findings"), "Ctrl+4"),
+            Action("view.next_finding", tr("&Next Finding"), lambda w: w.step_findings(1), "Alt+Down"),
+            Action("view.previous_finding", tr("Pre&vious Finding"), lambda w: w.step_findings(-1), "Alt+Up"),
+            Action("view.reset", tr("&Reset Layout"), lambda w: w.docks.reset()),
+        ),
+    )
 
 
 def _control() -> Menu[PartsWindow]:
-    return Menu("control", tr("&Control"), (
-        Action("control.page", tr("&At the Control"), lambda w: w.control.show("compare"), "Alt+0", "", "cpu", tr("Control"),
-               follows=lambda w, action: w.control.show_state(action)),
-        Action("control.send", tr("Sen&d to the Control…"), lambda w: w.control.show("send"), "F5", icon="arrow-line-down"),
-        Action("control.compare", tr("&Compare With the Control…"), lambda w: w.control.show("compare"), "F6",
-               icon="git-diff"),
-        Action("control.read", tr("Read &From the Control…"), lambda w: w.control.show("read"), "F7", "", "arrow-line-up"),
-        Action("control.restore", tr("&Restore Control From Backup…"), lambda w: w.control.restore(), needs=""),
-        Action("control.by_hand", tr("Enter Values by &Hand…"), lambda w: w.control.show("hand")),
-        None,
-        Action("control.several", tr("Se&veral Controls…"), lambda w: w.control.several()),
-        Action("control.exchanges", tr("E&xchanges of This File…"), lambda w: w.control.recorded()),
-        Action("control.live", tr("&Live…"), lambda w: w.control.live(), "Ctrl+L", icon="broadcast"),
-        Action("control.check", tr("Chec&k in Motion…"), lambda w: w.control.check_in_motion(), icon="arrows-left-right"),
-        Action("control.tune", tr("&Tuning…"), lambda w: w.control.tune(), "Shift+F9"),
-        None,
-        Action("control.start", tr("&Start Emulated Control"), lambda w: w.control.start_emulated(), needs="no emulated"),
-        Action("control.estop", tr("Emulated Control in &E-Stop"), lambda w: w.control.switch_estop(), needs="emulated",
-               is_on=lambda _: None),
-        Action("control.stop", tr("Sto&p Emulated Control"), lambda w: w.control.emulated.stop(), needs="emulated"),
-    ))  # fmt: skip
+    return Menu(
+        "control",
+        tr("&Control"),
+        (
+            Action(
+                "control.page",
+                tr("&At the Control"),
+                lambda w: w.control.show("compare"),
+                "Alt+0",
+                "",
+                "cpu",
+                tr("Control"),
+                follows=lambda w, action: w.control.show_state(action),
+            ),
+            Action(
+                "control.send",
+                tr("Sen&d to the Control…"),
+                lambda w: w.control.show("send"),
+                "F5",
+                icon="arrow-line-down",
+            ),
+            Action(
+                "control.compare",
+                tr("&Compare With the Control…"),
+                lambda w: w.control.show("compare"),
+                "F6",
+                icon="git-diff",
+            ),
+            Action(
+                "control.read",
+                tr("Read &From the Control…"),
+                lambda w: w.control.show("read"),
+                "F7",
+                "",
+                "arrow-line-up",
+            ),
+            Action(
+                "control.restore",
+                tr("&Restore Control From Backup…"),
+                lambda w: w.control.restore(),
+                needs="",
+            ),
+            Action("control.by_hand", tr("Enter Values by &Hand…"), lambda w: w.control.show("hand")),
+            None,
+            Action("control.several", tr("Se&veral Controls…"), lambda w: w.control.several()),
+            Action("control.exchanges", tr("E&xchanges of This File…"), lambda w: w.control.recorded()),
+            Action("control.live", tr("&Live…"), lambda w: w.control.live(), "Ctrl+L", icon="broadcast"),
+            Action(
+                "control.check",
+                tr("Chec&k in Motion…"),
+                lambda w: w.control.check_in_motion(),
+                icon="arrows-left-right",
+            ),
+            Action("control.tune", tr("&Tuning…"), lambda w: w.control.tune(), "Shift+F9"),
+            None,
+            Action(
+                "control.start",
+                tr("&Start Emulated Control"),
+                lambda w: w.control.start_emulated(),
+                needs="no emulated",
+            ),
+            Action(
+                "control.estop",
+                tr("Emulated Control in &E-Stop"),
+                lambda w: w.control.switch_estop(),
+                needs="emulated",
+                is_on=lambda _: None,
+            ),
+            Action(
+                "control.stop",
+                tr("Sto&p Emulated Control"),
+                lambda w: w.control.emulated.stop(),
+                needs="emulated",
+            ),
+        ),
+    )
 
 
 def _project() -> Menu[PartsWindow]:
-    return Menu("project", tr("&Project"), (
-        Action("project.new", tr("&New Project…"), project.new, needs=""),
-        Action("project.open", tr("&Open Project…"), project.open_project, needs=""),
-        Action("project.facts", tr("Project &Information…"), project.change, needs="project"),
-        None,
-        Action("project.open_file", tr("Open &File of the Project…"), project.open_file, "Ctrl+Shift+O", "project"),
-        Action("project.check", tr("Chec&k All Files…"), project.check, "Ctrl+Shift+F8", "project"),
-        Action("project.compare", tr("Compare &Machines…"), project.compare, needs=""),
-        Action("project.copy", tr("&Copy File…"), project.copy, needs="project"),
-        Action("project.copy_from", tr("Copy from &Another Project…"), project.copy_from, needs="project"),
-        Action("project.rename", tr("&Rename File…"), project.rename, needs="project"),
-        Action("project.delete", tr("&Delete File…"), project.delete, needs="project"),
-        Action("project.recover", tr("Reco&ver a Deleted or Older File…"), project.recover, needs="project"),
-    ))  # fmt: skip
+    return Menu(
+        "project",
+        tr("&Project"),
+        (
+            Action("project.new", tr("&New Project…"), project.new, needs=""),
+            Action("project.open", tr("&Open Project…"), project.open_project, needs=""),
+            Action("project.facts", tr("Project &Information…"), project.change, needs="project"),
+            None,
+            Action(
+                "project.open_file",
+                tr("Open &File of the Project…"),
+                project.open_file,
+                "Ctrl+Shift+O",
+                "project",
+            ),
+            Action("project.check", tr("Chec&k All Files…"), project.check, "Ctrl+Shift+F8", "project"),
+            Action("project.compare", tr("Compare &Machines…"), project.compare, needs=""),
+            Action("project.copy", tr("&Copy File…"), project.copy, needs="project"),
+            Action(
+                "project.copy_from", tr("Copy from &Another Project…"), project.copy_from, needs="project"
+            ),
+            Action("project.rename", tr("&Rename File…"), project.rename, needs="project"),
+            Action("project.delete", tr("&Delete File…"), project.delete, needs="project"),
+            Action(
+                "project.recover", tr("Reco&ver a Deleted or Older File…"), project.recover, needs="project"
+            ),
+        ),
+    )
 
 
 def _help() -> Menu[PartsWindow]:
-    return Menu("help", tr("&Help"), (
-        Action("help.commands", tr("&Commands…"), lambda w: w.finder.box.begin(COMMANDS), "Ctrl+Shift+P", ""),
-        Action("help.keys", tr("&Keys…"), help_menu.show_keys, needs=""),
-        Action("help.log", tr("Open &Log Folder"), help_menu.open_log_folder, needs=""),
-        Action("help.report", tr("&Report a Problem…"), help_menu.report_problem, needs=""),
-        None,
-        Action("help.about", tr("&About AMP Studio"), document.show_about, needs=""),
-    ))  # fmt: skip
+    return Menu(
+        "help",
+        tr("&Help"),
+        (
+            Action(
+                "help.commands", tr("&Commands…"), lambda w: w.finder.box.begin(COMMANDS), "Ctrl+Shift+P", ""
+            ),
+            Action("help.keys", tr("&Keys…"), help_menu.show_keys, needs=""),
+            Action("help.log", tr("Open &Log Folder"), help_menu.open_log_folder, needs=""),
+            Action("help.report", tr("&Report a Problem…"), help_menu.report_problem, needs=""),
+            None,
+            Action("help.about", tr("&About AMP Studio"), document.show_about, needs=""),
+        ),
+    )

@@ -1,4 +1,6 @@
-"""What the view menu does: units of display and entry, control type, what is shown, theme and language; the motion window."""
+"""What the view menu does: units of display and entry, control type, what is shown, theme and language;
+the motion window.
+"""
 
 from __future__ import annotations
 
@@ -128,7 +130,9 @@ def choose_language(window: StudioWindow, choice: str) -> None:
 
 
 def show_motion(window: StudioWindow, action: QAction) -> None:
-    """Show in the menu whether the family in front can be simulated; the key gives the reason where it cannot."""
+    """Show in the menu whether the family in front can be simulated;
+    the key gives the reason where it cannot.
+    """
     workspace = window.workspace
     family = workspace.file.schema.family if workspace else None
     reason = why_not_simulated(family) if family else ""
@@ -139,7 +143,9 @@ def show_motion(window: StudioWindow, action: QAction) -> None:
 
 
 def open_motion(window: StudioWindow) -> None:
-    """Open the window in which the machine moves; where its family cannot be simulated the page has the reason."""
+    """Open the window in which the machine moves;
+    where its family cannot be simulated the page has the reason.
+    """
     page = window.page_in_front
     if reason := why_not_simulated(page.workspace.file.schema.family):
         page.bar.say(reason)
@@ -151,7 +157,9 @@ def open_motion(window: StudioWindow) -> None:
 
 
 def _motion_view(file: ParameterFile) -> type[MotionView]:
-    """Load the view with the plots, and the simulator with what it knows of the family of a file. For a thread."""
+    """Load the view with the plots, and the simulator with what it knows of the family of a file.
+    For a thread.
+    """
     load("amp_studio.sim", "amp_studio.ui.motion.view")
     from amp_studio.sim import listing
     from amp_studio.ui.motion.view import MotionView

@@ -1,1 +1,3 @@
-"""What every folder of the window is built on: the theme, tasks in the background, questions, the open file as the window sees it."""
+"""What every folder of the window is built on: the theme, tasks in the background, questions,
+the open file as the window sees it.
+"""

@@ -1,4 +1,6 @@
-"""Whether there is a display; asked before Qt, which ends the program with a dump of its memory where there is none."""
+"""Whether there is a display; asked before Qt,
+which ends the program with a dump of its memory where there is none.
+"""
 
 from __future__ import annotations
 

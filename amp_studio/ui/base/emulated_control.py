@@ -39,8 +39,18 @@ class EmulatedControl(QObject):
         """Start it; ``ready`` gives the address. Its memory is that of the last time it was stopped."""
         self._stopping = False
         state = Path(self._folder.path()) / f"{family}-{machine}"
-        arguments = ["-m", "amp_studio.cli", "emulate", family, "--listen", "tcp://127.0.0.1:0", "--state", str(state),
-                     "--machine", machine]  # fmt: skip
+        arguments = [
+            "-m",
+            "amp_studio.cli",
+            "emulate",
+            family,
+            "--listen",
+            "tcp://127.0.0.1:0",
+            "--state",
+            str(state),
+            "--machine",
+            machine,
+        ]
         self._process.start(sys.executable, arguments)
 
     def send(self, command: str) -> None:

@@ -23,7 +23,8 @@ def written(figure: str) -> str:
 
 
 def sentence(text: str) -> str:
-    """Return a message that was made below the window (a finding, what is allowed) with its numbers as the language writes them.
+    """Return a message that was made below the window (a finding, what is allowed)
+    with its numbers as the language writes them.
 
     The sentences of the program are in the language of the window; a rule has the words of its facts.
     """
@@ -33,7 +34,9 @@ def sentence(text: str) -> str:
 
 
 def show_value(parameter: Parameter, value: Value | None, *, secrets: bool = False) -> str:
-    """Write a value for a person; texts, choices and secrets stay as they are, and so do words of a control."""
+    """Write a value for a person; texts, choices and secrets stay as they are, and so do words of a
+    control.
+    """
     text = schema.show_value(parameter, value, secrets=secrets)
     is_number = value is not None and isinstance(value.value, (int, float)) and not parameter.choices
     return written(text) if is_number and (secrets or not parameter.secret) else text

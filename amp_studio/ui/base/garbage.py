@@ -1,15 +1,16 @@
 """Python's garbage is collected by a timer of the event loop, and at no other moment.
 
-Python collects wherever it happens to allocate, and a closed window is garbage with cycles. In another thread Qt crashes
-where it is destroyed. In the middle of what Qt does in the window's own thread, it waits for ever: while an object is
-destroyed, PySide looks for its Python methods, and another object that is destroyed in there needs a lock that the
-first one has.
+Python collects wherever it happens to allocate, and a closed window is garbage with cycles. In another thread
+Qt crashes where it is destroyed. In the middle of what Qt does in the window's own thread, it waits for ever:
+while an object is destroyed, PySide looks for its Python methods, and another object that is destroyed in
+there needs a lock that the first one has.
 
-What belongs to an open file lives as long as it is open: a collection need not look at it. With five files open, looking
-at all of it stalls the window for a quarter of a second; without them it is over in a third of a millisecond.
+What belongs to an open file lives as long as it is open: a collection need not look at it. With five files
+open, looking at all of it stalls the window for a quarter of a second;
+without them it is over in a third of a millisecond.
 
-What a file needs is made in the seconds after it was opened, and is then set apart. Until then only the youngest objects are
-collected, and often: each collection is paid by one frame of a scrolling table.
+What a file needs is made in the seconds after it was opened, and is then set apart. Until then only the
+youngest objects are collected, and often: each collection is paid by one frame of a scrolling table.
 """
 
 from __future__ import annotations
@@ -40,14 +41,18 @@ def collect_by_timer() -> None:
 
 
 def set_apart(page: QObject) -> None:
-    """Leave what there is now out of later collections, and once more when what the page makes in the background is there."""
+    """Leave what there is now out of later collections,
+    and once more when what the page makes in the background is there.
+    """
     gc.freeze()
     _opening.setRemainingTime(_BACKGROUND_MS)
     QTimer.singleShot(_BACKGROUND_MS, page, gc.freeze)
 
 
 def look_again(others: bool) -> None:
-    """Look at everything again: a file was closed, and what belonged to it is garbage; ``others``: files are still open."""
+    """Look at everything again: a file was closed, and what belonged to it is garbage; ``others``:
+    files are still open.
+    """
     gc.unfreeze()
     QTimer.singleShot(0, partial(_collect_all, others))
 
@@ -59,7 +64,9 @@ def _collect_all(others: bool) -> None:
 
 
 def collect() -> None:
-    """Collect the oldest generation that has as many objects as Python would collect it for; after an opening the youngest."""
+    """Collect the oldest generation that has as many objects as Python would collect it for;
+    after an opening the youngest.
+    """
     for generation in (2, 1, 0) if _opening.hasExpired() else (0,):
         if gc.get_count()[generation] > gc.get_threshold()[generation]:
             gc.collect(generation)

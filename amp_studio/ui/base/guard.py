@@ -1,8 +1,10 @@
-"""One guard around every method of this room that Qt calls: an error in it is reported, and Qt gets a value that it can use.
+"""One guard around every method of this room that Qt calls: an error in it is reported,
+and Qt gets a value that it can use.
 
-An exception that leaves such a method (``data``, ``paintEvent``, ``sizeHint``, …) goes through C++. With every PySide6 from 6.8 to 6.12
-that ends the process where the error was raised by C code, as that of ``int("x")``. The guard is set on each class when it is made, so that
-none can be forgotten; it must be imported before the first of them.
+An exception that leaves such a method (``data``, ``paintEvent``, ``sizeHint``, …) goes through C++. With
+every PySide6 from 6.8 to 6.12 that ends the process where the error was raised by C code, as that of
+``int("x")``. The guard is set on each class when it is made, so that none can be forgotten; it must be
+imported before the first of them.
 """
 
 from __future__ import annotations
@@ -108,7 +110,9 @@ def guarded(method: FunctionType) -> Callable[..., object]:
 
 
 def _after_error(at_error: Callable[[], object]) -> object:
-    """Report the error at hand and return what Qt gets; a painter that its frames have open is closed with them."""
+    """Report the error at hand and return what Qt gets;
+    a painter that its frames have open is closed with them.
+    """
     kind, error, trace = sys.exc_info()
     assert kind is not None
     assert error is not None

@@ -1,4 +1,6 @@
-"""Danger, warning and note as a machine manual has them: the sign, the signal word, and the statement beside it."""
+"""Danger, warning and note as a machine manual has them: the sign, the signal word,
+and the statement beside it.
+"""
 
 from __future__ import annotations
 
@@ -26,7 +28,7 @@ def hazard_html(grade: Grade, *statements: str) -> str:
     lines = "<br>".join(map(html.escape, statements))
     bar, fill = colour(ink).name(), colour(ground).name()
     return (
-        f'<table width="100%" cellspacing="0" cellpadding="6" style="margin-bottom:6px"><tr>'
+        '<table width="100%" cellspacing="0" cellpadding="6" style="margin-bottom:6px"><tr>'
         f'<td width="1" style="background-color:{bar}; padding:0px 2px"></td>'
         f'<td style="background-color:{fill}">{icon_html(sign, ink)} '
         f'<b style="color:{bar}">{word}</b><br>{lines}</td></tr></table>'

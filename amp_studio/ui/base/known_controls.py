@@ -1,4 +1,6 @@
-"""The controls that were reached from this computer: address, family, and how the last exchange with each ended."""
+"""The controls that were reached from this computer: address, family,
+and how the last exchange with each ended.
+"""
 
 from __future__ import annotations
 
@@ -75,7 +77,9 @@ def with_exchange(
     name: str = "",
     now: datetime | None = None,
 ) -> list[KnownControl]:
-    """Return the controls after an exchange with one, which comes first; what it did not say stays as it was known."""
+    """Return the controls after an exchange with one, which comes first;
+    what it did not say stays as it was known.
+    """
     before = next((each for each in known if each.address == address), KnownControl(address))
     when = (now or datetime.now(UTC)).isoformat(timespec="seconds")
     after = replace(

@@ -1,7 +1,9 @@
-"""What the window loads beside its work: one loader, so that no two threads import parts of one package at the same time.
+"""What the window loads beside its work: one loader,
+so that no two threads import parts of one package at the same time.
 
-The page of a package imports its modules, and an import of a module takes the lock of the module first, then asks for the page: two
-threads that begin at either end wait for each other, and Python hands out a module that is not ready rather than let both wait for ever.
+The page of a package imports its modules, and an import of a module takes the lock of the module first, then
+asks for the page: two threads that begin at either end wait for each other, and Python hands out a module
+that is not ready rather than let both wait for ever.
 """
 
 from __future__ import annotations

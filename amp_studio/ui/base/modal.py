@@ -1,7 +1,7 @@
 """Waits for a person or for work: the only places where an event loop runs inside another one.
 
-While it runs anything can happen: a file is closed, a menu is made again, the window goes. What follows the wait belongs to the object
-that asked, and is left out where that object is gone.
+While it runs anything can happen: a file is closed, a menu is made again, the window goes. What follows the
+wait belongs to the object that asked, and is left out where that object is gone.
 """
 
 from __future__ import annotations
@@ -18,7 +18,9 @@ class AskerGoneError(BaseException):
 
 
 def is_alive(made: QObject) -> bool:
-    """Return whether an object of Qt still exists: what was waited for may have outlasted its window or its menu."""
+    """Return whether an object of Qt still exists:
+    what was waited for may have outlasted its window or its menu.
+    """
     try:
         made.objectName()
     except RuntimeError:
@@ -35,7 +37,9 @@ def waiting_for(asker: QObject | None) -> Iterator[None]:
 
 
 def run_dialog(dialog: QDialog) -> int:
-    """Show a dialog until it is answered, and return the answer; raises AskerGoneError where its parent is gone by then."""
+    """Show a dialog until it is answered, and return the answer;
+    raises AskerGoneError where its parent is gone by then.
+    """
     with waiting_for(dialog.parent()):
         return dialog.exec()
 

@@ -10,7 +10,9 @@ from .translated import tr, worded
 
 
 def place_in_words(file: ParameterFile, address: Address) -> str:
-    """Return ``X axis``, the label of a spindle, gear or axis without a letter, or nothing for a value of the whole control."""
+    """Return ``X axis``, the label of a spindle, gear or axis without a letter,
+    or nothing for a value of the whole control.
+    """
     if file.evaluation.scope(address) != "axis" or not (letter := axis_letter(file, address[1])):
         return worded(file.machine_schema.instance_label(address))
     place = place_of(file, address)

@@ -1,4 +1,6 @@
-"""A plot on the screen: panels over one axis with two cursors through all of them, a Bode or a ball-bar plot."""
+"""A plot on the screen: panels over one axis with two cursors through all of them, a Bode or a ball-bar
+plot.
+"""
 
 from __future__ import annotations
 
@@ -47,7 +49,9 @@ WHEEL = 0.8
 
 
 class Plot(QWidget):
-    """One picture; the wheel zooms in around the pointer, dragging moves what is visible, a double click shows all of it."""
+    """One picture; the wheel zooms in around the pointer, dragging moves what is visible,
+    a double click shows all of it.
+    """
 
     read = Signal(str)
     """What the cursors read, as HTML; empty without a picture."""
@@ -64,7 +68,8 @@ class Plot(QWidget):
         self._painted: QPixmap | None = None
         """All but the cursors; None where it is to be painted again."""
         self._grip: int | tuple[float, tuple[float, float]] | None = None
-        """What is dragged: a cursor by its number, or the place that was pressed with what was visible then."""
+        """What is dragged: a cursor by its number, or the place that was pressed with what was visible
+        then."""
         self.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
         self.setMouseTracking(True)
         self.setAttribute(Qt.WidgetAttribute.WA_OpaquePaintEvent)
@@ -107,7 +112,9 @@ class Plot(QWidget):
         return scale.low, scale.high
 
     def zoom(self, span: tuple[float, float] | None) -> None:
-        """Show a part of the horizontal axis with both cursors, or all of it; the vertical axes follow what is visible."""
+        """Show a part of the horizontal axis with both cursors, or all of it;
+        the vertical axes follow what is visible.
+        """
         if self.picture is None:
             return
         self._show(span)
@@ -250,7 +257,9 @@ class Plot(QWidget):
         return self.panels[0].x.log
 
     def _within(self, low: float, high: float) -> tuple[float, float] | None:
-        """Return a span within the picture, None for all of it; one that is too small is what is visible now."""
+        """Return a span within the picture, None for all of it; one that is too small is what is visible
+        now.
+        """
         if self.picture is None:
             return None
         whole = self.picture.panels[0].x
@@ -261,7 +270,9 @@ class Plot(QWidget):
         return (low, high) if high - low > least else self.span
 
     def keyPressEvent(self, event: QKeyEvent) -> None:
-        """Move cursor A with the arrow keys, cursor B with Shift, by a hundredth of what is visible; + and - zoom, Home shows all."""
+        """Move cursor A with the arrow keys, cursor B with Shift, by a hundredth of what is visible;
+        + and - zoom, Home shows all.
+        """
         key = Qt.Key(event.key())
         way = {Qt.Key.Key_Left: -0.01, Qt.Key.Key_Right: 0.01}.get(key)
         times = {Qt.Key.Key_Plus: WHEEL, Qt.Key.Key_Minus: 1.0 / WHEEL}.get(key)

@@ -37,10 +37,21 @@ if TYPE_CHECKING:
     from amp_studio.drawing import Series
 
 INKS: dict[ShapeSort, Token] = {
-    "ink": "text", "dim": "dim", "limit": "edge", "now": "sel", "second": "edge", "error": "error", "forbidden": "edge",
-    "either": "edge", "outside": "rec", "travel": "text", "rail": "edge", "overlap": "line",
-    "output": "warn", "before": "edge",
-}  # fmt: skip
+    "ink": "text",
+    "dim": "dim",
+    "limit": "edge",
+    "now": "sel",
+    "second": "edge",
+    "error": "error",
+    "forbidden": "edge",
+    "either": "edge",
+    "outside": "rec",
+    "travel": "text",
+    "rail": "edge",
+    "overlap": "line",
+    "output": "warn",
+    "before": "edge",
+}
 TEXT_INKS: dict[ShapeSort, Token] = {
     "now": "sel",
     "error": "error",

@@ -1,6 +1,7 @@
 """The style sheet over Fusion and the palette: flat buttons and fields, tabs, segments, chips, bars.
 
-The views of the window have no rule here: their delegates paint, which is quicker. Lists in dialogs have one, of their height.
+The views of the window have no rule here: their delegates paint, which is quicker.
+Lists in dialogs have one, of their height.
 """
 
 from __future__ import annotations

@@ -14,7 +14,8 @@ from .garbage import collect_by_timer
 from .modal import run_dialog, waiting_for
 
 TaskProgress = Callable[[str, int, int], None]
-"""Takes a stage, how much is done and of how much; that of an exchange (``transfer.progress``) has the same arguments."""
+"""Takes a stage, how much is done and of how much; that of an exchange (``transfer.progress``)
+has the same arguments."""
 Work = Callable[[TaskProgress, threading.Event], Any]
 Result = TypeVar("Result")
 
@@ -22,8 +23,8 @@ PATIENCE_MS = 300
 """Milliseconds that work may last before a progress dialog is shown."""
 
 TURN_S = 0.00005
-"""Seconds after which a thread lets the window have its turn. Python's own 5 ms, paid several times while a frame is painted, would be
-seen."""
+"""Seconds after which a thread lets the window have its turn. Python's own 5 ms, paid several times while a
+frame is painted, would be seen."""
 STOPPING = "Stopping at the next safe point …"
 
 

@@ -1,7 +1,8 @@
 """How everything looks: the table of colours, light and dark, sizes, fonts, and icons of one hand.
 
-Nothing else in the window names a colour. ``apply_style`` puts it all on the application; it follows the desktop, or keeps to
-what the person chose, and views that have written a colour into a text listen to ``scheme().changed``.
+Nothing else in the window names a colour. ``apply_style`` puts it all on the application; it follows the
+desktop, or keeps to what the person chose, and views that have written a colour into a text listen to
+``scheme().changed``.
 """
 
 from __future__ import annotations
@@ -30,9 +31,30 @@ from .style_sheet import style_sheet
 
 ThemeChoice = Literal["system", "light", "dark"]
 Token = Literal[
-    "window", "panel", "base", "raised", "hover", "line", "line2", "grid", "edge", "text", "dim", "off", "sel", "onsel",
-    "selbg", "selidle", "error", "errorbg", "warn", "warnbg", "rec", "recbg", "chg",
-]  # fmt: skip
+    "window",
+    "panel",
+    "base",
+    "raised",
+    "hover",
+    "line",
+    "line2",
+    "grid",
+    "edge",
+    "text",
+    "dim",
+    "off",
+    "sel",
+    "onsel",
+    "selbg",
+    "selidle",
+    "error",
+    "errorbg",
+    "warn",
+    "warnbg",
+    "rec",
+    "recbg",
+    "chg",
+]
 
 COLOURS: dict[Token, tuple[str, str]] = {
     # Grounds: the brighter, the nearer to the value.
@@ -184,12 +206,28 @@ def palette() -> QPalette:
     role, group = QPalette.ColorRole, QPalette.ColorGroup
     made = QPalette()
     tokens: dict[QPalette.ColorRole, Token] = {
-        role.Window: "window", role.Base: "base", role.AlternateBase: "panel", role.Button: "raised",
-        role.Text: "text", role.WindowText: "text", role.ButtonText: "text", role.HighlightedText: "text",
-        role.ToolTipBase: "raised", role.ToolTipText: "text", role.PlaceholderText: "dim", role.BrightText: "error",
-        role.Highlight: "selbg", role.Accent: "sel", role.Link: "sel", role.LinkVisited: "sel", role.Light: "raised",
-        role.Midlight: "line", role.Mid: "line2", role.Dark: "edge", role.Shadow: "line2",
-    }  # fmt: skip
+        role.Window: "window",
+        role.Base: "base",
+        role.AlternateBase: "panel",
+        role.Button: "raised",
+        role.Text: "text",
+        role.WindowText: "text",
+        role.ButtonText: "text",
+        role.HighlightedText: "text",
+        role.ToolTipBase: "raised",
+        role.ToolTipText: "text",
+        role.PlaceholderText: "dim",
+        role.BrightText: "error",
+        role.Highlight: "selbg",
+        role.Accent: "sel",
+        role.Link: "sel",
+        role.LinkVisited: "sel",
+        role.Light: "raised",
+        role.Midlight: "line",
+        role.Mid: "line2",
+        role.Dark: "edge",
+        role.Shadow: "line2",
+    }
     for each, token in tokens.items():
         made.setColor(each, colour(token))
     made.setColor(group.Inactive, role.Highlight, colour("selidle"))
@@ -226,7 +264,9 @@ def _apply_colours() -> None:
 def font(
     role: Literal["figure", "title", "text", "small", "caption"] = "text", *, own: bool = False
 ) -> QFont:
-    """Return a font of the system in the size of a role, with figures of one width; ``own`` is the weight of an own value."""
+    """Return a font of the system in the size of a role, with figures of one width;
+    ``own`` is the weight of an own value.
+    """
     pixels, weight = _PIXELS[role]
     made = QFont(_system_font())
     if made.pointSizeF() > 0:
@@ -247,7 +287,9 @@ def _system_font() -> QFont:
 
 
 def icon(name: str, ink: Token = "text") -> QIcon:
-    """Return an icon of the Phosphor set by its name, such as ``floppy-disk``; it follows light and dark by itself."""
+    """Return an icon of the Phosphor set by its name, such as ``floppy-disk``;
+    it follows light and dark by itself.
+    """
     return QIcon(_Glyph(name, ink))
 
 

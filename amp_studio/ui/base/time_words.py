@@ -10,7 +10,9 @@ from .translated import tr
 
 
 def in_words(moment: datetime, now: datetime) -> str:
-    """Return a local time in words, seen from ``now``: ``today 14:35``, ``yesterday 17:48``, ``19 Nov 09:12``, ``3 Mar 2024``."""
+    """Return a local time in words, seen from ``now``: ``today 14:35``, ``yesterday 17:48``,
+    ``19 Nov 09:12``, ``3 Mar 2024``.
+    """
     time = f"{moment:%H:%M}"
     if moment.date() == now.date():
         return tr("today {time}").format(time=time)

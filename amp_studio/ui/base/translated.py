@@ -1,7 +1,9 @@
 """Texts in the language of the window.
 
-Code has the English text; ``amp_studio/languages`` has it under an id, with its words in the other languages under the same id.
-``make translations`` takes up new texts and lists what has no translation. What is made below the window has its words there too.
+Code has the English text; ``amp_studio/languages`` has it under an id, with its words in the other languages
+under the same id.
+``make translations`` takes up new texts and lists what has no translation.
+What is made below the window has its words there too.
 """
 
 from __future__ import annotations
@@ -25,9 +27,11 @@ def tr(text: str, disambiguation: str = "", n: int = -1) -> str:
 
 
 def worded(text: str) -> str:
-    """Return a text that was made below the window (the title of a step or a picture, a severity, ``page 7-20``) in its language.
+    """Return a text that was made below the window (the title of a step or a picture, a severity,
+    ``page 7-20``) in its language.
 
-    The words are those of reports in that language. Facts (names, help, rules) have none and stay as they are.
+    The words are those of reports in that language. Facts (names, help, rules)
+    have none and stay as they are.
     """
     return text if _spoken == "en" else _worded(_spoken, text)
 
@@ -38,7 +42,9 @@ def _worded(code: str, text: str) -> str:
 
 
 def message_in_words(text: str) -> str:
-    """Return a finding of the program itself in the language of the window; a rule has the words of its facts."""
+    """Return a finding of the program itself in the language of the window;
+    a rule has the words of its facts.
+    """
     return text if _spoken == "en" else _message(_spoken, text)
 
 

@@ -141,7 +141,8 @@ class Workspace(QObject):
         return enter(self.file, address, text, self.typed_unit)
 
     def enter(self, address: Address, text: str, *, force: bool = False) -> bool:
-        """Set a value from typed text as one undoable step; raises InvalidValueError, and RangeError unless it is forced.
+        """Set a value from typed text as one undoable step; raises InvalidValueError,
+        and RangeError unless it is forced.
 
         Returns whether it changed anything.
         """
@@ -152,7 +153,9 @@ class Workspace(QObject):
         )
 
     def enter_all(self, texts: Mapping[Address, str]) -> list[str]:
-        """Set several values from typed texts as one undoable step, all or none; returns why those refused are refused."""
+        """Set several values from typed texts as one undoable step, all or none;
+        returns why those refused are refused.
+        """
         entry = self.plan(texts)
         if not entry.refused:
             self.take(entry)
@@ -178,7 +181,9 @@ class Workspace(QObject):
         return f"{describe(self.file, address)}, {place}" if place else describe(self.file, address)
 
     def step_text(self, wanted: Mapping[Address, Value | None], expression: str = "") -> str:
-        """Return what a step is called in the list of steps: ``Set 1750 Excess Error, X to 12 mm (6 mm * 2)``."""
+        """Return what a step is called in the list of steps: ``Set 1750 Excess Error,
+        X to 12 mm (6 mm * 2)``.
+        """
         if len(wanted) != 1:
             parameters = {a[0] for a in wanted}
             if len(parameters) == 1:
@@ -217,7 +222,9 @@ class Workspace(QObject):
         self.follow(addresses)
 
     def follow(self, addresses: list[Address]) -> None:
-        """Update the findings and notify the views of values that are not decided yet, as while a handle is dragged."""
+        """Update the findings and notify the views of values that are not decided yet,
+        as while a handle is dragged.
+        """
         self.findings, self._progress = self.validator.update(addresses), None
         self.changed.emit(addresses)
 
@@ -267,7 +274,9 @@ class Workspace(QObject):
             self.changed.emit([])
 
     def acknowledge(self, on_disk: Opened) -> None:
-        """Take the file on disk, which another program has changed, for known: a save may replace it, and it becomes the backup."""
+        """Take the file on disk, which another program has changed, for known: a save may replace it,
+        and it becomes the backup.
+        """
         self.document.acknowledge(on_disk)
         self._compare_again()
         self.changed.emit([])
@@ -303,7 +312,9 @@ class Workspace(QObject):
         return self._progress
 
     def is_deferred(self, finding: Finding) -> bool:
-        """Return whether lists leave a present finding out: it is of a step that has not been reached, and nobody has asked for it."""
+        """Return whether lists leave a present finding out: it is of a step that has not been reached,
+        and nobody has asked for it.
+        """
         if self.shows_later:
             return False
         if self._deferred is None or self._deferred[0] is not self.progress:
@@ -329,7 +340,9 @@ class Workspace(QObject):
         return {s.address: s.value for f in reversed(self.findings) for s in f.effective}
 
     def count(self, severity: str) -> int:
-        """Return how many findings of a severity there are; values that are not set are a state of the file, not findings."""
+        """Return how many findings of a severity there are; values that are not set are a state of the file,
+        not findings.
+        """
         return sum(f.severity == severity and f.rule != NOT_SET for f in self.listed)
 
     def changes(self) -> int:

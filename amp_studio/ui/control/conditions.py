@@ -1,4 +1,6 @@
-"""What a control must be before it is written to, in one line: connected, the same machine, in E-stop, with its password."""
+"""What a control must be before it is written to, in one line: connected, the same machine, in E-stop,
+with its password.
+"""
 
 from __future__ import annotations
 
@@ -80,7 +82,9 @@ def _age(when: datetime | None) -> str:
 
 
 class ConditionLine(QWidget):
-    """A check in ink where one is met, a circle where it was not asked, amber with words where it is missing."""
+    """A check in ink where one is met, a circle where it was not asked, amber with words where it is
+    missing.
+    """
 
     def __init__(self) -> None:
         super().__init__()
@@ -112,8 +116,10 @@ class ConditionLine(QWidget):
 
 def _show(mark: QLabel, text: QLabel, condition: ControlCondition) -> None:
     looks: dict[bool | None, tuple[str, Token]] = {
-        True: ("check", "text"), None: ("circle", "dim"), False: ("warning-fill", "warn"),
-    }  # fmt: skip
+        True: ("check", "text"),
+        None: ("circle", "dim"),
+        False: ("warning-fill", "warn"),
+    }
     name, ink = looks[condition.met]
     mark.setPixmap(icon(name, ink).pixmap(SMALL_ICON, SMALL_ICON))
     dim = colour("dim").name()

@@ -1,4 +1,6 @@
-"""The values that differ between a file and a control: which side each row takes, and what to mind about it."""
+"""The values that differ between a file and a control: which side each row takes, and what to mind about
+it.
+"""
 
 from __future__ import annotations
 
@@ -33,7 +35,9 @@ class SideRow:
 
 
 class DifferenceTable(QTreeWidget):
-    """Groups with their rows; axes that are not fitted and what only the control has are folded. Space changes the side of a row."""
+    """Groups with their rows; axes that are not fitted and what only the control has are folded.
+    Space changes the side of a row.
+    """
 
     sides_changed = Signal()
 
@@ -66,7 +70,9 @@ class DifferenceTable(QTreeWidget):
     def show_differences(
         self, file: ParameterFile, differences: Iterable[Difference], *, to_control: bool, secrets: bool
     ) -> None:
-        """List what differs; the file's side is taken, unless it does not set the value, and a choice made before stays."""
+        """List what differs; the file's side is taken, unless it does not set the value,
+        and a choice made before stays.
+        """
         before = {address: row.takes_file for address, row in self.rows.items()}
         self._file, self._secrets = file, secrets
         found = list(differences)
@@ -117,10 +123,15 @@ class DifferenceTable(QTreeWidget):
         for address in addresses:
             row = self.rows[address]
             place = short_place(self._file, address)
-            item = QTreeWidgetItem([
-                machine.number(address) or "", self._file.schema.parameters[address[0]].name, place,
-                *reversed([self._text(address, value) for value in row.difference.in_one_unit()]), "",
-            ])  # fmt: skip
+            item = QTreeWidgetItem(
+                [
+                    machine.number(address) or "",
+                    self._file.schema.parameters[address[0]].name,
+                    place,
+                    *reversed([self._text(address, value) for value in row.difference.in_one_unit()]),
+                    "",
+                ]
+            )
             item.setData(0, _ADDRESS, address)
             item.setSizeHint(0, QSize(0, ROW))
             head.addChild(item)
@@ -138,9 +149,11 @@ class DifferenceTable(QTreeWidget):
             name = "check-circle-fill" if is_taken else "circle"
             item.setIcon(
                 column,
-                icon(name, "sel" if is_taken else "dim")
-                if not row.is_fixed or is_taken
-                else icon(name, "grid"),
+                (
+                    icon(name, "sel" if is_taken else "dim")
+                    if not row.is_fixed or is_taken
+                    else icon(name, "grid")
+                ),
             )
             item.setFont(column, font("text", own=is_taken))
             item.setForeground(column, colour("text" if is_taken else "dim"))

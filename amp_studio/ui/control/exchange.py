@@ -56,14 +56,18 @@ class ControlExchange(Translated):
         """Shows the page at the control, where one is chosen."""
 
     def address_of(self, workspace: Workspace | None) -> str:
-        """Return the control chosen for a file, of its project, the emulated one, or the last one; empty for none."""
+        """Return the control chosen for a file, of its project, the emulated one, or the last one;
+        empty for none.
+        """
         project, settings = self.window.project, self.window.settings
         own = settings.control_of(workspace.path) if workspace is not None else ""
         known = (own, project.info.control if project else "", self._emulated.address, settings.control())
         return next(filter(None, known), "")
 
     def chosen_address(self) -> str | None:
-        """Return the control chosen for the file in front; without one the page is shown, where one is chosen."""
+        """Return the control chosen for the file in front; without one the page is shown,
+        where one is chosen.
+        """
         address = self.address_of(self.window.workspace)
         if not address:
             self.show_page()

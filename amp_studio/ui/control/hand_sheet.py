@@ -1,4 +1,6 @@
-"""The sheet of values to key in at a control as a list on the screen: tick each value, type in what the control shows."""
+"""The sheet of values to key in at a control as a list on the screen: tick each value,
+type in what the control shows.
+"""
 
 from __future__ import annotations
 
@@ -88,9 +90,11 @@ class HandSheet(QWidget):
         self.update_button = QPushButton(self.tr("&Update"))
         self.save_button = QPushButton(self.tr("&Save or Print…"))
         for button, act in (
-            (self.control_button, self.control_wanted.emit), (self.file_button, self.file_wanted.emit),
-            (self.update_button, self.refresh), (self.save_button, self.save),
-        ):  # fmt: skip
+            (self.control_button, self.control_wanted.emit),
+            (self.file_button, self.file_wanted.emit),
+            (self.update_button, self.refresh),
+            (self.save_button, self.save),
+        ):
             button.setAutoDefault(False)
             button.clicked.connect(act)
         layout = QVBoxLayout(self)
@@ -167,7 +171,8 @@ class HandSheet(QWidget):
             self.list.blockSignals(False)
             self.text.setText(
                 self.tr(
-                    "The sheet lists the values that differ from what the control contains. Where is that known from?"
+                    "The sheet lists the values that differ from what the control contains. Where is that"
+                    " known from?"
                 )
             )
             return
@@ -197,10 +202,18 @@ class HandSheet(QWidget):
 
     def _row(self, at: int, entry: SheetEntry, bold: QFont) -> QTreeWidgetItem:
         assert self.ticks is not None
-        item = QTreeWidgetItem([
-            str(at), entry.number, entry.new, entry.unit, entry.old or "?",
-            entry.name + (f" = {entry.meaning}" if entry.meaning else ""), self.ticks.shown.get(entry.number, ""), "",
-        ])  # fmt: skip
+        item = QTreeWidgetItem(
+            [
+                str(at),
+                entry.number,
+                entry.new,
+                entry.unit,
+                entry.old or "?",
+                entry.name + (f" = {entry.meaning}" if entry.meaning else ""),
+                self.ticks.shown.get(entry.number, ""),
+                "",
+            ]
+        )
         item.setData(_STEP, _ENTRY, entry)
         item.setFlags(item.flags() | Qt.ItemFlag.ItemIsEditable | Qt.ItemFlag.ItemIsUserCheckable)
         item.setCheckState(_STEP, Qt.CheckState.Checked if entry in self.ticks else Qt.CheckState.Unchecked)

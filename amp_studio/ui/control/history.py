@@ -1,4 +1,6 @@
-"""The recorded exchanges of a file: who put what into which control, what that changed, and the backup to go back to."""
+"""The recorded exchanges of a file: who put what into which control, what that changed,
+and the backup to go back to.
+"""
 
 from __future__ import annotations
 
@@ -34,10 +36,17 @@ class ExchangeHistory(QWidget):
     def __init__(self) -> None:
         super().__init__()
         self.tree = QTreeWidget()
-        self.tree.setHeaderLabels([
-            self.tr("When"), self.tr("Who"), self.tr("Exchange"), self.tr("Control"),
-            self.tr("Before"), self.tr("After"), self.tr("How it ended"),
-        ])  # fmt: skip
+        self.tree.setHeaderLabels(
+            [
+                self.tr("When"),
+                self.tr("Who"),
+                self.tr("Exchange"),
+                self.tr("Control"),
+                self.tr("Before"),
+                self.tr("After"),
+                self.tr("How it ended"),
+            ]
+        )
         self.tree.setUniformRowHeights(True)
         self.tree.setAccessibleName(self.tr("Recorded exchanges"))
         for column in range(6):
@@ -63,10 +72,17 @@ class ExchangeHistory(QWidget):
         found = read_exchanges(path.parent, text_of_name(path.name))
         self.tree.clear()
         for each in reversed(found):
-            item = QTreeWidgetItem([
-                day_and_time(each.when), each.who, worded(each.verb), each.control,
-                each.before[:12], each.after[:12], worded(each.text),
-            ])  # fmt: skip
+            item = QTreeWidgetItem(
+                [
+                    day_and_time(each.when),
+                    each.who,
+                    worded(each.verb),
+                    each.control,
+                    each.before[:12],
+                    each.after[:12],
+                    worded(each.text),
+                ]
+            )
             kept = self.tr("\nKept copy: {kept}").format(kept=each.kept) if each.kept else ""
             item.setToolTip(6, each.text + kept)
             item.setData(0, _KEPT, str(path.parent / each.kept) if each.kept else "")

@@ -1,4 +1,6 @@
-"""The known controls at the left of the page: name and family, state and address; the one of the project first."""
+"""The known controls at the left of the page: name and family, state and address;
+the one of the project first.
+"""
 
 from __future__ import annotations
 

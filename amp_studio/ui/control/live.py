@@ -1,4 +1,6 @@
-"""The live page: what a control states of itself now, asked for at most five times a second, and never written to."""
+"""The live page: what a control states of itself now, asked for at most five times a second,
+and never written to.
+"""
 
 from __future__ import annotations
 
@@ -91,7 +93,9 @@ class StatusReadings(QObject):
 
 
 class LivePage(QDialog):
-    """Position, following error, states and faults of a control. Reads only; a fault stops it, an exchange ends it."""
+    """Position, following error, states and faults of a control. Reads only; a fault stops it,
+    an exchange ends it.
+    """
 
     def __init__(
         self,

@@ -1,4 +1,6 @@
-"""At the control: one page that connects, compares, sends, reads, restores and proves. Nothing of it asks in a box."""
+"""At the control: one page that connects, compares, sends, reads, restores and proves.
+Nothing of it asks in a box.
+"""
 
 from __future__ import annotations
 
@@ -110,12 +112,15 @@ class ControlPage(QWidget):
         self.history.restore_wanted.connect(self.restore_wanted)
         self.heading = ElidedLabel()
         self.heading.setFont(font("text", own=True))
-        self.directions = Segment(self.tr("Direction"), [
-            ("compare", self.tr("Compare"), ""),
-            ("send", self.tr("Send to the Control"), "arrow-line-down"),
-            ("read", self.tr("Read From It"), "arrow-line-up"),
-            ("hand", self.tr("By Hand"), "note-pencil"),
-        ])  # fmt: skip
+        self.directions = Segment(
+            self.tr("Direction"),
+            [
+                ("compare", self.tr("Compare"), ""),
+                ("send", self.tr("Send to the Control"), "arrow-line-down"),
+                ("read", self.tr("Read From It"), "arrow-line-up"),
+                ("hand", self.tr("By Hand"), "note-pencil"),
+            ],
+        )
         self.directions.chosen.connect(self.turn)
         self.conditions = ConditionLine()
         self.bar = MessageBar()
@@ -216,7 +221,9 @@ class ControlPage(QWidget):
     # -- what is shown -------------------------------------------------------------
 
     def show_file(self, workspace: Workspace | None, direction: ExchangeDirection) -> None:
-        """Show the exchanges of a file in a direction; without a file a control can be read into a new one."""
+        """Show the exchanges of a file in a direction; without a file a control can be read into a new
+        one.
+        """
         if workspace is not self.workspace:
             self.workspace, self.backup = workspace, None
             self._accepted_errors = False
@@ -227,9 +234,14 @@ class ControlPage(QWidget):
     def turn(self, direction: str) -> None:
         """Change the direction; what was read stays."""
         wanted: ExchangeDirection = (
-            "send" if direction == "send" else "read" if direction == "read"
-            else "hand" if direction == "hand" else "compare"
-        )  # fmt: skip
+            "send"
+            if direction == "send"
+            else "read"
+            if direction == "read"
+            else "hand"
+            if direction == "hand"
+            else "compare"
+        )
         self.direction = wanted if self.workspace is not None or self.backup is not None else "read"
         self.backup = self.backup if self.direction == "send" else None
         if self.direction in ("read", "hand") or self.workspace is None:
@@ -240,7 +252,9 @@ class ControlPage(QWidget):
         self._fill()
 
     def _show_state(self) -> None:
-        """Bring to the front what fits the direction: one control, several, the sheet or what was recorded."""
+        """Bring to the front what fits the direction: one control, several, the sheet or what was
+        recorded.
+        """
         workspace = self.workspace
         if self.past.isChecked() and workspace is not None:
             self.history.show_file(workspace)
@@ -415,7 +429,8 @@ class ControlPage(QWidget):
         self.middle.setCurrentWidget(self.empty)
         if session is None:
             text = self.tr(
-                "Choose a control at the left, or add one by its address with “+”.\nAn emulated control is in the menu Control."
+                "Choose a control at the left, or add one by its address with “+”.\nAn emulated control is in"
+                " the menu Control."
             )
         elif session.phase == "connecting":
             text = self.tr("Reading what {name} contains …").format(name=self.name)
@@ -496,7 +511,8 @@ class ControlPage(QWidget):
             errors = [f for f in workspace.findings if f.severity == "error"]
             if errors and not self._accepted_errors:
                 text = self.tr("The file has {count}, the first: {message}").format(
-                    count=self.tr("%n errors", "", len(errors)), message=errors[0].message)  # fmt: skip
+                    count=self.tr("%n errors", "", len(errors)), message=errors[0].message
+                )
                 return text, "error", ((self.tr("Send It With Its Errors"), self._accept_errors),)
         return None
 
@@ -519,10 +535,11 @@ class ControlPage(QWidget):
         failure = session.failure
         state = failure.at_control if failure is not None else "old"
         heads = {
-            "old": self.tr("The control contains all old values."), "": self.tr("The control contains all old values."),
+            "old": self.tr("The control contains all old values."),
+            "": self.tr("The control contains all old values."),
             "new": self.tr("The control contains all new values."),
             "mixed": self.tr("The control contains some of both: new and old values."),
-        }  # fmt: skip
+        }
         head = heads.get(state, self.tr("It is not known what the control contains."))
         rest = "" if state in ("old", "", "new") else self.tr("Do not move the machine before it was read.")
         return " ".join(filter(None, (head, rest, session.error)))
@@ -761,9 +778,10 @@ class ControlPage(QWidget):
         self.steps.show_stage(stage, done, total)
         if stage in ("silent", "cut"):
             self.note.setText(
-                self.tr("The line is cut; trying again …") if stage == "cut"
+                self.tr("The line is cut; trying again …")
+                if stage == "cut"
                 else self.tr("No answer for {done} s; trying again …").format(done=done)
-            )  # fmt: skip
+            )
         self.state_changed.emit()
 
 

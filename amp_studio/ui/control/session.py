@@ -1,4 +1,5 @@
-"""What the window knows of one control: who answers, what it contains, what it lacks, and the exchange that is under way.
+"""What the window knows of one control: who answers, what it contains, what it lacks,
+and the exchange that is under way.
 
 Nothing waits here: each act runs in a thread, and ``changed`` is emitted when there is something new to show.
 """
@@ -29,7 +30,9 @@ SessionPhase = Literal["away", "connecting", "ready", "running", "done", "failed
 
 @dataclass(frozen=True)
 class ReadControl:
-    """What one reading found: who answered, what it can do, and its content in bytes and as a file where it can be read."""
+    """What one reading found: who answered, what it can do,
+    and its content in bytes and as a file where it can be read.
+    """
 
     control: ControlIdentity
     abilities: Abilities
@@ -133,7 +136,9 @@ class ControlSession(QObject):
         self.ended.emit("connect", False)
 
     def present(self, file: ParameterFile) -> ParameterFile | None:
-        """Return what the control contains in the schema of a file; None if it is not known or of another family."""
+        """Return what the control contains in the schema of a file;
+        None if it is not known or of another family.
+        """
         held = self.seen.file if self.seen else None
         if held is None or held.schema.family.family != file.schema.family.family:
             return None
@@ -148,7 +153,9 @@ class ControlSession(QObject):
     # -- writing -----------------------------------------------------------------
 
     def send(self, file: ParameterFile, path: Path) -> None:
-        """Put a file into the control; only what was read before may be replaced, and it is kept beside ``path``."""
+        """Put a file into the control; only what was read before may be replaced,
+        and it is kept beside ``path``.
+        """
         seen = self.seen
         assert seen is not None
 
@@ -215,9 +222,13 @@ class ControlSession(QObject):
     # -- the thread --------------------------------------------------------------
 
     def _begin(
-        self, phase: SessionPhase, work: Callable[[Exchange], Any], done: Callable[[Any], None],
-        failed: Callable[[Exception], None], path: Path | None = None,
-    ) -> None:  # fmt: skip
+        self,
+        phase: SessionPhase,
+        work: Callable[[Exchange], Any],
+        done: Callable[[Any], None],
+        failed: Callable[[Exception], None],
+        path: Path | None = None,
+    ) -> None:
         if self._task is not None:
             return
         self.phase = phase

@@ -155,9 +155,10 @@ class SeveralControls(QWidget):
     def _follow(self, *_: object) -> None:
         count, workspace = len(self.ticked), self._workspace
         text = (
-            self.tr("Send to %n Controls", "", count) if self._sends
+            self.tr("Send to %n Controls", "", count)
+            if self._sends
             else self.tr("Compare With %n Controls", "", count)
-        )  # fmt: skip
+        )
         why = self._why_not(workspace)
         self.primary.setText(text)
         self.primary.setEnabled(not why and not self.is_busy)

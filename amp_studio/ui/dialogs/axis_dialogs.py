@@ -58,7 +58,8 @@ class AxisDialog(QDialog):
     def _axis_list(self, axis: str) -> QComboBox:
         box = QComboBox()
         file = self._workspace.file
-        # An axis that is not there can be given a type; where axes have no types there is nothing to do with it.
+        # An axis that is not there can be given a type; where axes have no types there is nothing to do with
+        # it.
         for instance in axis_instances(file) if file.schema.family.axes else fitted_axes(file):
             box.addItem(axis_title(self._workspace.file, instance), instance)
         box.setCurrentIndex(max(box.findData(axis), 0))

@@ -17,7 +17,9 @@ from amp_studio.ui.window.studio_window import StudioWindow
 
 
 def write_check_list_of(window: StudioWindow, workspace: Workspace) -> None:
-    """Ask for a file and write the check list into it, then open it; nothing where the dialog is cancelled."""
+    """Ask for a file and write the check list into it, then open it; nothing where the dialog is
+    cancelled.
+    """
     from amp_studio.report import build_check_list, write_check_list
 
     endings = tr("PDF (*.pdf);;Web page (*.html);;Text (*.txt)")
@@ -30,10 +32,7 @@ def write_check_list_of(window: StudioWindow, workspace: Workspace) -> None:
         path = path.with_suffix(chosen[chosen.index("*") + 1 : -1])
     check_output(path, workspace.path)
     checks = build_check_list(
-        workspace.file,
-        workspace.progress,
-        workspace.path,
-        language=window.report_choice.contents.language,
+        workspace.file, workspace.progress, workspace.path, language=window.report_choice.contents.language
     )
     notes: list[str] = []
     in_background(window, tr("Check List"), partial(write_check_list, checks, path, notes.append))

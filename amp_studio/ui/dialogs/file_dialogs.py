@@ -69,8 +69,12 @@ class FactsDialog(_Form):
         self.name, self.application = QLineEdit(header.name), QLineEdit(header.application)
         self.revision, self.notes = QLineEdit(header.revision), QPlainTextEdit(header.notes)
         self.notes.setTabChangesFocus(True)
-        for label, field in ((self.tr("&Name"), self.name), (self.tr("&Application"), self.application),
-                             (self.tr("Control software &revision"), self.revision), ("N&otes", self.notes)):  # fmt: skip
+        for label, field in (
+            (self.tr("&Name"), self.name),
+            (self.tr("&Application"), self.application),
+            (self.tr("Control software &revision"), self.revision),
+            ("N&otes", self.notes),
+        ):
             self.form.addRow(label, field)
         self.add_buttons(self.tr("Change &Facts"))
 
@@ -134,7 +138,9 @@ class ReportDialog(_Form):
 
 
 def ask_report_path(parent: QWidget, near: str) -> Path | None:
-    """Ask where a report goes; its ending, or that of the chosen kind, is the format. None where nothing was chosen."""
+    """Ask where a report goes; its ending, or that of the chosen kind, is the format.
+    None where nothing was chosen.
+    """
     endings = "PDF (*.pdf);;HTML (*.html);;Excel (*.xlsx);;CSV (*.csv);;JSON (*.json);;Text (*.txt)"
     text, chosen = QFileDialog.getSaveFileName(parent, tr("Report"), near, endings)
     if not text:
@@ -169,9 +175,15 @@ class ProjectDialog(_Form):
         self.revision = QLineEdit(info.revision if info else "")
         self.notes = QPlainTextEdit(info.notes if info else "")
         self.notes.setTabChangesFocus(True)
-        for label, field in ((self.tr("&Name"), self.name), (self.tr("Control &family"), self.family), (self.tr("&Machine type"), self.machine),
-                             (self.tr("Control &address"), self.control), (self.tr("&Control name"), self.control_name),
-                             (self.tr("Software &revision"), self.revision), ("N&otes", self.notes)):  # fmt: skip
+        for label, field in (
+            (self.tr("&Name"), self.name),
+            (self.tr("Control &family"), self.family),
+            (self.tr("&Machine type"), self.machine),
+            (self.tr("Control &address"), self.control),
+            (self.tr("&Control name"), self.control_name),
+            (self.tr("Software &revision"), self.revision),
+            ("N&otes", self.notes),
+        ):
             self.form.addRow(label, field)
         self.family.currentIndexChanged.connect(lambda _: self._machines())
         if info:
@@ -191,12 +203,16 @@ class ProjectDialog(_Form):
         """Return the information as typed."""
         family = load_schema(str(self.family.currentData())).family
         return ProjectInfo(
-            name=self.name.text().strip(), family=family.family, machine=str(self.machine.currentData() or ""),
+            name=self.name.text().strip(),
+            family=family.family,
+            machine=str(self.machine.currentData() or ""),
             application=self._info.application if self._info else next(iter(family.applications), ""),
-            control=self.control.text().strip(), control_name=self.control_name.text().strip(),
-            revision=self.revision.text().strip(), notes=self.notes.toPlainText(),
+            control=self.control.text().strip(),
+            control_name=self.control_name.text().strip(),
+            revision=self.revision.text().strip(),
+            notes=self.notes.toPlainText(),
             extra=self._info.extra if self._info else {},
-        )  # fmt: skip
+        )
 
     def accept(self) -> None:
         """Close the dialog when a name is given."""

@@ -45,7 +45,9 @@ def read_families() -> None:
 
 
 class NewFileDialog(QDialog):
-    """Asks for a new file. What a family cannot choose is off, with the reason; what is wrong is shown while it is typed."""
+    """Asks for a new file. What a family cannot choose is off, with the reason;
+    what is wrong is shown while it is typed.
+    """
 
     def __init__(
         self,
@@ -191,7 +193,9 @@ class NewFileDialog(QDialog):
     # -- what comes of it ------------------------------------------------------------
 
     def make(self) -> ParameterFile:
-        """Return the new file; raises ValueError for axes the family cannot have, and for a file that cannot be read."""
+        """Return the new file; raises ValueError for axes the family cannot have,
+        and for a file that cannot be read.
+        """
         name, source = self.name.text().strip(), self.source()
         if source is not None:
             like = open_file(source).file
@@ -208,7 +212,9 @@ class NewFileDialog(QDialog):
         return file
 
     def path(self) -> Path | None:
-        """Return where the file will be in the open project; None where the person is asked. Raises ValueError for a name that cannot be."""
+        """Return where the file will be in the open project; None where the person is asked. Raises
+        ValueError for a name that cannot be.
+        """
         project = self._project
         if project is None or project.info.family != self.family.currentData():
             return None

@@ -72,7 +72,9 @@ class NoteDialog(QDialog):
             super().keyPressEvent(event)
 
     def write(self) -> None:
-        """Put the notes that were changed into the file, as one step; raises NoteError, and then nothing is changed."""
+        """Put the notes that were changed into the file, as one step; raises NoteError,
+        and then nothing is changed.
+        """
         self._texts[self._shown] = self.text.toPlainText()
         changed = {key: text for key, text in self._texts.items() if text.strip() != self._old[key]}
         file, address = self._workspace.file, self._address

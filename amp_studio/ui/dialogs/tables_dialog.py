@@ -1,4 +1,6 @@
-"""The manual's printed tables: alarms with cause and remedy, motors, ports, G-codes; each links to its parameters."""
+"""The manual's printed tables: alarms with cause and remedy, motors, ports, G-codes;
+each links to its parameters.
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,6 @@
-"""Paints the rows of the findings: plain words first, axes as tags, the fix as a button, the rule's name last."""
+"""Paints the rows of the findings: plain words first, axes as tags, the fix as a button,
+the rule's name last.
+"""
 
 from __future__ import annotations
 

@@ -52,7 +52,10 @@ class WhyDialog(QDialog):
 
     def _written(self, workspace: Workspace, finding: Finding) -> str:
         file, why = workspace.file, explain(workspace.validator, finding)
-        mark = f"{severity_html(finding.severity)} <b>{worded(severity_name(finding.severity)).capitalize()}:</b>"
+        mark = (
+            f"{severity_html(finding.severity)}"
+            f" <b>{worded(severity_name(finding.severity)).capitalize()}:</b>"
+        )
         lines, before = [f"<p>{mark} {html.escape(sentence(finding.message))}</p><table cellpadding=3>"], ""
         for title, text, address in why_parts(file, finding, why):
             cell = html.escape(text)
@@ -82,8 +85,10 @@ class SuppressDialog(QDialog):
         self.setWindowTitle(self.tr("Suppress a Finding"))
         self.setMinimumWidth(520)
         self._finding = finding
-        effect = QLabel(f"<b>{html.escape(sentence(finding.message))}</b><br>The finding is no longer listed, but reports print it "
-                      "with the reason and the name. The suppression is saved in rules.yaml beside the file.")  # fmt: skip
+        effect = QLabel(
+            f"<b>{html.escape(sentence(finding.message))}</b><br>The finding is no longer listed, but reports"
+            " print it with the reason and the name. The suppression is saved in rules.yaml beside the file."
+        )
         effect.setWordWrap(True)
         self.reason, self.name = QLineEdit(), QLineEdit(who)
         self.everywhere = QCheckBox(self.tr("Also suppress the same finding of other parameters"))

@@ -1,4 +1,6 @@
-"""The findings below the table: one row for each rule, what is wrong, on which axes, and the suggested fix."""
+"""The findings below the table: one row for each rule, what is wrong, on which axes, and the suggested
+fix.
+"""
 
 from __future__ import annotations
 
@@ -224,7 +226,8 @@ class FindingsPanel(QWidget):
         self.scope.show_choice(kept)
 
     def follow(self, shown_ids: frozenset[str], axis: str, name: str = "") -> None:
-        """Take what the table shows, and the letter of the axis of its current cell, as what the filters mean.
+        """Take what the table shows, and the letter of the axis of its current cell,
+        as what the filters mean.
 
         ``name`` is what the table shows one of: a step, or a group.
         """
@@ -238,7 +241,9 @@ class FindingsPanel(QWidget):
             self._refresh()
 
     def hold_back(self, is_early: Callable[[Finding], bool]) -> None:
-        """Leave out the findings of which ``is_early`` is true, such as those of steps not yet reached; they are counted."""
+        """Leave out the findings of which ``is_early`` is true, such as those of steps not yet reached;
+        they are counted.
+        """
         self._held_back = is_early
         self._refresh()
 
@@ -252,15 +257,25 @@ class FindingsPanel(QWidget):
         return True
 
     def _refresh(self, *_: object) -> None:
-        """List the findings that there are now; the same row stays selected and open, or the one that took its place."""
+        """List the findings that there are now; the same row stays selected and open,
+        or the one that took its place.
+        """
         workspace = self._workspace
         waiting = [finding for finding in workspace.findings if self._held_back(finding)]
         reached = [finding for finding in workspace.findings if not self._held_back(finding)]
         suppressed = workspace.validator.suppressed
         listed = [finding for finding in reached if self._is_listed(finding)]
         if self.suppressed.isChecked():
-            listed += [replace(s.finding, fix=(), message=self.tr("{message} Suppressed by {name}: {reason}").format(
-                message=s.finding.message, name=s.suppression.by, reason=s.suppression.reason)) for s in suppressed]  # fmt: skip
+            listed += [
+                replace(
+                    s.finding,
+                    fix=(),
+                    message=self.tr("{message} Suppressed by {name}: {reason}").format(
+                        message=s.finding.message, name=s.suppression.by, reason=s.suppression.reason
+                    ),
+                )
+                for s in suppressed
+            ]
         self._count(reached, len(waiting), len(suppressed))
         self._sum_up()
         self._delegate.may_edit = workspace.may_edit

@@ -27,8 +27,9 @@ def folded(text: str) -> str:
 class ChoiceBox(QComboBox):
     """The choices of one address with their letters; ``currentData`` is the label.
 
-    Typing selects and leaves in the open list only what fits. Letters add up, in the open list until Backspace takes them away; the
-    same letter again goes to the next one that fits. A text that nothing fits leaves the value as it is.
+    Typing selects and leaves in the open list only what fits. Letters add up, in the open list until
+    Backspace takes them away; the same letter again goes to the next one that fits.
+    A text that nothing fits leaves the value as it is.
     """
 
     tabbed = Signal(bool)
@@ -65,7 +66,9 @@ class ChoiceBox(QComboBox):
         self.view().installEventFilter(self)
 
     def rows_of(self, typed: str) -> list[int]:
-        """Return the rows that fit a typed text, best first: beginning of a label, of a word in it, letter, part of a label."""
+        """Return the rows that fit a typed text, best first: beginning of a label, of a word in it, letter,
+        part of a label.
+        """
         typed, rows = folded(typed), range(self.count())
         labels = [folded(str(self.itemData(n))) for n in rows]
         ranks = (
@@ -153,7 +156,9 @@ class ChoiceBox(QComboBox):
             super().keyPressEvent(event)
 
     def eventFilter(self, watched: QObject, event: QEvent) -> bool:
-        """Select by letter in the open list too, and notice when it closes, as not every way calls ``hidePopup``."""
+        """Select by letter in the open list too, and notice when it closes,
+        as not every way calls ``hidePopup``.
+        """
         if event.type() == QEvent.Type.KeyPress and (self._leave_by_tab(event) or self._select(event)):
             return True
         if event.type() == QEvent.Type.Hide:

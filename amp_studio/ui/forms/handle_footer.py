@@ -4,11 +4,7 @@ from __future__ import annotations
 
 from PySide6.QtCore import Qt, Signal
 from PySide6.QtGui import QPalette, QResizeEvent
-from PySide6.QtWidgets import (
-    QFrame,
-    QHBoxLayout,
-    QLineEdit,
-)
+from PySide6.QtWidgets import QFrame, QHBoxLayout, QLineEdit
 
 from amp_studio.drawing import Handle, figure_text
 from amp_studio.schema import Address, Value, convert, dimension, shown, write_figure, write_value

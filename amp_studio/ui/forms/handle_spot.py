@@ -12,7 +12,9 @@ ARROWS = {Qt.Key.Key_Left: (-1, 0), Qt.Key.Key_Right: (1, 0), Qt.Key.Key_Up: (0,
 
 
 class HandleSpot(QWidget):
-    """A handle for the keyboard and for screen readers; the mouse goes to the picture, which takes the nearest one."""
+    """A handle for the keyboard and for screen readers; the mouse goes to the picture,
+    which takes the nearest one.
+    """
 
     stepped = Signal(int, int, int)
     """Steps to the right, steps up, and how many at once."""

@@ -1,4 +1,6 @@
-"""The bits of a packed word below its cell while it is edited: a check for each bit, and the number beside them."""
+"""The bits of a packed word below its cell while it is edited: a check for each bit,
+and the number beside them.
+"""
 
 from __future__ import annotations
 
@@ -59,7 +61,8 @@ class MaskList(QFrame):
     def _apply_colours(self) -> None:
         """Take the colours of light or dark."""
         self.setStyleSheet(
-            f"#mask {{ background: {colour('raised').name()}; border: 1px solid {colour('line2').name()}; border-radius: 4px; }}"
+            f"#mask {{ background: {colour('raised').name()}; border: 1px solid {colour('line2').name()};"
+            " border-radius: 4px; }"
         )
         for label in (self._count, self._number):
             label.setStyleSheet(f"color: {colour('dim').name()}; background: transparent")

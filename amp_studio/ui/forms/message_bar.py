@@ -13,7 +13,8 @@ from amp_studio.ui.base.theme import GAP2, GAP3, ICON, MESSAGE, icon, scheme, se
 
 MessageKind = Literal["information", "advice", "warning", "error"]
 READING_MS = 8_000
-"""Milliseconds after which an information leaves by itself; anything else stays until it is answered or closed."""
+"""Milliseconds after which an information leaves by itself;
+anything else stays until it is answered or closed."""
 
 
 class MessageBar(QFrame):
@@ -77,7 +78,8 @@ class MessageBar(QFrame):
         """Show the severity by the left edge and by the shape of the icon."""
         ink = severity_ink(self._kind).name()
         self.setStyleSheet(
-            f"MessageBar {{ border: 0; border-left: 3px solid {ink}; border-bottom: 1px solid palette(midlight); }}"
+            f"MessageBar {{ border: 0; border-left: 3px solid {ink}; border-bottom: 1px solid"
+            " palette(midlight); }"
         )
         self._icon.setPixmap(severity_icon(self._kind).pixmap(ICON, ICON))
 

@@ -1,4 +1,6 @@
-"""The tree of the left panel: places of the file, each with its state, its findings and how many values it has open."""
+"""The tree of the left panel: places of the file, each with its state,
+its findings and how many values it has open.
+"""
 
 from __future__ import annotations
 
@@ -21,7 +23,8 @@ from amp_studio.ui.base.theme import (
 Index = QModelIndex | QPersistentModelIndex
 _USER = Qt.ItemDataRole.UserRole
 KEY, PICTURE, COUNTS, RIGHT, INK = (Qt.ItemDataRole(_USER + n) for n in range(5))
-"""What an item is; its icon (name and ink); its findings (severity, how many); the text at its right; its ink."""
+"""What an item is; its icon (name and ink); its findings (severity, how many); the text at its right;
+its ink."""
 _BAR = 2
 """Width of the bar at the left of the selected place."""
 

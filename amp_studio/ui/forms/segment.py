@@ -17,7 +17,9 @@ class Segment(QWidget):
     """The key of the button that a person pressed."""
 
     def __init__(self, name: str, options: Sequence[tuple[str, str, str]] = ()) -> None:
-        """Return a segment with an accessible name; each option is its key, its text and the name of an icon or nothing."""
+        """Return a segment with an accessible name; each option is its key,
+        its text and the name of an icon or nothing.
+        """
         super().__init__()
         self.setAccessibleName(name)
         self._row = QHBoxLayout(self)

@@ -29,7 +29,9 @@ class Cell(NamedTuple):
 def cells_of(
     merge: Merge, row: Row, values: Sequence[Value | None], *, units: str | None, secrets: bool
 ) -> list[Cell]:
-    """Return the cells of the values of one row; ``units`` is a unit system, None for the unit of the first value that has one."""
+    """Return the cells of the values of one row; ``units`` is a unit system,
+    None for the unit of the first value that has one.
+    """
     if row.id.part != "value":
         return [Cell("–" if value is None else visible(str(value.value))) for value in values]
     parameter = merge.a.schema.parameters[row.address[0]]
@@ -52,7 +54,9 @@ def _cell(parameter: Parameter, value: Value | None, *, masked: bool) -> Cell:
 
 
 def _bare_cell(parameter: Parameter, value: Value) -> Cell:
-    """Return how a value without a unit is painted: a mask by the names of its bits, a number in groups of digits."""
+    """Return how a value without a unit is painted: a mask by the names of its bits,
+    a number in groups of digits.
+    """
     text = show_value(parameter, value, secrets=True)
     if parameter.bits and isinstance(value.value, int) and value.value >= 0:
         return Cell(labels_of_word(parameter, value.value), f"0x{value.value:X}", text)

@@ -19,7 +19,9 @@ _MANY = 25
 
 
 class MergeCheck(QObject):
-    """The findings of a result that the open file does not have. One check runs at a time: it takes as long as opening a file."""
+    """The findings of a result that the open file does not have. One check runs at a time:
+    it takes as long as opening a file.
+    """
 
     ready = Signal()
     """The sources that were given last have been checked."""
@@ -42,7 +44,9 @@ class MergeCheck(QObject):
         return self._found is not None
 
     def start(self, merge: Merge, *, is_file: bool) -> None:
-        """Check the result of other sources; ``is_file``: the open file is one of them, and its findings are known."""
+        """Check the result of other sources; ``is_file``: the open file is one of them,
+        and its findings are known.
+        """
         self._wanted, self._found = (merge, is_file), None
         self._painted.start()
 

@@ -1,4 +1,6 @@
-"""Opens the comparison: of the open file with anything, with a control, or with the file on disk that another program changed."""
+"""Opens the comparison: of the open file with anything, with a control,
+or with the file on disk that another program changed.
+"""
 
 from __future__ import annotations
 
@@ -53,7 +55,9 @@ class Comparisons(QObject):
     # -- what opens it ---------------------------------------------------------------
 
     def compare(self) -> None:
-        """Compare the file in front: with what is saved where there is unsaved work, else with its backup, else its defaults."""
+        """Compare the file in front: with what is saved where there is unsaved work, else with its backup,
+        else its defaults.
+        """
         page = self.window.page_in_front
         workspace = page.workspace
         shown = self.open(page)
@@ -65,7 +69,9 @@ class Comparisons(QObject):
             shown.start(B, shown.sources.defaults)
 
     def with_disk(self, page: FilePage) -> None:
-        """Merge with the file on disk, which another program has changed, from what was saved before; a save may then replace it."""
+        """Merge with the file on disk, which another program has changed, from what was saved before;
+        a save may then replace it.
+        """
         self.window.guarded(partial(self._with_disk, page), self.tr("Compare"))
 
     def _with_disk(self, page: FilePage) -> None:
@@ -154,7 +160,9 @@ class Comparisons(QObject):
 
 
 def _written(file: ParameterFile, path: Path, like: Path) -> Document:
-    """Write a new file with the remarks and the order of another one, as far as that is on disk; returns it opened."""
+    """Write a new file with the remarks and the order of another one, as far as that is on disk;
+    returns it opened.
+    """
     check_output(path)
     file.header.signature = file.schema.signature
     previous = file_content(like) if is_there(like) else None

@@ -1,4 +1,6 @@
-"""Paints the tree of a comparison: circles that take a side, bars and words of conflicts, units apart; edits the result."""
+"""Paints the tree of a comparison: circles that take a side, bars and words of conflicts, units apart;
+edits the result.
+"""
 
 from __future__ import annotations
 

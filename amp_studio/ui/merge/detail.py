@@ -1,4 +1,6 @@
-"""Below the tree of a comparison: the selected value with every choice there is, and what each of them would bring."""
+"""Below the tree of a comparison: the selected value with every choice there is,
+and what each of them would bring.
+"""
 
 from __future__ import annotations
 
@@ -221,7 +223,8 @@ class MergeDetail(QFrame):
             lines.append((self.tr("Inactive"), state.why))
         ink = colour("dim").name()
         cells = "".join(
-            f'<tr><td style="color:{ink};padding-right:12px">{html.escape(name)}</td><td>{html.escape(str(text))}</td></tr>'
+            f'<tr><td style="color:{ink};padding-right:12px">{html.escape(name)}</td>'
+            f"<td>{html.escape(str(text))}</td></tr>"
             for name, text in lines
         )
         return f"<table>{cells}</table>"

@@ -1,4 +1,6 @@
-"""Several machines side by side: which files, what differs between them, the way to a value, and the table as a paper."""
+"""Several machines side by side: which files, what differs between them, the way to a value,
+and the table as a paper.
+"""
 
 from __future__ import annotations
 
@@ -27,13 +29,7 @@ from PySide6.QtWidgets import (
 )
 
 from amp_studio.files import ParameterFile, check_output, matched_by_letter, open_file, same_file
-from amp_studio.report import (
-    MachineLine,
-    machine_lines,
-    machine_names,
-    machines_paper,
-    write_paper,
-)
+from amp_studio.report import MachineLine, machine_lines, machine_names, machines_paper, write_paper
 from amp_studio.schema import Address
 from amp_studio.ui.base.task import in_background
 from amp_studio.ui.base.theme import GAP2, GAP3, ROW
@@ -331,7 +327,9 @@ def _read(machines: Sequence[_Machine]) -> None:
 def _compared(
     chosen: Sequence[_Machine], everything: bool, by_letter: bool
 ) -> tuple[list[MachineLine], int, list[ParameterFile], list[str]]:
-    """Return the rows, how many values are the same, the files as they were compared, and notes; raises ValueError."""
+    """Return the rows, how many values are the same, the files as they were compared, and notes;
+    raises ValueError.
+    """
     _read(chosen)
     files = [machine.file for machine in chosen if machine.file is not None]
     notes: list[str] = []
@@ -340,7 +338,10 @@ def _compared(
             matched = matched_by_letter(files[n], files[0])
             files[n] = matched.file
             name = machine.path.stem
-            notes += [f"{name}: axis {letter} is axis {number}; it is compared as axis {place}" for letter, number, place in matched.moved]  # fmt: skip
+            notes += [
+                f"{name}: axis {letter} is axis {number}; it is compared as axis {place}"
+                for letter, number, place in matched.moved
+            ]
             notes += [f"{name}: axis {letter} is not compared" for letter in matched.left_out]
     lines, same = machine_lines(files, everything=everything)
     return lines, same, files, notes

@@ -78,7 +78,9 @@ class MachinesModel(QAbstractTableModel):
 
 
 class MachinesFilter(QSortFilterProxyModel):
-    """Leaves the rows in which each word of a text is somewhere: in the number, the name, the axis or a value."""
+    """Leaves the rows in which each word of a text is somewhere: in the number, the name,
+    the axis or a value.
+    """
 
     def __init__(self, parent: QObject | None = None) -> None:
         super().__init__(parent)

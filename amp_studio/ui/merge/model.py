@@ -1,4 +1,6 @@
-"""The tree of a comparison: the groups of the manual, and in each a row for every value with all sources and the result."""
+"""The tree of a comparison: the groups of the manual,
+and in each a row for every value with all sources and the result.
+"""
 
 from __future__ import annotations
 
@@ -22,16 +24,7 @@ from amp_studio.files import (
     Typed,
     axis_letters,
 )
-from amp_studio.schema import (
-    Value,
-    fault,
-    read_address,
-    read_real,
-    read_value,
-    same_value,
-    visible,
-    whole_of,
-)
+from amp_studio.schema import Value, fault, read_address, read_real, read_value, same_value, visible, whole_of
 from amp_studio.ui.table.cell_look import THIN
 
 from .cells import Cell, cells_of
@@ -147,9 +140,11 @@ class MergeModel(QAbstractItemModel):
     def _header_name(self, row: Row) -> str:
         """Return what an entry of the header is: a fact of the machine, a note, a step that was ticked."""
         names = {
-            "application": self.tr("Application"), "revision": self.tr("Control software revision"),
-            "notes": self.tr("Notes"), "machine": self.tr("Machine type"),
-        }  # fmt: skip
+            "application": self.tr("Application"),
+            "revision": self.tr("Control software revision"),
+            "notes": self.tr("Notes"),
+            "machine": self.tr("Machine type"),
+        }
         kind, key = row.address
         if kind == "value_notes":
             address, here = read_address(key), self.merge.a.machine_schema
@@ -235,7 +230,9 @@ class MergeModel(QAbstractItemModel):
     # -- choosing --------------------------------------------------------------------
 
     def choose(self, rows: Iterable[Row], choice: Choice | None) -> None:
-        """Take a side, a typed value or the default again for rows; those that are the same have nothing to choose."""
+        """Take a side, a typed value or the default again for rows;
+        those that are the same have nothing to choose.
+        """
         changed = [
             row for row in rows if row.kind != "same" and (choice != "base" or self.merge.base is not None)
         ]
@@ -252,7 +249,9 @@ class MergeModel(QAbstractItemModel):
         self.chosen.emit()
 
     def _make_result(self) -> set[RowId]:
-        """Make the result again; returns the values that are another one, also those whose unit follows their axis."""
+        """Make the result again; returns the values that are another one,
+        also those whose unit follows their axis.
+        """
         before, self._result = self._result.values, self.merge.result()
         after = self._result.values
         stale = {RowId("value", a) for a in {*before, *after} if before.get(a) != after.get(a)}

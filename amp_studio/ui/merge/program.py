@@ -43,7 +43,9 @@ def merge_in_window(merge: Merge, ours: Path, output: Path, write: Callable[[Par
 def tool_window(
     merge: Merge, workspace: Workspace, output: Path, write: Callable[[ParameterFile], object]
 ) -> MergeWindow:
-    """Return the window of a merge whose result goes to ``output`` alone; its property ``written`` is true once that was written."""
+    """Return the window of a merge whose result goes to ``output`` alone;
+    its property ``written`` is true once that was written.
+    """
 
     def save(result: ParameterFile) -> None:
         try:
@@ -59,12 +61,7 @@ def tool_window(
         return sources.from_copy(sources.other_file, Path(text)) if text else None
 
     sources = MergeSources(workspace)
-    offers = [
-        (
-            tr("Other Files"),
-            [Offer(tr("Another &File…"), ask_file)],
-        )
-    ]
+    offers = [(tr("Other Files"), [Offer(tr("Another &File…"), ask_file)])]
     window = MergeWindow(workspace, sources, lambda: offers, save)
     window.outcome.merge.hide()
     window.outcome.save.setText(tr("&Save {file}").format(file=output.name.replace("&", "&&")))

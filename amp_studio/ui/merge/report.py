@@ -21,7 +21,9 @@ from .sources import MergeSource
 def save_merge_report(
     window: QWidget, merge: Merge, chosen: Mapping[int, MergeSource], beside: Path, bar: MessageBar
 ) -> None:
-    """Write a comparison as a paper; shows where it is, or the error. ``beside`` is the file that is compared."""
+    """Write a comparison as a paper; shows where it is, or the error.
+    ``beside`` is the file that is compared.
+    """
     title = tr("Report of the comparison")
     near = beside.with_name(f"{beside.stem}-comparison.pdf")
     text, kind = QFileDialog.getSaveFileName(window, title, str(near), PAPER_KINDS)

@@ -1,4 +1,6 @@
-"""What can be compared with an open file, and how each of it is read: other versions of it, other files, controls, axes."""
+"""What can be compared with an open file, and how each of it is read: other versions of it, other files,
+controls, axes.
+"""
 
 from __future__ import annotations
 
@@ -37,8 +39,9 @@ _NEWEST = 10
 class MergeSource:
     """One source as it was read.
 
-    ``title`` and ``note`` are what a person reads; ``is_now`` is the file in front with its unsaved changes; ``remark`` is what a
-    person has to know of it: axes that were matched by their letters, another machine type.
+    ``title`` and ``note`` are what a person reads; ``is_now`` is the file in front with its unsaved changes;
+    ``remark`` is what a person has to know of it: axes that were matched by their letters,
+    another machine type.
     """
 
     title: str
@@ -56,8 +59,8 @@ ReadSource = Callable[[TaskProgress, threading.Event], MergeSource]
 class Offer:
     """A source that can be chosen, or a list of them.
 
-    ``start`` is called in the window's thread: it takes copies of what is open, asks for a file or an address, and returns what
-    reads the source; None if nothing was chosen.
+    ``start`` is called in the window's thread: it takes copies of what is open, asks for a file or an
+    address, and returns what reads the source; None if nothing was chosen.
     """
 
     text: str
@@ -148,7 +151,9 @@ class MergeSources(QObject):
         return self.other(mine, open_file(path).file, path.name, str(path.parent))
 
     def other(self, mine: ParameterFile, file: ParameterFile, name: str, note: str) -> MergeSource:
-        """Return a file of another machine, its axes matched by the letters of ``mine``; raises ValueError."""
+        """Return a file of another machine, its axes matched by the letters of ``mine``; raises
+        ValueError.
+        """
         matched = matched_by_letter(self._fitting(file, name), mine)
         moved = self.tr("Axis {letter} is axis {number} in {file}; it is compared with axis {place} here.")
         remarks = [
@@ -236,12 +241,17 @@ class MergeSources(QObject):
         return [
             (self.tr("This File"), list(self._versions())),
             (self.tr("Other Files"), [*self._others(others), Offer(self.tr("Another &File…"), ask_file)]),
-            (self.tr("Control"), [
-                Offer(self.tr("&Control Now…"), ask_control),
-                Offer(self.tr("Last Do&wnload"), partial(self.from_copy, self.last_download)),
-                Offer(self.tr("&Kept Copies"), inner=(*copies, Offer(self.tr("Another &Copy…"), ask_copy))),
-            ]),
-        ]  # fmt: skip
+            (
+                self.tr("Control"),
+                [
+                    Offer(self.tr("&Control Now…"), ask_control),
+                    Offer(self.tr("Last Do&wnload"), partial(self.from_copy, self.last_download)),
+                    Offer(
+                        self.tr("&Kept Copies"), inner=(*copies, Offer(self.tr("Another &Copy…"), ask_copy))
+                    ),
+                ],
+            ),
+        ]
 
     def from_copy(self, make: Callable[..., MergeSource], *rest: object) -> ReadSource:
         """Return what reads a source from a copy of the file, which may be edited meanwhile."""
@@ -265,10 +275,16 @@ class MergeSources(QObject):
             yield Offer(self.tr("&Backup"), self.backup)
         if saves := self._saves():
             text = self.tr("Before {time}, {who}")
-            yield Offer(self.tr("&Earlier Saves"), inner=tuple(
-                Offer(text.format(time=day_and_time(save[-1].when), who=save[-1].who), partial(self._before, save))
-                for save in saves
-            ))  # fmt: skip
+            yield Offer(
+                self.tr("&Earlier Saves"),
+                inner=tuple(
+                    Offer(
+                        text.format(time=day_and_time(save[-1].when), who=save[-1].who),
+                        partial(self._before, save),
+                    )
+                    for save in saves
+                ),
+            )
         yield Offer(self.tr("Default &Values"), self.defaults)
         letters = axis_letters(self._file)
         if len(letters) > 1:
@@ -281,9 +297,13 @@ class MergeSources(QObject):
     def _axes(self, letters: dict[str, str]) -> Iterator[Offer]:
         for target, letter in letters.items():
             inner = (
-                Offer(self.tr("Axis {source}").format(source=name), partial(self.from_copy, self.axis, target, source))
-                for source, name in letters.items() if source != target
-            )  # fmt: skip
+                Offer(
+                    self.tr("Axis {source}").format(source=name),
+                    partial(self.from_copy, self.axis, target, source),
+                )
+                for source, name in letters.items()
+                if source != target
+            )
             yield Offer(self.tr("In the Place of Axis {target}").format(target=letter), inner=tuple(inner))
 
     def _others(self, others: Sequence[Workspace]) -> Iterator[Offer]:
@@ -299,7 +319,9 @@ class MergeSources(QObject):
 
 
 def is_same_content(a: ParameterFile, b: ParameterFile) -> bool:
-    """Return whether two states of a file are the same: values, marks, header and what the schema does not know."""
+    """Return whether two states of a file are the same: values, marks,
+    header and what the schema does not know.
+    """
     return a.values == b.values and Marks.of(a) == Marks.of(b)
 
 

@@ -1,4 +1,6 @@
-"""The tree of a comparison: a click or a key takes a source for a row, for a group, for all that is selected."""
+"""The tree of a comparison: a click or a key takes a source for a row, for a group, for all that is
+selected.
+"""
 
 from __future__ import annotations
 
@@ -73,7 +75,9 @@ class MergeTree(QTreeView):
     # -- what is shown -----------------------------------------------------------------
 
     def unfold(self) -> None:
-        """Show the rows of each group; long ones without a conflict stay folded. What a person folded or opened stays so."""
+        """Show the rows of each group; long ones without a conflict stay folded.
+        What a person folded or opened stays so.
+        """
         total = sum(len(group.rows) for group in self.rows.groups)
         self.blockSignals(True)
         for n, group in enumerate(self.rows.groups):
@@ -125,7 +129,9 @@ class MergeTree(QTreeView):
             self.scrollTo(index)
 
     def step(self, step: int, *, conflicts: bool = False) -> None:
-        """Go to the next or previous row that differs, or that is a conflict nobody has settled; round at the end."""
+        """Go to the next or previous row that differs, or that is a conflict nobody has settled;
+        round at the end.
+        """
         rows = [
             row
             for group in self.rows.groups

@@ -85,7 +85,15 @@ class MergeWindow(QDialog):
         layout = QVBoxLayout(self)
         layout.setContentsMargins(0, 0, 0, 0)
         layout.setSpacing(0)
-        for widget in (self.view, self.reading, self.message, self.tree, self.detail, self.findings, self.outcome):  # fmt: skip
+        for widget in (
+            self.view,
+            self.reading,
+            self.message,
+            self.tree,
+            self.detail,
+            self.findings,
+            self.outcome,
+        ):
             layout.addWidget(widget)
         layout.setStretchFactor(self.tree, 1)
         self.tree.setStyleSheet("QTreeView { border: 0 }")
@@ -149,7 +157,9 @@ class MergeWindow(QDialog):
         return self.model.merge
 
     def start(self, column: int, begin: Callable[[], ReadSource | None]) -> None:
-        """Read a source in the background and show it; an error is a message, and the source before it stays."""
+        """Read a source in the background and show it; an error is a message, and the source before it
+        stays.
+        """
         try:
             read = begin()
         except (OSError, ValueError) as error:
@@ -211,7 +221,8 @@ class MergeWindow(QDialog):
     def show_merge(
         self, chosen: dict[int, MergeSource], *, swapped: bool = False, replaced: Side | None = None
     ) -> None:
-        """Show sources; what was chosen stays where rows still differ, but for what was taken from a side that is ``replaced``.
+        """Show sources; what was chosen stays where rows still differ,
+        but for what was taken from a side that is ``replaced``.
 
         A source of another family is refused.
         """

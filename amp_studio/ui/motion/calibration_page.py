@@ -1,4 +1,6 @@
-"""The calibration table of an axis: its points, put in, replaced and deleted, as a curve, and made of measured points."""
+"""The calibration table of an axis: its points, put in, replaced and deleted, as a curve,
+and made of measured points.
+"""
 
 from __future__ import annotations
 
@@ -55,7 +57,9 @@ class CalibrationPage(QWidget):
     def __init__(
         self, guarded: Callable[[Callable[[], object]], object], measured: Callable[[str], object]
     ) -> None:
-        """``guarded`` runs what may fail and shows the error; ``measured`` asks for measured points of an axis."""
+        """``guarded`` runs what may fail and shows the error;
+        ``measured`` asks for measured points of an axis.
+        """
         super().__init__()
         self._guarded, self._measured = guarded, measured
         self.target: TuningTarget | None = None

@@ -1,4 +1,6 @@
-"""The check of a machine in motion as a window: every scenario that the file allows, with verdict, figures and parameters to look at."""
+"""The check of a machine in motion as a window: every scenario that the file allows, with verdict,
+figures and parameters to look at.
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,6 @@
-"""Errors over the positions of an axis as curves: what a table takes away, what was measured, what is expected to remain."""
+"""Errors over the positions of an axis as curves: what a table takes away, what was measured,
+what is expected to remain.
+"""
 
 from __future__ import annotations
 

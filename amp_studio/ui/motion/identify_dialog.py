@@ -1,4 +1,6 @@
-"""The machine of an axis out of the record of its drive: the fit as a picture, the figures, and where they go."""
+"""The machine of an axis out of the record of its drive: the fit as a picture, the figures,
+and where they go.
+"""
 
 from __future__ import annotations
 

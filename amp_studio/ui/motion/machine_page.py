@@ -1,4 +1,6 @@
-"""What the control does not know of its machine: a field for each figure, filled by hand, from a file or from a record."""
+"""What the control does not know of its machine: a field for each figure, filled by hand,
+from a file or from a record.
+"""
 
 from __future__ import annotations
 
@@ -99,7 +101,9 @@ class MachinePage(QWidget):
         self._run()
 
     def leave_axis(self, axis: str) -> None:
-        """Empty the fields that have the machine of another axis than ``axis``, unless somebody has changed them."""
+        """Empty the fields that have the machine of another axis than ``axis``,
+        unless somebody has changed them.
+        """
         of, settings = self._taken
         if of == axis:
             return

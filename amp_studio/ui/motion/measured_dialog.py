@@ -1,4 +1,6 @@
-"""Measured points of an axis: what the file does not name is asked, and what would be set is shown before anything is."""
+"""Measured points of an axis: what the file does not name is asked,
+and what would be set is shown before anything is.
+"""
 
 from __future__ import annotations
 
@@ -230,13 +232,24 @@ class MeasuredDialog(QDialog):
         self.notes.setPlainText("\n".join(f"• {note}" for note in proposal.notes))
         sides = ((True, self.tr("rising")), (False, self.tr("falling")))
         before = [
-            ErrorTrace(self.tr("{side} as measured").format(side=name), proposal.before[side], "before" if side else "output", True)
-            for side, name in sides if side in proposal.before
-        ]  # fmt: skip
+            ErrorTrace(
+                self.tr("{side} as measured").format(side=name),
+                proposal.before[side],
+                "before" if side else "output",
+                True,
+            )
+            for side, name in sides
+            if side in proposal.before
+        ]
         after = [
-            ErrorTrace(self.tr("{side} expected").format(side=name), proposal.after[side], "now" if side else "outside")
-            for side, name in sides if side in proposal.after
-        ]  # fmt: skip
+            ErrorTrace(
+                self.tr("{side} expected").format(side=name),
+                proposal.after[side],
+                "now" if side else "outside",
+            )
+            for side, name in sides
+            if side in proposal.after
+        ]
         self.plot.show_errors((*before, *after), proposal.unit)
 
     def _lines(self, measurement: Measurement, proposal: Proposal) -> list[str]:

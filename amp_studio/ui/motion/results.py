@@ -47,13 +47,15 @@ class FiguresPage(QTextBrowser):
         """Show the figures of a trace, with those of the trace before a change."""
         ink = severity_ink("error").name()
         alarms = "".join(
-            f'<p style="color:{ink}"><b>{html.escape(a.code)}</b> at {a.time_s:.4g} s: {html.escape(a.message)}</p>'
+            f'<p style="color:{ink}"><b>{html.escape(a.code)}</b> at {a.time_s:.4g} s:'
+            f" {html.escape(a.message)}</p>"
             for a in trace.alarms
         )
         warn = severity_ink("warning").name()
         doubts = "".join(f'<p style="color:{warn}">{html.escape(text)}</p>' for text in trace.doubts)
         self.setHtml(
-            f"{alarms}{doubts}<table cellspacing=0 cellpadding=2 width=100%>{''.join(_rows(trace, before))}</table>"
+            f"{alarms}{doubts}<table cellspacing=0 cellpadding=2"
+            f" width=100%>{''.join(_rows(trace, before))}</table>"
         )
 
 
@@ -78,7 +80,8 @@ def _rows(trace: Trace, before: Trace | None) -> list[str]:
         )
         words = worded(name.replace("_", " "))
         rows.append(
-            f"<tr><td>{words}</td><td align=right><b>{_number(value)}</b>&nbsp;{shown(unit)}</td>{beside}</tr>"
+            f"<tr><td>{words}</td><td"
+            f" align=right><b>{_number(value)}</b>&nbsp;{shown(unit)}</td>{beside}</tr>"
         )
     return rows
 

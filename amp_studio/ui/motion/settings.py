@@ -46,7 +46,9 @@ class SettingsForm(QWidget):
     def offer(
         self, settings: Mapping[str, str], units: tuple[str, str], axes: Iterable[tuple[str, str]] = ()
     ) -> None:
-        """Show the fields of these settings (name -> what it is) and keep what is in them; ``units`` of length and feedrate."""
+        """Show the fields of these settings (name -> what it is) and keep what is in them;
+        ``units`` of length and feedrate.
+        """
         texts = {name: field.text() for name, field in self.fields.items() if isinstance(field, QLineEdit)}
         chosen = {
             name: field.currentData() for name, field in self.fields.items() if isinstance(field, QComboBox)

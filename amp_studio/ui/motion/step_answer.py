@@ -17,7 +17,8 @@ from amp_studio.ui.base.task import Task
 from .tuning_target import TuningTarget
 
 _SHOWN = slice(1, 3)
-"""Of the panels of a step those below the position: following error and velocity. Each takes its time to draw."""
+"""Of the panels of a step those below the position: following error and velocity.
+Each takes its time to draw."""
 SETTLE_MS = 150
 """Milliseconds without a further change before it is simulated again."""
 

@@ -1,4 +1,6 @@
-"""What is tuned: the open file, or the control that is connected. Both are set, undone and read in the same way."""
+"""What is tuned: the open file, or the control that is connected. Both are set,
+undone and read in the same way.
+"""
 
 from __future__ import annotations
 
@@ -56,7 +58,9 @@ class TuningTarget(QObject):
         raise NotImplementedError
 
     def set(self, text: str, values: Mapping[Address, Value | None]) -> None:
-        """Change values as one step, with those that the control changes by itself; raises ValueError, OSError."""
+        """Change values as one step, with those that the control changes by itself; raises ValueError,
+        OSError.
+        """
         raise NotImplementedError
 
     def undo(self) -> None:
@@ -102,7 +106,9 @@ class FileTarget(TuningTarget):
 
 
 class ControlTarget(TuningTarget):
-    """A connected control. One that takes single values gets each at once; any other gets them with ``send``."""
+    """A connected control. One that takes single values gets each at once; any other gets them with
+    ``send``.
+    """
 
     told = Signal(str)
     """What came of an exchange, in a sentence."""

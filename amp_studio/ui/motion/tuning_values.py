@@ -49,7 +49,9 @@ class ValuesPage(QWidget):
         guarded: Callable[[Callable[[], object]], object],
         measured: Callable[[str], object] | None = None,
     ) -> None:
-        """``guarded`` runs what may fail and shows the error; ``measured`` asks for measured points of an axis."""
+        """``guarded`` runs what may fail and shows the error;
+        ``measured`` asks for measured points of an axis.
+        """
         super().__init__()
         self.page, self._guarded = page, guarded
         self.target: TuningTarget | None = None
@@ -298,7 +300,9 @@ class ValuesPage(QWidget):
 
 
 def _usual(steps: tuple[Fraction, ...], value: Value | None) -> int:
-    """Return which step is offered first: some hundredth of the value; the third one, a micrometre mostly, where it is 0."""
+    """Return which step is offered first: some hundredth of the value; the third one, a micrometre mostly,
+    where it is 0.
+    """
     if value is None or isinstance(value.value, (str, bool)) or not value.value:
         return min(2, len(steps) - 1)
     return max((n for n, step in enumerate(steps) if step * _PART <= abs(value.value)), default=0)

@@ -1,4 +1,6 @@
-"""The Tuning window: what is tuned at the machine as pages, on the open file or in the control that is connected."""
+"""The Tuning window: what is tuned at the machine as pages,
+on the open file or in the control that is connected.
+"""
 
 from __future__ import annotations
 
@@ -101,7 +103,9 @@ class TuningWindow(QWidget):
         return button
 
     def _make_pages(self) -> None:
-        """Make the pages of values; those with a plot are made when they are first shown, because plots take long to load."""
+        """Make the pages of values; those with a plot are made when they are first shown,
+        because plots take long to load.
+        """
         family = self._workspace.file.schema.family.family
         offered = compensation_of(family)
         titles: list[tuple[str, QWidget]] = []
@@ -256,7 +260,9 @@ class TuningWindow(QWidget):
     # -- actions -------------------------------------------------------------------
 
     def guarded(self, act: Callable[[], object]) -> object:
-        """Run what may fail; the error is shown in the bar, and what is known of the control beside the pages."""
+        """Run what may fail; the error is shown in the bar,
+        and what is known of the control beside the pages.
+        """
         try:
             return act()
         except RangeError as error:
@@ -345,8 +351,12 @@ class TuningWindow(QWidget):
         changed, waiting = control.differences(), control.waiting
         if not changed and not waiting:
             return True
-        kept = self.tr("%n values of the control differ from when it was connected. The file has them only if you took them.",
-                       "", changed)  # fmt: skip
+        kept = self.tr(
+            "%n values of the control differ from when it was connected. The file has them only if you took"
+            " them.",
+            "",
+            changed,
+        )
         lost = self.tr("%n values were not downloaded and will be forgotten.", "", waiting)
         text = "\n".join(part for part, count in ((kept, changed), (lost, waiting)) if count)
         back, keep = self.tr("Put the Old Values &Back"), self.tr("&Keep Them in the Control")

@@ -59,7 +59,9 @@ _ENDINGS = "SVG (*.svg);;PNG (*.png);;CSV (*.csv)"
 
 @dataclass(frozen=True, eq=False)
 class _Ran:
-    """What a run brought: the trace, the values that it was made of, those it is compared with and their trace of the same move."""
+    """What a run brought: the trace, the values that it was made of,
+    those it is compared with and their trace of the same move.
+    """
 
     trace: Trace
     file: ParameterFile
@@ -68,10 +70,7 @@ class _Ran:
 
 
 def _same_move(
-    trace: Trace,
-    settings: Mapping[str, float | str],
-    before: Trace | None,
-    file_before: ParameterFile | None,
+    trace: Trace, settings: Mapping[str, float | str], before: Trace | None, file_before: ParameterFile | None
 ) -> Trace | None:
     """Return the trace of the values before with the move of ``trace``; None where they cannot make it."""
     if file_before is None or (before is not None and before.move == trace.move):
@@ -83,7 +82,9 @@ def _same_move(
 
 
 class MotionView(QWidget):
-    """Simulates with the present values, and again after every edit; the trace that was first lies under the new one."""
+    """Simulates with the present values, and again after every edit;
+    the trace that was first lies under the new one.
+    """
 
     def __init__(
         self,

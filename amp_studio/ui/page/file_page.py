@@ -1,4 +1,6 @@
-"""One open file in the window: its table in the middle, and the panels that the docks show while it is in front."""
+"""One open file in the window: its table in the middle,
+and the panels that the docks show while it is in front.
+"""
 
 from __future__ import annotations
 
@@ -126,7 +128,9 @@ class FilePage(QWidget):
             self.listed.emit()
 
     def _outline(self, *_: object) -> None:
-        """Outline the cells that the selected finding reads besides those at fault, which are coloured anyway."""
+        """Outline the cells that the selected finding reads besides those at fault,
+        which are coloured anyway.
+        """
         found = self.findings.current_findings()
         causes = {a for finding in found for a in finding.causes}
         read = {a for finding in found for a in finding.addresses} - causes
@@ -243,7 +247,9 @@ class FilePage(QWidget):
         self.select(address)
 
     def select(self, address: Address) -> None:
-        """Select an address in the table, wherever the focus is; shows its group when the table does not contain it."""
+        """Select an address in the table, wherever the focus is;
+        shows its group when the table does not contain it.
+        """
         if not self.table.index_of(address).isValid() and self.filters.active:
             self.filters.clear()
         if not self.table.index_of(address).isValid():

@@ -1,4 +1,6 @@
-"""What lists of files show of each, read in the background one after the other and kept while the files stay as they are."""
+"""What lists of files show of each, read in the background one after the other
+and kept while the files stay as they are.
+"""
 
 from __future__ import annotations
 
@@ -31,7 +33,9 @@ class FileSummaries(QObject):
         return self._known.get(_version(path))
 
     def want(self, paths: Iterable[Path]) -> None:
-        """Read what is not known of these files, in their order; what was wanted before is wanted no longer."""
+        """Read what is not known of these files, in their order; what was wanted before is wanted no
+        longer.
+        """
         self._wanted = [] if self._is_over else list(paths)
         self._next()
 

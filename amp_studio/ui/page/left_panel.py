@@ -1,4 +1,6 @@
-"""The left panel of a file: steps of commissioning, parameter groups, or the project; one of them at a time."""
+"""The left panel of a file: steps of commissioning, parameter groups, or the project; one of them at a
+time.
+"""
 
 from __future__ import annotations
 

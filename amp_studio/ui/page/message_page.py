@@ -1,4 +1,6 @@
-"""A message of the control beside the window: what it means, where to look, what helps, and what this machine has there."""
+"""A message of the control beside the window: what it means, where to look, what helps,
+and what this machine has there.
+"""
 
 from __future__ import annotations
 
@@ -20,7 +22,9 @@ class MessageWindow(QDialog):
     """Stays beside the table while one goes through its parameters; follows every edit."""
 
     def __init__(self, parent: QWidget, schema: Schema, message: str, page: FilePage | None = None) -> None:
-        """Show a message of a family by its id; with a page its links lead into that file, and its values are shown."""
+        """Show a message of a family by its id; with a page its links lead into that file,
+        and its values are shown.
+        """
         super().__init__(parent)
         self.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
         self._page, self._schema, self._message = page, schema, schema.messages[message]
@@ -77,7 +81,8 @@ class MessageWindow(QDialog):
     def _broken(self, rules: tuple[LinkedRule, ...]) -> list[str]:
         ink = colour("error").name()
         lines = [
-            f"<span style='color:{ink}'>✕</span> {self._link(finding.addresses[0], sentence(finding.message))}"
+            f"<span style='color:{ink}'>✕</span>"
+            f" {self._link(finding.addresses[0], sentence(finding.message))}"
             for linked in rules
             for finding in linked.findings
         ]
@@ -104,7 +109,10 @@ class MessageWindow(QDialog):
             return []
         items = "".join(f"<li>{line}</li>" for line in lines)
         return [
-            f"<p style='font-weight:600; margin-bottom:2px'>{escape(title)}</p><ul style='margin-top:0'>{items}</ul>"
+            (
+                f"<p style='font-weight:600; margin-bottom:2px'>{escape(title)}</p><ul"
+                f" style='margin-top:0'>{items}</ul>"
+            )
         ]
 
     def _follow(self, link: QUrl) -> None:

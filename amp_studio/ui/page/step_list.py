@@ -1,4 +1,6 @@
-"""The steps that were made since the file was opened, in words; a click goes back to one, or forward again."""
+"""The steps that were made since the file was opened, in words; a click goes back to one, or forward
+again.
+"""
 
 from __future__ import annotations
 

@@ -241,8 +241,12 @@ class StepsPanel(QWidget):
         return found
 
     def _state_name(self, state: StepState) -> str:
-        names = {"not begun": self.tr("not begun"), "begun": self.tr("begun"), "done": self.tr("done"),
-                 "not needed": self.tr("not needed on this machine")}  # fmt: skip
+        names = {
+            "not begun": self.tr("not begun"),
+            "begun": self.tr("begun"),
+            "done": self.tr("done"),
+            "not needed": self.tr("not needed on this machine"),
+        }
         return names[state]
 
     def _show_open(self, item: QTreeWidgetItem, addresses: Iterable[Address]) -> None:

@@ -50,7 +50,9 @@ class Spot:
 
 
 class PageView(QAbstractScrollArea):
-    """Shows pages that are given as PNG. A page is decoded when it is seen, one in a turn of the event loop."""
+    """Shows pages that are given as PNG. A page is decoded when it is seen, one in a turn of the event
+    loop.
+    """
 
     turned = Signal(int)
     """The page that is read is another one; counted from 1."""
@@ -108,7 +110,9 @@ class PageView(QAbstractScrollArea):
 
     @property
     def page(self) -> int:
-        """The page that is read, counted from 1: it is not the one that ends at the top. 0 while there is none."""
+        """The page that is read, counted from 1: it is not the one that ends at the top.
+        0 while there is none.
+        """
         middle = self.verticalScrollBar().value() + self.viewport().height() // 3
         return max((n for n, at in enumerate(self._tops, 1) if at <= middle), default=min(len(self._tops), 1))
 
@@ -261,7 +265,10 @@ class PageView(QAbstractScrollArea):
         tint.setAlpha(36)
         painter.fillRect(band, tint)
         scale = self._scale(place.page - 1)
-        painter.fillRect(QRectF(band.left() + (place.x - 3) * scale, band.top(), max(2.0, scale * 1.6), band.height()), _MARK)  # fmt: skip
+        painter.fillRect(
+            QRectF(band.left() + (place.x - 3) * scale, band.top(), max(2.0, scale * 1.6), band.height()),
+            _MARK,
+        )
 
     def _is_drawn(self, page: int) -> bool:
         drawn = self._drawn.get(page)

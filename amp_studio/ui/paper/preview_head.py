@@ -70,7 +70,9 @@ class PreviewHead(QWidget):
         return button
 
     def add_options(self) -> QToolButton:
-        """Add the button that opens the fields of what the report contains; they stay open while several are changed."""
+        """Add the button that opens the fields of what the report contains;
+        they stay open while several are changed.
+        """
         self.menu = QMenu(self)
         holder = QWidget()
         column = QVBoxLayout(holder)

@@ -47,7 +47,8 @@ class _Shown:
     ppi: int = PPI
     places: dict[Address, Place] = field(default_factory=dict)
     motion: tuple[PrintedFigure, ...] = ()
-    """The drawings of the simulator, which come later than the pages: those of the time before are shown until then."""
+    """The drawings of the simulator, which come later than the pages:
+    those of the time before are shown until then."""
     spot: Spot = field(default_factory=lambda: Spot(0, 0.0))
     notes: tuple[str, ...] = ()
     source: str = ""
@@ -199,7 +200,9 @@ class PreviewPanel(QWidget):
         self._task.begin()
 
     def _work(self, workspace: Workspace) -> Callable[[TaskProgress, threading.Event], None]:
-        """Return what the thread does: pages with the drawings there are, their places, then again with new drawings."""
+        """Return what the thread does: pages with the drawings there are, their places,
+        then again with new drawings.
+        """
         file, contents, ppi = workspace.file.copy(), self._choice.contents, self._wanted_ppi()
         own, source, known = workspace.validator.own, workspace.path, self._shown().motion
 

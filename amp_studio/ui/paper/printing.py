@@ -28,7 +28,9 @@ PPI = 200
 
 
 def print_report(window: StudioWindow, workspace: Workspace) -> None:
-    """Ask what a report contains, and write it or show it as it is printed; nothing where the dialog is cancelled."""
+    """Ask what a report contains, and write it or show it as it is printed;
+    nothing where the dialog is cancelled.
+    """
     dialog = ReportDialog(workspace.path, window, window.report_choice.contents)
     if not run_dialog(dialog):
         return
@@ -53,12 +55,7 @@ def write_to(window: StudioWindow, workspace: Workspace, path: Path) -> None:
         from amp_studio.dossier import write_report
 
         write_report(
-            file,
-            path,
-            contents,
-            source=workspace.path,
-            own=workspace.validator.own,
-            notify=notes.append,
+            file, path, contents, source=workspace.path, own=workspace.validator.own, notify=notes.append
         )
 
     ProgressDialog(
@@ -114,7 +111,9 @@ def print_now(window: StudioWindow, workspace: Workspace) -> None:
 
 
 def _preview(window: StudioWindow, workspace: Workspace) -> None:
-    """Show the pages of a report as they are printed; the system's dialog of printers is a button of the preview."""
+    """Show the pages of a report as they are printed;
+    the system's dialog of printers is a button of the preview.
+    """
     from PySide6.QtPrintSupport import QPrintPreviewDialog
 
     pages, printer = _set_for_paper(window, workspace), _printer_for(workspace)

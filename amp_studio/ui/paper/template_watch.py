@@ -51,7 +51,9 @@ class TemplateWatch(QObject):
             self.changed.emit()
 
     def _read(self) -> object:
-        """Return what the folder has, and watch what is new: a rename over a file ends the watch of that file."""
+        """Return what the folder has, and watch what is new:
+        a rename over a file ends the watch of that file.
+        """
         if self._folder is None:
             return None
         own = self._folder / OWN

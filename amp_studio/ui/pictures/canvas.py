@@ -1,4 +1,6 @@
-"""One picture on the screen: painted from its scene, with handles for the mouse, the keys and screen readers."""
+"""One picture on the screen: painted from its scene, with handles for the mouse, the keys and screen
+readers.
+"""
 
 from __future__ import annotations
 
@@ -22,7 +24,8 @@ from amp_studio.validate import Finding
 from .paint import Tag, empty_text, paint_handles, paint_tag
 
 TOGETHER = 2
-"""Handles so much farther away than the nearest one lie on it, in logical pixels; a click goes on to the next."""
+"""Handles so much farther away than the nearest one lie on it, in logical pixels;
+a click goes on to the next."""
 DrawScene = Callable[[Scene | None], Scene]
 """Draws the scene again, in the scales of another one while a handle is dragged."""
 
@@ -182,7 +185,9 @@ class PictureCanvas(QWidget):
             paint_tag(painter, self.place, chosen.at, self.tag(chosen))
 
     def tag(self, handle: Handle) -> Tag:
-        """Return what is shown beside a handle: its value, and while it is dragged the old one and what is wrong."""
+        """Return what is shown beside a handle: its value,
+        and while it is dragged the old one and what is wrong.
+        """
         finding, old = self._finding(handle, self._about), ""
         if self._held is not None:
             before = self._held.value
@@ -232,7 +237,9 @@ class PictureCanvas(QWidget):
         self.update()
 
     def set_values(self, wanted: Mapping[Address, Value]) -> bool:
-        """Set values of the chosen handle as one undo step; a value out of range is refused, with the reason in the tag."""
+        """Set values of the chosen handle as one undo step; a value out of range is refused,
+        with the reason in the tag.
+        """
         if not wanted or self.handle is None or not self._workspace.may_edit:
             return False
         self._refused = ""
@@ -261,7 +268,9 @@ class PictureCanvas(QWidget):
     # -- the mouse ----------------------------------------------------------------
 
     def nearest(self, at: QPointF) -> int | None:
-        """Return the handle within reach of a place: the chosen one of several that lie on each other, else the nearest."""
+        """Return the handle within reach of a place: the chosen one of several that lie on each other,
+        else the nearest.
+        """
         found = self._within_reach(at)
         return self._active if self._active in found else found[0] if found else None
 

@@ -11,10 +11,7 @@ from PySide6.QtWidgets import QGridLayout, QLabel, QVBoxLayout, QWidget
 from amp_studio.drawing import Handle
 from amp_studio.files import RangeError
 from amp_studio.pictures import drawn_in, pictures_of
-from amp_studio.schema import (
-    Address,
-    InvalidValueError,
-)
+from amp_studio.schema import Address, InvalidValueError
 from amp_studio.ui.base.theme import GAP2, HEAD
 from amp_studio.ui.base.translated import worded
 from amp_studio.ui.base.workspace import Workspace
@@ -33,7 +30,8 @@ LEAST_CARD = 370, 230
 AROUND = 2 * HEAD + 24
 """Height of head and footer, about."""
 TELL_MS = 200
-"""Milliseconds until the other views show the parameter of a handle; passing by on the way to another one costs nothing."""
+"""Milliseconds until the other views show the parameter of a handle;
+passing by on the way to another one costs nothing."""
 MARK_MS = 60
 """Milliseconds until the handle of a value that was selected elsewhere is shown; likewise."""
 SIDE = 3
@@ -151,7 +149,9 @@ class PicturesPage(QWidget):
         return first if self._front in ("", *first) else [*first[:-1], self._front]
 
     def _arrange(self) -> None:
-        """Put the cards into the grid: the first one large and others beside it, in a row or a column, or one alone."""
+        """Put the cards into the grid: the first one large and others beside it, in a row or a column,
+        or one alone.
+        """
         self._placed = count, is_large = self._shape()
         wanted = self._wanted(count)
         several = len(wanted) > 1

@@ -1,4 +1,6 @@
-"""Paints what a picture has beside its scene: handles, the tag of one, and what is shown where nothing is drawn."""
+"""Paints what a picture has beside its scene: handles, the tag of one,
+and what is shown where nothing is drawn.
+"""
 
 from __future__ import annotations
 
@@ -8,11 +10,7 @@ from typing import NamedTuple
 from PySide6.QtCore import QPointF, QRectF, Qt
 from PySide6.QtGui import QFontMetricsF, QPainter, QPen
 
-from amp_studio.drawing import (
-    Handle,
-    Placement,
-    Scene,
-)
+from amp_studio.drawing import Handle, Placement, Scene
 from amp_studio.ui.base.theme import GAP, GAP2, RADIUS, colour, font, severity_ink
 
 MOST_REASON = 380.0
@@ -24,7 +22,8 @@ HANDLE = 9.0
 def paint_handles(painter: QPainter, place: Placement, handles: Iterator[tuple[Handle, bool, str]]) -> None:
     """Paint handles, each with whether it has the focus and the severity of its finding.
 
-    A square for one value, a circle for one of less weight, a small square for those of a corner; filled where it has the focus.
+    A square for one value, a circle for one of less weight, a small square for those of a corner;
+    filled where it has the focus.
     """
     half = 0.5 * HANDLE
     for handle, is_active, severity in handles:

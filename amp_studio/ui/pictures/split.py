@@ -1,4 +1,6 @@
-"""The table of a file and its pictures: side by side, one below the other, or the pictures in the place of the table."""
+"""The table of a file and its pictures: side by side, one below the other,
+or the pictures in the place of the table.
+"""
 
 from __future__ import annotations
 
@@ -11,7 +13,8 @@ from PySide6.QtWidgets import QSplitter, QWidget
 
 Arrangement = Literal["beside", "below", "instead"]
 WIDE, TALL = 1000, 440
-"""Width from which pictures are beside the table, height from which they are below it, while nobody has chosen."""
+"""Width from which pictures are beside the table, height from which they are below it,
+while nobody has chosen."""
 LEAST_WIDE, LEAST_TALL = 720, 380
 """Least width and height for what a person has chosen; in a smaller room the pictures cover the table."""
 

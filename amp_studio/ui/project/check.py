@@ -40,7 +40,9 @@ class CheckedFile:
 
 
 def check_files(paths: list[Path], progress: TaskProgress, cancelled: threading.Event) -> list[CheckedFile]:
-    """Return the findings of files, with the rules beside them; after a cancel only those of the files checked so far."""
+    """Return the findings of files, with the rules beside them;
+    after a cancel only those of the files checked so far.
+    """
     checked = []
     for n, path in enumerate(paths):
         if cancelled.is_set():
@@ -61,7 +63,9 @@ def _checked(path: Path) -> CheckedFile:
 
 
 class ProjectCheckDialog(QDialog):
-    """Lists the findings; a double click or Enter opens the file at the finding. Stays open beside the table."""
+    """Lists the findings; a double click or Enter opens the file at the finding. Stays open beside the
+    table.
+    """
 
     def __init__(
         self, checked: list[CheckedFile], show: Callable[[Path, Address | None], None], parent: QWidget | None
@@ -104,7 +108,9 @@ def _branch(checked: CheckedFile) -> QTreeWidgetItem:
     first = checked.fault or (
         sentence(checked.findings[0].message) if checked.findings else worded("no findings")
     )
-    item = QTreeWidgetItem([checked.path.name, *("" if checked.fault else str(checked.count(s)) for s in SEVERITIES), first])  # fmt: skip
+    item = QTreeWidgetItem(
+        [checked.path.name, *("" if checked.fault else str(checked.count(s)) for s in SEVERITIES), first]
+    )
     if checked.fault or worst:
         item.setIcon(0, severity_icon("error" if checked.fault else str(worst)))
     item.setData(0, _GOES_TO, (checked.path, None))

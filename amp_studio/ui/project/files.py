@@ -1,4 +1,6 @@
-"""What the tree of a project does with its files. Nothing is deleted: what is removed goes to the trash, after a question."""
+"""What the tree of a project does with its files. Nothing is deleted: what is removed goes to the trash,
+after a question.
+"""
 
 from __future__ import annotations
 
@@ -114,7 +116,9 @@ class ProjectFiles(QObject):
             self.take(Path(text), folder)
 
     def take(self, path: Path, folder: Path) -> None:
-        """Copy a parameter file into a folder and open the copy; one that is there already is opened. Raises ValueError, OSError."""
+        """Copy a parameter file into a folder and open the copy; one that is there already is opened.
+        Raises ValueError, OSError.
+        """
         if same_file(path.parent, folder):
             self.open(path)
             return
@@ -131,7 +135,9 @@ class ProjectFiles(QObject):
         self.open(target)
 
     def remove(self, path: Path) -> None:
-        """Move a file to the trash, after a question; an open one is closed first. Raises OSError, InUseError."""
+        """Move a file to the trash, after a question; an open one is closed first. Raises OSError,
+        InUseError.
+        """
         question = self.tr("Move {name} to the trash? Its backup and the copies of controls stay.").format(
             name=path.name
         )
@@ -153,7 +159,9 @@ class ProjectFiles(QObject):
         self.window.show_status(self.tr("{name} is in the trash").format(name=path.name))
 
     def recover(self, backup: Path) -> None:
-        """Make the backup of a file that is gone the file again, and open it. Raises OSError, ParameterFileError."""
+        """Make the backup of a file that is gone the file again, and open it. Raises OSError,
+        ParameterFileError.
+        """
         path = backup.with_name(backup.name.removesuffix(".bak"))
         project = self.project_of(path.parent)
         if project is None:

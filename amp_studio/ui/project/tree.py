@@ -1,4 +1,6 @@
-"""The project in the left panel: its machines with marks, backups, copies of controls, rules and notes. It follows the disk."""
+"""The project in the left panel: its machines with marks, backups, copies of controls, rules and notes.
+It follows the disk.
+"""
 
 from __future__ import annotations
 
@@ -196,7 +198,9 @@ class ProjectTree(QWidget):
         self._mark_path(self._page.workspace.path)
 
     def _mark(self, item: QTreeWidgetItem) -> None:
-        """Show of a file whether it is open and saved, its findings, and the control it was last exchanged with."""
+        """Show of a file whether it is open and saved, its findings,
+        and the control it was last exchanged with.
+        """
         kind, path = item.data(0, KEY)
         if kind != "file":
             return
@@ -209,8 +213,12 @@ class ProjectTree(QWidget):
         item.setData(0, PICTURE, ("circle-fill", "chg") if unsaved else ("file", "text" if page else "dim"))
         item.setData(0, COUNTS, tuple((s, counts[s]) for s in _SEVERITIES if counts.get(s)))
         item.setData(0, INK, "text" if page is not None else "dim")
-        words = [item.text(0), self.tr("open") if page else "", self.tr("not saved") if unsaved else "",
-                 *(f"{counts[s]} {s}" for s in _SEVERITIES if counts.get(s))]  # fmt: skip
+        words = [
+            item.text(0),
+            self.tr("open") if page else "",
+            self.tr("not saved") if unsaved else "",
+            *(f"{counts[s]} {s}" for s in _SEVERITIES if counts.get(s)),
+        ]
         if isinstance(summary, str) and page is None:
             item.setData(0, RIGHT, self.tr("cannot be read"))
             item.setToolTip(0, summary)

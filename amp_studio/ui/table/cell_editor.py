@@ -1,4 +1,6 @@
-"""The editor of a value in its cell: the result of an expression at the left, and below it why a value is refused."""
+"""The editor of a value in its cell: the result of an expression at the left,
+and below it why a value is refused.
+"""
 
 from __future__ import annotations
 
@@ -46,7 +48,8 @@ class CellEditor(QLineEdit):
         """Keys that help with a refused text, and what each does."""
         self._frame: RefusalFrame | None = None
         self.is_gone = False
-        """Whether its view has given it up: it is still there until the event ends, and may still lose the focus."""
+        """Whether its view has given it up: it is still there until the event ends,
+        and may still lose the focus."""
         self.bits: MaskList | None = None
         """The bits of a word, below its field."""
         self.textEdited.connect(self._look)

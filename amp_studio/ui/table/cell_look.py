@@ -1,4 +1,6 @@
-"""What a cell of the table looks like: its text, its unit and its state, worked out once until something changes."""
+"""What a cell of the table looks like: its text, its unit and its state,
+worked out once until something changes.
+"""
 
 from __future__ import annotations
 
@@ -23,7 +25,8 @@ THIN = "\u202f"
 """A narrow space that no line breaks at, between groups of three digits on the screen."""
 _BRACKETS = re.compile(r"\s*\([^()]*\)")
 _DIGITS_OF_DEFAULT, _CONVERTED = 5, 1e-5
-"""Digits of a default that a person wrote, and how far the printed conversion to another unit is from it at most."""
+"""Digits of a default that a person wrote, and how far the printed conversion
+to another unit is from it at most."""
 _WHOLE = re.compile(r"(-?)([0-9]{5,})(.*)")
 
 
@@ -57,8 +60,9 @@ class CellLook:
 def short_labels(labels: tuple[str, ...]) -> dict[str, str]:
     """Return shorter texts for the choices of a parameter, each of which no other one has.
 
-    First the words go that all begin or end with, then a bracket without which no two look alike, then the words before a code
-    (``Feedback Connector J1`` is ``J1`` where all but one begin so, else ``… J1``), at last long words become short ones.
+    First the words go that all begin or end with, then a bracket without which no two look alike, then the
+    words before a code (``Feedback Connector J1`` is ``J1`` where all but one begin so, else ``… J1``), at
+    last long words become short ones.
     """
     short = _kept_apart(dict.fromkeys(labels, ""), dict(zip(labels, labels, strict=True)))
     for step in (_without_common_words, _without_brackets, _codes_alone, _with_short_words):
@@ -142,7 +146,9 @@ def _common(texts: list[list[str]]) -> int:
 
 
 def as_written(default: Value) -> Value:
-    """Return a default as a person writes it: 254 for the 253.9998 that a conversion made of 10 inches a minute."""
+    """Return a default as a person writes it: 254 for the 253.9998 that a conversion made
+    of 10 inches a minute.
+    """
     number = default.value
     if not isinstance(number, float) or not math.isfinite(number) or number == 0:
         return default
@@ -223,7 +229,9 @@ class ShownValues(Translated):
         return write_value(parameter, self.in_units(address, self.workspace.file.get(address)))
 
     def tip(self, address: Address) -> str:
-        """Return what a cell means beyond its value: findings, why it is inactive, what the control uses instead."""
+        """Return what a cell means beyond its value: findings, why it is inactive,
+        what the control uses instead.
+        """
         file = self.workspace.file
         if not self.exists(address):
             return tr("Does not exist here: {why}").format(why=file.evaluation.state(address).why)

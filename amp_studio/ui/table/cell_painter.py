@@ -1,4 +1,6 @@
-"""Paints a cell of the table. Nothing is asked of the file here: a frame of a scrolling table has 16 ms for all cells."""
+"""Paints a cell of the table. Nothing is asked of the file here:
+a frame of a scrolling table has 16 ms for all cells.
+"""
 
 from __future__ import annotations
 
@@ -17,9 +19,25 @@ _SEVERITIES: dict[str, tuple[Token, Token, str]] = {
     "advice": ("rec", "recbg", "lightbulb-fill"),
 }
 _INKS: tuple[Token, ...] = (
-    "grid", "panel", "hover", "selbg", "selidle", "sel", "edge", "text", "dim", "line", "line2", "chg",
-    "error", "errorbg", "warn", "warnbg", "rec", "recbg",
-)  # fmt: skip
+    "grid",
+    "panel",
+    "hover",
+    "selbg",
+    "selidle",
+    "sel",
+    "edge",
+    "text",
+    "dim",
+    "line",
+    "line2",
+    "chg",
+    "error",
+    "errorbg",
+    "warn",
+    "warnbg",
+    "rec",
+    "recbg",
+)
 _ASIDE = 8
 """Room at both ends of a cell."""
 _RIGHT, _LEFT = (
@@ -111,9 +129,16 @@ class CellPainter:
             painter.fillRect(place.right(), place.top(), 1, place.height(), line)
 
     def paint(
-        self, painter: QPainter, place: QRect, look: CellLook, slot: int, number_room: int = 0,
-        *, is_selected: bool, is_hovered: bool,
-    ) -> None:  # fmt: skip
+        self,
+        painter: QPainter,
+        place: QRect,
+        look: CellLook,
+        slot: int,
+        number_room: int = 0,
+        *,
+        is_selected: bool,
+        is_hovered: bool,
+    ) -> None:
         """Paint a cell: ground, tint, hatch, bar, icon, marks, value, unit in a slot.
 
         A number is painted in the first ``number_room`` pixels of a cell that is wider than a column.

@@ -1,7 +1,7 @@
 """How wide the columns of the parameter table are: as wide as their widest content, while there is room.
 
-Where there is not, choices take their shorter texts first, then names are elided in the middle, and then whole columns
-leave at the right: no digit and no unit is ever cut.
+Where there is not, choices take their shorter texts first, then names are elided in the middle, and then
+whole columns leave at the right: no digit and no unit is ever cut.
 """
 
 from __future__ import annotations
@@ -77,7 +77,9 @@ def content_widths(table: ParameterTable, painter: CellPainter) -> ContentWidths
 def grown(
     content: ContentWidths, table: ParameterTable, painter: CellPainter, rows: Collection[int]
 ) -> ContentWidths:
-    """Return the widths with what the cells of some rows need now: an edit measures those that it has changed."""
+    """Return the widths with what the cells of some rows need now:
+    an edit measures those that it has changed.
+    """
     looks = _looks(table, rows)
     slots = [
         max(was, *map(painter.slot, column), 0) for was, column in zip(content.slots, looks, strict=True)
@@ -111,7 +113,9 @@ def column_widths(content: ContentWidths, room: int) -> ColumnWidths:
 
 
 def _shared(full: list[int], short: list[int], room: int) -> list[int]:
-    """Return the width of each column between its short and its full one, each getting the same part of what it lacks."""
+    """Return the width of each column between its short and its full one,
+    each getting the same part of what it lacks.
+    """
     lacking = sum(full) - sum(short)
     left = room - sum(short)
     share = 1.0 if not lacking or left >= lacking else max(0.0, left / lacking)

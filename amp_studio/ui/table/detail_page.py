@@ -1,4 +1,6 @@
-"""The sections of the parameter panel as one page of HTML: Calculated, Rules, Help, Where else, History, Facts."""
+"""The sections of the parameter panel as one page of HTML: Calculated, Rules, Help, Where else, History,
+Facts.
+"""
 
 from __future__ import annotations
 
@@ -24,8 +26,8 @@ from amp_studio.ui.forms.pages import drawn, link
 from amp_studio.validate import NOT_SET, Finding, calculators, rule_title
 
 USE, FOLD, DOWNLOAD, CALCULATE, MESSAGE = "use:", "fold:", "download:", "calculate:", "message:"
-"""What a link begins with that is no parameter: take a calculated value, open a section, read the last download, calculate,
-show a message of the control."""
+"""What a link begins with that is no parameter: take a calculated value, open a section, read the last
+download, calculate, show a message of the control."""
 
 
 _RULES = 4
@@ -58,9 +60,16 @@ class DetailPage(Translated):
             head = (
                 f'<p style="color:{dim}; margin-top:4px; margin-bottom:3px"><b><small>{title}</small></b></p>'
             )
-            rule = f'<p style="font-size:4px; margin:0">&nbsp;</p><table width="100%" cellspacing="0" cellpadding="0"><tr><td style="background-color:{line}; font-size:1px">&nbsp;</td></tr></table>'
+            rule = (
+                '<p style="font-size:4px; margin:0">&nbsp;</p><table width="100%" cellspacing="0"'
+                f' cellpadding="0"><tr><td style="background-color:{line};'
+                ' font-size:1px">&nbsp;</td></tr></table>'
+            )
             parts.append(f"{rule}{head}{text}")
-        return f"<html><style>a {{ color: {colour('sel').name()}; }} p {{ margin-top:0; margin-bottom:6px; }}</style>{''.join(parts)}</html>"
+        return (
+            f"<html><style>a {{ color: {colour('sel').name()}; }} p {{ margin-top:0; margin-bottom:6px;"
+            f" }}</style>{''.join(parts)}</html>"
+        )
 
     def _sections(self, address: Address) -> Iterator[tuple[str, str]]:
         if notes := self._notes(address):
@@ -76,7 +85,9 @@ class DetailPage(Translated):
     # -- the value -------------------------------------------------------------
 
     def shown(self, address: Address, value: Value | None, workspace: Workspace | None = None) -> str:
-        """Return a value; one in units whose size another parameter sets with its length or angle: 1000 BLU = 1 mm."""
+        """Return a value; one in units whose size another parameter sets with its length or angle:
+        1000 BLU = 1 mm.
+        """
         file = (workspace or self._workspace).file
         parameter = file.schema.parameters[address[0]]
         if parameter.bits and value is not None and isinstance(value.value, int) and not parameter.secret:
@@ -93,7 +104,8 @@ class DetailPage(Translated):
         file, lines = self._workspace.file, []
         if (used := self._workspace.effective().get(address)) is not None:
             lines.append(
-                f"<b>{self.shown(address, used)}</b> <small>{self.tr('effective value in the control')}</small>"
+                f"<b>{self.shown(address, used)}</b>"
+                f" <small>{self.tr('effective value in the control')}</small>"
             )
         if stored := storage_text(file, address):
             lines.append(f"{html.escape(stored)} <small>{self.tr('as stored in the control')}</small>")
@@ -137,7 +149,8 @@ class DetailPage(Translated):
         group = file.schema.group_of[address[0]]
         found = (("", value_note(file, address)), (group.section or group.name, group_note(file, group.key)))
         return "".join(
-            f"<p>{html.escape(text).replace(chr(10), '<br>')}{f' <small>{html.escape(about)}</small>' if about else ''}</p>"
+            f"<p>{html.escape(text).replace(chr(10), '<br>')}"
+            f"{f' <small>{html.escape(about)}</small>' if about else ''}</p>"
             for about, text in found
             if text
         )
@@ -216,7 +229,8 @@ class DetailPage(Translated):
             )
         lines += [drawn(table) for table in tables_of(schema, parameter)]
         lines.append(
-            f"<p><small>{html.escape(schema.family.title)}, {worded(f'page {schema.page(address)}')}</small></p>"
+            f"<p><small>{html.escape(schema.family.title)},"
+            f" {worded(f'page {schema.page(address)}')}</small></p>"
         )
         return "".join(lines)
 
@@ -242,16 +256,23 @@ class DetailPage(Translated):
         found = ((html.escape(other.path.stem), self._in_other(other, address)) for other in self.others())
         cells += [(name, text) for name, text in found if text]
         dim = colour("dim").name()
-        return "<table cellpadding=2>" + "".join(
-            f'<tr><td style="color:{dim}">{name}&nbsp;&nbsp;</td><td>{text}</td></tr>' for name, text in cells
-        ) + "</table><p></p>"  # fmt: skip
+        return (
+            "<table cellpadding=2>"
+            + "".join(
+                f'<tr><td style="color:{dim}">{name}&nbsp;&nbsp;</td><td>{text}</td></tr>'
+                for name, text in cells
+            )
+            + "</table><p></p>"
+        )
 
     def _compared(self, address: Address, found: Value | None, value: Value | None) -> str:
         text = self.shown(address, found)
         return f"<b>{text}</b>" if not same_value(found, value) else text
 
     def _in_other(self, other: Workspace, address: Address) -> str:
-        """Return the values of this parameter in another open file of the family, with the letters of its axes."""
+        """Return the values of this parameter in another open file of the family,
+        with the letters of its axes.
+        """
         parameter = other.file.schema.parameters.get(address[0])
         if parameter is None or other.file.schema.family.family != self._workspace.file.schema.family.family:
             return ""
@@ -268,8 +289,9 @@ class DetailPage(Translated):
 
     def _history(self, address: Address) -> str:
         lines = [
-            f"<p><small>{day_and_time(entry.when)}, {html.escape(entry.who)}, {html.escape(entry.how)}</small>"
-            f"<br>{html.escape(entry.old or self.tr('not set'))} → {html.escape(entry.new or self.tr('not set'))}</p>"
+            f"<p><small>{day_and_time(entry.when)}, {html.escape(entry.who)},"
+            f" {html.escape(entry.how)}</small><br>{html.escape(entry.old or self.tr('not set'))} →"
+            f" {html.escape(entry.new or self.tr('not set'))}</p>"
             for entry in self._workspace.document.history(address)
         ]
         label = html.escape(self._workspace.file.machine_schema.label(address))
@@ -288,7 +310,8 @@ class DetailPage(Translated):
             brief = ", ".join(worded(text) for name, text in found if name in ("Takes effect", "Access"))
             return title, f'<p style="color:{ink}">{html.escape(brief)}</p>'
         rows = "".join(
-            f'<tr><td style="color:{ink}">{html.escape(worded(k))}&nbsp;&nbsp;</td><td>{html.escape(v)}</td></tr>'
+            "<tr><td"
+            f' style="color:{ink}">{html.escape(worded(k))}&nbsp;&nbsp;</td><td>{html.escape(v)}</td></tr>'
             for k, v in found
         )
         return title, f"<table cellpadding=2>{rows}</table>"

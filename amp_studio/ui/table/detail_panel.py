@@ -1,4 +1,6 @@
-"""The right side: the selected parameter with its value in its range, rules, help, where else it has a value, and facts."""
+"""The right side: the selected parameter with its value in its range, rules, help,
+where else it has a value, and facts.
+"""
 
 from __future__ import annotations
 
@@ -178,7 +180,9 @@ class DetailPanel(QWidget):
     # -- the bar -----------------------------------------------------------------
 
     def _in_range(self, address: Address) -> ValueInRange | None:
-        """Return the value in its range; None where there is no range with two ends, and for choices, words and secrets."""
+        """Return the value in its range; None where there is no range with two ends, and for choices,
+        words and secrets.
+        """
         file = self._workspace.file
         parameter = file.schema.parameters[address[0]]
         if parameter.choices or parameter.secret or parameter.type not in ("integer", "real"):
@@ -197,7 +201,9 @@ class DetailPanel(QWidget):
         return ValueInRange(found.low, found.high, unit, value, default, worst)
 
     def _ask_rules(self) -> None:
-        """Ask in the background which values the rules allow; an answer for what is no longer shown is not used."""
+        """Ask in the background which values the rules allow;
+        an answer for what is no longer shown is not used.
+        """
         address = self._address
         found = self._in_range(address) if address else None
         if address is None or found is None:

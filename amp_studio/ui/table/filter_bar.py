@@ -1,6 +1,8 @@
-"""Filters above the table: chips with counts, and a funnel for the rest; they combine with the list and with each other.
+"""Filters above the table: chips with counts, and a funnel for the rest;
+they combine with the list and with each other.
 
-A row that passed stays until the filter or the list is chosen again, so nothing moves while one works through it.
+A row that passed stays until the filter or the list is chosen again,
+so nothing moves while one works through it.
 """
 
 from __future__ import annotations
@@ -37,13 +39,15 @@ def mark_names() -> dict[Mark, tuple[str, str]]:
         "findings": (tr("Findings"), tr("Values that cause a finding")),
         "axes-differ": (tr("Axes differ"), tr("Parameters whose axes have different values")),
         "unsaved": (tr("Not saved"), tr("Values that are not as on disk")),
-        "since-download": (tr("Changed since download"),
-                           tr("Values that are not as in the last recorded download")),
+        "since-download": (
+            tr("Changed since download"),
+            tr("Values that are not as in the last recorded download"),
+        ),
         "restart": (tr("Active after restart"), tr("Values that take effect after a restart")),
         "recent": (tr("Recently edited"), tr("The last values that were edited here")),
         "bookmarked": (tr("Bookmarked"), tr("Parameters that you have bookmarked (Ctrl+B)")),
         "noted": (tr("With a note"), tr("Values with a note")),
-    }  # fmt: skip
+    }
 
 
 class FilterBar(QWidget):
@@ -154,7 +158,9 @@ class FilterBar(QWidget):
     # -- following the file --------------------------------------------------------------------
 
     def _follow(self, addresses: list[Address]) -> None:
-        """Forget what an edit changed; the table filters its rows in the same moment, the counts follow it."""
+        """Forget what an edit changed; the table filters its rows in the same moment, the counts follow
+        it.
+        """
         self.marks.forget(addresses)
         for address in addresses:
             self._recent.pop(address, None)

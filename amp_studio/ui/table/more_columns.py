@@ -1,4 +1,6 @@
-"""The strip at the right of a table that is too narrow for its columns: it covers the one that would be cut, and names the next."""
+"""The strip at the right of a table that is too narrow for its columns: it covers the one that would be cut,
+and names the next.
+"""
 
 from __future__ import annotations
 

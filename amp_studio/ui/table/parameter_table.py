@@ -1,7 +1,8 @@
 """The model of the parameter table: one row for each parameter, one column for each axis.
 
-A parameter with several instances that are not axes (gears, macro calls, processes) has one row for each, and so have the
-points of a table of an axis. Where several groups are shown each begins with a row that has its name and no values.
+A parameter with several instances that are not axes (gears, macro calls, processes) has one row for each, and
+so have the points of a table of an axis. Where several groups are shown each begins
+with a row that has its name and no values.
 """
 
 from __future__ import annotations
@@ -55,7 +56,9 @@ RowFilter = Callable[[TableRow, list[Address]], bool]
 
 
 class ParameterTable(QAbstractTableModel):
-    """The parameters of one group or search with the values of the open file. Numbers and names are the row heads."""
+    """The parameters of one group or search with the values of the open file.
+    Numbers and names are the row heads.
+    """
 
     values_changed = Signal(list)
     """Values in the same rows are new; after this they are painted."""
@@ -117,7 +120,9 @@ class ParameterTable(QAbstractTableModel):
         self.show_again()
 
     def unfiltered(self) -> list[list[Address]]:
-        """Return the values of each row that the list has without the filter, in the columns that are shown."""
+        """Return the values of each row that the list has without the filter, in the columns that are
+        shown.
+        """
         if self._unfiltered is None:
             here, exists = set(self.columns), self.values.exists
             rows = (row for p in self.asked for row in self._layout(p))
@@ -204,23 +209,31 @@ class ParameterTable(QAbstractTableModel):
         of_axes = [row for row in rows if CONTROL not in row.cells]
         control = worded(self.workspace.file.schema.family.scopes["global"].label) or self.tr("Control")
         return [
-            TableRow(of_control[0].parameter, {}, "", control), *of_control,
-            TableRow(of_axes[0].parameter, {}, "", self.tr("Axes")), *of_axes,
-        ]  # fmt: skip
+            TableRow(of_control[0].parameter, {}, "", control),
+            *of_control,
+            TableRow(of_axes[0].parameter, {}, "", self.tr("Axes")),
+            *of_axes,
+        ]
 
     @property
     def shows_commands(self) -> bool:
-        """Whether the last column shows the command that makes the control read a value: where rows differ in it."""
+        """Whether the last column shows the command that makes the control read a value:
+        where rows differ in it.
+        """
         return bool(self.columns) and len(self._commands) > 1
 
     @property
     def common_command(self) -> str:
-        """The command that makes the control read every row; empty where there is none, or not one for all."""
+        """The command that makes the control read every row; empty where there is none, or not one for
+        all.
+        """
         return next(iter(self._commands)) if len(self._commands) == 1 else ""
 
     @property
     def has_block(self) -> bool:
-        """Whether values of the whole control are a block above those of the axes; each of its cells has the whole width."""
+        """Whether values of the whole control are a block above those of the axes;
+        each of its cells has the whole width.
+        """
         return len(self.columns) > 1 and CONTROL in self.columns
 
     def is_in_block(self, row: int) -> bool:
@@ -279,14 +292,18 @@ class ParameterTable(QAbstractTableModel):
         return found
 
     def unit_of_row(self, row: int) -> str:
-        """Return the unit of all values of a row, for its head; empty where they differ or say it themselves."""
+        """Return the unit of all values of a row, for its head; empty where they differ or say it
+        themselves.
+        """
         if self.rows[row].section:
             return ""
         looks = (self.look(row, column) for column in range(len(self.columns)))
         return next((look.unit for look in looks if look is not None and look.is_unit_in_head), "")
 
     def cell_text(self, address: Address) -> str:
-        """Return the text of a cell for a person who does not see it: ``11 mm``, ``not set``, nothing where it does not exist."""
+        """Return the text of a cell for a person who does not see it: ``11 mm``, ``not set``,
+        nothing where it does not exist.
+        """
         if not self.values.exists(address):
             return ""
         used = self.values.effective.get(address)
@@ -318,7 +335,9 @@ class ParameterTable(QAbstractTableModel):
         return None
 
     def column_head(self, column: int) -> tuple[str, str]:
-        """Return the head of a column, what is loud of it and what is not: ``("X", "1 linear")``, ``("", "Control")``."""
+        """Return the head of a column, what is loud of it and what is not: ``("X", "1 linear")``, ``("",
+        "Control")``.
+        """
         if column >= len(self.columns):
             return "", self.tr("Read by")
         name = self.columns[column]
@@ -363,7 +382,9 @@ class ParameterTable(QAbstractTableModel):
         return f"{shown.parameter.name}, {place}" if place else shown.parameter.name
 
     def number(self, row: int) -> str:
-        """Return the number of a row: that of its first value that exists, if it belongs to this parameter."""
+        """Return the number of a row: that of its first value that exists, if it belongs to this
+        parameter.
+        """
         found = self._numbers.get(row)
         if found is None:
             found = self._numbers[row] = self._number(row)

@@ -1,4 +1,6 @@
-"""A value in its range, painted: the printed range, the part that rules allow, the default and the value itself."""
+"""A value in its range, painted: the printed range, the part that rules allow,
+the default and the value itself.
+"""
 
 from __future__ import annotations
 

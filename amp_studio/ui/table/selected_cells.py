@@ -1,4 +1,6 @@
-"""The selected cells of a table as blocks of addresses: the range, what it is pasted over, what it is filled from."""
+"""The selected cells of a table as blocks of addresses: the range, what it is pasted over,
+what it is filled from.
+"""
 
 from __future__ import annotations
 
@@ -11,7 +13,9 @@ from .parameter_table import ParameterTable
 
 
 class SelectedCells:
-    """The selection of a view of the parameter table. Heads of sections are in no block, and what does not exist is None."""
+    """The selection of a view of the parameter table. Heads of sections are in no block,
+    and what does not exist is None.
+    """
 
     def __init__(self, view: QTableView, table: ParameterTable) -> None:
         self._view, self._table = view, table
@@ -22,11 +26,15 @@ class SelectedCells:
 
     @property
     def is_block(self) -> bool:
-        """Whether the selected cells are one block without gaps; cells that Ctrl+click added may be anywhere."""
+        """Whether the selected cells are one block without gaps; cells that Ctrl+click added may be
+        anywhere.
+        """
         return self._view.selectionModel().selection().count() < 2
 
     def block(self) -> list[list[Address | None]]:
-        """Return the selected cells as rows; None where a cell does not exist, without the heads of sections."""
+        """Return the selected cells as rows; None where a cell does not exist, without the heads of
+        sections.
+        """
         ends = self.ends()
         if ends is None:
             return []
@@ -37,8 +45,9 @@ class SelectedCells:
         is_block, index = self.is_block, self._table.index
         return [
             [self.existing(r, c) if is_block or here(index(r, c)) else None for c in columns]
-            for r in rows if not self._table.rows[r].section
-        ]  # fmt: skip
+            for r in rows
+            if not self._table.rows[r].section
+        ]
 
     def block_from(self, rows: int, columns: int) -> list[list[Address | None]]:
         """Return a block of cells that begins at the first selected one, as far as the table goes."""
@@ -51,8 +60,8 @@ class SelectedCells:
         return [[self.existing(r, c) for c in across] for r, _ in zip(below, range(rows), strict=False)]
 
     def block_to_fill(self, *, down: bool) -> list[list[Address | None]]:
-        """Return the selected cells with the line they are filled from: a single row gets the one above, a single column
-        the one before.
+        """Return the selected cells with the line they are filled from: a single row gets the one above, a
+        single column the one before.
         """
         ends = self.ends()
         if ends is None:

@@ -1,4 +1,6 @@
-"""The heads of the parameter table: number and name of each row, which stay while the axes scroll, and the letter of each axis."""
+"""The heads of the parameter table: number and name of each row, which stay while the axes scroll,
+and the letter of each axis.
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,6 @@
-"""Paints the cells of the table, and edits them: a list for a choice, a field that understands units for a number."""
+"""Paints the cells of the table, and edits them: a list for a choice,
+a field that understands units for a number.
+"""
 
 from __future__ import annotations
 
@@ -55,7 +57,9 @@ def allowed_text(workspace: Workspace, address: Address) -> str:
 
 
 class ValueDelegate(QStyledItemDelegate):
-    """Paints from the looks of the model. Edits pass their text to ``commit``; the model itself is never written."""
+    """Paints from the looks of the model. Edits pass their text to ``commit``;
+    the model itself is never written.
+    """
 
     ended = Signal(int, object)
     """An editor took its text by Enter, with these modifiers; the view goes on from there."""
@@ -82,11 +86,14 @@ class ValueDelegate(QStyledItemDelegate):
         if look is not None:
             state = option.state
             self.painter.paint(
-                painter, place, look, self.painter.unit_slots[column] if column < len(self.painter.unit_slots) else 0,
+                painter,
+                place,
+                look,
+                self.painter.unit_slots[column] if column < len(self.painter.unit_slots) else 0,
                 self.number_room if self._table.is_in_block(row) else 0,
                 is_selected=bool(state & QStyle.StateFlag.State_Selected),
                 is_hovered=bool(state & QStyle.StateFlag.State_MouseOver),
-            )  # fmt: skip
+            )
         elif column == len(self._table.columns):
             super().paint(painter, option, index)
         else:
@@ -94,7 +101,9 @@ class ValueDelegate(QStyledItemDelegate):
         self.painter.grid(painter, place, is_section=bool(self._table.rows[row].section))
 
     def cell_place(self, place: QRect, index: Index) -> QRect:
-        """Return where the value of a cell is; a number of the whole control has not the whole width of its cell."""
+        """Return where the value of a cell is; a number of the whole control has not the whole width of its
+        cell.
+        """
         row = index.row()
         look = self._table.look(row, index.column()) if self._table.is_in_block(row) else None
         is_number = look is not None and (look.is_number or look.kind == "not set")
@@ -141,7 +150,9 @@ class ValueDelegate(QStyledItemDelegate):
         return tuple(fill + keys)
 
     def _preview(self, address: Address, text: str) -> Preview:
-        """Return what a text comes to while it is typed; what is not readable yet is refused only when it is entered."""
+        """Return what a text comes to while it is typed;
+        what is not readable yet is refused only when it is entered.
+        """
         file = self._workspace.file
         try:
             entered = self._workspace.entered(address, text)
@@ -265,7 +276,9 @@ class ValueDelegate(QStyledItemDelegate):
         return super().eventFilter(editor, event)
 
     def take(self, editor: CellEditor) -> bool:
-        """Commit the text of an editor, which stays open with the reason where it is refused; returns whether it was taken."""
+        """Commit the text of an editor, which stays open with the reason where it is refused;
+        returns whether it was taken.
+        """
         self.refusal = None
         self.commitData.emit(editor)  # which comes to setModelData
         refusal = self._last_refusal()

@@ -11,7 +11,8 @@ from amp_studio.schema import Address, Value
 from amp_studio.ui.base.workspace import Workspace
 
 FOLLOW_MS = 60
-"""Milliseconds after which findings and the other views follow a moving value; the picture follows at once."""
+"""Milliseconds after which findings and the other views follow a moving value; the picture follows at
+once."""
 
 
 class ValueDrag(QObject):

@@ -1,4 +1,6 @@
-"""The view of the table: names that stay while the axes scroll, ranges of cells, editing with one key, a fill handle."""
+"""The view of the table: names that stay while the axes scroll, ranges of cells, editing with one key,
+a fill handle.
+"""
 
 from __future__ import annotations
 
@@ -17,15 +19,7 @@ from PySide6.QtCore import (
     QTimer,
     Signal,
 )
-from PySide6.QtGui import (
-    QAction,
-    QFocusEvent,
-    QKeyEvent,
-    QMouseEvent,
-    QPainter,
-    QPaintEvent,
-    QResizeEvent,
-)
+from PySide6.QtGui import QAction, QFocusEvent, QKeyEvent, QMouseEvent, QPainter, QPaintEvent, QResizeEvent
 from PySide6.QtWidgets import QAbstractItemView, QApplication, QTableView, QWidget
 
 from amp_studio.files import RangeError
@@ -105,7 +99,9 @@ class ValueTable(QTableView):
     def selectionCommand(
         self, index: QModelIndex | QPersistentModelIndex, event: QEvent | None = None
     ) -> QItemSelectionModel.SelectionFlag:
-        """Return what becomes selected: a cell that the program chooses is so alone, also while the Ctrl of a shortcut is down."""
+        """Return what becomes selected: a cell that the program chooses is so alone,
+        also while the Ctrl of a shortcut is down.
+        """
         if event is None and QApplication.keyboardModifiers() & Qt.KeyboardModifier.ControlModifier:
             return QItemSelectionModel.SelectionFlag.ClearAndSelect
         return super().selectionCommand(index, event)
@@ -132,7 +128,9 @@ class ValueTable(QTableView):
     # -- editing ---------------------------------------------------------------
 
     def finish(self) -> bool:
-        """Commit an open editor; returns False when its text was refused, and it stays open with the reason."""
+        """Commit an open editor; returns False when its text was refused, and it stays open with the
+        reason.
+        """
         editor: QWidget | None = self.indexWidget(self.currentIndex())
         if editor is None:
             return True
@@ -156,7 +154,9 @@ class ValueTable(QTableView):
         return None
 
     def _end_editing(self, modifiers: int, editor: CellEditor) -> None:
-        """Take a text by Enter and go down; with Ctrl into every selected cell, with Ctrl and Shift out of range too."""
+        """Take a text by Enter and go down; with Ctrl into every selected cell,
+        with Ctrl and Shift out of range too.
+        """
         held = Qt.KeyboardModifier(modifiers) & ~Qt.KeyboardModifier.KeypadModifier
         control, shift = Qt.KeyboardModifier.ControlModifier, Qt.KeyboardModifier.ShiftModifier
         here, address = self.currentIndex(), self.address()
@@ -366,7 +366,9 @@ class ValueTable(QTableView):
         self._chosen, self._was_block = self.cells.addresses(), self.cells.is_block
 
     def _after_reset(self) -> None:
-        """Show the new list; one that is the old one with other rows stays where it was, with what was selected."""
+        """Show the new list; one that is the old one with other rows stays where it was,
+        with what was selected.
+        """
         is_same = self._shown is self._table.asked
         self._is_dragged = self._is_dragged and is_same
         self._lay_block()
@@ -397,14 +399,18 @@ class ValueTable(QTableView):
                 self.selectionModel().select(index, QItemSelectionModel.SelectionFlag.Select)
 
     def _fit_columns(self) -> None:
-        """Make each column as wide as its contents, as far as there is room; the rest of the room stays empty at the right."""
+        """Make each column as wide as its contents, as far as there is room;
+        the rest of the room stays empty at the right.
+        """
         if self._is_dragged:
             return
         room = self.width() - _MARGIN
         self._take_widths(self._widths(room))
 
     def _widths(self, room: int) -> ColumnWidths:
-        """Return the widths for a room; the contents are measured when they have changed, not whenever the room has."""
+        """Return the widths for a room; the contents are measured when they have changed,
+        not whenever the room has.
+        """
         if self._content is None:
             self._content = content_widths(self._table, self._delegate.painter)
         return column_widths(self._content, room)

@@ -1,4 +1,6 @@
-"""The controls on the welcome page: which were reached before, when and how; connect to one, or read it into a new file."""
+"""The controls on the welcome page: which were reached before, when and how; connect to one,
+or read it into a new file.
+"""
 
 from __future__ import annotations
 

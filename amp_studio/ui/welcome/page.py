@@ -60,11 +60,7 @@ class WelcomePage(QWidget):
     """Everything on it is reached by Tab and the arrow keys; Enter opens."""
 
     def __init__(
-        self,
-        window: StudioWindow,
-        files: Files,
-        control: ControlDesk,
-        open_project: Callable[[], object],
+        self, window: StudioWindow, files: Files, control: ControlDesk, open_project: Callable[[], object]
     ) -> None:
         super().__init__()
         self.setAccessibleName(self.tr("Welcome"))
@@ -114,9 +110,14 @@ class WelcomePage(QWidget):
         right.addSpacing(GAP6)
         right.addWidget(self.controls)
         right.addSpacing(GAP4)
-        right.addWidget(self._small(
-            self.tr("Drop files or a project folder anywhere in this window. Ctrl+Shift+P finds every command by its name.")
-        ))  # fmt: skip
+        right.addWidget(
+            self._small(
+                self.tr(
+                    "Drop files or a project folder anywhere in this window. Ctrl+Shift+P finds every command"
+                    " by its name."
+                )
+            )
+        )
         right.addStretch()
         self._columns = QBoxLayout(QBoxLayout.Direction.LeftToRight)
         self._columns.setSpacing(GAP6 * 2)
@@ -208,7 +209,9 @@ class WelcomePage(QWidget):
     # -- what is shown -----------------------------------------------------------------
 
     def show_recent(self, recent: list[Path]) -> None:
-        """List the recent files, the pinned ones first; their findings are counted once the page is at rest."""
+        """List the recent files, the pinned ones first; their findings are counted once the page is at
+        rest.
+        """
         pinned, now, current = (
             set(self._window.settings.pinned()),
             datetime.now(UTC).astimezone(),

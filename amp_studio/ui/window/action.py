@@ -1,4 +1,6 @@
-"""What a row of the table of actions is. ``amp_studio/ui/actions/table.py`` has the rows; ``menus.py`` makes the menus of them."""
+"""What a row of the table of actions is. ``amp_studio/ui/actions/table.py`` has the rows;
+``menus.py`` makes the menus of them.
+"""
 
 from __future__ import annotations
 
@@ -15,8 +17,8 @@ W = TypeVar("W")
 """The window whose parts an action may use."""
 
 Needs = Literal["", "file", "edit", "axes", "project", "units", "undo", "redo", "emulated", "no emulated"]
-"""What has to be there: nothing, an open file, the right to change it, axes as well, a project, several systems of units,
-a step to undo or redo, an emulated control that runs, a file and none that runs."""
+"""What has to be there: nothing, an open file, the right to change it, axes as well, a project, several
+systems of units, a step to undo or redo, an emulated control that runs, a file and none that runs."""
 
 Keys = str | QKeySequence.StandardKey | tuple[str, ...]
 

@@ -1,4 +1,6 @@
-"""Notices when another program changes an open file on disk, and offers what can be done without losing anything."""
+"""Notices when another program changes an open file on disk,
+and offers what can be done without losing anything.
+"""
 
 from __future__ import annotations
 
@@ -17,7 +19,8 @@ SETTLE_MS = 250
 
 
 class DiskWatch(QObject):
-    """Watches the file of one page, and its folder, because a rename over a file ends the watch of the file itself.
+    """Watches the file of one page, and its folder,
+    because a rename over a file ends the watch of the file itself.
 
     ``compare`` shows the file on disk beside the open one; ``reload`` opens it in place of the open one.
     """
@@ -55,7 +58,8 @@ class DiskWatch(QObject):
         if state == "removed":
             self._page.bar.say(
                 self.tr(
-                    "{name} was removed or renamed by another program. Your work is still open: save it under a new name."
+                    "{name} was removed or renamed by another program. Your work is still open: save it under"
+                    " a new name."
                 ).format(name=workspace.path.name),
                 "warning",
             )
@@ -71,7 +75,8 @@ class DiskWatch(QObject):
         )
         if dirty:
             text = self.tr(
-                "{name} was changed by another program while you have unsaved changes. Compare both, then save."
+                "{name} was changed by another program while you have unsaved changes. Compare both, then"
+                " save."
             ).format(name=name)
             self._page.bar.say(text, "warning", compare, reload)
         else:

@@ -1,7 +1,7 @@
 """The docks around the tabs: they stay while files come and go, and show the panels of the file in front.
 
-A window that becomes narrow or low keeps the room of the table: the parameter comes beside the findings, the left panel
-goes, the findings fold to their head. It all comes back with the room.
+A window that becomes narrow or low keeps the room of the table: the parameter comes beside the findings, the
+left panel goes, the findings fold to their head. It all comes back with the room.
 """
 
 from __future__ import annotations
@@ -43,7 +43,8 @@ _PREVIEW_WIDEST = 0.45
 _LEAST_TABLE = 320
 """Width in pixels that a kept arrangement must leave to the table."""
 WIDE, LEFT_WIDE, LOW = 1200, 900, 620
-"""Width from which the parameter has a separate side, width from which there is a left panel, height below which findings fold."""
+"""Width from which the parameter has a separate side, width from which there is a left panel,
+height below which findings fold."""
 
 
 class _Heads(QStackedWidget):
@@ -78,7 +79,8 @@ class Docks(Translated):
         self._taken: set[str] = set()
         """Docks that a small window has taken away."""
         self._is_low = self._is_folded = False
-        """Whether the window has no room for the findings, and whether their head is all that is wanted of them."""
+        """Whether the window has no room for the findings,
+        and whether their head is all that is wanted of them."""
         self._open_sizes: dict[str, int] = {}
         """Size of each panel before it was closed."""
         self.docks: list[QDockWidget] = []
@@ -114,7 +116,9 @@ class Docks(Translated):
         return min(max(int(self._size.width() * _PREVIEW_SHARE), _PREVIEW_LEAST), _PREVIEW_MOST)
 
     def show_preview(self, wanted: bool) -> None:
-        """Show or hide the preview; the other panels make room as in a small window, and are as before when it is hidden."""
+        """Show or hide the preview; the other panels make room as in a small window,
+        and are as before when it is hidden.
+        """
         parameter = self._dock("Parameter")
         if wanted and self.preview.isHidden():
             self._width_before = self._width_before if parameter.isHidden() else parameter.width()
@@ -128,7 +132,9 @@ class Docks(Translated):
             self._window.resizeDocks(docks, widths, Qt.Orientation.Horizontal)
 
     def _share_the_bottom(self) -> None:
-        """Make room for the parameter in the dock of the findings, with a segment that chooses between them."""
+        """Make room for the parameter in the dock of the findings, with a segment that chooses between
+        them.
+        """
         below = self._dock("Findings")
         self._bottom = QStackedWidget()
         self._bottom.addWidget(self._stacks["Findings"])
@@ -202,7 +208,9 @@ class Docks(Translated):
             self.fold(True)
 
     def _restore(self, kept: QByteArray) -> None:
-        """Arrange the docks as they were, unless that leaves the table no room or hides everything off the screen."""
+        """Arrange the docks as they were, unless that leaves the table no room
+        or hides everything off the screen.
+        """
         self._widen()  # as it was when this arrangement was kept
         if not self._window.restoreState(kept):
             return
@@ -227,9 +235,10 @@ class Docks(Translated):
         for dock, (_, area, size) in zip(self.docks, _PANELS, strict=True):
             below = area == Qt.DockWidgetArea.BottomDockWidgetArea
             self._window.resizeDocks(
-                [dock], [size if below else self._width_of(dock.objectName())],
+                [dock],
+                [size if below else self._width_of(dock.objectName())],
                 Qt.Orientation.Vertical if below else Qt.Orientation.Horizontal,
-            )  # fmt: skip
+            )
         self.fit(self._size)
 
     def _width_of(self, title: str) -> int:
@@ -283,7 +292,9 @@ class Docks(Translated):
         dock.widget().setFocus()
 
     def toggle(self, title: str) -> None:
-        """Show a panel with the focus; close the one that has it. A panel that opens again is as large as it was."""
+        """Show a panel with the focus; close the one that has it.
+        A panel that opens again is as large as it was.
+        """
         dock = self._dock("Findings" if title == "Parameter" and title in self._taken else title)
         inside, focused = dock.widget(), self._window.focusWidget()
         if dock.isHidden() or focused is None or not (inside is focused or inside.isAncestorOf(focused)):
@@ -303,7 +314,9 @@ class Docks(Translated):
             self._window.resizeDocks([dock], [width], Qt.Orientation.Horizontal)
 
     def fold(self, wanted: bool) -> None:
-        """Show the head of the findings alone, or all of them in the height they had; only the user opens them."""
+        """Show the head of the findings alone, or all of them in the height they had;
+        only the user opens them.
+        """
         below = self._dock("Findings")
         if wanted and not self._is_folded and below.height() > HEAD + 2:
             self._open_sizes["Findings"] = below.height()
@@ -335,11 +348,7 @@ class Docks(Translated):
 
     def _move_parameter(self, into: QStackedWidget | None, heads: QStackedWidget | None) -> None:
         """Put the panel of the parameter beside the findings, or back into its own dock."""
-        stack, head, dock = (
-            self._stacks["Parameter"],
-            self._heads["Parameter"],
-            self._dock("Parameter"),
-        )
+        stack, head, dock = (self._stacks["Parameter"], self._heads["Parameter"], self._dock("Parameter"))
         if into is not None and heads is not None:
             into.addWidget(stack)
             heads.addWidget(head)
@@ -381,11 +390,7 @@ class Docks(Translated):
 
 def _name(title: str) -> str:
     """Return the name of a dock for a person; its key stays the same in every language."""
-    names = {
-        "Groups": tr("Groups"),
-        "Parameter": tr("Parameter"),
-        "Findings": tr("Findings"),
-    }
+    names = {"Groups": tr("Groups"), "Parameter": tr("Parameter"), "Findings": tr("Findings")}
     return names[title]
 
 

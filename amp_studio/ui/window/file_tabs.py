@@ -22,7 +22,9 @@ _LONGEST_NAME = 28
 
 
 class FileTabs(QSplitter):
-    """Two rows of tabs, of which the second is there only while it has a file. One page of all is in front: the current one."""
+    """Two rows of tabs, of which the second is there only while it has a file. One page of all is in front:
+    the current one.
+    """
 
     current_changed = Signal(object)
     """The page that is now in front, or None."""

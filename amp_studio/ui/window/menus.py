@@ -1,4 +1,6 @@
-"""Makes the menus of a window of the table of its actions, and keeps their state that of the file in front."""
+"""Makes the menus of a window of the table of its actions, and keeps their state that of the file in
+front.
+"""
 
 from __future__ import annotations
 
@@ -90,7 +92,9 @@ class Menus(Mapping[str, QAction], Generic[W]):
     # -- what depends on the file in front -----------------------------------------
 
     def enable(self, can: Mapping[Needs, bool]) -> None:
-        """Enable what can be done now, and show what depends on the file in front; ``can`` has whether each need is met."""
+        """Enable what can be done now, and show what depends on the file in front;
+        ``can`` has whether each need is met.
+        """
         window, workspace = self._window, self._window.workspace
         for key, row in self._rows.items():
             action, able = self._actions[key], can[row.needs]

@@ -1,4 +1,6 @@
-"""What a report contains, chosen in one place for the Report dialog and for the preview, and kept for the next time."""
+"""What a report contains, chosen in one place for the Report dialog and for the preview,
+and kept for the next time.
+"""
 
 from __future__ import annotations
 
@@ -8,14 +10,7 @@ from PySide6.QtCore import QObject, Signal
 from PySide6.QtWidgets import QCheckBox, QComboBox, QFormLayout, QLabel, QVBoxLayout, QWidget
 
 from amp_studio.languages import language_codes, name_of_language
-from amp_studio.report import (
-    CHAPTERS,
-    PAPER_SIZES,
-    SORTS,
-    UNIT_CHOICES,
-    Chapter,
-    Contents,
-)
+from amp_studio.report import CHAPTERS, PAPER_SIZES, SORTS, UNIT_CHOICES, Chapter, Contents
 from amp_studio.ui.base.theme import GAP
 from amp_studio.ui.base.translated import language_in_use
 
@@ -52,11 +47,17 @@ class ReportChoice(QObject):
         if contents == self.contents:
             return
         of_window = language_in_use(self._settings.language())
-        self._settings.keep_report({
-            "sort": contents.sort, "units": contents.units, "paper": contents.paper, "language": "" if contents.language == of_window else contents.language,
-            "changed": "yes" if contents.changed_only else "no", "inactive": "yes" if contents.inactive else "no",
-            "without": ",".join(sorted(contents.without)),
-        })  # fmt: skip
+        self._settings.keep_report(
+            {
+                "sort": contents.sort,
+                "units": contents.units,
+                "paper": contents.paper,
+                "language": "" if contents.language == of_window else contents.language,
+                "changed": "yes" if contents.changed_only else "no",
+                "inactive": "yes" if contents.inactive else "no",
+                "without": ",".join(sorted(contents.without)),
+            }
+        )
         self.changed.emit()
 
 
@@ -68,18 +69,22 @@ class ReportOptions(QWidget):
 
     def __init__(self, contents: Contents, parent: QWidget | None = None) -> None:
         super().__init__(parent)
-        self.sort = _box({
-            "group": self.tr("By group"),
-            "number": self.tr("By parameter number"),
-            "axis": self.tr("Axis and non-axis parameters"),
-            "steps": self.tr("By step of commissioning"),
-        })  # fmt: skip
-        self.units = _box({
-            "file": self.tr("As in the file"),
-            "metric": self.tr("Metric"),
-            "inch": self.tr("Inch"),
-            "both": self.tr("Both, the other system's below"),
-        })  # fmt: skip
+        self.sort = _box(
+            {
+                "group": self.tr("By group"),
+                "number": self.tr("By parameter number"),
+                "axis": self.tr("Axis and non-axis parameters"),
+                "steps": self.tr("By step of commissioning"),
+            }
+        )
+        self.units = _box(
+            {
+                "file": self.tr("As in the file"),
+                "metric": self.tr("Metric"),
+                "inch": self.tr("Inch"),
+                "both": self.tr("Both, the other system's below"),
+            }
+        )
         self.language = _box({code: name_of_language(code) for code in language_codes()})
         self.paper = _box({"a4": "A4", "letter": self.tr("US Letter")})
         self.changed = QCheckBox(self.tr("Only values that &differ from the default"))

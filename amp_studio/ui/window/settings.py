@@ -240,8 +240,8 @@ def stored_in(place: Path) -> QSettings:
 
 
 def is_usable(place: Path) -> bool:
-    """Return whether Qt can read the settings: it waits for a pipe or a device, and a damaged value of a type that is never
-    stored here makes it ask for more memory than there is, which ends the program.
+    """Return whether Qt can read the settings: it waits for a pipe or a device, and a damaged value of a type
+    that is never stored here makes it ask for more memory than there is, which ends the program.
     """
     try:
         return not place.exists() or (place.is_file() and not _NEVER_STORED.search(read_file(place)))

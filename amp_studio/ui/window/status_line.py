@@ -1,4 +1,6 @@
-"""The status bar: the selected cells at the left; findings, open values and the state of the file at the right."""
+"""The status bar: the selected cells at the left; findings,
+open values and the state of the file at the right.
+"""
 
 from __future__ import annotations
 
@@ -33,8 +35,10 @@ class StatusLine(QObject):
         self.changes.setAccessibleName(self.tr("Unsaved changes"))
         self.control.setAccessibleName(self.tr("Control"))
         bar.addWidget(self.value, 1)
-        self.counts = {severity: self._count(icon_of) for severity, icon_of in
-                       [(s, severity_icon(s)) for s in SEVERITIES]}  # fmt: skip
+        self.counts = {
+            severity: self._count(icon_of)
+            for severity, icon_of in [(s, severity_icon(s)) for s in SEVERITIES]
+        }
         self.not_set = self._count(icon("circle-dashed", "dim"))
         self.not_set.clicked.disconnect(self.findings_wanted)
         self.not_set.clicked.connect(self.not_set_wanted)

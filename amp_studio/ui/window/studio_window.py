@@ -1,7 +1,7 @@
 """The window as its parts see it: the open files, the panels, and what a menu action can ask for.
 
-What actions do and the watch of the disk take this class; ``MainWindow`` is one and has its parts. So nothing that
-is part of the window imports it.
+What actions do and the watch of the disk take this class; ``MainWindow`` is one and has its parts. So nothing
+that is part of the window imports it.
 """
 
 from __future__ import annotations
@@ -38,7 +38,9 @@ if TYPE_CHECKING:
 
 
 class StudioWindow(QMainWindow):
-    """The open files in tabs, their panels and the actions. What is asked for without naming a file means the one in front."""
+    """The open files in tabs, their panels and the actions.
+    What is asked for without naming a file means the one in front.
+    """
 
     project_changed = Signal()
     """Another project is open, or its information has changed."""
@@ -164,7 +166,9 @@ class StudioWindow(QMainWindow):
         self.docks.show(title)
 
     def leave_control(self) -> bool:
-        """Show the values where the page at the control is in front; returns whether it was. The window with that page does it."""
+        """Show the values where the page at the control is in front; returns whether it was.
+        The window with that page does it.
+        """
         return False
 
     # -- selection -------------------------------------------------------------
@@ -188,7 +192,8 @@ class StudioWindow(QMainWindow):
     def save(self, page: FilePage | None = None) -> bool:
         """Save a file, the one in front by default; an error is shown, and the work stays open.
 
-        Returns whether it was saved. Where another program has changed the file, its page offers the comparison.
+        Returns whether it was saved. Where another program has changed the file,
+        its page offers the comparison.
         """
         page = page or self.page
         assert page is not None

@@ -82,7 +82,9 @@ class MainToolBar(QToolBar):
             button.setToolButtonStyle(Qt.ToolButtonStyle.ToolButtonIconOnly)
 
     def show_units(self) -> None:
-        """Show the unit systems of the file in front, and which one it is shown in; none is pressed for values as entered."""
+        """Show the unit systems of the file in front, and which one it is shown in;
+        none is pressed for values as entered.
+        """
         workspace = self._window.workspace
         systems = workspace.file.schema.family.units if workspace else ("metric", "inch")
         words = {"metric": "mm", "inch": self.tr("inch")}

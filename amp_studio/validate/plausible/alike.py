@@ -1,7 +1,8 @@
 """Like axes against each other: where they agree in nearly all values, the one that differs may be a slip.
 
-Of two axes (spindles, processes) it counts in how many values they can be compared and in which they differ; an edit
-changes the counts of its instance only. Facts of the family name what differs among like axes without any slip.
+Of two axes (spindles, processes) it counts in how many values they can be compared and in which they differ;
+an edit changes the counts of its instance only.
+Facts of the family name what differs among like axes without any slip.
 """
 
 from __future__ import annotations
@@ -24,7 +25,8 @@ REASON = (
 )
 _SCOPES = ("axis", "spindle", "process", "group")
 _SURE = 15
-"""Compared values from which two instances that differ in a single one are asked about it, whatever the difference."""
+"""Compared values from which two instances that differ in a single one are asked about it,
+whatever the difference."""
 _LEAST = 3
 """Compared values below which nothing is known of the likeness of two instances."""
 
@@ -46,7 +48,9 @@ class _Pair(NamedTuple):
 
 @lru_cache(maxsize=32)
 def _comparable(schema: Schema) -> dict[str, bool]:
-    """Return the parameters whose values like instances share, and whether all do: a difference without a slip counts too."""
+    """Return the parameters whose values like instances share, and whether all do:
+    a difference without a slip counts too.
+    """
     family = schema.family
     own = [family.axes.name, family.axes.type, family.axes.hardware, family.axes.loop] if family.axes else []
     if family.declared_axes is not None:

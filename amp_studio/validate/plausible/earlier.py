@@ -1,7 +1,9 @@
-"""The file against what it was, and against its like: the saved file, the backup, the last download, what it was made from, the fleet.
+"""The file against what it was, and against its like: the saved file, the backup, the last download,
+what it was made from, the fleet.
 
-A value that became another one by a slip's factor since then is asked about until the next save or download makes it
-the value that is known. What differs in many values is another machine or another unit, and is no slip.
+A value that became another one by a slip's factor since then is asked about until the next save or download
+makes it the value that is known. What differs in many values is another machine or another unit,
+and is no slip.
 """
 
 from __future__ import annotations
@@ -17,9 +19,13 @@ from amp_studio.validate.finding import Finding
 from .slip import slip_between
 
 EARLIER = "plausible.earlier"
-REASON = "ours, not the manual's: a value that became ten times itself, or its negative, is a slip more often than a wish"
+REASON = (
+    "ours, not the manual's: a value that became ten times itself, or its negative, is a slip more often than"
+    " a wish"
+)
 _MOST, _SHARE = 6, 16
-"""Values that may differ by a slip in a file of few values, and the part of all in one of many; beyond that it is no slip."""
+"""Values that may differ by a slip in a file of few values, and the part of all in one of many;
+beyond that it is no slip."""
 
 
 @dataclass(frozen=True)
@@ -63,7 +69,9 @@ class EarlierValues:
         return is_other
 
     def _words(self, one: Earlier, address: Address) -> str:
-        """Return how a value became what it is by a slip; "" where none explains it, or where it does not count."""
+        """Return how a value became what it is by a slip; "" where none explains it,
+        or where it does not count.
+        """
         old, new = one.values.get(address), self._file.values.get(address)
         if old is None or new is None or dimension(old.unit) != dimension(new.unit):
             return ""
@@ -79,7 +87,9 @@ class EarlierValues:
         return slip_between(canonical(new.value, new.unit), canonical(old.value, old.unit))
 
     def findings(self, asked: Iterable[Address]) -> Iterator[Finding]:
-        """Yield what was found, of each value once; values that are ``asked`` about for another reason need no second question."""
+        """Yield what was found, of each value once; values that are ``asked`` about
+        for another reason need no second question.
+        """
         done = set(asked)
         for one, found in zip(self.earlier, self._found, strict=True):
             if len(found) > max(_MOST, len(one.values) // _SHARE):
@@ -98,7 +108,9 @@ class EarlierValues:
 
 
 def values_of_fleet(others: Sequence[Mapping[Address, Value]]) -> dict[Address, Value]:
-    """Return the values on which all machines of a fleet agree; fewer than three that have a value are no fleet."""
+    """Return the values on which all machines of a fleet agree;
+    fewer than three that have a value are no fleet.
+    """
     found: dict[Address, Value] = {}
     counts: dict[Address, int] = {}
     apart: set[Address] = set()

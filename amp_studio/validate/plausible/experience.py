@@ -44,7 +44,9 @@ class Experience:
         self._found, self._all_anew = None, True
 
     def look_again(self, changed: Iterable[Address]) -> None:
-        """Look again at the changed addresses; one that decides which values count is a reason to look at all."""
+        """Look again at the changed addresses; one that decides which values count is a reason
+        to look at all.
+        """
         addresses = list(changed)
         if self._all_anew:
             return

@@ -1,4 +1,6 @@
-"""A table of the control whose rows have a few values, each of them several times: a single one may be a slip."""
+"""A table of the control whose rows have a few values, each of them several times:
+a single one may be a slip.
+"""
 
 from __future__ import annotations
 
@@ -12,7 +14,10 @@ from amp_studio.validate.finding import Finding
 from .slip import slip_between
 
 ROW = "plausible.row"
-REASON = "ours, not the manual's: in a table of equal rows one that is off by a slip's factor is a slip more often than a wish"
+REASON = (
+    "ours, not the manual's: in a table of equal rows one that is off by a slip's factor is a slip more often"
+    " than a wish"
+)
 _LEAST = 4
 """Rows from which a table has a habit."""
 _OFTEN = 3

@@ -18,7 +18,8 @@ _FACTORS = {
 }
 
 ODD = 5
-"""Digits from which nobody chooses a number that is a plain multiple of the printed default: 8.46666 for 4.23333."""
+"""Digits from which nobody chooses a number that is a plain multiple of the printed default:
+8.46666 for 4.23333."""
 _OF_ODD = {**_FACTORS, 2.0: "twice", 0.5: "half of"}
 
 _POWERS = frozenset(words for factor, words in _FACTORS.items() if factor not in (_INCH, 1 / _INCH, -1.0))
@@ -27,8 +28,8 @@ _POWERS = frozenset(words for factor, words in _FACTORS.items() if factor not in
 def slip_of_default(value: float, default: float, digits: int) -> str:
     """Return in words how ``value`` came of a printed default of so many significant digits by a slip.
 
-    A round number that is ten times another one is chosen every day; of 4.23333 nobody chooses 42.3333. A slip does not
-    make a number rounder either: 1 mm is no slip of 25.4 mm.
+    A round number that is ten times another one is chosen every day; of 4.23333 nobody chooses 42.3333. A
+    slip does not make a number rounder either: 1 mm is no slip of 25.4 mm.
     """
     words = slip_between(value, default) or (_off_by(value / default) if digits >= ODD and default else "")
     if not words or not value or digits < 2 or significant_digits(value) < digits - 1:
@@ -37,7 +38,9 @@ def slip_of_default(value: float, default: float, digits: int) -> str:
 
 
 def _off_by(ratio: float) -> str:
-    """Return in words what a number of many digits was multiplied by, also where its last digits went, or it was doubled."""
+    """Return in words what a number of many digits was multiplied by, also where its last digits went,
+    or it was doubled.
+    """
     return next((words for factor, words in _OF_ODD.items() if abs(ratio / factor - 1) < 2e-5), "")
 
 
@@ -47,7 +50,9 @@ def significant_digits(number: float) -> int:
 
 
 def slip_between(value: Hashable, other: Hashable) -> str:
-    """Return in words how ``value`` came of ``other`` by a slip (``ten times``); "" where no slip explains it."""
+    """Return in words how ``value`` came of ``other`` by a slip (``ten times``);
+    "" where no slip explains it.
+    """
     if isinstance(value, (bool, str)) or isinstance(other, (bool, str)):
         return ""
     if (

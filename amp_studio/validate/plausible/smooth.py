@@ -1,7 +1,8 @@
 """A single value that jumps out of a table that otherwise runs smoothly: a cam, a calibration.
 
-A value that is off by ``e`` changes the second differences around it by ``e, -2 e, e``; a corner or a step of the table
-itself leaves another pattern. How large ``e`` has to be follows from the second differences of the rest of the table.
+A value that is off by ``e`` changes the second differences around it by ``e, -2 e, e``; a corner or a step of
+the table itself leaves another pattern. How large ``e`` has to be follows
+from the second differences of the rest of the table.
 """
 
 from __future__ import annotations
@@ -14,7 +15,10 @@ from amp_studio.schema import Address, canonical, show_value
 from amp_studio.validate.finding import Finding
 
 JUMP = "plausible.jump"
-REASON = "ours, not the manual's: a single point of a smooth table that jumps out is a slip more often than a motion"
+REASON = (
+    "ours, not the manual's: a single point of a smooth table that jumps out is a slip more often than a"
+    " motion"
+)
 _LEAST = 8
 """Points of a table from which its course is known."""
 _MANY = 6.0
@@ -105,8 +109,8 @@ class SmoothTables:
         parameter, value = schema.parameters[address[0]], self._file.values[address]
         before, after = (show_value(parameter, self._file.values[table.addresses[m]]) for m in (n - 1, n + 1))
         message = (
-            f"{schema.on(self._file.machine).label(address)} is {show_value(parameter, value)} between {before} and {after}:"
-            f" it alone jumps out of its table. Is it meant?"
+            f"{schema.on(self._file.machine).label(address)} is {show_value(parameter, value)} between"
+            f" {before} and {after}: it alone jumps out of its table. Is it meant?"
         )
         return Finding(JUMP, "advice", (address,), message, reason=REASON)
 

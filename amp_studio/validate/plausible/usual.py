@@ -1,4 +1,6 @@
-"""One value against what it usually is: a range of experience where the manual prints none, and a sign that makes no sense."""
+"""One value against what it usually is: a range of experience where the manual prints none,
+and a sign that makes no sense.
+"""
 
 from __future__ import annotations
 
@@ -61,7 +63,8 @@ class _Known:
     signed: bool
     """Whether a negative value may mean something, or is an error by itself."""
     default: float | None
-    """The printed default, in the canonical unit of ``default_measures``; None where it has too few digits to know a slip by."""
+    """The printed default, in the canonical unit of ``default_measures``;
+    None where it has too few digits to know a slip by."""
     default_measures: str
     default_digits: int
     fine: Remembered = field(default_factory=Remembered, repr=False)

@@ -1,4 +1,6 @@
-"""Positions outside the travel of their axis: a zone, a reference point, a home position that the axis never reaches."""
+"""Positions outside the travel of their axis: a zone, a reference point,
+a home position that the axis never reaches.
+"""
 
 from __future__ import annotations
 
@@ -35,7 +37,9 @@ class WithinTravel:
                     self._look_at(address)
 
     def look_again(self, address: Address) -> bool:
-        """Look again at a position, or at all of an axis whose travel changed; returns whether anything is otherwise."""
+        """Look again at a position, or at all of an axis whose travel changed;
+        returns whether anything is otherwise.
+        """
         travels, instance = self._of.get(address[0], ()), address[1]
         positions = {(name, instance) for travel in travels for name in travel.inside}
         before = {a: self._found.pop(a, None) for a in positions}
@@ -81,5 +85,8 @@ class WithinTravel:
     def _finding(self, address: Address, ends: tuple[Address, Address]) -> Finding:
         here, parameters = self._file.schema.on(self._file.machine), self._file.schema.parameters
         at, low, high = (show_value(parameters[a[0]], self._file.values[a]) for a in (address, *ends))
-        message = f"{here.label(address)} is {at}, outside the travel of its axis from {low} to {high}. Is it meant?"
+        message = (
+            f"{here.label(address)} is {at}, outside the travel of its axis from {low} to {high}. Is it"
+            " meant?"
+        )
         return Finding(OUTSIDE, "advice", (address,), message, compared=ends, reason=REASON)

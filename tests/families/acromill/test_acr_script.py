@@ -118,7 +118,9 @@ def test_a_line_of_the_guide_is_read_as_it_is_printed(line: str, values: dict[st
 def test_a_gain_of_appendix_c_is_written_with_its_axis_and_without_an_exponent(
     word: str, name: str, figure: str, value: float
 ) -> None:
-    """The figures are those the appendix ends with; it prints them in lists, and only TLM with an axis (page 115)."""
+    """The figures are those the appendix ends with; it prints them in lists,
+    and only TLM with an axis (page 115).
+    """
     unit = MILL.units_of(MILL.parameter(name))[0]
     for axis in "XV":
         file = mill()
@@ -129,11 +131,16 @@ def test_a_gain_of_appendix_c_is_written_with_its_axis_and_without_an_exponent(
 
 def test_a_script_has_one_setting_a_line_and_scales_and_limits_before_the_gains() -> None:
     file = mill(
-        servo_p_gain_X=Value(0.00244, "V/count"), servo_p_gain_Y=Value(1e-7, "V/count"),
-        axes_excess_error_band_Y=Value(25.4, "mm"), axes_pulses_per_unit_X=Value(4096.0, "counts/in"),
-        axes_encoder_multiplier_X=Value(-4), tuning_dac_gain_Z=Value(-3276.8), p_controller_12=Value(0.5),
-        tuning_notch_frequency_X=Value(500.0, "Hz"), tuning_notch_width_X=Value(50.0, "Hz"),
-    )  # fmt: skip
+        servo_p_gain_X=Value(0.00244, "V/count"),
+        servo_p_gain_Y=Value(1e-7, "V/count"),
+        axes_excess_error_band_Y=Value(25.4, "mm"),
+        axes_pulses_per_unit_X=Value(4096.0, "counts/in"),
+        axes_encoder_multiplier_X=Value(-4),
+        tuning_dac_gain_Z=Value(-3276.8),
+        p_controller_12=Value(0.5),
+        tuning_notch_frequency_X=Value(500.0, "Hz"),
+        tuning_notch_width_X=Value(50.0, "Hz"),
+    )
     assert FORMAT.write(file).split("\n") == [
         "REM ACR command script of TRY",
         "REM units inch",  # the printed default (page 61)
@@ -154,9 +161,21 @@ def test_no_gain_stands_before_its_scale_its_sign_its_limits_and_its_damping() -
     rows = FORMAT.write(new_file("acromill")).split("\n")[2:-1]
     words = list(dict.fromkeys(row.split(" ")[0].rstrip("01234567") for row in rows))
     assert words == [
-        "PPU", "MULT", "DAC", "EXC", "TLM", "DWIDTH", "DGAIN", "FBVEL", "PGAIN", "IDELAY", "ILIMIT", "IGAIN", "FFVEL",
+        "PPU",
+        "MULT",
+        "DAC",
+        "EXC",
+        "TLM",
+        "DWIDTH",
+        "DGAIN",
+        "FBVEL",
+        "PGAIN",
+        "IDELAY",
+        "ILIMIT",
+        "IGAIN",
+        "FFVEL",
         "FFACC",
-    ]  # fmt: skip
+    ]
 
 
 def test_every_word_of_the_order_is_that_of_a_command() -> None:
@@ -199,8 +218,9 @@ def test_a_script_that_does_not_name_its_unit_is_in_that_of_delivery() -> None:
     back = taken(FORMAT, MILL, "EXC AXIS0 4")
     assert said_of(back) == {"axes.excess_error_band@X": Value(4.0, "in")}
     assert FORMAT.write(back) == "EXC AXIS0 4"
-    assert told(FORMAT, MILL, "PPU X1\nREM units furlong") == (
-        "line 2, column 11: 'furlong' is no unit system here: metric, inch"
+    assert (
+        told(FORMAT, MILL, "PPU X1\nREM units furlong")
+        == "line 2, column 11: 'furlong' is no unit system here: metric, inch"
     )
 
 
@@ -217,7 +237,13 @@ def test_a_script_that_does_not_name_its_unit_is_in_that_of_delivery() -> None:
         (f"POINT {'9' * 35}", f"line 1, column 1: 'POINT {'9' * 33}…' is no command"),
         ("DAC8 GAIN 1", "line 1, column 1: 'DAC8 GAIN 1' is no command"),
         ("DAC0 GAIN 1 DAC1 GAIN 2", "line 1, column 13: 'DAC1 GAIN 2' is no command"),
-        ("PGAIN\t0.05", "line 1, column 7: '0.05' sets nothing: PGAIN is written as 'PGAIN X1', for X, Y, Z, A, B, C, U, V"),
+        (
+            "PGAIN\t0.05",
+            (
+                "line 1, column 7: '0.05' sets nothing: PGAIN is written as 'PGAIN X1', for X, Y, Z, A, B, C,"
+                " U, V"
+            ),
+        ),
         ("PGAIN", "line 1, column 6: PGAIN alone sets nothing: it is written as 'PGAIN X1', for X, Y"),
         ("PGAIN X", "line 1, column 7: 'X' sets nothing: PGAIN is written as 'PGAIN X1'"),
         ("PPU X4096 Q4096", "line 1, column 11: 'Q4096' sets nothing: PPU is written as 'PPU X1'"),
@@ -232,7 +258,7 @@ def test_a_script_that_does_not_name_its_unit_is_in_that_of_delivery() -> None:
         ("NOTCH X(1, 2)\nNOTCH X(3, 4)", "line 2, column 7: NOTCH X occurs twice, in line 1 already"),
         ("P1=1 (x)\np1 = 2", "line 2, column 1: P1 occurs twice, in line 1 already"),
     ],
-)  # fmt: skip
+)
 def test_a_script_that_cannot_be_meant_is_told_with_its_place(text: str, said: str) -> None:
     assert told(FORMAT, MILL, text).startswith(said)
 
@@ -241,15 +267,21 @@ def test_a_script_that_cannot_be_meant_is_told_with_its_place(text: str, said: s
     ("line", "values"),
     [
         ("ppu x 4096  y +4096.", {f"axes.pulses_per_unit@{a}": Value(4096.0, "counts/in") for a in "XY"}),
-        ("\tNotch X ( 500 , 5.E1 )\r", {"tuning.notch_frequency@X": Value(500.0, "Hz"), "tuning.notch_width@X": Value(50.0, "Hz")}),
+        (
+            "\tNotch X ( 500 , 5.E1 )\r",
+            {"tuning.notch_frequency@X": Value(500.0, "Hz"), "tuning.notch_width@X": Value(50.0, "Hz")},
+        ),
         ("EXC AXIS1 -.25 Axis 0 0.000000E+00", None),
-        ("EXC AXIS1 -.25 axis0 0.000000E+00", {"axes.excess_error_band@Y": Value(-0.25, "in"), "axes.excess_error_band@X": Value(0.0, "in")}),
+        (
+            "EXC AXIS1 -.25 axis0 0.000000E+00",
+            {"axes.excess_error_band@Y": Value(-0.25, "in"), "axes.excess_error_band@X": Value(0.0, "in")},
+        ),
         ("dac7  gain  1", {"tuning.dac_gain@V": Value(1.0)}),
         ("P33 = -2", {"p.controller@33": Value(-2.0)}),
         ("rem PPU X1", {}),
         ("REMOTE", None),
     ],
-)  # fmt: skip
+)
 def test_blanks_and_small_letters_make_no_difference(line: str, values: dict[str, Value] | None) -> None:
     if values is None:
         assert told(FORMAT, MILL, line)
@@ -336,14 +368,16 @@ def test_new_values_stand_at_the_end_of_a_script_that_had_none() -> None:
 
 
 def test_a_script_that_would_be_written_so_leaves_nothing_behind() -> None:
-    """Remarks, blanks and another order are kept with the lines; what an export writes needs no copy in the file."""
+    """Remarks, blanks and another order are kept with the lines;
+    what an export writes needs no copy in the file.
+    """
     read = FORMAT.read(FORMAT.write(new_file("acromill")), MILL, ReadOptions())
     assert (read.unknown, read.kept, read.notes, read.extra) == ({}, [], [], {})
     own = "REM of mine\n\nTLM X4 (volts)\n"
     assert FORMAT.write(taken(FORMAT, MILL, own)) == own
 
 
-# -- start-up programs -----------------------------------------------------------------------------------------
+# -- start-up programs
 
 STARTUP = """ECHO 1
 prog0
@@ -447,9 +481,10 @@ def test_the_lines_that_are_kept_are_one_note_and_in_the_account(
     program.write_text(STARTUP, encoding="ascii")
     assert run(["import", str(program), "-o", str(tmp_path / "a.amp"), "--json"]) == 0
     printed = capsys.readouterr()
-    assert printed.err == (
-        "17 lines of the program set nothing here, kept in their place: ATTACH, AXIS, BIT, DETACH, ECHO, F, HLIM, JRK, LD, P, "
-        "PROG, SLIM, STP, VEL\n"
+    assert (
+        printed.err
+        == "17 lines of the program set nothing here, kept in their place: ATTACH, AXIS, BIT, DETACH, ECHO,"
+        " F, HLIM, JRK, LD, P, PROG, SLIM, STP, VEL\n"
     )
     assert json.loads(printed.out)["kept"][:2] == ["ECHO 1", "prog0"]
     assert run(["validate", str(program), "--json"]) in (0, 1)
@@ -483,7 +518,7 @@ def test_lines_that_an_earlier_version_kept_are_written_too() -> None:
     assert FORMAT.write(file) == "HALT\nPPU X2\nRUN"
 
 
-# -- the verbs -------------------------------------------------------------------------------------------------
+# -- the verbs
 
 
 def test_the_verbs_know_a_script_by_its_commands(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:

@@ -38,7 +38,7 @@ def mill(**said: Value) -> ParameterFile:
     return file
 
 
-# -- properties --------------------------------------------------------------------------------------------------
+# -- properties
 
 SETTINGS = [s for command in commands_of(MILL, "mill") for s in command.settings]
 FIGURES = st.one_of(
@@ -78,11 +78,30 @@ def test_a_value_in_the_unit_of_its_figure_comes_back_exactly(
 @given(
     lines=st.lists(
         st.sampled_from(
-            ["PROG0", "HALT", "", "  ", "REM x", "TLM X4", "PPU X1", "EXC AXIS2 -0.5", "DAC1 GAIN 2", "NOTCH Y(1, 2)", "P7=8",
-             "10 LD 769", "P12341=P12336", "{axes.pulses_per_unit@X}", "{{line 1}", "{line 1}", "TLM X", "REM units inch", "RES X #"]
+            [
+                "PROG0",
+                "HALT",
+                "",
+                "  ",
+                "REM x",
+                "TLM X4",
+                "PPU X1",
+                "EXC AXIS2 -0.5",
+                "DAC1 GAIN 2",
+                "NOTCH Y(1, 2)",
+                "P7=8",
+                "10 LD 769",
+                "P12341=P12336",
+                "{axes.pulses_per_unit@X}",
+                "{{line 1}",
+                "{line 1}",
+                "TLM X",
+                "REM units inch",
+                "RES X #",
+            ]
         )
     )
-)  # fmt: skip
+)
 def test_a_script_with_other_commands_comes_back_as_it_was(lines: list[str]) -> None:
     text = "\n".join(lines)
     file = file_of(MILL, FORMAT.read(text, MILL, ReadOptions(keep_unknown=True)), "TRY")
@@ -95,13 +114,43 @@ def test_a_script_with_other_commands_comes_back_as_it_was(lines: list[str]) -> 
 @given(
     text=st.lists(
         st.sampled_from(
-            ["PPU", "X", "Y", "EXC", "AXIS0", "AXIS9", " ", "4", "-", ".5", "E", "(", ")", ",", "NOTCH", "P", "=", "DAC0", "GAIN",
-             "\n", "\r\n", "\t", "REM", "é", "{", "}", "#", "1E999", "REM units inch\n", "units"]
+            [
+                "PPU",
+                "X",
+                "Y",
+                "EXC",
+                "AXIS0",
+                "AXIS9",
+                " ",
+                "4",
+                "-",
+                ".5",
+                "E",
+                "(",
+                ")",
+                ",",
+                "NOTCH",
+                "P",
+                "=",
+                "DAC0",
+                "GAIN",
+                "\n",
+                "\r\n",
+                "\t",
+                "REM",
+                "é",
+                "{",
+                "}",
+                "#",
+                "1E999",
+                "REM units inch\n",
+                "units",
+            ]
         ),
         max_size=12,
     ).map("".join),
     keep=st.booleans(),
-)  # fmt: skip
+)
 def test_any_text_is_read_or_told_with_its_line(text: str, keep: bool) -> None:
     place = None
     try:
@@ -114,7 +163,7 @@ def test_any_text_is_read_or_told_with_its_line(text: str, keep: bool) -> None:
         assert 1 <= place <= text.count("\n") + 1
 
 
-# -- other forms that a family may have ----------------------------------------------------------------------------
+# -- other forms that a family may have
 
 SMALL = """
 family: small

@@ -1,7 +1,8 @@
-"""The tuning story of appendix C (from page 113 on), step by step, on the motor that its own figures identify.
+"""The tuning story of appendix C (from page 113 on), step by step,
+on the motor that its own figures identify.
 
-Its traces are lost; what the text has about each of them is tested. Each step runs with the ramps as they are printed,
-ACC 500 (17 ms), and with ramps of the 100 ms that the story has verified (erratum of the index).
+Its traces are lost; what the text has about each of them is tested. Each step runs with the ramps as they are
+printed, ACC 500 (17 ms), and with ramps of the 100 ms that the story has verified (erratum of the index).
 """
 
 from __future__ import annotations
@@ -24,7 +25,9 @@ BOTH_RAMPS = pytest.mark.parametrize("ramp", [PRINTED, VERIFIED], ids=["ACC 500"
 
 
 def largest_pole(p_gain: float, d_gain: float, delay: float = plant.DELAY) -> float:
-    """Return the size of the largest pole of the sampled loop: double integrator with viscous friction, delay, PD."""
+    """Return the size of the largest pole of the sampled loop: double integrator with viscous friction,
+    delay, PD.
+    """
     period = plant.SERVO_PERIOD
     a = np.array([[0.0, 1.0], [0.0, -plant.ACCELERATION * plant.VISCOUS]])
     b = np.array([[0.0], [plant.ACCELERATION]])

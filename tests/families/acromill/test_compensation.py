@@ -1,4 +1,6 @@
-"""The ballscrew table of AcroMill made of measured points: the printed example of page 107, and what it refuses."""
+"""The ballscrew table of AcroMill made of measured points: the printed example of page 107,
+and what it refuses.
+"""
 
 from __future__ import annotations
 
@@ -43,7 +45,9 @@ def router() -> ParameterFile:
 
 
 def test_the_measurement_of_the_guide_gives_the_words_of_the_guide(router) -> None:
-    """Page 107: 0.00625, 0.00325, 0.00175 and -0.00250; position 2 is home and word 0, positions 0 and 1 wrap around."""
+    """Page 107: 0.00625, 0.00325, 0.00175 and -0.00250; position 2 is home and word 0,
+    positions 0 and 1 wrap around.
+    """
     text = PRINTED.replace("Primary Setpoint Position", "Position").replace("Actual ", "Measured ")
     proposal = propose(router, "X", read_measurement(text, INCHES), OFF)
     assert proposal.settings[TABLE] == Value("X0E.00325 X1E.00175 X2E-.00250 X3E.00000 X4E.00625")

@@ -14,7 +14,9 @@ ROUTER = Path(__file__).parents[3] / "examples" / "acromill-router" / "ROUTER.am
 
 
 def router(**changes: Value) -> ParameterFile:
-    """Return the example router with damped gains; changes of axis X by parameter id with ``__`` for the point."""
+    """Return the example router with damped gains;
+    changes of axis X by parameter id with ``__`` for the point.
+    """
     file = open_file(ROUTER).file
     damped = {"servo.p_gain": Value(0.02, "V/count"), "servo.d_gain": Value(0.0001, "Vs/count")}
     for parameter, value in (

@@ -57,9 +57,13 @@ def test_a_filter_above_half_the_servo_update_is_refused_with_both_figures() -> 
 
 @pytest.mark.parametrize(
     ("filters", "expected"),
-    [((), {50: 10.0, 100: 10.0}), ((notch(100, 100, 5000),), {20: 9.8, 100: 0.0, 1000: 9.9}), ((lopass(200, 5000),), {20: 10.0, 200: 7.07, 1000: 0.3})],
+    [
+        ((), {50: 10.0, 100: 10.0}),
+        ((notch(100, 100, 5000),), {20: 9.8, 100: 0.0, 1000: 9.9}),
+        ((lopass(200, 5000),), {20: 10.0, 200: 7.07, 1000: 0.3}),
+    ],
     ids=["none", "NOTCH X(100,100)", "LOPASS X200"],
-)  # fmt: skip
+)
 def test_the_sine_of_the_guide_comes_out_of_the_servo_loop_as_its_traces_are_described(
     filters: tuple[tuple[float, ...], ...], expected: dict[int, float]
 ) -> None:

@@ -1,4 +1,6 @@
-"""A bench without a line and without waiting: an emulated control, its faults, and a clock that only moves when one waits."""
+"""A bench without a line and without waiting: an emulated control, its faults,
+and a clock that only moves when one waits.
+"""
 
 from __future__ import annotations
 
@@ -34,7 +36,9 @@ class Clock:
 
 
 class Bench:
-    """A control on a line whose bytes ``spoil`` may change; ``tick`` is called with each answer that begins."""
+    """A control on a line whose bytes ``spoil`` may change; ``tick`` is called with each answer that
+    begins.
+    """
 
     def __init__(self, folder: Path, machine: str | None = None, axes: str = "XYZ") -> None:
         self.clock = Clock()

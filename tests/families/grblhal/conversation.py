@@ -1,7 +1,7 @@
 """A conversation with the real firmware, recorded in ``conversation.txt``, and a player that answers from it.
 
-``python -m tests.families.grblhal.conversation ADDRESS`` records it again, from a control that has never been set. Sentences of
-the firmware (help, texts of alarms and errors) are left out.
+``python -m tests.families.grblhal.conversation ADDRESS`` records it again, from a control that has never been
+set. Sentences of the firmware (help, texts of alarms and errors) are left out.
 """
 
 from __future__ import annotations
@@ -19,14 +19,72 @@ from amp_studio.transfer.waiting import Waiting
 
 RECORD = Path(__file__).with_name("conversation.txt")
 COMMANDS = (
-    "$I", "$+", "$$", "$#", "$N", "$EG", "$ES", "$ESH", "$EA", "$EE", "$G",
-    "$20=1", "$22=3", "$20=1", "$20", "$676", "$22=131", "$676", "$22", "$22=0", "$20", "$22=515", "$24=30", "$180", "$180=77",
-    "$24", "$22=3", "$180",
-    "$130=301.5", "$130", "$130=1e-05", "$130", "$11=0.0004", "$11", "$26=70000", "$26", "$44=8", "$44=7", "$0=1.5", "$999=1",
-    "$100=-1", "$32=3", "$13=2", "$1=x", "$43=0", "$43=129", "$394=0", "$394=0.2", "$30=24000", "$30",
-    "G21G10L2P1X1.5Y-2.25Z3", "$#", "$13=1", "$#", "$13=0", "$N0=G21G54", "$N1=M3S100", "$N", "$N0=", "$N1=", "$N", "M5",
-    "$110=2000000", "$Q", "$SED=22",
-)  # fmt: skip
+    "$I",
+    "$+",
+    "$$",
+    "$#",
+    "$N",
+    "$EG",
+    "$ES",
+    "$ESH",
+    "$EA",
+    "$EE",
+    "$G",
+    "$20=1",
+    "$22=3",
+    "$20=1",
+    "$20",
+    "$676",
+    "$22=131",
+    "$676",
+    "$22",
+    "$22=0",
+    "$20",
+    "$22=515",
+    "$24=30",
+    "$180",
+    "$180=77",
+    "$24",
+    "$22=3",
+    "$180",
+    "$130=301.5",
+    "$130",
+    "$130=1e-05",
+    "$130",
+    "$11=0.0004",
+    "$11",
+    "$26=70000",
+    "$26",
+    "$44=8",
+    "$44=7",
+    "$0=1.5",
+    "$999=1",
+    "$100=-1",
+    "$32=3",
+    "$13=2",
+    "$1=x",
+    "$43=0",
+    "$43=129",
+    "$394=0",
+    "$394=0.2",
+    "$30=24000",
+    "$30",
+    "G21G10L2P1X1.5Y-2.25Z3",
+    "$#",
+    "$13=1",
+    "$#",
+    "$13=0",
+    "$N0=G21G54",
+    "$N1=M3S100",
+    "$N",
+    "$N0=",
+    "$N1=",
+    "$N",
+    "M5",
+    "$110=2000000",
+    "$Q",
+    "$SED=22",
+)
 
 
 def reduced(lines: Sequence[str]) -> list[str]:
@@ -71,7 +129,9 @@ def written(conversation: Sequence[tuple[str, list[str]]]) -> str:
 
 
 class Player:
-    """A line on which every command gets the answer that was recorded the first time; anything else ``error:3``."""
+    """A line on which every command gets the answer that was recorded the first time;
+    anything else ``error:3``.
+    """
 
     bytes_per_second = None
 

@@ -1,6 +1,7 @@
 """Downloads to an emulated Grbl control whose line, power and memory fail as a seed chooses.
 
-Afterwards the copy of the old state must be whole, and what is reported of the control must be true of each setting.
+Afterwards the copy of the old state must be whole,
+and what is reported of the control must be true of each setting.
 """
 
 from __future__ import annotations
@@ -22,10 +23,42 @@ from tests.faults.bad_line import BadLine
 from tests.faults.disk import Disk
 from tests.faults.downloads import false_copies, forgetting
 
-CHANGES = {0: "6.0", 11: "0.0004", 12: "0.005", 20: "1", 22: "3", 26: "100", 40: "1", 100: "320.5", 110: "3000",
-           111: "2500.125", 120: "250", 130: "301.5", 131: "1e3", 132: "77"}  # fmt: skip
-FAULTS = ("none", "cut", "cut for good", "power", "power while it writes", "noise in", "noise out", "deaf", "runs", "alarm",
-          "half a line", "messages", "another person", "forget", "repeat", "swap", "delay", "pause")  # fmt: skip
+CHANGES = {
+    0: "6.0",
+    11: "0.0004",
+    12: "0.005",
+    20: "1",
+    22: "3",
+    26: "100",
+    40: "1",
+    100: "320.5",
+    110: "3000",
+    111: "2500.125",
+    120: "250",
+    130: "301.5",
+    131: "1e3",
+    132: "77",
+}
+FAULTS = (
+    "none",
+    "cut",
+    "cut for good",
+    "power",
+    "power while it writes",
+    "noise in",
+    "noise out",
+    "deaf",
+    "runs",
+    "alarm",
+    "half a line",
+    "messages",
+    "another person",
+    "forget",
+    "repeat",
+    "swap",
+    "delay",
+    "pause",
+)
 OF_THE_LINE = {
     "repeat": range(60, 600),
     "swap": range(60, 600),
@@ -36,7 +69,9 @@ OF_THE_LINE = {
 
 
 def download_with_faults(seed: int, folder: Path, only: str | None = None) -> list[str]:
-    """Return what was violated, a sentence each; ``only`` is the fault instead of one that the seed chooses."""
+    """Return what was violated, a sentence each; ``only`` is the fault instead of one that the seed
+    chooses.
+    """
     choose = random.Random(seed)
     bench = Bench(folder, choose.choice([None, None, "grbl-1.1"]))
     firmware = bench.firmware
@@ -108,8 +143,11 @@ def _shown(firmware: Firmware) -> dict[str, str]:
 
 
 def _named(settings: dict, offsets: dict, startup: dict) -> dict[str, str]:
-    return {**{f"${n}": text for n, text in settings.items()}, **{n: text for n, text in offsets.items() if n[0] == "G"},
-            **{f"$N{n}": line for n, line in startup.items()}}  # fmt: skip
+    return {
+        **{f"${n}": text for n, text in settings.items()},
+        **{n: text for n, text in offsets.items() if n[0] == "G"},
+        **{f"$N{n}": line for n, line in startup.items()},
+    }
 
 
 def _arm(bench: Bench, fault: str, choose: random.Random) -> None:
@@ -202,7 +240,7 @@ def _cut_power_at_next_save(bench: Bench, answers: int) -> None:
 
 def _violations(
     bench: Bench, before: dict, wanted: dict, present: object, told: str, new: tuple, text: str, fault: str
-) -> list[str]:  # fmt: skip
+) -> list[str]:
     found = []
     reference = Bench(
         bench.folder / "reference", "grbl-1.1" if bench.firmware.settings.is_classic else None
@@ -230,7 +268,8 @@ def _violations(
             if after[n] != (before if told == "old" else goal)[n]
         }
         found.append(
-            f"said {told}: {text}, and (old, new, is) are {differing}; {[(n, after[n], delivered[n]) for n in after if after[n] != delivered[n]]}"
+            f"said {told}: {text}, and (old, new, is) are {differing};"
+            f" {[(n, after[n], delivered[n]) for n in after if after[n] != delivered[n]]}"
         )
     if told == "mixed" and new and {int(n[1:]) for n in new if n[1:].isdigit()} - moved != fresh - moved:
         found.append(f"said that {new} are new, and {sorted(fresh)} are: {text}")

@@ -1,10 +1,13 @@
-"""What each firmware lists and takes, written from its public sources, to judge the published listings apart from our reader and rules.
+"""What each firmware lists and takes, written from its public sources,
+to judge the published listings apart from our reader and rules.
 
-Grbl 0.9j (grbl/grbl), Grbl 1.1h (gnea/grbl), Grbl-Mega 1.1g (gnea/grbl-Mega) and Grbl-Mega-5X (fra589/grbl-Mega-5X):
-``settings_store_global_setting`` of grbl/settings.c takes, ``report_grbl_settings`` of grbl/report.c lists. The three
-8-bit forks of 1.1 take and list the same, but for the number of axes. Grbl_ESP32 (bdring/Grbl_Esp32): ``make_settings`` of
-src/SettingsDefinitions.cpp, which states the least and most of each setting. FluidNC (bdring/FluidNC): ``make_proxies``
-of src/SettingsDefinitions.cpp. grblHAL (grblHAL/core): settings.c; it has every number that the others have.
+Grbl 0.9j (grbl/grbl), Grbl 1.1h (gnea/grbl), Grbl-Mega 1.1g (gnea/grbl-Mega) and Grbl-Mega-5X
+(fra589/grbl-Mega-5X):
+``settings_store_global_setting`` of grbl/settings.c takes, ``report_grbl_settings`` of grbl/report.c lists.
+The three 8-bit forks of 1.1 take and list the same, but for the number of axes. Grbl_ESP32
+(bdring/Grbl_Esp32): ``make_settings`` of src/SettingsDefinitions.cpp, which states the least and most of each
+setting. FluidNC (bdring/FluidNC): ``make_proxies`` of src/SettingsDefinitions.cpp. grblHAL (grblHAL/core):
+settings.c; it has every number that the others have.
 """
 
 from __future__ import annotations
@@ -42,11 +45,45 @@ SPINDLE = {30: ANY, 31: ANY, 32: FLAG}
 def esp32(axes: int) -> dict[int, Range]:
     """Return what Grbl_ESP32 lists, with the least and most that it states."""
     return {
-        0: (3, 1000), 1: BYTE, 2: BYTE, 3: BYTE, 4: FLAG, 5: FLAG, 6: FLAG, 10: (0, 3), 11: (0, 10), 12: (0, 1), 13: FLAG,
-        20: FLAG, 21: FLAG, 22: FLAG, 23: BYTE, 24: (0, 10_000), 25: (0, 10_000), 26: (0, 10_000), 27: (0, 1000),
-        30: (0, 100_000), 31: (0, 100_000), 32: FLAG, 33: (0, 100_000), 34: (0, 100), 35: (0, 100), 36: (0, 100),
-    } | of_axes(axes, {100: (1, 100_000), 110: (1, 100_000), 120: (1, 100_000), 130: (0, 100_000), 140: (0, 20),
-                       150: (0.05, 20), 160: (0, 256), 170: (-64, 255)})  # fmt: skip
+        0: (3, 1000),
+        1: BYTE,
+        2: BYTE,
+        3: BYTE,
+        4: FLAG,
+        5: FLAG,
+        6: FLAG,
+        10: (0, 3),
+        11: (0, 10),
+        12: (0, 1),
+        13: FLAG,
+        20: FLAG,
+        21: FLAG,
+        22: FLAG,
+        23: BYTE,
+        24: (0, 10_000),
+        25: (0, 10_000),
+        26: (0, 10_000),
+        27: (0, 1000),
+        30: (0, 100_000),
+        31: (0, 100_000),
+        32: FLAG,
+        33: (0, 100_000),
+        34: (0, 100),
+        35: (0, 100),
+        36: (0, 100),
+    } | of_axes(
+        axes,
+        {
+            100: (1, 100_000),
+            110: (1, 100_000),
+            120: (1, 100_000),
+            130: (0, 100_000),
+            140: (0, 20),
+            150: (0.05, 20),
+            160: (0, 256),
+            170: (-64, 255),
+        },
+    )
 
 
 @dataclass(frozen=True)
@@ -81,7 +118,8 @@ CLOSED = (
 
 
 def machine_of(listing: Mapping[int, str]) -> str:
-    """Return the machine type of a listing: the firmware of whose lines fewest are missing; grblHAL where none lists it.
+    """Return the machine type of a listing: the firmware of whose lines fewest are missing;
+    grblHAL where none lists it.
 
     Of a few lines any firmware could have nobody knows more: half of them have to be there.
     """
@@ -94,7 +132,9 @@ def machine_of(listing: Mapping[int, str]) -> str:
 
 
 def refusals(listing: Mapping[int, str], machine: str) -> Iterator[str]:
-    """Yield the settings that the firmware would answer with an error, or with which an axis could not move."""
+    """Yield the settings that the firmware would answer with an error, or with which an axis could not
+    move.
+    """
     figures = {n: float(text) for n, text in listing.items() if re.fullmatch(r"-?[0-9]+(\.[0-9]*)?", text)}
     if figures.get(20) and not figures.get(22, 1):
         yield "$20: soft limits need homing"  # STATUS_SOFT_LIMIT_ERROR, in all of them

@@ -1,4 +1,6 @@
-"""The real firmware on this machine, where ``make peers`` has built it: started on a free port, ended by its number."""
+"""The real firmware on this machine, where ``make peers`` has built it: started on a free port,
+ended by its number.
+"""
 
 from __future__ import annotations
 
@@ -14,7 +16,9 @@ FIRMWARE, FIVE_AXES = PEERS / "grblhal" / "grblHAL_sim", PEERS / "grblhal5" / "g
 
 
 class RealControl:
-    """The firmware's simulator with its memory in a file; it keeps a core busy, and obeys nothing but SIGKILL."""
+    """The firmware's simulator with its memory in a file; it keeps a core busy,
+    and obeys nothing but SIGKILL.
+    """
 
     def __init__(self, memory: Path, firmware: Path = FIRMWARE) -> None:
         self._memory, self._firmware = memory, firmware
@@ -32,11 +36,15 @@ class RealControl:
             with socket.socket() as free:
                 free.bind(("127.0.0.1", 0))
                 self.port = free.getsockname()[1]
-            # Without a time factor of 0 it reads a byte a millisecond of the clock, and computes all the while.
+            # Without a time factor of 0 it reads a byte a millisecond of the clock, and computes all the
+            # while.
             self._process = subprocess.Popen(
-                [self._firmware, "-n", "-t", "0", "-p", str(self.port), "-e", self._memory], stdin=subprocess.DEVNULL,
-                stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, cwd=self._memory.parent,
-            )  # fmt: skip
+                [self._firmware, "-n", "-t", "0", "-p", str(self.port), "-e", self._memory],
+                stdin=subprocess.DEVNULL,
+                stdout=subprocess.DEVNULL,
+                stderr=subprocess.DEVNULL,
+                cwd=self._memory.parent,
+            )
             listens = _listens(self.port, self._process)
 
     def kill(self) -> None:
@@ -48,7 +56,9 @@ class RealControl:
 
 
 def _listens(port: int, process: subprocess.Popen[bytes]) -> bool:
-    """Return whether the port is taken and the firmware runs; it has one client, so nobody connects to find out."""
+    """Return whether the port is taken and the firmware runs; it has one client,
+    so nobody connects to find out.
+    """
     end = time.monotonic() + 60
     while time.monotonic() < end:
         if process.poll() is not None:

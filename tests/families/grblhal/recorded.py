@@ -1,4 +1,6 @@
-"""What a fresh build of the firmware for three axes lists of itself and of its settings, and builds made of that."""
+"""What a fresh build of the firmware for three axes lists of itself and of its settings,
+and builds made of that.
+"""
 
 from __future__ import annotations
 
@@ -10,7 +12,10 @@ THREE_AXES = (HERE / "three_axes.txt").read_bytes()
 """Its lines of ``$I``, ``$EG`` and ``$ES``."""
 LISTING = (HERE / "three_axes.settings").read_text("utf-8")
 """Its answer to ``$$``."""
-HELP = b"[SETTINGDESCR:22|Homes the machine.\\nNeeds switches.]\n[ALARMCODE:9||No switch.]\n[ERRORCODE:53||Not here.]\n"
+HELP = (
+    b"[SETTINGDESCR:22|Homes the machine.\\nNeeds switches.]\n[ALARMCODE:9||No switch.]\n[ERRORCODE:53||Not"
+    b" here.]\n"
+)
 """Help, an alarm and an error as it would say them, in other words than its own."""
 
 
@@ -25,8 +30,12 @@ def build(letters: str) -> bytes:
     text = THREE_AXES.decode().replace("[AXS:3:XYZ]", f"[AXS:{len(letters)}:{letters}]")
     lines = [line for line in text.splitlines() if not re.search(r"\|[XYZ]-axis", line)]
     lines += [f"[SETTINGGROUP:{43 + n}|42|{letter}-axis]" for n, letter in enumerate(letters)]
-    for base, quantity, unit in ((100, "travel resolution", "step/mm"), (110, "maximum rate", "mm/min"),
-                                 (120, "acceleration", "mm/sec^2"), (130, "maximum travel", "mm")):  # fmt: skip
+    for base, quantity, unit in (
+        (100, "travel resolution", "step/mm"),
+        (110, "maximum rate", "mm/min"),
+        (120, "acceleration", "mm/sec^2"),
+        (130, "maximum travel", "mm"),
+    ):
         lines += [
             f"[SETTING:{base + n}|{43 + n}|{letter}-axis {quantity}|{unit}|6|#####0.000|||0|0]"
             for n, letter in enumerate(letters)

@@ -67,7 +67,7 @@ def test_a_grbl_that_says_nothing_of_its_axes_has_as_many_as_its_offsets() -> No
         ("$0=5.0", "$0=5\x1b", "line 8 of the copy of the settings contains a control sign"),
         ("$0=5.0", "$00=5.0", "which is not a setting"),
     ],
-)  # fmt: skip
+)
 def test_a_damaged_copy_is_refused_with_what_is_wrong(old: str, new: str, text: str) -> None:
     assert old in TEXT
     with pytest.raises(ImageError) as caught:

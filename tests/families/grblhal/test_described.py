@@ -1,4 +1,6 @@
-"""The schema of a control is its own description, with the ids, help, conditions and rules of the numbers that are known."""
+"""The schema of a control is its own description, with the ids, help,
+conditions and rules of the numbers that are known.
+"""
 
 from __future__ import annotations
 
@@ -46,8 +48,13 @@ def test_every_setting_that_the_control_shows_is_a_parameter() -> None:
 def test_settings_of_the_axes_are_one_quantity_with_a_column_for_each_axis() -> None:
     assert numbers(schema_of(THREE_AXES), "axis.max_rate") == {"X": "$110", "Y": "$111", "Z": "$112"}
     assert numbers(schema_of(build("XYZUVW")), "axis.max_rate") == {
-        "X": "$110", "Y": "$111", "Z": "$112", "U": "$113", "V": "$114", "W": "$115"
-    }  # fmt: skip
+        "X": "$110",
+        "Y": "$111",
+        "Z": "$112",
+        "U": "$113",
+        "V": "$114",
+        "W": "$115",
+    }
     assert schema_of(THREE_AXES).parameters["axis.max_rate"].name == "Maximum rate"
 
 
@@ -88,7 +95,10 @@ def test_help_alarms_and_errors_are_those_of_the_control() -> None:
 
 
 def test_the_table_of_esh_gives_the_help_too_also_over_several_lines() -> None:
-    rows = b"22\tHoming cycle\tmask\txbitfield\tEnable\tHomes it.\t\t\t0\t0\n61\tDoor\tmask\tbitfield\ta,b\tOne:\nTwo.\t\t\t0\t0\n"
+    rows = (
+        b"22\tHoming cycle\tmask\txbitfield\tEnable\tHomes"
+        b" it.\t\t\t0\t0\n61\tDoor\tmask\tbitfield\ta,b\tOne:\nTwo.\t\t\t0\t0\n"
+    )
     schema = schema_of(THREE_AXES + rows)
     assert schema.parameters["homing.cycle"].help.what == "Homes it."
     assert schema.parameters["parking.door_options"].help.what == "One:\nTwo."
@@ -96,10 +106,15 @@ def test_the_table_of_esh_gives_the_help_too_also_over_several_lines() -> None:
 
 def test_a_setting_that_nobody_knows_has_an_id_of_its_group_and_name() -> None:
     schema = schema_of(
-        with_lines("[SETTINGGROUP:20|0|Plasma]", "[SETTING:350|20|Arc voltage|V|6|##0.00|10|300|0|0]",
-                   "[SETTING:351|20|Arc voltage|widgets|5|##0|||1|0]", "[SETTING:70|99|SSID||7|x(32)|1|32|0|0]",
-                   "[SETTING:71|99|Password||8|x(32)|8|32|0|0]", "[SETTING:302|99|IP address||9||||0|0]")
-    )  # fmt: skip
+        with_lines(
+            "[SETTINGGROUP:20|0|Plasma]",
+            "[SETTING:350|20|Arc voltage|V|6|##0.00|10|300|0|0]",
+            "[SETTING:351|20|Arc voltage|widgets|5|##0|||1|0]",
+            "[SETTING:70|99|SSID||7|x(32)|1|32|0|0]",
+            "[SETTING:71|99|Password||8|x(32)|8|32|0|0]",
+            "[SETTING:302|99|IP address||9||||0|0]",
+        )
+    )
     arc, second = (schema.parameters[p] for p in ("plasma.arc_voltage", "plasma.arc_voltage_351"))
     assert (arc.type, arc.unit, arc.ranges, arc.decimals) == ("real", "V", {"V": (10.0, 300.0)}, 2)
     assert (second.unit, second.help.what) == (None, "Arc voltage. In widgets.")
@@ -127,8 +142,11 @@ def test_a_known_number_of_another_type_is_another_parameter() -> None:
 
 def test_a_value_of_a_setting_changes_no_signature() -> None:
     """Per axis feedrates takes $24 and $25 away and brings $180 and $190; a rotary axis is in degrees."""
-    rates = [f"[SETTING:{base + n}|{43 + n}|{axis}-axis homing {what}|mm/min|6|###0|||0|0]" for n, axis in enumerate("XYZ")
-             for base, what in ((180, "locate feed rate"), (190, "search seek rate"))]  # fmt: skip
+    rates = [
+        f"[SETTING:{base + n}|{43 + n}|{axis}-axis homing {what}|mm/min|6|###0|||0|0]"
+        for n, axis in enumerate("XYZ")
+        for base, what in ((180, "locate feed rate"), (190, "search seek rate"))
+    ]
     bit9 = b"".join(f"{line}\n".encode() for line in rates) + b"".join(
         line + b"\n"
         for line in THREE_AXES.splitlines()
@@ -195,9 +213,14 @@ def test_a_file_opens_without_its_control(tmp_path: Path, capsys: pytest.Capture
 
 @pytest.mark.parametrize(
     ("old", "new"),
-    [("10|300", "10|900"), ("sha256 ", "sha256 0"), ("- '[VER:1.1f.20260817:]'\n", ""), ("description:\n", "description: no\nx:\n"),
-     ("'[AXS:3:XYZ]'", "{a: b}")],
-)  # fmt: skip
+    [
+        ("10|300", "10|900"),
+        ("sha256 ", "sha256 0"),
+        ("- '[VER:1.1f.20260817:]'\n", ""),
+        ("description:\n", "description: no\nx:\n"),
+        ("'[AXS:3:XYZ]'", "{a: b}"),
+    ],
+)
 def test_a_description_that_was_changed_is_refused(tmp_path: Path, old: str, new: str) -> None:
     path = tmp_path / "plasma.amp"
     save_file(file_by(with_lines("[SETTING:350|1|Arc voltage|V|6|##0.00|10|300|0|0]")), path)
@@ -232,7 +255,7 @@ def test_the_description_of_a_family_that_has_none_is_refused(tmp_path: Path) ->
         ("[AXS:3:XXY]", "are no axes"),
         ("[SETTINGGROUP:1]", "3 entries"),
     ],
-)  # fmt: skip
+)
 def test_what_cannot_be_meant_is_refused(line: str, message: str) -> None:
     with pytest.raises(DescriptionError, match=message):
         schema_of(with_lines(line))

@@ -83,13 +83,15 @@ def test_a_second_download_of_the_same_file_sends_nothing(bench: Bench) -> None:
 
 @pytest.mark.parametrize(
     ("number", "value", "text"),
-    [("n26", 70000, r"\$26 Homing switch debounce delay takes 0 to 65535, not 70000"),
-     ("n1", 70000, r"\$1 Step idle delay takes 0 to 65535, not 70000"),
-     ("n44", 8, r"\$44 Axes homing, first phase takes 0 to 7, not 8"),
-     ("n100", -1.0, r"\$100 X-axis travel resolution takes 0 and more, not -1"),
-     ("n0", 1.5, r"\$0 Step pulse time takes 2 and more, not 1.5"),
-     ("n130", 1e300, "is too large")],
-)  # fmt: skip
+    [
+        ("n26", 70000, r"\$26 Homing switch debounce delay takes 0 to 65535, not 70000"),
+        ("n1", 70000, r"\$1 Step idle delay takes 0 to 65535, not 70000"),
+        ("n44", 8, r"\$44 Axes homing, first phase takes 0 to 7, not 8"),
+        ("n100", -1.0, r"\$100 X-axis travel resolution takes 0 and more, not -1"),
+        ("n0", 1.5, r"\$0 Step pulse time takes 2 and more, not 1.5"),
+        ("n130", 1e300, "is too large"),
+    ],
+)
 def test_what_the_control_would_not_store_as_it_is_is_never_sent(
     bench: Bench, number: str, value: float, text: str
 ) -> None:
@@ -115,9 +117,11 @@ def test_a_refusal_is_a_sentence_with_the_name_of_the_setting_and_the_rest_is_ol
     bench.firmware.settings.all[32].labels = ("Normal",)  # it lists a mode that it refuses
     with pytest.raises(TransferError) as caught:
         download(bench.driver, WantedContent(wanted, ""), lambda _: "copy")
-    assert str(caught.value) == (
-        "the control refuses $32=1 (Mode of operation): the value is out of range (error 52); 1 of 2 values were confirmed; the control contains the new "
-        "$30 and the old values of the rest (what it contained before is kept in copy)"
+    assert (
+        str(caught.value)
+        == "the control refuses $32=1 (Mode of operation): the value is out of range (error 52); 1 of 2"
+        " values were confirmed; the control contains the new $30 and the old values of the rest (what it"
+        " contained before is kept in copy)"
     )
     assert (caught.value.at_control, caught.value.new) == ("mixed", ("$30",))
 
@@ -138,14 +142,18 @@ def test_a_machine_that_moves_is_not_touched(bench: Bench) -> None:
 
     with pytest.raises(
         TransferError,
-        match="the control is in the state Run: it takes no settings then: bring it to rest first; nothing was",
+        match=(
+            "the control is in the state Run: it takes no settings then: bring it to rest first; nothing was"
+        ),
     ):
         download(bench.driver, WantedContent(wanted, ""), starts)
     assert sent(bench) == []
 
 
 def test_in_check_mode_nothing_is_written_because_it_would_not_last(bench: Bench) -> None:
-    """The firmware answers "ok" there and keeps the setting in RAM only (protocol.c ``protocol_execute_realtime``)."""
+    """The firmware answers "ok" there and keeps the setting
+    in RAM only (protocol.c ``protocol_execute_realtime``).
+    """
     bench.firmware.command("state Check")
     with pytest.raises(
         TransferError, match=r"in the state Check: .* leave check mode \(\$C\) first"
@@ -390,7 +398,10 @@ def test_a_fault_of_this_computer_between_two_settings_is_told_with_what_the_con
     bench.spoil_in = fails
     with pytest.raises(
         TransferError,
-        match=r"broke off \(MemoryError\); 1 of 2 values were confirmed, \$111 was not answered; the control contains the new \$110",
+        match=(
+            r"broke off \(MemoryError\); 1 of 2 values were confirmed, \$111 was not answered; the control"
+            r" contains the new \$110"
+        ),
     ) as caught:
         download(bench.driver, WantedContent(write_content(wanted), ""), lambda _: "copy")
     assert caught.value.at_control == "mixed"

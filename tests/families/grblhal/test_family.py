@@ -47,7 +47,7 @@ def value(path: Path, text: str) -> Value | None:
         ("$120=500 mm/sec^2", "$120", Value(500.0, "mm/s2")),
         ("$26=100 milliseconds", "$26", Value(100, "ms")),
     ],
-)  # fmt: skip
+)
 def test_a_setting_is_given_as_its_users_write_it(
     mill: Path, assignment: str, address: str, expected: Value
 ) -> None:

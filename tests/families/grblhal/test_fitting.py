@@ -1,4 +1,6 @@
-"""A file of one build goes to another by number, and what has no place there is named before anything is sent."""
+"""A file of one build goes to another by number,
+and what has no place there is named before anything is sent.
+"""
 
 from __future__ import annotations
 

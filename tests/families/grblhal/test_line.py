@@ -96,7 +96,10 @@ def test_late_answers_to_a_first_line_that_was_sent_twice_are_none_to_the_next_c
 
 
 def test_pushed_lines_are_no_answers_and_are_remembered() -> None:
-    pushed = b"ALARM:1\r\n[MSG:Caution: Unlocked]\r\n<Alarm|MPos:0.000,0.000,0.000>\r\n$0=5.0\r\n[MSG:\x1b[2J]\r\nok\r\n"
+    pushed = (
+        b"ALARM:1\r\n[MSG:Caution:"
+        b" Unlocked]\r\n<Alarm|MPos:0.000,0.000,0.000>\r\n$0=5.0\r\n[MSG:\x1b[2J]\r\nok\r\n"
+    )
     line = Script([b"error:3\r\n", pushed]).line()
     assert line.ask("$0") == ["$0=5.0"]
     assert (line.alarm, line.messages) == (1, ["Caution: Unlocked", "\\u001b[2J"])

@@ -179,8 +179,9 @@ def test_every_text_that_is_no_value_is_named_at_once_and_can_be_kept() -> None:
     text = "$0=1e-05\n$1=25\n$22=1.5\n$100=\n"
     with pytest.raises(FormatError) as error:
         everything(text)
-    assert str(error.value) == (
-        "line 1, column 1: $0: '1e-05' is not a number; so are $22 (line 3), $100 (line 4). "
+    assert (
+        str(error.value)
+        == "line 1, column 1: $0: '1e-05' is not a number; so are $22 (line 3), $100 (line 4). "
         "To keep what is no value as text: --keep-unknown"
     )
     assert everything(text, keep_unknown=True).unknown == {"$0": "1e-05", "$22": "1.5", "$100": ""}
@@ -293,17 +294,32 @@ def test_the_numbers_of_grbl_08_mean_other_settings_and_are_refused(keep: bool) 
 
 # -- texts with the signs of a remark ----------------------------------------------------------------------
 
-NETWORK = "".join(f"${n}={text}\n" for n, text in {
-    0: "10", 1: "25", 20: "0", 21: "0", 22: "1", 70: "7", 74: "My;SSID", 75: "pa(ss)word;#x", 300: "mill (hall 2) ; left",
-    130: "200", 131: "200", 132: "60", 9999: "a(b);c // d",
-}.items())  # fmt: skip
+NETWORK = "".join(
+    f"${n}={text}\n"
+    for n, text in {
+        0: "10",
+        1: "25",
+        20: "0",
+        21: "0",
+        22: "1",
+        70: "7",
+        74: "My;SSID",
+        75: "pa(ss)word;#x",
+        300: "mill (hall 2) ; left",
+        130: "200",
+        131: "200",
+        132: "60",
+        9999: "a(b);c // d",
+    }.items()
+)
 
 
 def test_a_text_setting_keeps_the_signs_that_begin_a_remark_elsewhere(tmp_path: Path) -> None:
     found = everything(NETWORK, machine="grblhal")
-    assert [found.values[key, ""] for key in (
-        "wifi.wifi_station_sta_ssid", "wifi.wifi_station_sta_password", "networking.hostname"
-    )] == [Value("My;SSID"), Value("pa(ss)word;#x"), Value("mill (hall 2) ; left")]  # fmt: skip
+    assert [
+        found.values[key, ""]
+        for key in ("wifi.wifi_station_sta_ssid", "wifi.wifi_station_sta_password", "networking.hostname")
+    ] == [Value("My;SSID"), Value("pa(ss)word;#x"), Value("mill (hall 2) ; left")]
     assert found.unknown == {"$9999": "a(b);c // d"}
     text, made, again = tmp_path / "backup.txt", tmp_path / "made.amp", tmp_path / "again.settings"
     text.write_text(NETWORK, "utf-8")
@@ -320,9 +336,10 @@ def test_where_figures_have_remarks_one_begins_behind_a_blank_of_a_text() -> Non
         "$74=My;SSID", "$74=My;SSID (network)"
     )
     found = everything(text, machine="grblhal").values
-    assert [found[key, ""] for key in (
-        "wifi.wifi_station_sta_ssid", "wifi.wifi_station_sta_password", "networking.hostname"
-    )] == [Value("My;SSID"), Value("pa(ss)word;#x"), Value("mill")]  # fmt: skip
+    assert [
+        found[key, ""]
+        for key in ("wifi.wifi_station_sta_ssid", "wifi.wifi_station_sta_password", "networking.hostname")
+    ] == [Value("My;SSID"), Value("pa(ss)word;#x"), Value("mill")]
     assert found["axis.max_travel", "X"] == Value(200.0, "mm")
 
 

@@ -1,4 +1,6 @@
-"""Single values tuned in a connected Grbl control: what is sent, what comes back, and what a lost line leaves."""
+"""Single values tuned in a connected Grbl control: what is sent, what comes back,
+and what a lost line leaves.
+"""
 
 from __future__ import annotations
 

@@ -27,7 +27,9 @@ LINES = [f"${number}={text}" for number, text in SETTINGS.items()]
 
 
 def each(form: str) -> str:
-    """Return every setting in a form: ``{s}`` is the setting, ``{n}`` its number, ``{v}`` its text, ``{k}`` the line."""
+    """Return every setting in a form: ``{s}`` is the setting, ``{n}`` its number, ``{v}`` its text,
+    ``{k}`` the line.
+    """
     return "\n".join(
         form.format(s=f"${n}={text}", n=n, v=text, k=k) for k, (n, text) in enumerate(SETTINGS.items(), 1)
     )
@@ -38,9 +40,9 @@ FORMS = {
     "Windows": "\r\n".join(LINES),
     "old Macintosh": "\r".join(LINES),
     "blank lines": each("{s}\n"),
-    "blanks around the sign, and a remark": ">>> $$\n"
-    + each("${n} = {v}    (Step pulse time, microseconds)")
-    + "\nok",
+    "blanks around the sign, and a remark": (
+        ">>> $$\n" + each("${n} = {v}    (Step pulse time, microseconds)") + "\nok"
+    ),
     "Grbl 0.9": "Grbl 0.9j ['$' for help]\n" + each("{s} (step pulse, usec)"),
     "remark behind a semicolon": each("{s} ;Step pulse time, microseconds"),
     "remark behind //": each("{s} // Step pulse"),
@@ -56,9 +58,9 @@ FORMS = {
     "date and time": each("2021-07-11 12:00:01,123 - INFO - {s}"),
     "date and time with zone": each("2021-07-11T12:00:01.123Z  RX {s}"),
     "time of twelve hours": each("7/11/2021 1:02:03 PM < {s}"),
-    "CNCjs": "CNCjs 1.10.3 [Grbl]\nConnected\nclient> $$\n"
-    + each("{s} (x, step/mm)")
-    + "\nok\n<Idle|MPos:0,0,0>",
+    "CNCjs": (
+        "CNCjs 1.10.3 [Grbl]\nConnected\nclient> $$\n" + each("{s} (x, step/mm)") + "\nok\n<Idle|MPos:0,0,0>"
+    ),
     "names of directions": "Send: $$\n" + each("Recv: {s}") + "\nRecv: ok",
     "sent one by one": each("SENT: {s}\nRECV: ok"),
     "arrows": each("< {s}"),
@@ -126,7 +128,8 @@ def test_a_text_is_kept_whole() -> None:
 
 def test_what_a_control_answers_of_itself_is_found_in_remarks_too() -> None:
     log = read_log(
-        "GrblHAL 1.1f ['$' or '$HELP' for help]\n; [BOARD:T41]\n[AXS:3:XYZ]\n[PLUGIN:A]\n[PLUGIN:B]\n[MSG:x]\n$0=5\n"
+        "GrblHAL 1.1f ['$' or '$HELP' for help]\n;"
+        " [BOARD:T41]\n[AXS:3:XYZ]\n[PLUGIN:A]\n[PLUGIN:B]\n[MSG:x]\n$0=5\n"
     )
     assert log.greeting.startswith("GrblHAL 1.1f")
     assert log.facts == {"BOARD": ["T41"], "AXS": ["3:XYZ"], "PLUGIN": ["A", "B"]}

@@ -1,4 +1,6 @@
-"""A mask by axes keeps, at a control with more axes, the bits of those that a file does not have: an axis must not turn round."""
+"""A mask by axes keeps, at a control with more axes, the bits of those that a file does not have:
+an axis must not turn round.
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,6 @@
-"""What other builds of the firmware have is known without a control, judged by the widest of them, and asked of no file."""
+"""What other builds of the firmware have is known without a control, judged by the widest of them,
+and asked of no file.
+"""
 
 from __future__ import annotations
 
@@ -100,10 +102,12 @@ def test_forks_of_grbl_are_machine_types(tmp_path: Path) -> None:
             "0.9": old + axes(3),
             "1.1": old + later + axes(3),
             "5X": old + later + axes(5),
-            "ESP32": old.replace("$0=10\n", "$0=500\n").replace("$10=19", "$10=1")
-            + later
-            + "$33=5000\n$34=0\n$35=0\n$36=100\n"
-            + axes(6),
+            "ESP32": (
+                old.replace("$0=10\n", "$0=500\n").replace("$10=19", "$10=1")
+                + later
+                + "$33=5000\n$34=0\n$35=0\n$36=100\n"
+                + axes(6)
+            ),
         }.items()
     }
     assert {name: one.machine for name, one in found.items()} == {
@@ -205,8 +209,9 @@ def test_a_debounce_with_decimals_is_of_grbl_esp32(tmp_path: Path, debounce: str
 def test_a_listing_of_nothing_but_defaults_is_asked_about(tmp_path: Path, rate: str, is_asked: bool) -> None:
     """A fresh Grbl 1.1 lists these, and a machine that was set up has other values."""
     settings = (
-        "0=10 1=25 2=0 3=0 4=0 5=0 6=0 10=1 11=0.010 12=0.002 13=0 20=0 21=0 22=0 23=0 24=25 25=500 26=250 27=1 30=1000 "
-        f"31=0 32=0 100=250 101=250 102=250 110={rate} 111=500 112=500 120=10 121=10 122=10 130=200 131=200 132=200"
+        "0=10 1=25 2=0 3=0 4=0 5=0 6=0 10=1 11=0.010 12=0.002 13=0 20=0 21=0 22=0 23=0 24=25 25=500 26=250"
+        f" 27=1 30=1000 31=0 32=0 100=250 101=250 102=250 110={rate} 111=500 112=500 120=10 121=10 122=10"
+        " 130=200 131=200 132=200"
     )
     path, notes = tmp_path / "fresh.txt", list[str]()
     path.write_text("".join(f"${each}\n" for each in settings.split()), "utf-8")

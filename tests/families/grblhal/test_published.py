@@ -1,4 +1,6 @@
-"""Real listings are read as what they are, come back as they were, and are called wrong only where they are."""
+"""Real listings are read as what they are, come back as they were, and are called wrong only where they
+are.
+"""
 
 from __future__ import annotations
 
@@ -63,19 +65,25 @@ def test_the_verb_takes_it_without_a_question(listing: tuple[dict[str, Any], Pat
 
 @pytest.mark.parametrize("one", LISTINGS, ids=NAMES)
 def test_the_expected_verdict_is_that_of_the_firmware_s_own_rules(one: dict[str, Any]) -> None:
-    """Neither the reader nor a rule of ours is asked: what the sources of each firmware list and take (firmware.py)."""
+    """Neither the reader nor a rule of ours is asked:
+    what the sources of each firmware list and take (firmware.py).
+    """
     settings = {int(n): text for n, text in settings_of(one).items()}
     assert one["machine"] == machine_of(settings)
     refused = list(refusals(settings, one["machine"]))
     assert bool(one["errors"]) == bool(refused), refused
 
 
-# -- relatives ---------------------------------------------------------------------------------------------------
+# -- relatives
 
-OF_GRBL = "0=10 1=25 2=0 3=0 4=0 5=0 6=0 10=1 11=0.010 12=0.002 13=0 20=0 21=0 22=0 23=0 24=25 25=500 26=250 27=1 30=1000 31=0 32=0"
+OF_GRBL = (
+    "0=10 1=25 2=0 3=0 4=0 5=0 6=0 10=1 11=0.010 12=0.002 13=0 20=0 21=0 22=0 23=0 24=25 25=500 26=250 27=1"
+    " 30=1000 31=0 32=0"
+)
 OF_AXES = {100: "250.000", 110: "500.000", 120: "10.000", 130: "200.000"}
 OF_FLUIDNC = "10=1 20=0 21=1 22=1 23=0 30=24000 32=0"
-"""``make_proxies`` and ``make_settings`` of FluidNC: the numbers that its $$ has, beside those of the axes."""
+"""``make_proxies`` and ``make_settings`` of FluidNC: the numbers that its $$ has, beside those of the
+axes."""
 
 
 def listed(settings: str, axes: int) -> str:

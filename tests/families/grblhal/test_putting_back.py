@@ -1,4 +1,6 @@
-"""What a copy of a Grbl control brings back: settings in their order, offsets, start-up lines; also on another build."""
+"""What a copy of a Grbl control brings back: settings in their order, offsets, start-up lines;
+also on another build.
+"""
 
 from __future__ import annotations
 
@@ -10,9 +12,7 @@ import pytest
 
 from amp_studio.families.grblhal.content import read_content, write_content
 from amp_studio.transfer.client.exchange import WantedContent, download
-from amp_studio.transfer.errors import (
-    TransferError,
-)
+from amp_studio.transfer.errors import TransferError
 from amp_studio.transfer.image import ImageError
 from tests.families.grblhal.bench import Bench, edited, held, put, sent
 
@@ -97,8 +97,29 @@ def test_offsets_that_are_shown_in_inches_are_put_back_in_inches(bench: Bench) -
     assert bench.lines[-30:].count("G21") == 1, "the unit of the program is as it was"
 
 
-@pytest.mark.parametrize("line", ["M3S100", "G0X10", "G28", "$H", "G1F100X1", "M8", "T1M6", "G10L2P1X0", "G92X0", "G53G0Z0", "G4P1",
-                                  "M62P1", "G38.2Z-5F10", "(G21)", "#1=2", "G2 0X1", "M30", "S1000"])  # fmt: skip
+@pytest.mark.parametrize(
+    "line",
+    [
+        "M3S100",
+        "G0X10",
+        "G28",
+        "$H",
+        "G1F100X1",
+        "M8",
+        "T1M6",
+        "G10L2P1X0",
+        "G92X0",
+        "G53G0Z0",
+        "G4P1",
+        "M62P1",
+        "G38.2Z-5F10",
+        "(G21)",
+        "#1=2",
+        "G2 0X1",
+        "M30",
+        "S1000",
+    ],
+)
 def test_a_start_up_line_that_does_anything_is_not_sent(bench: Bench, line: str) -> None:
     present = held(bench)
     outcome = download(

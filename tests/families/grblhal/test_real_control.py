@@ -104,7 +104,9 @@ def test_power_cut_in_a_download_leaves_old_new_some_of_both_or_defaults_and_say
 
 
 def power_cut(seed: int, folder: Path) -> list[str]:
-    """Kill the real firmware somewhere in a download, start it again, and compare what was reported with what it shows."""
+    """Kill the real firmware somewhere in a download, start it again,
+    and compare what was reported with what it shows.
+    """
     chance = random.Random(seed)
     with (
         real_control(folder) as control,
@@ -151,10 +153,15 @@ def power_cut(seed: int, folder: Path) -> list[str]:
         after = read_content(driver.fetch()).settings
         fresh = {n for n in changes if after[n] == wanted.settings[n]}
         truth = {
-            "old": after == own.settings, "new": after == wanted.settings, "defaults": after == present.settings,
-            "mixed": {f"${n}" for n in fresh} == set(new) and all(after[n] in (own.settings[n], wanted.settings[n]) for n in after),
+            "old": after == own.settings,
+            "new": after == wanted.settings,
+            "defaults": after == present.settings,
+            "mixed": (
+                {f"${n}" for n in fresh} == set(new)
+                and all(after[n] in (own.settings[n], wanted.settings[n]) for n in after)
+            ),
             "unknown": True,
-        }  # fmt: skip
+        }
         found = (
             []
             if truth[told]

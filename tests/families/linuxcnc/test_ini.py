@@ -47,8 +47,9 @@ def test_a_changed_value_is_another_one_in_its_line_and_a_new_one_is_at_the_end_
     file.set(("joint.max_limit", "0"), None)
     file.set(("joint.home_use_index", "0"), Value(True))
     file.set(("axis.max_limit", "X"), Value(1.0, "in"))
-    assert written(file) == (
-        "[JOINT_0]\nFERROR = 2.25   # wide\nHOME_USE_INDEX = YES\n\n[HAL]\nHALUI = halui\n\n[AXIS_X]\nMAX_LIMIT = 25.4\n"
+    assert (
+        written(file) == "[JOINT_0]\nFERROR = 2.25   # wide\nHOME_USE_INDEX = YES\n\n[HAL]\nHALUI ="
+        " halui\n\n[AXIS_X]\nMAX_LIMIT = 25.4\n"
     )
 
 
@@ -62,7 +63,10 @@ def test_another_unit_of_length_writes_every_length_again(tmp_path: Path) -> Non
 
 
 def test_figures_are_in_the_units_of_the_machine(tmp_path: Path) -> None:
-    text = "[TRAJ]\nLINEAR_UNITS = inch\n[JOINT_0]\nMAX_VELOCITY = 2\n[JOINT_1]\nTYPE = angular\nMAX_VELOCITY = 30\n[AXIS_B]\nMIN_LIMIT=-1e1\n[EMCMOT]\nSERVO_PERIOD = 1000000"
+    text = (
+        "[TRAJ]\nLINEAR_UNITS = inch\n[JOINT_0]\nMAX_VELOCITY = 2\n[JOINT_1]\nTYPE = angular\nMAX_VELOCITY ="
+        " 30\n[AXIS_B]\nMIN_LIMIT=-1e1\n[EMCMOT]\nSERVO_PERIOD = 1000000"
+    )
     file = read(tmp_path, text)
     assert file.get(("joint.max_velocity", "0")) == Value(2.0, "in/s")
     assert file.get(("joint.max_velocity", "1")) == Value(30.0, "deg/s")
@@ -75,12 +79,18 @@ def test_figures_are_in_the_units_of_the_machine(tmp_path: Path) -> None:
     [
         ("[JOINT_0]\nFERORR = 1\n", "[JOINT_0]FERORR in line 2 ([JOINT_0]FERROR?)"),
         ("[JOINT_0]\nP = 1\nP = 2\n", "[JOINT_0]P in line 3 (line 2 comes first and counts)"),
-        ("[JOINT_0]\nP = 1\n[HAL]\n[JOINT_0]\nI = 2", "[JOINT_0]I in line 5 (the section is in line 1 already, and only that one is read)"),
-        ("[JOINT_0]\nHOME_USE_INDEX = YES # marker\n", "[JOINT_0]HOME_USE_INDEX in line 2 (it is not one of YES, NO)"),
+        (
+            "[JOINT_0]\nP = 1\n[HAL]\n[JOINT_0]\nI = 2",
+            "[JOINT_0]I in line 5 (the section is in line 1 already, and only that one is read)",
+        ),
+        (
+            "[JOINT_0]\nHOME_USE_INDEX = YES # marker\n",
+            "[JOINT_0]HOME_USE_INDEX in line 2 (it is not one of YES, NO)",
+        ),
         ("[JOINT_0]\nMAX_LIMIT = far\n", "[JOINT_0]MAX_LIMIT in line 2 (it is no number)"),
         ("[HOSTMOT2]\nCARD0 = 5i25\n[HAL]\n", "[HOSTMOT2]CARD0 in line 2"),
     ],
-)  # fmt: skip
+)
 def test_what_linuxcnc_passes_over_in_silence_is_named(tmp_path: Path, text: str, name: str) -> None:
     assert list(read(tmp_path, text).unknown) == [name]
 

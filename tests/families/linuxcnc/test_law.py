@@ -28,7 +28,9 @@ def joint(file: ParameterFile, **values: float | bool | None) -> ParameterFile:
 
 
 def test_without_feed_forward_the_axis_lags_by_its_speed_over_its_gain(mill: ParameterFile) -> None:
-    """A gain of 16.67 lags by 9.96 mm at 166 mm/s: 10.000 mm at 166.667 mm/s were measured on the real program."""
+    """A gain of 16.67 lags by 9.96 mm at 166 mm/s:
+    10.000 mm at 166.667 mm/s were measured on the real program.
+    """
     file = joint(mill, pid_p=16.666667, pid_ff1=0.0, ferror=11.0, min_ferror=11.0)
     trace = simulate(file, "step", axis="X", settings={"move.distance": 400.0})
     assert trace.result["peak_following_error"][0] == pytest.approx(9.96, abs=0.05)

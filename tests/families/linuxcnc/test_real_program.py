@@ -1,4 +1,6 @@
-"""The real program as the judge: it starts what was exported, and uses the figures that were meant. Skipped where it is not installed."""
+"""The real program as the judge: it starts what was exported, and uses the figures that were meant.
+Skipped where it is not installed.
+"""
 
 from __future__ import annotations
 
@@ -23,11 +25,20 @@ USER = "cnc"
 SECONDS = 40.0
 """Until the program answers; it takes about 6."""
 PINS = {
-    "joint.min_limit": "min_limit", "joint.max_limit": "max_limit", "joint.max_velocity": "max_velocity", "joint.home": "home",
-    "joint.max_acceleration": "max_acceleration", "joint.ferror": "ferror", "joint.min_ferror": "min_ferror",
-    "joint.home_offset": "home_offset", "joint.home_sequence": "home_sequence", "joint.backlash": "backlash",
-    "axis.min_limit": "min_limit", "axis.max_limit": "max_limit", "axis.max_velocity": "max_velocity",
-}  # fmt: skip
+    "joint.min_limit": "min_limit",
+    "joint.max_limit": "max_limit",
+    "joint.max_velocity": "max_velocity",
+    "joint.home": "home",
+    "joint.max_acceleration": "max_acceleration",
+    "joint.ferror": "ferror",
+    "joint.min_ferror": "min_ferror",
+    "joint.home_offset": "home_offset",
+    "joint.home_sequence": "home_sequence",
+    "joint.backlash": "backlash",
+    "axis.min_limit": "min_limit",
+    "axis.max_limit": "max_limit",
+    "axis.max_velocity": "max_velocity",
+}
 
 
 def has_user() -> bool:

@@ -73,7 +73,9 @@ Axis = Callable[..., AxisLaw]
 
 @pytest.fixture(scope="session")
 def axis() -> Axis:
-    """Return a function that gives the axis with some values changed (None: not set) and machine figures by name."""
+    """Return a function that gives the axis with some values changed (None: not set)
+    and machine figures by name.
+    """
 
     def bound(values: Values | None = None, settings: Values | None = None, **machine: float) -> AxisLaw:
         merged = {**VALUES, **(values or {})}

@@ -1,4 +1,6 @@
-"""On-line AMP at the screen of the emulated 9/PC: what counts at once, what needs E-Stop, and its messages (chapter 36)."""
+"""On-line AMP at the screen of the emulated 9/PC: what counts at once, what needs E-Stop,
+and its messages (chapter 36).
+"""
 
 from __future__ import annotations
 
@@ -18,7 +20,9 @@ from amp_studio.transfer.image import decode_image, encode_image
 
 @pytest.fixture
 def at(tmp_path: Path) -> Iterator[Callable[[str], str | None]]:
-    """Return what gives a command at a control in E-stop that contains a sound mill; ``at.control`` is the control."""
+    """Return what gives a command at a control in E-stop that contains a sound mill;
+    ``at.control`` is the control.
+    """
     file = sound("9pc", "mill")
     control = Control(
         tmp_path / "state", Identity("9pc", file.schema.signature), encode_image(file), accept=decode_image

@@ -1,4 +1,6 @@
-"""The emulated 9/PC at its own screen: what it shows at power-up, why it stays in E-Stop, password and Patch AMP."""
+"""The emulated 9/PC at its own screen: what it shows at power-up, why it stays in E-Stop,
+password and Patch AMP.
+"""
 
 from __future__ import annotations
 

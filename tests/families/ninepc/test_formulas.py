@@ -1,8 +1,8 @@
 """Every worked example and printed table value of the 9/PC manual that a formula must give back.
 
-Chapters 3 to 7, 9, 10, 33 and appendix B, with the page in the id of each case; further chapters have files of
-their own beside this one. A number printed with n decimals is compared with the result rounded half up to n
-decimals; all other comparisons are exact, or marked. Chapter 3 has no arithmetic. Where a printed number
+Chapters 3 to 7, 9, 10, 33 and appendix B, with the page in the id of each case; further chapters have files
+of their own beside this one. A number printed with n decimals is compared with the result rounded half up to
+n decimals; all other comparisons are exact, or marked. Chapter 3 has no arithmetic. Where a printed number
 contradicts its own formula the formula is asserted and the misprint is beside it.
 """
 

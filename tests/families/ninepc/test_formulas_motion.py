@@ -1,4 +1,6 @@
-"""Feedrates, acceleration and deceleration: the printed examples of chapters 9 and 10; how they are compared is in test_formulas.py."""
+"""Feedrates, acceleration and deceleration: the printed examples of chapters 9 and 10;
+how they are compared is in test_formulas.py.
+"""
 
 from __future__ import annotations
 

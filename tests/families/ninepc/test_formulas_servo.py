@@ -1,4 +1,6 @@
-"""Position and velocity loop: the printed examples and tables of chapter 7; how they are compared is in test_formulas.py."""
+"""Position and velocity loop: the printed examples and tables of chapter 7;
+how they are compared is in test_formulas.py.
+"""
 
 from __future__ import annotations
 

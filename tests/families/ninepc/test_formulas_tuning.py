@@ -1,4 +1,5 @@
-"""Servos, coupled axes, OCI and tuning: the worked examples and tables of chapters 7, 10, 31 to 36 and the appendices.
+"""Servos, coupled axes, OCI and tuning: the worked examples and tables of chapters 7, 10,
+31 to 36 and the appendices.
 
 The page is with each case. Numbers that the manual does not print, and that are worked by hand from its
 words, are marked "by hand".
@@ -77,8 +78,7 @@ def test_gains_are_looked_up_by_motor() -> None:
 
 
 @pytest.mark.parametrize(
-    ("motor", "load", "expected"),
-    [(1, 0, 0), (1, 1, 1), (2, 2.2, 2), (0.1, 0.3, 3), (1, 7, 3)],
+    ("motor", "load", "expected"), [(1, 0, 0), (1, 1, 1), (2, 2.2, 2), (0.1, 0.3, 3), (1, 7, 3)]
 )
 def test_the_inertia_ratio_is_rounded_up(motor: float, load: float, expected: int) -> None:
     # Page 7-71; the inertias are ours.

@@ -24,7 +24,9 @@ HOME = {
 
 
 def mill(**changes: Value | None) -> ParameterFile:
-    """Return the example mill, axis 1 with the homing above; changes by parameter id with ``__`` for the point."""
+    """Return the example mill, axis 1 with the homing above;
+    changes by parameter id with ``__`` for the point.
+    """
     file = open_file(MILL).file
     for parameter, value in (
         HOME | {name.replace("__", "."): value for name, value in changes.items()}
@@ -34,7 +36,8 @@ def mill(**changes: Value | None) -> ParameterFile:
 
 
 def test_the_home_position_is_the_marker_nearest_to_the_switch_and_the_calibration_from_there() -> None:
-    # Steps 3 to 10 of 5-3 and 5-4: off the switch at 40 mm, a marker 2 mm from it, one turn of the screw is 10 mm.
+    # Steps 3 to 10 of 5-3 and 5-4: off the switch at 40 mm, a marker 2 mm from it, one turn of the screw is
+    # 10 mm.
     move = {"move.switch": 40.0, "move.marker": 2.0}
     plain = simulate(mill(), "home", "1", move).result
     assert plain["home_from_start"] == (pytest.approx(38.0), "mm")
@@ -55,7 +58,8 @@ def test_it_runs_onto_the_switch_waits_and_comes_off_at_the_slow_speed() -> None
     # Steps 4 and 7: until the following error is inside of the Inposition Band.
     assert abs(trace.columns["following_error"][first_back - 1]) <= 0.0254
     assert position[:first_back].max() - 40.0 == pytest.approx(trace.result["switch_overrun"][0])
-    # Homing is exponential whatever Manual ACC./DEC Mode is (10-14): the first change of the speed is the steepest.
+    # Homing is exponential whatever Manual ACC./DEC Mode is (10-14): the first change of the speed is the
+    # steepest.
     command = trace.columns["command_velocity"][: first_back // 3]
     assert np.argmax(np.diff(command)) < 10
 
@@ -89,7 +93,9 @@ def test_an_axis_that_passes_a_short_switch_is_jogged_home_too_fast() -> None:
 
 
 def test_a_coded_scale_is_homed_by_three_markers_and_goes_to_the_home_position() -> None:
-    """5-5 to 5-7, 5-14: no switch; three markers of 20 and 20.02 mm are passed within 30 mm, whatever the start."""
+    """5-5 to 5-7, 5-14: no switch; three markers of 20 and 20.02 mm are passed within 30 mm,
+    whatever the start.
+    """
     lathe = open_file(MILL.parents[1] / "lathe-ls176" / "LATHE_LS176.amp").file
     for start in (100.5, 104.0, 119.9):
         trace = simulate(lathe, "home", "1", {"move.scale": start})
@@ -144,7 +150,8 @@ def test_an_incremental_jog_goes_at_the_third_speed() -> None:
     assert jog.result["stop_position"][0] == pytest.approx(-25.0, abs=0.0254)
     held = simulate(file, "jog", "1", {"move.hold": "2 s"})
     assert held.result["feedrate"] == (100.0, "mm/min")
-    # With an exponential ramp the axis goes on by what it has not been given yet: 2 s at the full speed in all.
+    # With an exponential ramp the axis goes on by what it has not been given yet: 2 s at the full speed in
+    # all.
     assert held.result["distance"][0] == pytest.approx(100.0 / 60.0 * 2.0)
     with pytest.raises(SimulationError, match=r"leave out move\.speed"):
         simulate(file, "jog", "1", {"move.increment": "largest", "move.speed": "highest"})
@@ -189,7 +196,9 @@ def test_the_stop_at_an_overtravel_is_printed_for_manual_motion_and_assumed_else
 
 
 def test_an_external_deceleration_takes_the_speed_away_before_the_limit() -> None:
-    """Page 9-6: behind the switch the axis goes at External Decel Speed (Posit.), and passes the overtravel by less."""
+    """Page 9-6: behind the switch the axis goes at External Decel Speed (Posit.),
+    and passes the overtravel by less.
+    """
     file = mill(
         zone__overtravel_used=Value(True),
         zone__overtravel_positive=Value(100.0, "mm"),
@@ -205,7 +214,9 @@ def test_an_external_deceleration_takes_the_speed_away_before_the_limit() -> Non
 
 
 def test_a_hard_stop_that_is_too_near_to_the_limit_is_met_with_a_speed() -> None:
-    """The axis passes the overtravel by its following error (10-18), which must be less than the way to the hard stop."""
+    """The axis passes the overtravel by its following error (10-18),
+    which must be less than the way to the hard stop.
+    """
     file = mill(zone__overtravel_used=Value(True), zone__overtravel_positive=Value(100.0, "mm"))
     far = simulate(file, "travel", "1", {"move.start": 0.0, "move.hard_stop": 120.0})
     assert (far.result["hard_stop_margin"][0] or 0.0) > 0.0

@@ -79,7 +79,8 @@ def test_beyond_the_gain_break_the_following_error_is_that_of_its_equation(axis:
 
 
 def test_both_readings_of_the_least_excess_error_are_given(axis: Axis) -> None:
-    # Page 7-20: the equation divides by the ratio from the start, the sentence takes 110 % of the error that is expected.
+    # Page 7-20: the equation divides by the ratio from the start, the sentence takes 110 % of the error that
+    # is expected.
     loop = Loop(1.0, 2.0, 0.5, 0.0)
     assert printed_excess_error(loop, 100.0) == pytest.approx(13.2)
     assert sentence_excess_error(loop, 100.0) == pytest.approx(11.0)
@@ -98,7 +99,8 @@ def test_both_readings_of_the_least_excess_error_are_given(axis: Axis) -> None:
 
 @pytest.mark.parametrize("gain", [0.5, 1.0, 2.0])
 def test_the_response_time_of_10_2_is_two_time_constants_of_the_loop(axis: Axis, gain: float) -> None:
-    # 240, 120 and 60 ms: the axis then has 86.5 % of the feedrate. A stiff velocity loop leaves the position loop alone.
+    # 240, 120 and 60 ms: the axis then has 86.5 % of the feedrate. A stiff velocity loop leaves the position
+    # loop alone.
     law = axis({"servo.initial_gain": gain, "servo.velocity_proportional_gain": 4000.0}, **IDEAL)
     columns = cruise(law, 50.0, 0.5 / gain).columns
     reached = columns["time_s"][np.flatnonzero(columns["velocity"] >= 50.0 * (1.0 - math.exp(-2.0)))[0]]
@@ -107,7 +109,8 @@ def test_the_response_time_of_10_2_is_two_time_constants_of_the_loop(axis: Axis,
 
 
 def test_the_table_of_response_times_is_the_equation_but_for_a_slip() -> None:
-    # Page 10-2 prints 240, 120, 60, 30, 15 ms for the gains 1/2, 1, 2, 3, 4; its own equation gives 40 and 30 for the last two.
+    # Page 10-2 prints 240, 120, 60, 30, 15 ms for the gains 1/2, 1, 2, 3, 4; its own equation gives 40 and 30
+    # for the last two.
     printed = {0.5: 240.0, 1.0: 120.0, 2.0: 60.0, 3.0: 30.0, 4.0: 15.0}
     equation = {gain: 1000.0 * response_time(Loop(gain, 1.0, 1.0, 0.0)) for gain in printed}
     assert [equation[gain] for gain in (0.5, 1.0, 2.0)] == pytest.approx([240.0, 120.0, 60.0])

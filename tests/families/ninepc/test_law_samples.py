@@ -101,7 +101,8 @@ def test_a_following_error_above_its_limit_stops_the_control_and_the_suppression
 @pytest.mark.parametrize(
     ("came_from", "shifts"),
     [
-        # Negative: added to the first motion in the positive direction; positive: to the first in the negative one.
+        # Negative: added to the first motion in the positive direction; positive: to the first in the
+        # negative one.
         (-1.0, [0.0, 0.02, 0.02, 0.0, 0.02]),
         (1.0, [0.0, 0.0, 0.0, -0.02, 0.0]),
     ],

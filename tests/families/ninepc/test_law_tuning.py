@@ -87,7 +87,8 @@ def test_each_higher_integral_gain_brings_an_overshoot_that_a_lower_proportional
 
 
 def test_it_oscillates_in_motion_before_it_does_at_rest(bench: Bench) -> None:
-    # Page A-10: first at the commanded velocity, with a higher integral gain at rest too; friction makes the difference.
+    # Page A-10: first at the commanded velocity, with a higher integral gain at rest too; friction makes the
+    # difference.
     charts = [bench.at(bench.end.proportional, bench.end.integral * more) for more in (1.06, 1.5)]
     assert charts[0].moving > SWING > charts[0].resting
     assert min(charts[1].moving, charts[1].resting) > SWING

@@ -43,7 +43,8 @@ def test_both_upper_bounds_together_are_a_damping_of_0_65_at_gain_1() -> None:
 
 @pytest.mark.parametrize("motor", MOTORS)
 def test_the_table_gives_the_same_loop_at_every_inertia_ratio(motor: str) -> None:
-    # Pages 7-55, 7-56: gain is torque for velocity error, the inertia is that of the axis. One cell of 36 is 0.09 % off.
+    # Pages 7-55, 7-56: gain is torque for velocity error, the inertia is that of the axis. One cell of 36 is
+    # 0.09 % off.
     loops = []
     for ratio in range(4):
         cells = units.standard_gains(TABLES, motor, ratio)

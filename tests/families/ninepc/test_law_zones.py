@@ -39,7 +39,9 @@ def codes(file: ParameterFile, start: str, to: str, **more: str) -> list[str]:
     [("3,3,0", True), ("3,6,0", False), ("0,0,10.5", True), ("0,0,9.9", False), ("6,6,0", True)],
 )
 def test_each_group_is_a_box_over_its_own_axes(mill: ParameterFile, to: str, stops: bool) -> None:
-    """Page 6-4: X and Y between 2 and 5 wherever Z is, Z between 10 and 11 wherever the others are; a diagonal meets the corner."""
+    """Page 6-4: X and Y between 2 and 5 wherever Z is, Z between 10 and 11 wherever the others are;
+    a diagonal meets the corner.
+    """
     start = "3,7,0" if to == "3,6,0" else "0,0,0"
     assert codes(mill, start, to) == (["ZONE 2"] if stops else [])
 

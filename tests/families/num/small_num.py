@@ -1,4 +1,6 @@
-"""A small NUM family for the tests of its parameter table, with a word of every type, and the manual's own example."""
+"""A small NUM family for the tests of its parameter table, with a word of every type,
+and the manual's own example.
+"""
 
 from __future__ import annotations
 
@@ -85,8 +87,10 @@ def word(number: str, code: int, kind: str = "integer", more: str = "", storage:
     """Return a parameter of one word; its id has its number: p.w9_0 is P9N0."""
     name = re.sub(r"P(\d+)N(.*)", r"w\1_\2", number)
     kept = ", ".join(part for part in (f"code: {code}", FORMS[code], storage) if part)
-    return (f"  - {{id: p.{name}, name: Word {number}, numbers: {{format: {number}}}, type: {kind}, "
-            f"storage: {{{kept}}}, help: {{what: A word.}}, page: '1-1'{more}}}\n")  # fmt: skip
+    return (
+        f"  - {{id: p.{name}, name: Word {number}, numbers: {{format: {number}}}, type: {kind}, "
+        f"storage: {{{kept}}}, help: {{what: A word.}}, page: '1-1'{more}}}\n"
+    )
 
 
 def axes(number: str, code: int, kind: str = "integer", more: str = "", storage: str = "") -> str:
@@ -97,29 +101,48 @@ def axes(number: str, code: int, kind: str = "integer", more: str = "", storage:
     )
 
 
-PARAMETERS = "".join([
-    *(word(n, 6, "bits") for n in ("P0N0", "P1N0", "P1N1", "P2N0", "P3N0", "P8N0", "P10N0")),
-    *(word(f"P4N{n}", 0) for n in range(5)),
-    *(word(f"P5N{n}", 0) for n in range(2)),
-    *(word(f"P6N{n}", 0) for n in range(9)),
-    *(word(f"P7N{n}", 0, "bits") for n in range(2)),
-    axes("P9N{format: 'P9N{i}'}", 0),
-    axes("P16N{start: 0, step: 2, format: 'P16N{n}'}", 2, "real", ", quantity: length", "unit: mm, scale: 1000"),
-    axes("P17N{start: 1, step: 2, format: 'P16N{n}'}", 2, "real", ", quantity: length", "unit: mm, scale: 1000"),
-    axes("P18N{format: 'P18N{i}'}", 1),
-    axes("P21N{format: 'P21N{i}'}", 4),
-    axes("P22N{format: 'P22N{i}'}", 5, "real", ", quantity: time, unit: ms"),
-    axes("P30N{format: 'P30N{i}'}", 4, "real", ", quantity: velocity", "unit: mm/min"),
-    word("P50N0", 5, more=", states: [{state: hidden, when: coarse}]"),
-    word("P50N1", 5, "real", ", unit: s, states: [{state: hidden, unless: coarse}]").replace(
-        "numbers: {format: P50N1}", "numbers: {format: P50N0}"
-    ),
-    word("P96N0", 8, "text"),
-    *(word(f"P97N{n}", 8, "text") for n in range(3)),
-    word("P98N0", 0, "choice", ", choices: [{key: assembler, label: Assembler, raw: 0}, {key: ladder, label: Ladder, raw: 1}]"),
-    word("P101N0", 7),
-    word("P113N0", 9, "real"),
-])  # fmt: skip
+PARAMETERS = "".join(
+    [
+        *(word(n, 6, "bits") for n in ("P0N0", "P1N0", "P1N1", "P2N0", "P3N0", "P8N0", "P10N0")),
+        *(word(f"P4N{n}", 0) for n in range(5)),
+        *(word(f"P5N{n}", 0) for n in range(2)),
+        *(word(f"P6N{n}", 0) for n in range(9)),
+        *(word(f"P7N{n}", 0, "bits") for n in range(2)),
+        axes("P9N{format: 'P9N{i}'}", 0),
+        axes(
+            "P16N{start: 0, step: 2, format: 'P16N{n}'}",
+            2,
+            "real",
+            ", quantity: length",
+            "unit: mm, scale: 1000",
+        ),
+        axes(
+            "P17N{start: 1, step: 2, format: 'P16N{n}'}",
+            2,
+            "real",
+            ", quantity: length",
+            "unit: mm, scale: 1000",
+        ),
+        axes("P18N{format: 'P18N{i}'}", 1),
+        axes("P21N{format: 'P21N{i}'}", 4),
+        axes("P22N{format: 'P22N{i}'}", 5, "real", ", quantity: time, unit: ms"),
+        axes("P30N{format: 'P30N{i}'}", 4, "real", ", quantity: velocity", "unit: mm/min"),
+        word("P50N0", 5, more=", states: [{state: hidden, when: coarse}]"),
+        word("P50N1", 5, "real", ", unit: s, states: [{state: hidden, unless: coarse}]").replace(
+            "numbers: {format: P50N1}", "numbers: {format: P50N0}"
+        ),
+        word("P96N0", 8, "text"),
+        *(word(f"P97N{n}", 8, "text") for n in range(3)),
+        word(
+            "P98N0",
+            0,
+            "choice",
+            ", choices: [{key: assembler, label: Assembler, raw: 0}, {key: ladder, label: Ladder, raw: 1}]",
+        ),
+        word("P101N0", 7),
+        word("P113N0", 9, "real"),
+    ]
+)
 
 
 def small_num(folder: Path, parameters: str = PARAMETERS) -> Schema:

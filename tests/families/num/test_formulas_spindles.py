@@ -17,7 +17,8 @@ EXAMPLE = ([10, 80, 400, 0, 0, 0], [100, 500, 2000, 0, 0, 0])
 NO_LIMITS = [0] * 6
 
 
-# ------------------------------------------------------------------------------------- measurement of the angle
+# ------------------------------------------------------------------------------------- measurement of the
+# angle
 
 
 @pytest.mark.parametrize(
@@ -80,9 +81,20 @@ def test_an_indexed_spindle_stands_below_3_of_4096_revolutions_in_a_sample() -> 
 
 @pytest.mark.parametrize(
     ("speed", "ranges"),
-    [(9, []), (10, [40]), (79, [40]), (80, [40, 41]), (100, [40, 41]), (101, [41]), (399, [41]), (400, [41, 42]),
-     (500, [41, 42]), (2000, [42]), (2001, [])],
-)  # fmt: skip
+    [
+        (9, []),
+        (10, [40]),
+        (79, [40]),
+        (80, [40, 41]),
+        (100, [40, 41]),
+        (101, [41]),
+        (399, [41]),
+        (400, [41, 42]),
+        (500, [41, 42]),
+        (2000, [42]),
+        (2001, []),
+    ],
+)
 def test_a_speed_belongs_to_the_ranges_of_the_printed_example(speed: int, ranges: list[int]) -> None:
     # Page 8-16: M40 10 to 100, M41 80 to 500, M42 400 to 2000.
     assert num.ranges_for_speed(speed, *EXAMPLE, NO_LIMITS) == ranges
@@ -130,7 +142,8 @@ def test_29491_points_are_9_volts_and_32768_are_10() -> None:
 
 
 def test_a_tap_slows_down_from_a_distance_that_grows_with_the_square_of_the_speed() -> None:
-    # Page 8-32 with the A of 10 that page 8-35 begins with; by hand: 10 rev/s from 600 rpm take 1 s and 5 turns.
+    # Page 8-32 with the A of 10 that page 8-35 begins with; by hand: 10 rev/s from 600 rpm take 1 s and 5
+    # turns.
     assert num.tapping_deceleration_distance(1.5, 600, 10) == 7.5
     assert num.tapping_deceleration_distance(1.5, 1200, 10) == 30
     assert num.tapping_deceleration_distance(1.5, 600, 20) == 3.75

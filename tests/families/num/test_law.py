@@ -127,8 +127,8 @@ def test_speed_anticipation_leaves_the_rest_of_the_following_error(percent: floa
 
 
 def test_a_circle_of_50_mm_at_2_236_m_a_minute_is_50_um_too_small() -> None:
-    # 6-32: 0.037 m/s and 60 ms. The equation is that of a loop without samples and of a drive without lag: both take
-    # their share of the time constant away, here 2 ms and twice the 0.8 ms of 200 Hz
+    # 6-32: 0.037 m/s and 60 ms. The equation is that of a loop without samples and of a drive without lag:
+    # both take their share of the time constant away, here 2 ms and twice the 0.8 ms of 200 Hz
     law = bound(model__velocity_bandwidth=200.0, model__velocity_integral=0.0, misc__sampling_period=2.0)
     speed, radius = 2236.0 / 60.0, 50.0
     circle = [0.0, math.inf, 0.0, radius, speed / radius, 0.0, SINE, 0.0]
@@ -207,8 +207,10 @@ def test_the_own_time_constant_goes_before_that_of_the_group() -> None:
 def test_all_words_that_are_missing_are_named_in_one_sentence() -> None:
     with pytest.raises(SimulationError) as raised:
         bound(servo__loop_gain_at_0=None, servo__max_speed_at_0=None, misc__sampling_period=None)
-    assert raised.value.what == (
-        "The simulation of axis 0 needs values that are not set: misc.sampling_period, servo.max_speed@0, servo.loop_gain@0"
+    assert (
+        raised.value.what
+        == "The simulation of axis 0 needs values that are not set: misc.sampling_period, servo.max_speed@0,"
+        " servo.loop_gain@0"
     )
 
 

@@ -73,7 +73,8 @@ def test_an_axis_that_stands_outside_its_window_gets_twice_its_error() -> None:
     assert trace.result["in_position_time"][0] is None
     found = only(trace)
     assert found.parameter == "servo.in_position_window"
-    # 11-7: 20 % of 10 mm/s2, kept by a loop of 2 pi x 50 1/s behind a position loop, stop it 38.0 µm from its end.
+    # 11-7: 20 % of 10 mm/s2, kept by a loop of 2 pi x 50 1/s behind a position loop, stop it 38.0 µm from its
+    # end.
     assert found.value == 76.0
     put(file, found.parameter, int(found.value))
     after = moved(file, gravity=20.0, velocity_integral=0.0)

@@ -11,10 +11,13 @@ import pytest
 from amp_studio.cli import run
 
 EXAMPLE = Path(__file__).parents[3] / "examples" / "num-1060-mill" / "MILL_1060.amp"
-NUM_WORDS = "P2N0=1 P3N0=1 P9N0=0x00 P4N2=3 P50N0=5000 P11N0=1 P11N1=2 P30N0=6000 P32N1=1000 P21N0=4915 P22N0=20 P23N0=6600"
+NUM_WORDS = (
+    "P2N0=1 P3N0=1 P9N0=0x00 P4N2=3 P50N0=5000 P11N0=1 P11N1=2 P30N0=6000 P32N1=1000 P21N0=4915 P22N0=20"
+    " P23N0=6600"
+)
 SYNTEC_VALUES = (
-    "Pr61=2500 Pr81=4 Pr201=0 Pr121=1 Pr122=1 Pr161=10000 Pr461=24000 servo.loop_gain@1=30 control.series=super"
-    " Pr3203=2000 Pr541=100"
+    "Pr61=2500 Pr81=4 Pr201=0 Pr121=1 Pr122=1 Pr161=10000 Pr461=24000 servo.loop_gain@1=30"
+    " control.series=super Pr3203=2000 Pr541=100"
 )
 
 
@@ -48,9 +51,10 @@ def test_a_new_num_file_says_in_one_sentence_what_its_axis_needs(
     words = settings("P2N0=1 P3N0=1 P9N0=0x00 P4N2=3")
     assert run(["simulate", new(tmp_path, "num"), "step", *words]) == 2
     assert (
-        "needs values that are not set: misc.sampling_period, measure.multi@0, measure.divi@0, servo.max_speed@0,"
-        " servo.acceleration_fast@0, servo.loop_gain@0, servo.in_position_window@0, servo.max_following_error@0"
-    ) in capsys.readouterr().err
+        "needs values that are not set: misc.sampling_period, measure.multi@0, measure.divi@0,"
+        " servo.max_speed@0, servo.acceleration_fast@0, servo.loop_gain@0, servo.in_position_window@0,"
+        " servo.max_following_error@0" in capsys.readouterr().err
+    )
 
 
 def test_a_new_num_file_moves_with_the_words_of_the_manual(
@@ -123,8 +127,8 @@ def test_too_fast_a_syntec_axis_brings_mot_005(tmp_path: Path, capsys: pytest.Ca
 def test_a_circle_of_a_num_mill_goes_as_fast_as_its_tolerated_error_allows(
     capsys: pytest.CaptureFixture[str],
 ) -> None:
-    # 6-32: 50 µm and 60 ms leave the root of 2 R x 50 µm over 60 ms, 447 mm/min with 2 mm; the circle is then smaller by
-    # the 50 µm, less what sampling and drive take away
+    # 6-32: 50 µm and 60 ms leave the root of 2 R x 50 µm over 60 ms, 447 mm/min with 2 mm; the circle is then
+    # smaller by the 50 µm, less what sampling and drive take away
     words = settings("move.radius=2 move.feedrate=5000 P50N0=2000")
     told = simulated(capsys, str(EXAMPLE), "circle", *words)["result"]
     assert told["feedrate"]["value"] == pytest.approx(447.21, abs=0.01)
@@ -148,7 +152,8 @@ def test_after_an_excess_error_the_velocity_drive_brakes_the_axis(
 def test_a_dry_friction_correction_of_some_micrometres_makes_the_reversals_of_a_circle_smaller(
     capsys: pytest.CaptureFixture[str],
 ) -> None:
-    # 6-34: about 10 µm and 50 ms; the right amplitude is that of the machine's own friction, four times as much is too much
+    # 6-34: about 10 µm and 50 ms; the right amplitude is that of the machine's own friction, four times as
+    # much is too much
     def spike(amplitude: int) -> float:
         words = "move.radius=5 model.coulomb_friction=10 model.static_friction=12 P19N64=5000 P19N65=5000"
         both = settings(f"{words} P19N32={amplitude} P19N33={amplitude}")
@@ -161,7 +166,8 @@ def test_a_dry_friction_correction_of_some_micrometres_makes_the_reversals_of_a_
 def test_the_reversal_error_compensation_makes_reversals_smaller_and_with_the_wrong_sign_larger(
     capsys: pytest.CaptureFixture[str],
 ) -> None:
-    # 7-14; friction keeps the load on its side of the play, and the loop takes its 60 ms to follow the compensation
+    # 7-14; friction keeps the load on its side of the play, and the loop takes its 60 ms to follow the
+    # compensation
     def spike(compensation: int) -> float:
         words = "move.radius=5 model.backlash=0.02 model.coulomb_friction=5 model.resonance=80"
         both = settings(f"{words} P18N0={compensation} P18N1={compensation}")

@@ -141,7 +141,9 @@ def test_a_following_error_above_emax_is_an_alarm() -> None:
 
 
 def moved(real: float, tolerance: float) -> float:
-    """Return the alarm of an axis that was 6 mm behind, which at 60 ms should have moved 0.5 mm in a sample."""
+    """Return the alarm of an axis that was 6 mm behind, which at 60 ms should have moved 0.5 mm in a
+    sample.
+    """
     axis = Axis(mill(TOLERANCE=tolerance))
     axis.sample(6.0, 0.0)
     axis.sample(6.0, real)
@@ -211,7 +213,8 @@ def test_the_output_test_sends_the_command_as_volts() -> None:
 def test_acceleration_anticipation_is_the_printed_formula_with_the_reference_that_it_misses(
     terms: float,
 ) -> None:
-    # 6-34: (Ri - Ri-2j-1 + Ri-2j-2) / (2j + 1) misses - Ri-1: with it the sum is 0 at rest and at a constant speed.
+    # 6-34: (Ri - Ri-2j-1 + Ri-2j-2) / (2j + 1) misses - Ri-1: with it the sum is 0 at rest and at a constant
+    # speed.
     def points(ahead: float, references: list[float]) -> float:
         axis = Axis(mill(TERMS=terms, SHARE=1.0, WHOLE=0.0, AHEAD=ahead))
         for reference in references:

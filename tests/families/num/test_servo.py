@@ -1,4 +1,5 @@
-"""Every worked number of chapter 6 of the NUM manual, Servo-Control, and what chapter 11 adds to its parameters.
+"""Every worked number of chapter 6 of the NUM manual, Servo-Control,
+and what chapter 11 adds to its parameters.
 
 Speeds are per minute, as the words of P30 hold them; the manual's examples give them per second.
 """
@@ -22,7 +23,8 @@ def printed(value: float, decimals: int) -> str:
     return f"{math.floor(value * 10**decimals) / 10**decimals:.{decimals}f}"
 
 
-# ------------------------------------------------------------------------------------- gain and following error
+# ------------------------------------------------------------------------------------- gain and following
+# error
 
 
 def test_6_14_a_gain_of_1_m_per_min_per_mm_is_16_66_per_second_and_60_ms() -> None:
@@ -48,10 +50,7 @@ def test_6_14_kvar_of_the_example_is_4915_16_and_entered_as_4915() -> None:
     assert math.floor(kvar) == 4915
 
 
-@pytest.mark.parametrize(
-    ("unit", "k"),
-    [(0.1, 100), (0.01, 10), (0.001, 1), (0.0001, 0.1), (0.00001, 0.01)],
-)
+@pytest.mark.parametrize(("unit", "k"), [(0.1, 100), (0.01, 10), (0.001, 1), (0.0001, 0.1), (0.00001, 0.01)])
 def test_6_14_and_6_22_coefficient_k_by_internal_unit(unit: float, k: float) -> None:
     """1/10 mm, 1/100 mm, µm, 1/10 µm, 1/100 µm; 1/10000 degree is the fourth one with degrees."""
     plain = num.loop_gain_coefficient(V_MAX, 60.0, UM)
@@ -98,7 +97,8 @@ def test_6_40_an_axis_without_a_time_constant_has_that_of_its_group() -> None:
     assert num.axis_time_constant(50.0, 60.0) == 50.0
 
 
-# ------------------------------------------------------------------------------------- speeds and accelerations
+# ------------------------------------------------------------------------------------- speeds and
+# accelerations
 
 
 def test_6_6_at_most_30000_increments_per_sample() -> None:
@@ -117,7 +117,9 @@ def test_6_10_an_acceleration_is_more_than_1_increment_per_sample_squared() -> N
 
 
 def test_6_43_acceleration_from_speed_and_buildup_time() -> None:
-    """DDM = VITMAX / TV: 100 mm/s in 200 ms are 500 mm/s² (the printed units give another figure, e-p32-formula)."""
+    """DDM = VITMAX / TV: 100 mm/s in 200 ms are 500 mm/s² (the printed units give another figure,
+    e-p32-formula).
+    """
     assert num.buildup_acceleration(V_MAX, 200.0) == pytest.approx(500.0)
 
 
@@ -177,7 +179,8 @@ def test_11_8_the_tolerance_is_2_to_4_windows() -> None:
     assert num.movement_tolerances(10.0) == (20.0, 40.0)
 
 
-# ------------------------------------------------------------------------------------- very high speed machining
+# ------------------------------------------------------------------------------------- very high speed
+# machining
 
 
 @pytest.mark.parametrize(("word", "used"), [(0, 0), (50, 50), (100, 100), (101, 100), (65535, 100)])

@@ -28,12 +28,18 @@ def test_the_example_of_the_manual_is_read(num: Schema) -> None:
     assert file.get(("p.w0_0", "")) == Value(7)
     assert [file.get((f"p.w7_{n}", "")) for n in (0, 1)] == [Value(0x54), Value(10)]
     assert [file.get(("p.w9", n)) for n in ("0", "1", "2", "3", "31")] == [
-        Value(0), Value(1), Value(2), Value(255), Value(255)
-    ]  # fmt: skip
+        Value(0),
+        Value(1),
+        Value(2),
+        Value(255),
+        Value(255),
+    ]
 
 
 def test_the_example_of_the_manual_is_written_byte_for_byte(num: Schema) -> None:
-    """From the words alone: what the file remembers of the table is the four words that P4 has by the header."""
+    """From the words alone: what the file remembers of the table is the four words that P4 has by the
+    header.
+    """
     file = taken(num, SAMPLE)
     assert FORMAT.write(file) == SAMPLE
     assert file.header.extra == {"num_table": {"words": {"P4": "t0n4"}}}
@@ -160,16 +166,28 @@ def test_what_a_word_cannot_hold_is_not_written(
         (["P5N0:t0n2", "#1 0 0"], "line 3, column 6: P5 has 2 words: there is no P5N2"),
         (["P5N2:t0n2", "#1"], "line 2, column 3: P5 has 2 words: there is no P5N2"),
         (["P5N2", "#1"], "line 2, column 3: P5 has 2 words: there is no P5N2"),
-        (["P9N0:t0n32", "#" + " ".join("0" * 11)], "line 3, column 22: a data line contains 10 values at most"),
+        (
+            ["P9N0:t0n32", "#" + " ".join("0" * 11)],
+            "line 3, column 22: a data line contains 10 values at most",
+        ),
         (["P9N0:t0n32", "#0 0", "P9N1:t0n32", "#5"], "line 5, column 2: P9N1 is in line 3 already"),
         (["P5N0:t0n2", "#1  0"], "line 3, column 4: a value is missing: values have one blank"),
         (["P5N0:t0n2", "#"], "line 3, column 2: a value is missing"),
         (["P5N0:t0n2", "#0 100"], "line 3, column 4: P5N1: '100' is not hexadecimal from 0 to FF"),
         (["P5N0:t0n2", "#0 ff"], "line 3, column 4: P5N1: 'ff' is not hexadecimal from 0 to FF"),
-        (["P0N0:t6n1", "#123456789"], "line 3, column 2: P0N0: '123456789' is not hexadecimal from 0 to FFFFFFFF"),
-        (["P18N0:t1n32", "#5 32768"], "line 3, column 4: P18N1: '32768' is not a whole number from -32768 to 32767"),
+        (
+            ["P0N0:t6n1", "#123456789"],
+            "line 3, column 2: P0N0: '123456789' is not hexadecimal from 0 to FFFFFFFF",
+        ),
+        (
+            ["P18N0:t1n32", "#5 32768"],
+            "line 3, column 4: P18N1: '32768' is not a whole number from -32768 to 32767",
+        ),
         (["P21N0:t4n32", "#-1"], "line 3, column 2: P21N0: '-1' is not a whole number from 0 to 99999999"),
-        (["P16N0:t2n64", "#100000000"], "line 3, column 2: P16N0: '100000000' is not a whole number from -99999999"),
+        (
+            ["P16N0:t2n64", "#100000000"],
+            "line 3, column 2: P16N0: '100000000' is not a whole number from -99999999",
+        ),
         (["P22N0:t5n32", "#1.5"], "line 3, column 2: P22N0: '1.5' is not a whole number from 0 to 65535"),
         (["P113N0:t9n1", "#1e5"], "line 3, column 2: P113N0: '1e5' is not a number"),
         (["P113N0:t9n1", "#1E999"], "line 3, column 2: P113N0: '1E999' is not a number"),
@@ -189,7 +207,7 @@ def test_what_a_word_cannot_hold_is_not_written(
         (["P12N0", "#0 0 0 0"], "line 2, column 1: Small NUM has no P12N0"),
         (["P5N0:t0n3", "#0 0 1"], "line 3, column 6: Small NUM has no P5N2"),
     ],
-)  # fmt: skip
+)
 def test_a_table_that_cannot_be_meant_is_told_with_its_place(
     num: Schema, lines: list[str], said: str
 ) -> None:
@@ -201,22 +219,38 @@ def test_a_table_that_cannot_be_meant_is_told_with_its_place(
     [
         (XOFF, "", "line 30, column 1: the table has no Xoff (ALT 19) at its end: it may have been cut off"),
         (f";09\n{XOFF}", "", "line 29, column 10: the table has no Xoff"),
-        (XOFF, "X off\n", "line 30, column 1: the table ends with the character Xoff (ALT 19), not with its name"),
+        (
+            XOFF,
+            "X off\n",
+            "line 30, column 1: the table ends with the character Xoff (ALT 19), not with its name",
+        ),
         (XOFF, f"{XOFF}\nmore", "line 31, column 1: something comes after Xoff"),
         (XOFF, f"{XOFF} ", "line 30, column 2: something comes after Xoff"),
         ("%00000000;09", "%0000000;08", "line 1, column 1: a table begins with '%' and the eight digits"),
         ("%00000000;09", "%000000000;0A", "line 1, column 1: a table begins with '%' and the eight digits"),
         ("%00000000;09\n", "", "line 1, column 1: a table begins with '%'"),
-        ("#1 0;04", "#1 0", "line 13, column 5: the line does not close with ';' and two digits for its length"),
+        (
+            "#1 0;04",
+            "#1 0",
+            "line 13, column 5: the line does not close with ';' and two digits for its length",
+        ),
         ("#1 0;04", "#1 0;04 ", "line 13, column 8: something comes after the length"),
         ("#1 0;04", "#1 0;04\tremark", "line 13, column 8: something comes after the length"),
         ("0 0;0A", "0 0;0a", "line 15, column 12: the length is written with capitals: 0A"),
-        ("#1 0;04", "#1 0;05", "line 13, column 6: the line has 4 characters, 04 in hexadecimal, and gives 05"),
-        ("#1 0;04", "#1 1 0;04", "line 13, column 8: the line has 6 characters, 06 in hexadecimal, and gives 04"),
+        (
+            "#1 0;04",
+            "#1 0;05",
+            "line 13, column 6: the line has 4 characters, 04 in hexadecimal, and gives 05",
+        ),
+        (
+            "#1 0;04",
+            "#1 1 0;04",
+            "line 13, column 8: the line has 6 characters, 06 in hexadecimal, and gives 04",
+        ),
         ("#1 0;04", "", "line 13, column 1: an empty line"),
         ("#1 0;04\n", "#1 0;04\r\n", "line 13, column 8: the line ends otherwise than the first one"),
     ],
-)  # fmt: skip
+)
 def test_what_is_wrong_around_the_words_is_told_with_its_place(
     num: Schema, old: str, new: str, said: str
 ) -> None:
@@ -229,7 +263,9 @@ def test_a_mixed_line_end_is_told_in_both_directions(num: Schema) -> None:
     assert fault(num, mixed).startswith("line 13, column 8: the line ends otherwise than the first one")
 
 
-def test_nothing_is_imported_of_a_table_with_a_fault(num: Schema, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:  # fmt: skip
+def test_nothing_is_imported_of_a_table_with_a_fault(
+    num: Schema, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
     monkeypatch.setattr("amp_studio.formats.import_export.load_schema", lambda family: num)
     path = tmp_path / "bad.par"
     path.write_bytes(SAMPLE.replace("%00000000;09", "%0000000é;09").encode("latin-1"))
@@ -240,9 +276,23 @@ def test_nothing_is_imported_of_a_table_with_a_fault(num: Schema, tmp_path: Path
 # -- words that the schema does not have -----------------------------------------
 
 STRANGE = measured(
-    "P0N0:t6n1", "#00000007", "P5N0:t0n4", "#1 0 0F 2", "P12N0:t1n12", "#0 0 0 -5 0 0 0 0 0 0", "P12N10:t1n12",
-    "#+3 004", "P16N0:t2n66", "#1 2", "P16N64:t2n66", "#7 8", "P107N0:t8n1", "#A B  C", "P130N5:t0n9", "#1",
-)  # fmt: skip
+    "P0N0:t6n1",
+    "#00000007",
+    "P5N0:t0n4",
+    "#1 0 0F 2",
+    "P12N0:t1n12",
+    "#0 0 0 -5 0 0 0 0 0 0",
+    "P12N10:t1n12",
+    "#+3 004",
+    "P16N0:t2n66",
+    "#1 2",
+    "P16N64:t2n66",
+    "#7 8",
+    "P107N0:t8n1",
+    "#A B  C",
+    "P130N5:t0n9",
+    "#1",
+)
 
 
 def test_unknown_words_are_kept_and_written_back_in_their_place(

@@ -15,9 +15,14 @@ from tests.campaigns import examples
 from tests.families.num.small_num import measured, taken
 
 VALUES = {
-    0: (0, 0xFF, "{:X}"), 1: (-32768, 32767, "{}"), 2: (-99_999_999, 99_999_999, "{}"), 4: (0, 99_999_999, "{}"),
-    5: (0, 65535, "{}"), 6: (0, 0xFFFFFFFF, "{:08X}"), 7: (0, 0xFFFF, "{:X}"),
-}  # fmt: skip
+    0: (0, 0xFF, "{:X}"),
+    1: (-32768, 32767, "{}"),
+    2: (-99_999_999, 99_999_999, "{}"),
+    4: (0, 99_999_999, "{}"),
+    5: (0, 65535, "{}"),
+    6: (0, 0xFFFFFFFF, "{:08X}"),
+    7: (0, 0xFFFF, "{:X}"),
+}
 """Type of words -> lowest and highest value (page 1-3), and how the example of page 13-14 spells them."""
 
 
@@ -85,8 +90,8 @@ def changes(schema: Schema, table: str, altered: str) -> set[str] | None:
 def says_one_thing(schema: Schema, table: str, at: int, sign: str) -> bool:
     """Return whether an altered byte is reported, or alters one value; of the first line, only what is there.
 
-    Lengths, headers and counts see all but this: a digit (or sign) that becomes another in a number that still is one
-    of its type, a letter of a text, and the job reference, which the control itself compares.
+    Lengths, headers and counts see all but this: a digit (or sign) that becomes another in a number that
+    still is one of its type, a letter of a text, and the job reference, which the control itself compares.
     """
     found = changes(schema, table, table[:at] + sign + table[at + 1 :])
     if found is None or sign == table[at]:
@@ -108,10 +113,27 @@ def test_an_altered_byte_is_told_or_changes_one_value(
 
 def test_every_altered_byte_of_a_table_is_told_or_changes_one_value(num: Schema) -> None:
     table = measured(
-        "P1N0:t6n2", "#00000004 0000000A", "P5N0:t0n2", "#1 A0", "P9N20:t0n32", "#FF 1 2 3 4 5 6 7 8 9", "P9N30:t0n32",
-        "#A B", "P18N0:t1n32", "#-10 20 3 4 5 6 7 8 9 10", "P21N30:t4n32", "#1000 2", "P96N0:t8n1", "#M. E",
-        "P97N0:t8n3", "#A B CD", "P101N0:t7n1", "#FF", "P113N0:t9n1", "#-1.5",
-    )  # fmt: skip
+        "P1N0:t6n2",
+        "#00000004 0000000A",
+        "P5N0:t0n2",
+        "#1 A0",
+        "P9N20:t0n32",
+        "#FF 1 2 3 4 5 6 7 8 9",
+        "P9N30:t0n32",
+        "#A B",
+        "P18N0:t1n32",
+        "#-10 20 3 4 5 6 7 8 9 10",
+        "P21N30:t4n32",
+        "#1000 2",
+        "P96N0:t8n1",
+        "#M. E",
+        "P97N0:t8n3",
+        "#A B CD",
+        "P101N0:t7n1",
+        "#FF",
+        "P113N0:t9n1",
+        "#-1.5",
+    )
     for at in range(len(table)):
         for sign in " 0169AEFaf+-.,;:#%PNtn\t\r\n\0\x13\x1a~":
             assert says_one_thing(num, table, at, sign), (at, sign)
@@ -122,7 +144,9 @@ def test_every_altered_byte_of_a_table_is_told_or_changes_one_value(num: Schema)
 def test_whatever_is_taken_comes_back_as_it_was(
     num: Schema, seed: int, old: bool, keep_unknown: bool
 ) -> None:
-    """A table that somebody edited: blocks moved, cut apart, without types, of other numbers, with other figures."""
+    """A table that somebody edited: blocks moved, cut apart, without types, of other numbers,
+    with other figures.
+    """
     some = Random(seed)
     lines = [line.rpartition(";")[0] for line in table_of(num, some, whole=False).split("\n")[1:-1]]
     blocks = [

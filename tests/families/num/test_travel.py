@@ -1,4 +1,6 @@
-"""Every worked number of chapters 6 and 7 of the NUM manual that is a word: masks, and the values of its examples."""
+"""Every worked number of chapters 6 and 7 of the NUM manual that is a word: masks,
+and the values of its examples.
+"""
 
 from __future__ import annotations
 
@@ -95,9 +97,27 @@ def test_each_address_and_group_of_these_chapters_has_its_word() -> None:
                 head, _, n = number.partition("N")
                 words.setdefault(head, set()).add(int(n))
     counts = {
-        "P30": 32, "P31": 5, "P32": 64, "P20": 1, "P21": 32, "P56": 8, "P22": 32, "P23": 32, "P57": 32, "P55": 16,
-        "P24": 65, "P52": 1, "P19": 96, "P33": 32, "P53": 1, "P66": 32, "P15": 2, "P16": 32, "P17": 64, "P18": 32,
-    }  # fmt: skip
+        "P30": 32,
+        "P31": 5,
+        "P32": 64,
+        "P20": 1,
+        "P21": 32,
+        "P56": 8,
+        "P22": 32,
+        "P23": 32,
+        "P57": 32,
+        "P55": 16,
+        "P24": 65,
+        "P52": 1,
+        "P19": 96,
+        "P33": 32,
+        "P53": 1,
+        "P66": 32,
+        "P15": 2,
+        "P16": 32,
+        "P17": 64,
+        "P18": 32,
+    }
     assert {head: set(range(count)) for head, count in counts.items()} == words
 
 

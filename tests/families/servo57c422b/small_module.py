@@ -1,4 +1,6 @@
-"""A small servo module for the tests of the AutoMax formats: every kind of register once, and what they all go through."""
+"""A small servo module for the tests of the AutoMax formats: every kind of register once,
+and what they all go through.
+"""
 
 from __future__ import annotations
 
@@ -35,21 +37,39 @@ REGISTERS = {
     "r.limit": "4: {type: integer, quantity: counts, storage: {bits: 16, signed: false}}",
     "r.byte": "5: {type: integer, storage: {bits: 8}}",
     "r.travel": "11: {type: integer, quantity: counts, storage: {unit: counts, bits: 32, words: 2}}",
-    "r.slow": "15: {type: real, unit: counts/s, storage: {unit: counts/s, scale: 65.536, bits: 32, words: 2}}",
-    "r.fast": "17: {type: real, unit: counts/s, storage: {unit: counts/s, scale: 65.536, bits: 32, words: 2, signed: false}}",
-    "r.ramp": "21: {type: real, unit: counts/s2, storage: {unit: counts/s2, scale: 0.065536, bits: 32, words: 2}}",
-    "r.ratio": "25: {type: real, storage: {scale: 16777216, bits: 32, words: 2}, states: [{state: hidden, when: ratio_of_words}]}",
+    "r.slow": (
+        "15: {type: real, unit: counts/s, storage: {unit: counts/s, scale: 65.536, bits: 32, words: 2}}"
+    ),
+    "r.fast": (
+        "17: {type: real, unit: counts/s, storage: {unit: counts/s, scale: 65.536, bits: 32, words: 2,"
+        " signed: false}}"
+    ),
+    "r.ramp": (
+        "21: {type: real, unit: counts/s2, storage: {unit: counts/s2, scale: 0.065536, bits: 32, words: 2}}"
+    ),
+    "r.ratio": (
+        "25: {type: real, storage: {scale: 16777216, bits: 32, words: 2}, states: [{state: hidden, when:"
+        " ratio_of_words}]}"
+    ),
     "r.over": "25: {type: integer, storage: {bits: 16}, states: [{state: hidden, unless: ratio_of_words}]}",
     "r.under": "26: {type: integer, storage: {bits: 16}, states: [{state: hidden, unless: ratio_of_words}]}",
     "r.volts": "28: {type: real, quantity: voltage, storage: {unit: V, scale: 198.4, bits: 16}}",
     "r.modes": "38: {type: bits, storage: {bits: 16, signed: false, notation: hex}}",
     "r.time": "39: {type: real, quantity: time, unit: ms, storage: {unit: ms, scale: 0.8, bits: 16}}",
-    "r.sense": "40: {type: choice, choices: [{key: up, label: Up, raw: 1}, {key: down, label: Down, raw: -1}, {key: odd, label: Odd}]}",
-    "r.marker": '41: {type: boolean, choices: [{key: "yes", label: "On", raw: 1}, {key: "no", label: "Off", raw: 0}]}',
+    "r.sense": (
+        "40: {type: choice, choices: [{key: up, label: Up, raw: 1}, {key: down, label: Down, raw: -1}, {key:"
+        " odd, label: Odd}]}"
+    ),
+    "r.marker": (
+        '41: {type: boolean, choices: [{key: "yes", label: "On", raw: 1}, {key: "no", label: "Off", raw: 0}]}'
+    ),
     "r.mode": "65: {type: bits, storage: {bits: 16, signed: false, notation: hex}, effect: {level: at-once}}",
     "r.status": "72: {type: bits, storage: {bits: 16, signed: false, notation: hex}, access: read}",
     "r.version": "99: {type: text, storage: {notation: ascii, words: 5}, access: read}",
-    "r.point": "132: {type: integer, quantity: counts, storage: {unit: counts, bits: 32, words: 2, word_order: low-first}}",
+    "r.point": (
+        "132: {type: integer, quantity: counts, storage: {unit: counts, bits: 32, words: 2, word_order:"
+        " low-first}}"
+    ),
 }
 
 
@@ -80,7 +100,9 @@ def small_module(folder: Path) -> Schema:
 
 
 def filled(schema: Schema, **said: str) -> ParameterFile:
-    """Return a file with values, written as a person does: ``gain_X="3"``, ``point_X__1="-2"`` for ``X.1``."""
+    """Return a file with values, written as a person does: ``gain_X="3"``, ``point_X__1="-2"`` for
+    ``X.1``.
+    """
     file = ParameterFile(schema)
     for key, text in said.items():
         name, _, instance = key.partition("_")

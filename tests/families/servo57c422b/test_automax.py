@@ -15,8 +15,8 @@ from amp_studio.formats import FormatError, export_file, import_file
 from amp_studio.schema import Schema, Value
 from tests.families.servo57c422b.small_module import filled, taken, told
 
-# The example of section 5.3 as it is printed (page 5-5), line 24999 and its end put right where the text of the
-# page has them out of order.
+# The example of section 5.3 as it is printed (page 5-5), line 24999 and its end put right where the text of
+# the page has them out of order.
 INITIALIZATION = r"""1000 !
 1010 ! Initialize Axis Parameters
 1020 !
@@ -81,9 +81,17 @@ def said_of(file: ParameterFile) -> dict[str, Value]:
 
 def test_a_table_has_a_line_a_register_and_two_for_a_double_word(module: Schema) -> None:
     file = filled(
-        module, gain_X="-5", gain_Y="3", travel_X="40000 counts", setup_X="0x1414", slow_Y="2000 counts/s",
-        point_X__1="-2 counts", volts_X="10 V", sense_X="Down", marker_Y="On",
-    )  # fmt: skip
+        module,
+        gain_X="-5",
+        gain_Y="3",
+        travel_X="40000 counts",
+        setup_X="0x1414",
+        slow_Y="2000 counts/s",
+        point_X__1="-2 counts",
+        volts_X="10 V",
+        sense_X="Down",
+        marker_Y="On",
+    )
     file.header.name = "SHUTTLE"
     assert TABLE.write(file).split("\n") == [
         "! Register table of SHUTTLE, Small module",
@@ -132,8 +140,14 @@ def test_a_table_of_somebody_else_is_read_too(module: Schema) -> None:
 @pytest.mark.parametrize(
     ("text", "said"),
     [
-        ("3 1\n12 5", "line 2, column 1: register 12 is half of Travel (X axis), registers 11, 12, and 11 is missing"),
-        ("11 5", "line 1, column 1: register 11 is half of Travel (X axis), registers 11, 12, and 12 is missing"),
+        (
+            "3 1\n12 5",
+            "line 2, column 1: register 12 is half of Travel (X axis), registers 11, 12, and 11 is missing",
+        ),
+        (
+            "11 5",
+            "line 1, column 1: register 11 is half of Travel (X axis), registers 11, 12, and 12 is missing",
+        ),
         ("! x\n\n  R300 17", "line 3, column 4: register 300 is of no parameter"),
         ("2348 17", "line 1, column 1: register 2348 is of no parameter"),
         ("3 40000", "line 1, column 3: 40000 does not fit the 16 bits of Gain, -32768 to 32767"),
@@ -151,7 +165,7 @@ def test_a_table_of_somebody_else_is_read_too(module: Schema) -> None:
         ("3\tfast", "line 1, column 3: 'fast' is no whole number, as 1984, -1 or 01414H"),
         ("3 0x10", "line 1, column 3: '0x10' is no whole number"),
     ],
-)  # fmt: skip
+)
 def test_a_table_that_cannot_be_meant_is_told_with_its_place(module: Schema, text: str, said: str) -> None:
     assert told(TABLE, module, text).startswith(said)
 
@@ -298,8 +312,12 @@ def test_a_double_precision_variable_has_its_upper_half_first(servo: Schema) -> 
 def test_a_cam_of_positions_is_written_word_by_word(servo: Schema) -> None:
     """Its even registers are the lower half (page 4-57), and those of a ``!`` the upper one."""
     file = ParameterFile(servo, Header(name="CAM"))
-    for name, value in (("cam.mode@X", Value(0x100)), ("cam.points@X", Value(2)),
-                        ("cam.position_points@X.0", Value(0, "counts")), ("cam.position_points@X.1", Value(70000, "counts"))):  # fmt: skip
+    for name, value in (
+        ("cam.mode@X", Value(0x100)),
+        ("cam.points@X", Value(2)),
+        ("cam.position_points@X.0", Value(0, "counts")),
+        ("cam.position_points@X.1", Value(70000, "counts")),
+    ):
         file.set((name.split("@")[0], name.split("@")[1]), value)
     task = TASK.write(file)
     assert "REG_134%=01170H \\ REG_135%=01H \\!" in task
@@ -354,7 +372,9 @@ def test_a_text_is_a_table_if_most_of_its_lines_are_rows() -> None:
 
 
 def test_the_names_of_registers_are_those_of_the_printed_tasks(servo: Schema) -> None:
-    """What two tables of the family say of one register agrees, and each ``!`` has two registers and each ``%`` one."""
+    """What two tables of the family say of one register agrees,
+    and each ``!`` has two registers and each ``%`` one.
+    """
     names = servo.tables["basic-variables"]
     registers = dict(zip(names.column("Variable") or (), names.column("Register") or (), strict=True))
     printed = servo.tables["printed-programs"]

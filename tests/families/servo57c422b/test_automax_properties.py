@@ -1,4 +1,6 @@
-"""Properties of the AutoMax texts: what is written is read, to the register's resolution; what is kept comes back."""
+"""Properties of the AutoMax texts: what is written is read, to the register's resolution;
+what is kept comes back.
+"""
 
 from __future__ import annotations
 
@@ -64,9 +66,19 @@ def test_what_is_written_is_read_to_the_resolution_of_its_register(
 
 
 STATEMENTS = st.sampled_from(
-    ["GOSUB 2000", "DELAY 2 TICKS", "A%=B% AND 037FH", 'PRINT "a \\ ! b"', "IF A@ THEN PGAIN%=1", "FAULT@=(A%<>0)", "{3}",
-     "CMD%=01H", "WAIT ON &\n X", "REG_300%=1"]
-)  # fmt: skip
+    [
+        "GOSUB 2000",
+        "DELAY 2 TICKS",
+        "A%=B% AND 037FH",
+        'PRINT "a \\ ! b"',
+        "IF A@ THEN PGAIN%=1",
+        "FAULT@=(A%<>0)",
+        "{3}",
+        "CMD%=01H",
+        "WAIT ON &\n X",
+        "REG_300%=1",
+    ]
+)
 REMARKS = st.sampled_from(["", " ", "! remark \\ {3}", "REM\tPGAIN%=1"])
 
 
@@ -106,14 +118,41 @@ def test_a_task_with_other_statements_comes_back_as_it_was(module: Schema, task:
 @given(
     text=st.lists(
         st.sampled_from(
-            ["1", "3", "11", "12", " ", "\t", "!", "\\", "&", "\n", "\r\n", "R3 5", "PGAIN%", "=", "-", "0FFH", "REG_11!", "REM",
-             '"', "{3}", "IF ", "é", ".", "99999999999", "\x1a", "REG_65536%", "H"]
+            [
+                "1",
+                "3",
+                "11",
+                "12",
+                " ",
+                "\t",
+                "!",
+                "\\",
+                "&",
+                "\n",
+                "\r\n",
+                "R3 5",
+                "PGAIN%",
+                "=",
+                "-",
+                "0FFH",
+                "REG_11!",
+                "REM",
+                '"',
+                "{3}",
+                "IF ",
+                "é",
+                ".",
+                "99999999999",
+                "\x1a",
+                "REG_65536%",
+                "H",
+            ]
         ),
         max_size=12,
     ).map("".join),
     form=FORMS,
     keep=st.booleans(),
-)  # fmt: skip
+)
 def test_any_text_is_read_or_told_with_its_line(module: Schema, text: str, form: object, keep: bool) -> None:
     place = None
     try:

@@ -25,18 +25,16 @@ def test_a_task_has_an_assignment_a_line_and_acts_last(module: Schema) -> None:
         module, mode_X="0x1", gain_X="5", gain_Y="6", travel_X="-7 counts", fast_X="40000000 counts/s"
     )
     file.header.name = "SHUTTLE"
-    assert (
-        TASK.write(file).split("\n")
-        == [
-            "1000 ! SHUTTLE, Small module",
-            "2000 PGAIN%=5 \\!Gain (X axis), 5",
-            "2010 REG_11!=-7 \\!Travel (X axis), -7 counts",
-            "2020 REG_17!=09C400000H \\!Fast (X axis), 40000000 counts/s",  # more than a signed double word contains
-            "2030 REG_2051%=6 \\!Gain (Y axis), 6",
-            "2040 REG_65%=01H \\!Mode (X axis), 0x0001",  # the module acts on it at once
-            "",
-        ]
-    )
+    assert TASK.write(file).split("\n") == [
+        "1000 ! SHUTTLE, Small module",
+        "2000 PGAIN%=5 \\!Gain (X axis), 5",
+        "2010 REG_11!=-7 \\!Travel (X axis), -7 counts",
+        # more than a signed double word contains
+        "2020 REG_17!=09C400000H \\!Fast (X axis), 40000000 counts/s",
+        "2030 REG_2051%=6 \\!Gain (Y axis), 6",
+        "2040 REG_65%=01H \\!Mode (X axis), 0x0001",  # the module acts on it at once
+        "",
+    ]
     assert taken(TASK, module, TASK.write(file)).values == file.values
 
 
@@ -55,8 +53,14 @@ def test_a_task_may_have_more_settings_than_tens_of_lines(servo: Schema) -> None
     ("text", "said"),
     [
         ("10 REG_300%=1", "line 1, column 4: register 300 is of no parameter"),
-        ("10 ! x\n20 A%=1", "line 2, column 4: A% is the variable of no register: REG_3% is that of register 3"),
-        ("10 REG_12!=1", "line 1, column 4: register 12 is half of Travel (X axis), registers 11, 12, and 11 is missing"),
+        (
+            "10 ! x\n20 A%=1",
+            "line 2, column 4: A% is the variable of no register: REG_3% is that of register 3",
+        ),
+        (
+            "10 REG_12!=1",
+            "line 1, column 4: register 12 is half of Travel (X axis), registers 11, 12, and 11 is missing",
+        ),
         ("10 REG_11%=1", "line 1, column 4: register 11 is half of Travel (X axis)"),
         ("10 PGAIN%=32768", "line 1, column 11: 32768 does not fit the 16 bits of Gain, -32768 to 32767"),
         ("10 PGAIN%=70000", "line 1, column 11: 70000 does not fit the 16 bits of a register"),
@@ -78,10 +82,13 @@ def test_a_task_may_have_more_settings_than_tens_of_lines(servo: Schema) -> None
         ("PGAIN%=1", "line 1, column 1: a line of a task begins with its number"),
         ("10 PGAIN%=1\n10 REG_4%=1", "line 2, column 1: number 10 occurs twice, in line 1 already"),
         ("10 PGAIN%=1\n20 A@=B@ &", "line 2: the last line ends with '&' and goes on nowhere"),
-        ("10 ! x\n20 WAIT &\n  ON X \\PGAIN%=A", "line 2, column 4: 'WAIT & ON X' assigns no value to a register"),
+        (
+            "10 ! x\n20 WAIT &\n  ON X \\PGAIN%=A",
+            "line 2, column 4: 'WAIT & ON X' assigns no value to a register",
+        ),
         ("10 PGAIN%=1 &\n   \\REG_4%=A", "line 1, column 11: PGAIN%: '1 &' is no whole number"),
     ],
-)  # fmt: skip
+)
 def test_a_task_that_cannot_be_meant_is_told_with_its_place(module: Schema, text: str, said: str) -> None:
     assert told(TASK, module, text).startswith(said)
 
@@ -103,7 +110,9 @@ def test_statements_share_a_line_and_remarks_are_no_statements(module: Schema) -
 
 
 def test_what_a_condition_decides_is_no_setting(module: Schema) -> None:
-    """The rest of the line hangs on the condition too: 4090 IF X_AXIS_DONE@ THEN INT_SRC_X! = 0 \\ INT_ENA_X! = 0 (page 4-48)."""
+    """The rest of the line hangs on the condition too:
+    4090 IF X_AXIS_DONE@ THEN INT_SRC_X! = 0 \\ INT_ENA_X! = 0 (page 4-48).
+    """
     text = "10 IF A@ THEN PGAIN%=1 \\ REG_4%=2\n20 REG_2051%=3\n"
     file = taken(TASK, module, text, keep=True)
     assert said_of(file) == {"r.gain@Y": Value(3)}

@@ -49,7 +49,9 @@ def test_a_thousand_lines_with_four_edges_are_four_thousand_counts() -> None:
 
 
 def test_the_unwind_constant_is_the_counts_of_a_revolution() -> None:
-    """Page 4-19, and 5-5 for the first; page 4-48 has 1600000 on an axis whose encoder turns once (e-r34-sample)."""
+    """Page 4-19, and 5-5 for the first; page 4-48 has 1600000
+    on an axis whose encoder turns once (e-r34-sample).
+    """
     assert unwind_constant(4000, 1) == 4000
     assert unwind_constant(4000, 400) == 1600000
     assert unwind_constant(4000, 1, 4) == 1000
@@ -214,7 +216,9 @@ def test_the_printed_program_shares_a_cycle_out() -> None:
 
 
 def test_the_jump_to_the_loop_back_point() -> None:
-    """Page 4-56: the change of speed within a step, as an acceleration: 100 counts in 12.5 ms are 640000 counts/s2."""
+    """Page 4-56: the change of speed within a step, as an acceleration:
+    100 counts in 12.5 ms are 640000 counts/s2.
+    """
     assert cam_jump(0, 100, 12.5) == pytest.approx(640000)
     assert cam_jump(100, 0, 12.5) == pytest.approx(-640000)
 

@@ -1,4 +1,6 @@
-"""An axis of the 57C422B bound from its registers, and its control loop scan by scan, with the page of the manual."""
+"""An axis of the 57C422B bound from its registers, and its control loop scan by scan,
+with the page of the manual.
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,6 @@
-"""Tune commands, gearing, cams and backlash compensation of the 57C422B as scenarios, with the page of the manual."""
+"""Tune commands, gearing, cams and backlash compensation of the 57C422B as scenarios,
+with the page of the manual.
+"""
 
 from __future__ import annotations
 
@@ -31,7 +33,9 @@ def plain_python(monkeypatch: pytest.MonkeyPatch) -> None:
 
 
 def module(**changes: Value | None) -> ParameterFile:
-    """Return the file of page 5-5 with data for the commands; changes by parameter id with ``__`` for the point."""
+    """Return the file of page 5-5 with data for the commands;
+    changes by parameter id with ``__`` for the point.
+    """
     file = file_of()
     for parameter, value in (REGISTERS | {n.replace("__", "."): v for n, v in changes.items()}).items():
         file.set((parameter, "X"), value)
@@ -54,7 +58,8 @@ def values(trace: Trace) -> Mapping[str, float | None]:
 
 
 def test_tune_gains_leaves_its_four_registers_near_the_printed_programs() -> None:
-    # Page 4-30: registers 3, 4, 5 and 7; the programs end at 18700 and 17595, 1575 and 768, 140 and 78, 27 and 28.
+    # Page 4-30: registers 3, 4, 5 and 7; the programs end at 18700 and 17595, 1575 and 768, 140 and 78, 27
+    # and 28.
     trace = run(module(gain__velocity=Value(25, ""), gain__deadband=Value(0, "")), "procedure")
     left = values(trace)
     assert list(left)[:4] == ["deadband", "velocity_gain", "integral_gain", "proportional_gain"]

@@ -14,7 +14,9 @@ PRESS = Path(__file__).parents[3] / "examples" / "57c422b-label-press" / "LABEL_
 
 
 def press(switches: int | None = 0x1D, encoder: int | None = None) -> ParameterFile:
-    """Return the label press with an axis X that stops soon; 01DH is home switch, negative, marker, overtravel switches (5-6)."""
+    """Return the label press with an axis X that stops soon; 01DH is home switch, negative, marker,
+    overtravel switches (5-6).
+    """
     file = open_file(PRESS).file
     file.set(("setup.switches", "X"), None if switches is None else Value(switches))
     if encoder is not None:

@@ -1,4 +1,6 @@
-"""Values as 16-bit registers hold them: what fits, what comes back, and how far it may be from what was written."""
+"""Values as 16-bit registers hold them: what fits, what comes back,
+and how far it may be from what was written.
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,6 @@
-"""Everything a sixth family has to write: facts beside this module, formulas, a text format, a driver, a law, one record."""
+"""Everything a sixth family has to write: facts beside this module, formulas, a text format, a driver,
+a law, one record.
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,6 @@
-"""A sixth family is facts, its own code and one record: every verb knows it, and no generic module was touched."""
+"""A sixth family is facts, its own code and one record: every verb knows it,
+and no generic module was touched.
+"""
 
 from __future__ import annotations
 

@@ -1,7 +1,8 @@
 """Every worked number of the Syntec slides that a formula must give back.
 
-The id of each case begins with the section, counted as in ``parameter_db/syntec/family.yaml``. Comparisons are exact
-or marked. Where a printed number leaves a step out, the formula is asserted and what is printed is beside it.
+The id of each case begins with the section, counted as in ``parameter_db/syntec/family.yaml``. Comparisons
+are exact or marked. Where a printed number leaves a step out,
+the formula is asserted and what is printed is beside it.
 """
 
 from __future__ import annotations
@@ -58,7 +59,9 @@ def test_the_motor_turns_twice_for_a_gear_of_two_to_one() -> None:
 
 
 def test_a_pulse_of_the_setting_example_is_a_micrometre_without_its_gear() -> None:
-    """Section 1.3.1 asks for 1 µ/pulse and leaves the gear out; with it the pulse is half as long (e-61-example)."""
+    """Section 1.3.1 asks for 1 µ/pulse and leaves the gear out;
+    with it the pulse is half as long (e-61-example).
+    """
     assert syntec.pulse_length(10000, 10000) == 1.0
     assert syntec.pulse_length(10000, 10000, 2, 1) == 0.5
 

@@ -15,7 +15,9 @@ SWITCH = {"move.switch": 20.0, "move.marker": 1.0}
 
 
 def mill(**changes: Value) -> ParameterFile:
-    """Return the example mill with axis 1 homed in the positive direction; changes by parameter id with ``__`` for the point."""
+    """Return the example mill with axis 1 homed in the positive direction;
+    changes by parameter id with ``__`` for the point.
+    """
     file = open_file(MILL).file
     given = {"home.direction": Value("positive"), "home.grid": Value(False), "home.offset": Value(0)}
     for parameter, value in (
@@ -73,7 +75,8 @@ def test_a_jog_goes_at_its_speed_and_has_no_increment() -> None:
 
 
 def test_a_first_speed_whose_following_error_is_more_than_two_turns_finds_the_dog() -> None:
-    # 20 m/min at a loop gain of 30/s are 11 mm of following error, two turns of 5 mm: the command ended before the axis was there.
+    # 20 m/min at a loop gain of 30/s are 11 mm of following error, two turns of 5 mm: the command ended
+    # before the axis was there.
     file = mill(home__first_speed=Value(20000, "mm/min"), home__zero_speed_window=Value(1000))
     trace = simulate(file, "home", "1")
     overrun = trace.result["switch_overrun"][0]
@@ -98,7 +101,9 @@ FAST = 3000.0
 def test_a_homing_fails_as_the_slides_print_it(
     move: dict[str, float | str], values: dict[str, Value], code: str
 ) -> None:
-    """Chapter 2, alarms: no index in 5 pitches, dog not left, home grids 0.1 turn apart, not at rest 0.1 s after the stop."""
+    """Chapter 2, alarms: no index in 5 pitches, dog not left, home grids 0.1 turn apart,
+    not at rest 0.1 s after the stop.
+    """
     found = simulate(mill(home__first_speed=Value(FAST, "mm/min"), **values), "home", "1", move)
     assert [alarm.code for alarm in found.alarms] == [code]
     assert found.result["home_position"] == (None, "mm")

@@ -11,7 +11,9 @@ TIME = 1966e-6  # s: Pr3203 = 2000 on a Super series
 
 
 def mill(**figures: float) -> list[float]:
-    """Return the axis of page 1.4.2, 10000 pulses and 10 mm a turn, with the loop gain of 1.5.3; no limits."""
+    """Return the axis of page 1.4.2, 10000 pulses and 10 mm a turn, with the loop gain of 1.5.3; no
+    limits.
+    """
     p = [0.0] * law.PARAMETERS
     p[law.PULSE], p[law.GAIN], p[law.MOST_PULSES], p[law.WHOLE] = 0.001, 30.0, 2047.0, 1.0
     p[law.LIMIT] = p[law.FATAL_LIMIT] = 1e9

@@ -1,4 +1,6 @@
-"""Every way of speaking to a control is a driver: the endpoint or the family chooses it, and the client knows no other."""
+"""Every way of speaking to a control is a driver: the endpoint or the family chooses it,
+and the client knows no other.
+"""
 
 from __future__ import annotations
 
@@ -163,7 +165,9 @@ class Settings(Sheet):
         self.content, self._left, self._cut = held, breaks_after, cut
 
     def encode(self, file: Any, held: bytes) -> bytes:
-        """Put the lines of ``file``, bytes too here, over those that are there; a number that is not there is an error."""
+        """Put the lines of ``file``, bytes too here, over those that are there;
+        a number that is not there is an error.
+        """
         lines = dict(line.split(b"=") for line in held.splitlines())
         for number, value in (line.split(b"=") for line in file.splitlines()):
             if number not in lines:
@@ -195,8 +199,8 @@ def test_what_a_file_does_not_set_stays_as_the_control_has_it() -> None:
     control = Settings(b"1=5\n2=6\n")
     outcome = download(control, WantedContent(partial(control.encode, b"2=7\n"), "s1"), lambda _: "kept")
     assert control.content == b"1=5\n2=7\n"
-    assert outcome.text == (
-        "Download complete and read back equal. Setting 1 is shown with one decimal. "
+    assert (
+        outcome.text == "Download complete and read back equal. Setting 1 is shown with one decimal. "
         "What it contained before is kept in kept."
     )
     assert (outcome.verified, outcome.restart) == (True, "not needed")
@@ -217,8 +221,8 @@ def test_a_break_between_two_settings_says_which_are_new() -> None:
     control = Settings(b"1=5\n2=6\n3=7\n", breaks_after=1)
     with pytest.raises(ConnectionCutError) as caught:
         download(control, WantedContent(partial(control.encode, b"1=8\n2=9\n"), "s1"), lambda _: "kept")
-    assert str(caught.value) == (
-        "the line broke; the control contains the new 1 and the old values of the rest "
+    assert (
+        str(caught.value) == "the line broke; the control contains the new 1 and the old values of the rest "
         "(what it contained before is kept in kept)"
     )
     assert (caught.value.at_control, AT_CONTROL[caught.value.at_control]) == ("mixed", 3)

@@ -75,8 +75,8 @@ def test_a_download_is_kept_sent_restarted_and_read_back(bench: Callable[..., An
     )
     assert outcome.sha256 == hashlib.sha256(NEW).hexdigest()
     assert outcome.kept == "machine.before.amp"
-    assert outcome.text == (
-        "Download complete and read back equal; the control has restarted with it. "
+    assert (
+        outcome.text == "Download complete and read back equal; the control has restarted with it. "
         "What it contained before is kept in machine.before.amp."
     )
     assert shelf.kept == [OLD]

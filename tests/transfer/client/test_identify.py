@@ -22,8 +22,12 @@ def test_identify_names_family_revision_axes_and_checksum(
     assert (found["family"], found["revision"], found["protocol"]) == ("9pc", "emulated", "house")
     assert found["signature"] == load_schema("9pc").signature
     assert found["abilities"] == {
-        "can_send": True, "remembers": True, "all_or_nothing": True, "maps_numbers": False, "lasting_states": ["E-stop"],
-    }  # fmt: skip
+        "can_send": True,
+        "remembers": True,
+        "all_or_nothing": True,
+        "maps_numbers": False,
+        "lasting_states": ["E-stop"],
+    }
     assert (found["in_estop"], found["restart_needed"], found["unreadable"]) == (True, False, None)
     assert run(["identify", address]) == 0
     text = capsys.readouterr().out.splitlines()
@@ -44,26 +48,50 @@ def test_identify_refuses_another_family_than_was_asked_for(
     assert "Unknown protocol 'dnc'. Known: house" in capsys.readouterr().err
 
 
+ADAPTER = SimpleNamespace(
+    device="/dev/ttyUSB0",
+    product="FT232R",
+    description="FT232R - USB",
+    manufacturer="FTDI",
+    vid=0x0403,
+    pid=0x6001,
+    serial_number="A50285BI",
+    location="1-2",
+)
+BARE_PORT = SimpleNamespace(
+    device="/dev/ttyS0",
+    product=None,
+    description="n/a",
+    manufacturer=None,
+    vid=None,
+    pid=None,
+    serial_number=None,
+    location=None,
+)
+FOUND = {
+    "device": "/dev/ttyUSB0",
+    "name": "FT232R",
+    "manufacturer": "FTDI",
+    "usb_id": "0403:6001",
+    "serial_number": "A50285BI",
+    "location": "1-2",
+    "description": "FT232R by FTDI, number A50285BI, USB 0403:6001, in USB socket 1-2",
+}
+
+
 def test_ports_are_listed_with_their_usb_names(
     monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str], tmp_path: Path
 ) -> None:
-    port = SimpleNamespace(device="/dev/ttyUSB0", product="FT232R", description="FT232R - USB", manufacturer="FTDI",
-                           vid=0x0403, pid=0x6001, serial_number="A50285BI", location="1-2")  # fmt: skip
-    bare = SimpleNamespace(device="/dev/ttyS0", product=None, description="n/a", manufacturer=None, vid=None, pid=None,
-                           serial_number=None, location=None)  # fmt: skip
     links = tmp_path / "by-id"
     links.mkdir()
     (links / "usb-FTDI_FT232R-if00").symlink_to("/dev/ttyUSB0")
     monkeypatch.setattr("amp_studio.transfer.links.usb_ports.BY_ID", links)
-    monkeypatch.setattr("serial.tools.list_ports.comports", lambda: [port, bare])
+    monkeypatch.setattr("serial.tools.list_ports.comports", lambda: [ADAPTER, BARE_PORT])
     assert run(["ports", "--json"]) == 0
     assert json.loads(capsys.readouterr().out)["ports"] == [
-        {"device": "/dev/ttyS0", "name": "", "manufacturer": "", "usb_id": "", "serial_number": "",
-         "location": "", "lasting": "", "description": ""},
-        {"device": "/dev/ttyUSB0", "name": "FT232R", "manufacturer": "FTDI", "usb_id": "0403:6001",
-         "serial_number": "A50285BI", "location": "1-2", "lasting": str(links / "usb-FTDI_FT232R-if00"),
-         "description": "FT232R by FTDI, number A50285BI, USB 0403:6001, in USB socket 1-2"},
-    ]  # fmt: skip
+        dict.fromkeys(FOUND, "") | {"device": "/dev/ttyS0"},
+        FOUND | {"lasting": str(links / "usb-FTDI_FT232R-if00")},
+    ]
     assert run(["ports"]) == 0
     assert (
         "/dev/ttyUSB0         FT232R by FTDI, number A50285BI, USB 0403:6001, in USB socket 1-2\n"

@@ -1,4 +1,6 @@
-"""What a control contained is kept byte for byte, whatever it is, under a name nobody has, and checked before it goes back."""
+"""What a control contained is kept byte for byte, whatever it is, under a name nobody has,
+and checked before it goes back.
+"""
 
 from __future__ import annotations
 
@@ -69,7 +71,9 @@ def test_a_parameter_file_that_would_not_come_back_the_same_is_not_written(
 
 
 def test_names_never_clash_and_nothing_is_ever_overwritten(tmp_path: Path) -> None:
-    """Copies of one second have names of their own, and a name of which only a part is taken is left alone."""
+    """Copies of one second have names of their own, and a name of which only a part is taken is left
+    alone.
+    """
     first = keep_image(GARBAGE, tmp_path, "mill")
     stamp = first.name.removesuffix(".img")
     others = {"-2.img": b"mine", "-3.img.sha256": b"mine", "-4.amp": b"mine"}

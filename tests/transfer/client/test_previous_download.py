@@ -38,8 +38,20 @@ def record(path: Path, before: ParameterFile | None, after: ParameterFile) -> Pa
     held, sent = (b"" if file is None else encode_image(file) for file in (before, after))
     kept = keep_image(held, path.parent, "mill", readable=False) if held else None
     digests = [hashlib.sha256(image).hexdigest() if image else "" for image in (held, sent)]
-    add_exchange(path, exchange_now("download", path, "9pc", "tcp://cnc:9600", before=digests[0], after=digests[1],
-                                    state="new", kept=str(kept or ""), changes=changes_of(held, sent)))  # fmt: skip
+    add_exchange(
+        path,
+        exchange_now(
+            "download",
+            path,
+            "9pc",
+            "tcp://cnc:9600",
+            before=digests[0],
+            after=digests[1],
+            state="new",
+            kept=str(kept or ""),
+            changes=changes_of(held, sent),
+        ),
+    )
     return kept
 
 
@@ -78,11 +90,21 @@ def test_without_a_record_or_without_the_kept_copy_it_says_so(path: Path) -> Non
 @pytest.mark.parametrize(
     "line",
     [
-        {"kept": "/dev/zero"}, {"kept": "\0"}, {"kept": "\ud800.img"}, {"kept": ""}, {"kept": ".."},
-        {"changes": [["home.calibration@99", "", "1 mm"], ["no.such", "", "1"], ["home.calibration@1", "", "much"]]},
+        {"kept": "/dev/zero"},
+        {"kept": "\0"},
+        {"kept": "\ud800.img"},
+        {"kept": ""},
+        {"kept": ".."},
+        {
+            "changes": [
+                ["home.calibration@99", "", "1 mm"],
+                ["no.such", "", "1"],
+                ["home.calibration@1", "", "much"],
+            ]
+        },
         {"after": "0" * 64},
     ],
-)  # fmt: skip
+)
 def test_a_damaged_record_is_no_more_than_no_download(path: Path, line: dict[str, object]) -> None:
     record(path, mill(0.0), mill(1.0))
     place = path.with_name("exchanges.jsonl")

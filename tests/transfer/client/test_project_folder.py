@@ -12,9 +12,17 @@ from amp_studio.transfer.client.record import add_exchange, exchange_now
 
 def test_backups_and_copies_belong_to_their_file(tmp_path: Path) -> None:
     for name in (
-        "mill.amp", "mill.amp.bak", "mill.before-20260101-120000.img", "mill.before-20260101-120000.amp",
-        "mill.before-20260301-120000.img", "lathe.amp", "gone.amp.bak", "rules.yaml", "notes.txt", "mill.before-20260101-120000.img.sha256",
-    ):  # fmt: skip
+        "mill.amp",
+        "mill.amp.bak",
+        "mill.before-20260101-120000.img",
+        "mill.before-20260101-120000.amp",
+        "mill.before-20260301-120000.img",
+        "lathe.amp",
+        "gone.amp.bak",
+        "rules.yaml",
+        "notes.txt",
+        "mill.before-20260101-120000.img.sha256",
+    ):
         (tmp_path / name).write_text("")
     add_exchange(tmp_path / "mill.amp", exchange_now("upload", tmp_path / "mill.amp", "9pc", "tcp://a:1"))
     add_exchange(tmp_path / "mill.amp", exchange_now("download", tmp_path / "mill.amp", "9pc", "tcp://b:1"))

@@ -1,4 +1,6 @@
-"""A control whose family nobody has named is known by its answer, and nothing is sent to it that acts on a machine."""
+"""A control whose family nobody has named is known by its answer,
+and nothing is sent to it that acts on a machine.
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,6 @@
-"""Whatever a control contains, a download replaces it, keeps it, and it can be put back, by the command line's verbs."""
+"""Whatever a control contains, a download replaces it, keeps it, and it can be put back,
+by the command line's verbs.
+"""
 
 from __future__ import annotations
 
@@ -204,7 +206,9 @@ def test_without_a_place_to_keep_it_nothing_is_replaced(
 
 @pytest.mark.parametrize("verb", ["download", "restore"])
 def test_only_what_was_approved_is_replaced(verb: str, bench: Callable[[bytes], Bench], mill: Path) -> None:
-    """Somebody changed the control after it was checked: exit 2, both digests in the sentence, nothing replaced or kept."""
+    """Somebody changed the control after it was checked: exit 2, both digests in the sentence,
+    nothing replaced or kept.
+    """
     control = bench(GARBAGE)
     copy = control.folder / "copy.img"
     copy.write_bytes(mill_image())
@@ -234,8 +238,12 @@ def test_the_digest_that_verify_prints_is_the_one_to_pass_on(
     control = bench(mill_image())
     image, file = control.folder / "held.img", control.folder / "held.amp"
     printed = []
-    for verb in (["verify", str(mill), "--with", control.address], ["upload", "--from", control.address, "-o", str(image)],
-                 ["upload", "--from", control.address, "-o", str(file)], ["diff", str(mill), control.address]):  # fmt: skip
+    for verb in (
+        ["verify", str(mill), "--with", control.address],
+        ["upload", "--from", control.address, "-o", str(image)],
+        ["upload", "--from", control.address, "-o", str(file)],
+        ["diff", str(mill), control.address],
+    ):
         run(verb)
         printed.append(control.said().out.splitlines()[-1])
     run(["verify", str(mill), "--with", control.address, "--json"])
@@ -267,8 +275,9 @@ def test_a_file_with_errors_is_not_sent_unless_they_are_accepted(
     assert [line.split()[0] for line in said.splitlines()] == ["error"] * 2 + ["amp-studio:"], (
         "what is wrong with both axes alike is one line"
     )
-    assert said.splitlines()[-1] == (
-        f"amp-studio: {path} has 4 errors: nothing was sent (--accept-errors sends it anyway)"
+    assert (
+        said.splitlines()[-1]
+        == f"amp-studio: {path} has 4 errors: nothing was sent (--accept-errors sends it anyway)"
     )
     assert control.active.read_bytes() == GARBAGE
 

@@ -1,4 +1,6 @@
-"""A download over a slow line makes two passes: what the control contained, what it is to contain, and a sample of the proof."""
+"""A download over a slow line makes two passes: what the control contained, what it is to contain,
+and a sample of the proof.
+"""
 
 from __future__ import annotations
 
@@ -40,8 +42,9 @@ def test_over_9600_baud_a_whole_download_makes_two_passes_and_not_three(slow) ->
 def test_what_was_not_read_is_said(slow) -> None:
     outcome, _ = exchanged(slow)
     assert outcome.text.startswith(
-        "Download complete: the control states the digest of the new image for what it contains, and 6 of 52 pieces, "
-        "chosen at random, were read back equal (amp-studio verify reads everything); the control has restarted with it."
+        "Download complete: the control states the digest of the new image for what it contains, and 6 of 52"
+        " pieces, chosen at random, were read back equal (amp-studio verify reads everything); the control"
+        " has restarted with it."
     )
 
 

@@ -1,4 +1,6 @@
-"""The status of a control over its own protocol: positions, states and faults with what the manual has about them."""
+"""The status of a control over its own protocol: positions,
+states and faults with what the manual has about them.
+"""
 
 from __future__ import annotations
 

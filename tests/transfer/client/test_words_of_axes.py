@@ -1,7 +1,8 @@
 """Words with a bit for each axis: at a download no bit of an axis changes of which the file has nothing.
 
-Where a control describes itself, a build has as many bits as axes, and a file may have fewer: tests/families/grblhal/test_masks_of_axes.py.
-In every other family each file has all axes that a control of the family can have, those that are not there included.
+Where a control describes itself, a build has as many bits as axes, and a file may have fewer:
+tests/families/grblhal/test_masks_of_axes.py. In every other family each file has all axes that a control of
+the family can have, those that are not there included.
 """
 
 from __future__ import annotations
@@ -17,8 +18,11 @@ from tests.families.num.lines.test_peripheral_driver import send
 
 
 def test_only_a_control_that_describes_itself_has_masks_of_as_many_bits_as_it_has_axes() -> None:
-    by_build = {family for family in family_ids()
-                if any(p.first_axis is not None for p in load_schema(family).parameters.values())}  # fmt: skip
+    by_build = {
+        family
+        for family in family_ids()
+        if any(p.first_axis is not None for p in load_schema(family).parameters.values())
+    }
     assert by_build == {family for family in family_ids() if registration_of(family).describe} == {"grblhal"}
 
 
@@ -34,8 +38,11 @@ def test_every_other_word_of_axes_has_a_bit_for_each_axis_on_each_type_of_machin
 
 def test_a_new_num_file_of_three_axes_states_of_every_other_axis_that_it_is_not_there() -> None:
     file = new_file("num", axes=["X", "Y", "Z"])
-    assignments = {instance: value.value for (parameter, instance), value in file.values.items()
-                   if parameter == "axes.assignment"}  # fmt: skip
+    assignments = {
+        instance: value.value
+        for (parameter, instance), value in file.values.items()
+        if parameter == "axes.assignment"
+    }
     assert len(assignments) == 32
     assert [axis for axis, word in assignments.items() if word != 0xFF] == ["0", "1", "2"]
 

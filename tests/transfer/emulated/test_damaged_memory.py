@@ -1,4 +1,6 @@
-"""A damaged memory is refused by name and stays as it is; nothing in it makes an emulated control take half a download."""
+"""A damaged memory is refused by name and stays as it is;
+nothing in it makes an emulated control take half a download.
+"""
 
 from __future__ import annotations
 

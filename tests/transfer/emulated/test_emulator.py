@@ -201,14 +201,14 @@ def test_the_operator_patches_the_image_and_asks_for_the_state(
     assert emulated.command("patch 11=abc") == "refused: patch values are plain numbers"
     assert emulated.command("estop off") == "estop off"
     assert "E-stop" in emulated.command("patch 11=6")
-    assert emulated.command("jump") == (
-        "refused: 'jump' is no command: "
+    assert (
+        emulated.command("jump") == "refused: 'jump' is no command: "
         "estop on|off, autostart on|off, restart, patch KEY=VALUE, status, quit"
     )
     said = emulated.command("status")
     digest = hashlib.sha256(b"1 0\n11 5\n").hexdigest()
-    assert said == (
-        "status estop=off running=on restart-needed=on autostart=on changed-at-control=on "
+    assert (
+        said == "status estop=off running=on restart-needed=on autostart=on changed-at-control=on "
         f"incarnation=1 size=9 sha256={digest}"
     )
     assert upload(HouseDriver(session_at(emulated.address))) == b"1 0\n11 5\n"

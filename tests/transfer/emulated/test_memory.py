@@ -1,4 +1,6 @@
-"""What an emulated control has renamed is on the disk, whole: no power failure finds a name without its bytes."""
+"""What an emulated control has renamed is on the disk, whole:
+no power failure finds a name without its bytes.
+"""
 
 from __future__ import annotations
 

@@ -146,9 +146,7 @@ def test_a_control_cannot_offer_a_window_that_fills_the_line_for_good(lying: Cal
 
 
 def test_more_staged_than_there_is_cannot_be(lying: Callable[..., Any]) -> None:
-    made = lying(
-        lambda _, answer: Ready((1 << 32) - 1) if isinstance(answer, Ready) else answer,
-    )
+    made = lying(lambda _, answer: Ready((1 << 32) - 1) if isinstance(answer, Ready) else answer)
     with pytest.raises(ProtocolMismatchError, match="staged 4294967295 bytes of 175") as caught:
         send(made.session())
     assert caught.value.at_control == "old"
@@ -178,7 +176,9 @@ def test_a_control_that_loses_again_and_again_what_it_was_sent_is_given_up(lying
 
 
 def test_a_byte_every_few_seconds_does_not_keep_a_client_for_ever(lying: Callable[..., Any]) -> None:
-    """One byte more each time would hold it for days: patience starts again only after a step of some size."""
+    """One byte more each time would hold it for days: patience starts again only after a step of some
+    size.
+    """
     made = lying(lambda _, answer: answer, chunk=1, window=1)
     image = bytes(range(256)) * 40
     slow = made.modem.connect

@@ -1,4 +1,6 @@
-"""A download that is stopped at any moment reports truly what the control contains; a commit is answered for in 20 s."""
+"""A download that is stopped at any moment reports truly what the control contains;
+a commit is answered for in 20 s.
+"""
 
 from __future__ import annotations
 

@@ -119,7 +119,9 @@ def test_a_slow_line_has_little_under_way() -> None:
 
 
 def test_an_answer_costs_the_same_however_many_pieces_are_under_way() -> None:
-    """A control may offer 65,536 pieces of one byte: each answer looks at what it is about, not at all of them."""
+    """A control may offer 65,536 pieces of one byte: each answer looks at what it is about,
+    not at all of them.
+    """
 
     pieces, number = 32_000, 0
     window = Window(0, pieces, 1, pieces)

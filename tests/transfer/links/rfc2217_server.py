@@ -1,4 +1,5 @@
-"""pyserial's example of an RFC 2217 server, in a separate process: one client, one port that gives back what it is sent.
+"""pyserial's example of an RFC 2217 server, in a separate process: one client,
+one port that gives back what it is sent.
 
 Prints the number of its TCP port, and each set of line settings it was asked for.
 """

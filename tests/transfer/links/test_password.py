@@ -191,7 +191,9 @@ def test_who_does_not_prove_it_is_not_let_in_and_holds_nobody_up(
 
 
 def _serve_nobody_until_it_hears(listener: SecuredListener, client: socket.socket) -> None:
-    """Listen, and let nobody in, until there is something for a client to read, the end of the connection for one."""
+    """Listen, and let nobody in, until there is something for a client to read,
+    the end of the connection for one.
+    """
     end = time.monotonic() + 60
     while not select.select([client], [], [], 0)[0]:
         assert listener.accept(0.05) is None

@@ -1,4 +1,6 @@
-"""A control in a network shows its certificate and asks for its password, and who attacks either gets nothing and delays nobody."""
+"""A control in a network shows its certificate and asks for its password,
+and who attacks either gets nothing and delays nobody.
+"""
 
 from __future__ import annotations
 
@@ -18,7 +20,7 @@ from amp_studio.transfer.links.security import Security, exposure, read_password
 
 from .secured import CONTROL, HERE, PASSWORD, echo
 
-# -- TLS --------------------------------------------------------------------------------------------------------------
+# -- TLS
 
 
 @pytest.mark.parametrize("options", [f"ca={HERE / 'authority.pem'}", "fingerprint"])
@@ -118,7 +120,7 @@ def test_security_that_does_not_fit_the_address_is_refused(
         listen(replace(parse_endpoint(address), security=security))
 
 
-# -- what a person does -----------------------------------------------------------------------------------------------
+# -- what a person does
 
 
 def test_a_password_file_has_it_in_its_first_line(tmp_path: Path) -> None:

@@ -1,4 +1,6 @@
-"""A serial port is set as it was asked for, belongs to one program, and is missed at once when it is pulled out."""
+"""A serial port is set as it was asked for, belongs to one program,
+and is missed at once when it is pulled out.
+"""
 
 from __future__ import annotations
 

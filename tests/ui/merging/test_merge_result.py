@@ -28,8 +28,10 @@ def test_the_result_goes_into_the_file_as_one_step_once_no_conflict_is_left(
     with qtbot.waitSignal(three.destroyed, timeout=WAIT_MS):
         merge(three, qtbot)
     assert [file.get(a) for a in (EXCESS, CALIBRATION, RAPID)] == [
-        Value(13.0, "mm"), Value(1.0, "mm"), Value(190.0, "mm/s")
-    ]  # fmt: skip
+        Value(13.0, "mm"),
+        Value(1.0, "mm"),
+        Value(190.0, "mm/s"),
+    ]
     assert "Merged with CNC_1" in window.page.bar.text.text()
     window.menus["edit.undo"].trigger()
     assert (file.get(EXCESS), file.get(RAPID)) == (Value(12.0, "mm"), Value(10000.0, "mm/min"))

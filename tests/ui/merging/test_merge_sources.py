@@ -44,8 +44,14 @@ def test_a_file_of_another_family_is_refused_in_one_sentence(
 
 @pytest.mark.parametrize(
     ("names", "excess"),
-    [(["As Last Saved"], 5.0), (["As Opened"], 11.0), (["On Disk"], 5.0), (["Backup"], 11.0), (["Default Values"], 203.2)],
-)  # fmt: skip
+    [
+        (["As Last Saved"], 5.0),
+        (["As Opened"], 11.0),
+        (["On Disk"], 5.0),
+        (["Backup"], 11.0),
+        (["Default Values"], 203.2),
+    ],
+)
 def test_versions_of_the_file_are_sources(
     window: MainWindow, shown: MergeWindow, names: list[str], excess: float, qtbot
 ) -> None:

@@ -72,7 +72,7 @@ def test_a_row_leads_to_its_value_in_the_table(three: MergeWindow, window: MainW
     assert window.selected() == EXCESS
 
 
-# -- choosing ----------------------------------------------------------------------------------------------------
+# -- choosing
 
 
 @pytest.mark.parametrize(("key", "value"), [("0", 11.0), ("a", 12.0), ("b", 13.0)])
@@ -188,7 +188,7 @@ def test_rows_are_copied_as_a_spreadsheet_takes_them(three: MergeWindow) -> None
     assert QGuiApplication.clipboard().text() == "1750 Excess Error\tX\t11 mm\t12 mm\t13 mm\t13 mm"
 
 
-# -- manners -----------------------------------------------------------------------------------------------------
+# -- manners
 
 
 def test_a_screen_reader_is_told_whose_value_it_is_and_whether_the_result_takes_it(

@@ -78,11 +78,15 @@ def run(options: Options) -> int:
                         "id": address[0],
                         "instance": address[1],
                         "values": [
-                            None
-                            if v is None
-                            else MASKED
-                            if parameters[address[0]].secret
-                            else write_value(parameters[address[0]], v)
+                            (
+                                None
+                                if v is None
+                                else (
+                                    MASKED
+                                    if parameters[address[0]].secret
+                                    else write_value(parameters[address[0]], v)
+                                )
+                            )
                             for v in values
                         ],
                     }
@@ -105,12 +109,15 @@ def run(options: Options) -> int:
 
 
 def _by_meaning(options: Options, files: list[ParameterFile]) -> int:
-    """Print what differs between machines of several families, by what their parameters mean; 1 where anything does."""
+    """Print what differs between machines of several families, by what their parameters mean;
+    1 where anything does.
+    """
     from amp_studio.meaning import MeaningError, compare_meanings
 
     if options.output:
         raise UsageError(
-            "machines of several families are compared by meaning: print them, or --json; there is no paper of it"
+            "machines of several families are compared by meaning: print them, or --json; there is no paper"
+            " of it"
         )
     try:
         rows = compare_meanings(files)

@@ -50,7 +50,9 @@ VERB = Verb(
 
 
 def run(options: Options) -> int:
-    """Compare two files, or a file and a control, or a file with another version of itself; 1 where they differ."""
+    """Compare two files, or a file and a control, or a file with another version of itself;
+    1 where they differ.
+    """
     from amp_studio.cli.checks.comparing import difference_json, matched_by_letter_noted, print_comparison
     from amp_studio.files import Merge, by_schema, compare
 
@@ -121,7 +123,9 @@ def _check_sides(options: Options) -> None:
 
 
 def _other_side(options: Options, a: ParameterFile) -> tuple[ParameterFile, str | None, str]:
-    """Return the second side of a comparison, the digest of its image where it is a control's, and its name."""
+    """Return the second side of a comparison, the digest of its image where it is a control's, and its
+    name.
+    """
     from amp_studio.files import backup_path
 
     if options.b:
@@ -142,7 +146,9 @@ def _other_side(options: Options, a: ParameterFile) -> tuple[ParameterFile, str 
 
 
 def _other_axis(file: ParameterFile, target: str, source: str) -> ParameterFile:
-    """Return a file in which the first axis has the values of the second; axes are named by number or letter."""
+    """Return a file in which the first axis has the values of the second; axes are named by number or
+    letter.
+    """
     from amp_studio.files import as_axis, axis_letters
 
     named = {letter.casefold(): axis for axis, letter in axis_letters(file).items()}

@@ -65,7 +65,9 @@ def run(options: Options) -> int:
 
 
 def _wanted(validator: Validator, options: Options) -> Callable[[Finding], bool]:
-    """Return the function that decides whether the fix of a finding is requested; raises UsageError for an unknown rule or parameter."""
+    """Return the function that decides whether the fix of a finding is requested;
+    raises UsageError for an unknown rule or parameter.
+    """
     from amp_studio.schema import resolve_addresses, unknown_name
     from amp_studio.validate import GENERAL_RULES
 

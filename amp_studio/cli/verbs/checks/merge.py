@@ -66,7 +66,8 @@ def run(options: Options) -> int:
         names = ", ".join(result.machine_schema.label(row.address) for row in refitted[:4])
         more = f" and {len(refitted) - 4} more" if len(refitted) > 4 else ""
         note(
-            f"the axis moves otherwise in the result, and the unit follows with the same figure: {names}{more}"
+            "the axis moves otherwise in the result, and the unit follows with the same figure:"
+            f" {names}{more}"
         )
     if not options.dry_run:
         _write(result, options)
@@ -108,7 +109,9 @@ def _check_paths(options: Options) -> None:
 
 
 def _sources(options: Options) -> tuple[ParameterFile, ParameterFile, ParameterFile | None]:
-    """Return ours, theirs and the base. git gives an empty file as the base of a file that both sides added."""
+    """Return ours, theirs and the base. git gives an empty file as the base of a file that both sides
+    added.
+    """
     from amp_studio.files import ParameterFile
 
     ours, theirs = opened(options.ours, options), opened(options.theirs, options)
@@ -153,7 +156,8 @@ def _new_findings(merge: Merge, result: ParameterFile, beside: Path) -> list[Fin
 def _write(result: ParameterFile, options: Options) -> None:
     """Write the result: ours with what changed in it, remarks and order as they are there.
 
-    For git it takes the place of what is there, under the name that ours has, and without a backup: git has it.
+    For git it takes the place of what is there, under the name that ours has, and without a backup:
+    git has it.
     """
     from amp_studio.files import file_content, readable_content, text_of_name, write_atomic
 
@@ -208,7 +212,9 @@ def _document(merge: Merge, result: ParameterFile, new: list[Finding], options: 
 
 
 def _row(merge: Merge, row: Row, result: ParameterFile, secrets: bool) -> dict[str, Any]:
-    """Return a row with the names of the sides; what an entry that the schema does not know contains is not shown."""
+    """Return a row with the names of the sides; what an entry
+    that the schema does not know contains is not shown.
+    """
     from amp_studio.cli.checks.comparing import difference_json, row_json
     from amp_studio.files import Difference
 

@@ -72,7 +72,9 @@ WITH_REASONS = ("text", "json")
 
 
 def run(options: Options) -> int:
-    """Check files, and those in folders: 1 where there are errors, 2 where a file cannot be read, after the others."""
+    """Check files, and those in folders: 1 where there are errors, 2 where a file cannot be read,
+    after the others.
+    """
     from amp_studio.cli.checks.formats import CHECK_FORMATS
     from amp_studio.schema import read_file
 
@@ -149,7 +151,9 @@ def _print(form: CheckFormat, one: CheckResult) -> None:
 
 
 def _files(paths: Sequence[Path]) -> tuple[list[Path], list[CheckResult]]:
-    """Return files as they are named, those in folders in the order of their names, and which folders cannot be read."""
+    """Return files as they are named, those in folders in the order of their names,
+    and which folders cannot be read.
+    """
     from amp_studio.cli.checks.formats import CheckResult
     from amp_studio.files import ENDING
 
@@ -249,7 +253,9 @@ def _check(options: Options, path: Path) -> CheckResult:
 
 
 def _in_motion(file: ParameterFile, *, as_document: bool) -> tuple[object, int]:
-    """Return what the check of the motion found, as text or for a JSON document, and how much of it is bad."""
+    """Return what the check of the motion found, as text or for a JSON document, and how much of it is
+    bad.
+    """
     from amp_studio.cli.motion.text import as_json, text
     from amp_studio.sim import SimulationError, check_motion
 
@@ -264,7 +270,9 @@ def _in_motion(file: ParameterFile, *, as_document: bool) -> tuple[object, int]:
 
 
 def _checked(path: Path, validator: Validator, why: bool) -> FileFindings:
-    """Return the findings of a file, apart from those about values as delivered, of steps that are not reached."""
+    """Return the findings of a file, apart from those about values as delivered,
+    of steps that are not reached.
+    """
     from amp_studio.cli.checks.formats import FileFindings
     from amp_studio.guide import present
 

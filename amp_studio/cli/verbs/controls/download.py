@@ -23,13 +23,18 @@ VERB = Verb(
     at_control=True,
     examples=(
         "amp-studio download MILL_1394.amp --to tcp://127.0.0.1:8193",
-        "amp-studio download MILL_1394.amp --to tcp://127.0.0.1:8193 --to tcp://localhost:8193 --stop-on-failure",
+        (
+            "amp-studio download MILL_1394.amp --to tcp://127.0.0.1:8193 --to tcp://localhost:8193"
+            " --stop-on-failure"
+        ),
     ),
 )
 
 
 def run(options: Options) -> int:
-    """Send a file to a control; 3 if that is not proved afterwards, 4 where it is not known what it contains."""
+    """Send a file to a control; 3 if that is not proved afterwards, 4 where it is not known what it
+    contains.
+    """
     from amp_studio.cli.controls.by_hand import note_by_hand, ways_offered
     from amp_studio.cli.controls.endings import exchange_of, note_errors, print_outcome
     from amp_studio.cli.controls.fleet import check_fleet, download_to_several, is_fleet

@@ -67,7 +67,8 @@ def run(options: Options) -> int:
         )
         return 0
     print(
-        f"{control.name or 'A control'} of the family {control.family}, revision {control.revision or 'unknown'}"
+        f"{control.name or 'A control'} of the family {control.family}, revision"
+        f" {control.revision or 'unknown'}"
     )
     print(f"protocol {control.protocol}" + ("" if abilities.can_send else ", which takes no download"))
     if abilities.can_send:

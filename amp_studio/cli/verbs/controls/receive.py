@@ -80,7 +80,8 @@ def run(options: Options) -> int:
         print(f"{path}: {counted(len(content), 'byte')}{named}")
         if file.padding and not options.keep_padding:
             note(
-                f"{counted(file.padding, 'byte')} 1Ah at its end were taken for padding (--keep-padding keeps them)"
+                f"{counted(file.padding, 'byte')} 1Ah at its end were taken for padding (--keep-padding keeps"
+                " them)"
             )
     return 0
 

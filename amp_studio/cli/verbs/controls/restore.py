@@ -39,8 +39,8 @@ def run(options: Options) -> int:
     elif errors := note_errors(copy.file, path):
         if not copy.is_kept:
             raise UsageError(
-                f"{path} has {errors}, and no image beside it proves that a control contained it: nothing was sent "
-                "(download --accept-errors sends it anyway)"
+                f"{path} has {errors}, and no image beside it proves that a control contained it: nothing was"
+                " sent (download --accept-errors sends it anyway)"
             )
         note(f"{path} goes back with {errors}, as the control contained it")
     with asked_politely() as stop:

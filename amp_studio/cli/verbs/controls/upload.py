@@ -19,7 +19,10 @@ VERB = Verb(
     __doc__,
     *several_controls("--from", dest="source"),
     OUTPUT.but(
-        help="a parameter file; or NAME.img for the image byte for byte, whatever it is; of several controls a folder"
+        help=(
+            "a parameter file; or NAME.img for the image byte for byte, whatever it is; of several controls a"
+            " folder"
+        )
     ),
     ON_FAULT,
     JSON,

@@ -35,7 +35,10 @@ VERB = Verb(
         "--units",
         choices=("file", "metric", "inch", "both"),
         default="file",
-        help="units of the figures; both: those of the file, with the other system's beside them (default: file)",
+        help=(
+            "units of the figures; both: those of the file, with the other system's beside them (default:"
+            " file)"
+        ),
     ),
     VerbArgument("--paper", choices=("a4", "letter"), default="a4", help="paper of a PDF (default: a4)"),
     *TEXT,
@@ -48,7 +51,9 @@ VERB = Verb(
 
 
 def run(options: Options) -> int:
-    """Write the documentation of a file; 1 where the project's template failed and the standard report was written."""
+    """Write the documentation of a file; 1 where the project's template failed
+    and the standard report was written.
+    """
     from amp_studio.dossier import write_report
     from amp_studio.files import real_path
     from amp_studio.report import Contents

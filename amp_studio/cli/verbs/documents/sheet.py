@@ -68,7 +68,9 @@ _LARGEST = 1 << 20  # bytes of a list of what the screen shows
 
 
 def run(options: Options) -> int:
-    """Print or write the sheet; with ``--check`` compare what the screen shows: 1 where something is not as keyed in."""
+    """Print or write the sheet; with ``--check`` compare what the screen shows:
+    1 where something is not as keyed in.
+    """
     from amp_studio.report import counted
     from amp_studio.sheet import SheetError, Ticks, TicksError, make_sheet, ticks_path
     from amp_studio.validate import rules_beside

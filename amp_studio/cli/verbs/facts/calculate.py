@@ -14,10 +14,7 @@ VERB = Verb(
     VerbArgument("formula", nargs="?", help="the formula to calculate", completes=candidates.formulas),
     VerbArgument("arguments", nargs="*", metavar="NAME=VALUE", help="the values the formula needs"),
     sections=("families",),
-    examples=(
-        "amp-studio calculate 9pc",
-        "amp-studio calculate 9pc acceleration_time_s milliseconds=125",
-    ),
+    examples=("amp-studio calculate 9pc", "amp-studio calculate 9pc acceleration_time_s milliseconds=125"),
 )
 
 

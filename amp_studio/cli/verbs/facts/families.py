@@ -34,6 +34,7 @@ def run(options: Options) -> int:
     else:
         for row in rows:
             print(
-                f"{row['id']:10} {row['name']:40} {counted(row['parameters'], 'parameter')}, {counted(row['values'], 'value')}"
+                f"{row['id']:10} {row['name']:40} {counted(row['parameters'], 'parameter')},"
+                f" {counted(row['values'], 'value')}"
             )
     return 0

@@ -126,11 +126,16 @@ def _ways_on(others: Sequence[tuple[Schema, Hit]], sources: list[_Source]) -> It
     if len(sources) == 1:
         name = sources[0].schema.family.family
         yield f"Everything there is: amp-studio guide {name}, by step; amp-studio schema {name}, by group"
-    yield "A word that is missing: add it to synonyms.yaml of the parameter database, or report it (CONTRIBUTING.md)"
+    yield (
+        "A word that is missing: add it to synonyms.yaml of the parameter database, or report it"
+        " (CONTRIBUTING.md)"
+    )
 
 
 def _sources(options: Options) -> tuple[list[_Source], list[str]]:
-    """Return what is searched and for which words: the first may be a family or a file; else it is every family."""
+    """Return what is searched and for which words: the first may be a family or a file;
+    else it is every family.
+    """
     from amp_studio.files import ENDING
     from amp_studio.schema import family_ids
 
@@ -239,7 +244,10 @@ def _page_lines(page: MessagePage, hit: Hit) -> Iterator[str]:
         for finding in linked.findings:
             yield f"  Broken in this file: {finding.message}"
     if page.rules and page.broken == ():
-        yield f"  Checked by {counted(len(page.rules), 'rule')}: {', '.join(linked.rule.id for linked in page.rules)}"
+        yield (
+            f"  Checked by {counted(len(page.rules), 'rule')}:"
+            f" {', '.join(linked.rule.id for linked in page.rules)}"
+        )
     if message.note:
         yield f"  {' '.join(message.note.split())}"
     yield f"  Page {', '.join(message.every_page)}"

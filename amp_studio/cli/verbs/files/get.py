@@ -54,7 +54,9 @@ VERB = Verb(
 
 
 def _print_not_set(options: Options, file: ParameterFile, only: set[Address] | None) -> int:
-    """Print the active values that are not set, those of the first step first; ``only`` these addresses, where given."""
+    """Print the active values that are not set, those of the first step first; ``only`` these addresses,
+    where given.
+    """
     from amp_studio.guide import progress
     from amp_studio.machine import value_row
     from amp_studio.schema import shown as unit_shown

@@ -82,7 +82,9 @@ _MOST = 12
 
 
 def run(options: Options) -> int:
-    """Print the steps of a family, or how far a file has come in them; tick a step, keep its defaults, print the check list."""
+    """Print the steps of a family, or how far a file has come in them; tick a step, keep its defaults,
+    print the check list.
+    """
     from amp_studio.files import Document
     from amp_studio.guide import progress
     from amp_studio.validate import Validator, rules_beside

@@ -56,8 +56,8 @@ def run(options: Options) -> int:
     if migration.written.open and not options.draft:
         names = ", ".join(question.id for question in migration.written.open)
         raise UsageError(
-            f"{len(migration.written.open)} questions are open, nothing was written: {names}. Answer them in a file for --answers, or "
-            "write a draft without their keys with --draft"
+            f"{len(migration.written.open)} questions are open, nothing was written: {names}. Answer them in"
+            " a file for --answers, or write a draft without their keys with --draft"
         )
     if options.output is None:
         return 0

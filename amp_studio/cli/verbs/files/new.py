@@ -19,7 +19,9 @@ VERB = Verb(
     VerbArgument(
         "--like",
         metavar="FILE|EXAMPLE",
-        help="with the values of this file or example, except what was measured on that machine, and passwords",
+        help=(
+            "with the values of this file or example, except what was measured on that machine, and passwords"
+        ),
         completes=candidates.example_names,
     ),
     writes=("path",),

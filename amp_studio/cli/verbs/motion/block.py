@@ -1,4 +1,6 @@
-"""A block, typed: each word, the number it becomes and what it does under a file; without a block, what is active after power-up."""
+"""A block, typed: each word, the number it becomes and what it does under a file; without a block,
+what is active after power-up.
+"""
 
 from __future__ import annotations
 

@@ -63,11 +63,7 @@ VERB = Verb(
         signed=True,
     ),
     VerbArgument(
-        "--replace",
-        action="append",
-        metavar="POSITION=FIGURE",
-        help="another figure at a point",
-        signed=True,
+        "--replace", action="append", metavar="POSITION=FIGURE", help="another figure at a point", signed=True
     ),
     VerbArgument("--delete", action="append", metavar="POSITION", help="a point that goes", signed=True),
     VerbArgument("--clear", action="store_true", help="delete all points of the axis"),
@@ -79,7 +75,10 @@ VERB = Verb(
         "amp-studio calibrate MILL_1394.amp --axis X",
         "amp-studio calibrate MILL_1394.amp --axis X --from laser.csv --dry-run -o errors.svg",
         "amp-studio calibrate MILL_1394.amp --axis X --from laser.csv --sign measured-target",
-        "amp-studio calibrate MILL_1394.amp --axis X --compensation on --from laser.csv --sign measured-target --json --dry-run",
+        (
+            "amp-studio calibrate MILL_1394.amp --axis X --compensation on --from laser.csv --sign"
+            " measured-target --json --dry-run"
+        ),
     ),
 )
 
@@ -202,8 +201,8 @@ def _demand_answers(measurement: Measurement | None) -> None:
         used = asdict(measurement.answers)
         asked = ", ".join(f"{_OPTIONS[name]} {used[name]}" for name in measurement.assumed)
         raise UsageError(
-            f"the points do not name everything: look at it with --dry-run and confirm with {asked}, or give what is true; "
-            "nothing was changed"
+            f"the points do not name everything: look at it with --dry-run and confirm with {asked}, or give"
+            " what is true; nothing was changed"
         )
 
 
@@ -240,7 +239,9 @@ def _edited(
 def _error(
     options: Options, form: TableForm, table: CalibrationTable, at: Fraction, figure: Fraction
 ) -> Fraction:
-    """Return the error that a figure means; measured with the calibration on it comes on top of the table's."""
+    """Return the error that a figure means; measured with the calibration on it comes on top of the
+    table's.
+    """
     from amp_studio.calibration import left_over
 
     error = form.error(table, at, figure)
@@ -302,11 +303,14 @@ def _measured(measurement: Measurement, proposal: Proposal) -> Iterator[str]:
     for text in proposal.notes:
         note(text)
     if measurement.is_circle:
-        yield f"{counted(len(measurement.runs), 'circle')} of a ball-bar; errors of the radius in {shown(used.error_unit)}, {used.sign}"
+        yield (
+            f"{counted(len(measurement.runs), 'circle')} of a ball-bar; errors of the radius in"
+            f" {shown(used.error_unit)}, {used.sign}"
+        )
         return
     yield (
-        f"{len(measurement.targets)} targets, {figures.runs_rising} runs rising and {figures.runs_falling} falling; "
-        f"positions in {shown(used.unit)}, errors in {shown(used.error_unit)}, {used.sign}"
+        f"{len(measurement.targets)} targets, {figures.runs_rising} runs rising and {figures.runs_falling}"
+        f" falling; positions in {shown(used.unit)}, errors in {shown(used.error_unit)}, {used.sign}"
     )
     rows = (
         ("Systematic deviation E", figures.systematic),
@@ -319,7 +323,10 @@ def _measured(measurement: Measurement, proposal: Proposal) -> Iterator[str]:
     for name, value in rows:
         if value is not None:
             yield f"{name}: {value:.5f} {unit}"
-    yield f"Error of both directions: {float(proposal.span_before):.5f} {unit} measured, {float(proposal.span_after):.5f} {unit} expected"
+    yield (
+        f"Error of both directions: {float(proposal.span_before):.5f} {unit} measured,"
+        f" {float(proposal.span_after):.5f} {unit} expected"
+    )
 
 
 def _table_lines(

@@ -79,9 +79,10 @@ def _write(options: Options, file: ParameterFile, checks: Sequence[MotionCheck])
             "<tr>" + "".join(f"<td>{escape(cell)}</td>" for cell in row) + "</tr>\n" for row in rows
         )
         content = (
-            f'<!doctype html>\n<html lang="en"><meta charset="utf-8"><title>{escape(title)}</title>\n'
-            "<style>body{font:14px sans-serif;margin:2em}td,th{text-align:left;padding:.2em .8em;border-bottom:1px solid #ccc}</style>\n"
-            f"<h1>{escape(title)}</h1>\n<p>{escape(summary)}</p>\n<table>\n<tr>"
+            '<!doctype html>\n<html lang="en"><meta'
+            f' charset="utf-8"><title>{escape(title)}</title>\n<style>body{{font:14px'
+            " sans-serif;margin:2em}td,th{text-align:left;padding:.2em .8em;border-bottom:1px solid"
+            f" #ccc}}</style>\n<h1>{escape(title)}</h1>\n<p>{escape(summary)}</p>\n<table>\n<tr>"
             + "".join(f"<th>{cell}</th>" for cell in head)
             + f"</tr>\n{body}</table>\n</html>\n"
         ).encode()

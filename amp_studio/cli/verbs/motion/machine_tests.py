@@ -1,4 +1,6 @@
-"""Programs and procedures that try a machine out, written from its file: inside its travel and speeds, or refused with the reason."""
+"""Programs and procedures that try a machine out, written from its file: inside its travel and speeds,
+or refused with the reason.
+"""
 
 from __future__ import annotations
 

@@ -33,7 +33,10 @@ VERB = Verb(
         "record",
         nargs="?",
         type=path_of,
-        help="identify: CSV of a drive with time, velocity or position, and torque; units in the heads. spindle: the S word, as S1500",
+        help=(
+            "identify: CSV of a drive with time, velocity or position, and torque; units in the heads."
+            " spindle: the S word, as S1500"
+        ),
     ),
     VerbArgument(
         "--list", action="store_true", help="list the scenarios of this family, its axes, and what can be set"
@@ -65,7 +68,10 @@ VERB = Verb(
         action="append",
         default=[],
         metavar="NAME=FROM:TO:STEPS",
-        help="sweep: a parameter, model.… or move.… that is varied; several make a grid; NAME=FROM:TO or NAME=MEAN+-SIGMA with --samples",
+        help=(
+            "sweep: a parameter, model.… or move.… that is varied; several make a grid; NAME=FROM:TO or"
+            " NAME=MEAN+-SIGMA with --samples"
+        ),
     ),
     VerbArgument("--samples", type=count, metavar="N", help="sweep: so many samples instead of all steps"),
     VerbArgument(
@@ -96,7 +102,10 @@ VERB = Verb(
         dest="response",
         type=path_of,
         metavar="FILE.csv",
-        help="identify: a frequency response (frequency_hz, gain_db, phase_deg, coherence), or the record of a chirp",
+        help=(
+            "identify: a frequency response (frequency_hz, gain_db, phase_deg, coherence), or the record of a"
+            " chirp"
+        ),
     ),
     VerbArgument(
         "--turn",
@@ -132,7 +141,10 @@ VERB = Verb(
         "amp-studio simulate MILL_1394.amp probe --axis Z --speed 100",
         "amp-studio simulate MILL_1394.amp travel --axis X,Y --set move.start=-10,-10 --set move.to=-100,-20",
         "amp-studio simulate MILL_1394.amp sweep --axis X -o map.svg",
-        "amp-studio simulate MILL_1394.amp sweep --axis X --over model.inertia_ratio=0.5:2 --over model.resonance=60:90 --samples 200",
+        (
+            "amp-studio simulate MILL_1394.amp sweep --axis X --over model.inertia_ratio=0.5:2 --over"
+            " model.resonance=60:90 --samples 200"
+        ),
         "amp-studio simulate MILL_1394.amp identify record.csv --axis X -o machine.yaml",
         "amp-studio simulate MILL_1394.amp step --axis X --machine machine.yaml",
     ),
@@ -306,7 +318,9 @@ def _identify(options: Options, file: ParameterFile) -> int:
 def _earlier(
     file: ParameterFile, trace: Trace, settings: dict[str, float | str], system: str
 ) -> Trace | None:
-    """Return the same move with the values in the file, to draw under that of the changed ones; None where it has none."""
+    """Return the same move with the values in the file, to draw under that of the changed ones;
+    None where it has none.
+    """
     from amp_studio.sim import SimulationError, simulate
 
     try:

@@ -4,10 +4,13 @@ from __future__ import annotations
 
 from amp_studio.cli.verb import Options, Verb, VerbArgument
 
-_BASH = r"""# amp-studio completion for bash: amp-studio completion bash > ~/.local/share/bash-completion/completions/amp-studio
+_BASH = r"""# amp-studio completion for bash:
+# amp-studio completion bash > ~/.local/share/bash-completion/completions/amp-studio
 _amp_studio() {
     local line=${COMP_LINE:0:COMP_POINT} found
-    mapfile -t COMPREPLY < <(AMP_STUDIO_BREAKS=$COMP_WORDBREAKS "${COMP_WORDS[0]}" __complete --line "$line" 2>/dev/null)
+    mapfile -t COMPREPLY < <(
+        AMP_STUDIO_BREAKS=$COMP_WORDBREAKS "${COMP_WORDS[0]}" __complete --line "$line" 2>/dev/null
+    )
     [[ ${#COMPREPLY[@]} == 1 && ${COMPREPLY[0]} == *= ]] && compopt -o nospace
 }
 complete -o default -o bashdefault -F _amp_studio amp-studio
@@ -28,7 +31,8 @@ _amp_studio() {
 }
 if [[ $zsh_eval_context[-1] == loadautofunc ]]; then _amp_studio "$@"; else compdef _amp_studio amp-studio; fi
 """
-_FISH = r"""# amp-studio completion for fish: amp-studio completion fish > ~/.config/fish/completions/amp-studio.fish
+_FISH = r"""# amp-studio completion for fish:
+# amp-studio completion fish > ~/.config/fish/completions/amp-studio.fish
 function __amp_studio
     set -l typed (commandline -opc) (commandline -ct)
     set -l found ($typed[1] __complete $typed[2..-1] 2>/dev/null)

@@ -1,4 +1,5 @@
-"""An emulated ACR card behind its terminal: a prompt, an echo of every sign, a line obeyed at its end (page 91).
+"""An emulated ACR card behind its terminal: a prompt, an echo of every sign,
+a line obeyed at its end (page 91).
 
 What the guide does not show is marked "assumed" here and in docs/protocols/acr-terminal.md.
 """
@@ -78,7 +79,9 @@ class AcrCard:
         self._out += f"P{self._program:02d}>".encode()
 
     def _done(self, line: str) -> list[str]:
-        """Obey a line; ESAVE, ELOAD, ERASE, VER and HELP are words of the list of page 91, and what they do is assumed."""
+        """Obey a line; ESAVE, ELOAD, ERASE, VER and HELP are words of the list of page 91,
+        and what they do is assumed.
+        """
         match line.strip().upper():
             case "ESAVE":
                 self.settings.save()
@@ -103,7 +106,9 @@ class AcrCard:
         return []
 
     def _live(self, found: re.Match[str]) -> str:
-        """Return a system parameter or a bit as it is now; "" for one that is none (-1 for a set bit is assumed)."""
+        """Return a system parameter or a bit as it is now;
+        "" for one that is none (-1 for a set bit is assumed).
+        """
         number = int(found[2])
         if found[1] == "BIT":
             bit = self.motion.bit(number)
@@ -112,7 +117,9 @@ class AcrCard:
         return "" if value is None else f"{value:.10g}".upper()
 
     def command(self, line: str) -> str:
-        """Do what the operator asks for: ``power`` goes off and on, ``patch`` is a command from another terminal."""
+        """Do what the operator asks for: ``power`` goes off and on,
+        ``patch`` is a command from another terminal.
+        """
         verb, _, rest = line.partition(" ")
         match verb, rest:
             case "power", "":

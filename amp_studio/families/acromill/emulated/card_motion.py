@@ -1,7 +1,9 @@
-"""The machine behind an emulated ACR card: its settings make the axes, and words of the terminal and of AcroMill's screens move them.
+"""The machine behind an emulated ACR card: its settings make the axes,
+and words of the terminal and of AcroMill's screens move them.
 
-Page 91 lists JOG, MOV, HALT, RES and their words, and prints no form of them: how they are written is ASSUMED here, and so is that their
-figures are units, units/s and units/s2. Home and MDI are screens of AcroMill on the PC (pages 43 and 48), which sends its own words to the card.
+Page 91 lists JOG, MOV, HALT, RES and their words, and prints no form of them: how they are written is ASSUMED
+here, and so is that their figures are units, units/s and units/s2. Home and MDI are screens of AcroMill on
+the PC (pages 43 and 48), which sends its own words to the card.
 """
 
 from __future__ import annotations
@@ -47,7 +49,8 @@ class CardMotion:
         self._homing: list[list[str]] = []
         """Axes that are still homed, those of one priority together (page 65)."""
         self._moves: list[dict[str, float]] = []
-        """Moves at rapid that follow the present one: to the intermediate point, to the reference point (page 28)."""
+        """Moves at rapid that follow the present one: to the intermediate point,
+        to the reference point (page 28)."""
 
     # -- what it is doing -------------------------------------------------------------------------
 
@@ -247,7 +250,9 @@ class CardMotion:
         self._machine.line(targets, feed)
 
     def _axis(self, name: str) -> SimulatedAxis:
-        """Return an axis as the settings make it now; one that EXC has stopped is taken up again. Raises SimulationError."""
+        """Return an axis as the settings make it now; one that EXC has stopped is taken up again.
+        Raises SimulationError.
+        """
         if self._settings.values != self._bound and not self._machine.is_busy:
             self._bound, self._file = dict(self._settings.values), None
             for other, axis in self._machine.axes.items():

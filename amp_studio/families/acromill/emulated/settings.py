@@ -1,7 +1,7 @@
 """The settings of an emulated ACR card: what a command sets, and what it keeps without power.
 
-Written from pages 91, 107 and 113 to 135 of the AcroMill user's guide; it shares nothing with the driver and the text
-formats. What the guide does not show is marked "assumed" here and in docs/protocols/acr-terminal.md.
+Written from pages 91, 107 and 113 to 135 of the AcroMill user's guide; it shares nothing with the driver and
+the text formats. What the guide does not show is marked "assumed" here and in docs/protocols/acr-terminal.md.
 """
 
 from __future__ import annotations
@@ -21,9 +21,23 @@ LARGEST_P = 16_383  # assumed; the guide shows P09984 and P12345
 MOST_POSITIONS = 1_000  # of a ballscrew table (assumed)
 
 _NUMBER = r"[+-]?(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:E[+-]?[0-9]{1,3})?"
-_BY_AXIS = {"PPU": "10000", "MULT": "4", "TLM": "10", "PGAIN": "0.00244", "IGAIN": "0", "IDELAY": "0", "ILIMIT": "0",
-            "DGAIN": "0", "DWIDTH": "0", "FFVEL": "0", "FFACC": "0", "FBVEL": "0", "LOPASS": ""}  # fmt: skip
-"""Commands of an axis -> what a card without saved settings begins with: the defaults of pages 59 to 62; "" for a filter that is off."""
+_BY_AXIS = {
+    "PPU": "10000",
+    "MULT": "4",
+    "TLM": "10",
+    "PGAIN": "0.00244",
+    "IGAIN": "0",
+    "IDELAY": "0",
+    "ILIMIT": "0",
+    "DGAIN": "0",
+    "DWIDTH": "0",
+    "FFVEL": "0",
+    "FFACC": "0",
+    "FBVEL": "0",
+    "LOPASS": "",
+}
+"""Commands of an axis -> what a card without saved settings begins with: the defaults of pages 59 to 62;
+"" for a filter that is off."""
 _LISTED = """
 ? ABS ACC ADC ALL ALM AS ATTACH AUT AXIS BASE BKL BLK BLM BRESET CAM CLEAR CLOCK CLOSE CLR COM1 COM2 CONFIG
 CPU DEC DETACH DIAG DIM DST DWL END F FIFO FLASH FLZ FOV FREQ FWD GAIN GEAR GOSUB GOTO HALT HDW HSINT IF IHPOS
@@ -96,9 +110,10 @@ _ARGUMENT = {
     "EXC": _form(rf"\s*AXIS(?P<i>[0-7])(?:\s+{_V}|(?=\s*$))", lambda found: f"AXIS{found['i']}"),
     "NOTCH": _form(
         rf"\s*(?P<i>[{AXES}])\s*(?:\(\s*(?P<v>{_NUMBER})\s*,\s*(?P<w>{_NUMBER})\s*\))?\s*",
-        lambda found: found["i"].upper(), 2,
+        lambda found: found["i"].upper(),
+        2,
     ),
-}  # fmt: skip
+}
 _DAC = re.compile(rf"DAC([0-7])\s+GAIN(?:\s+({_NUMBER}))?\s*", re.IGNORECASE)
 _P = re.compile(rf"P([0-9]{{1,5}})\s*=\s*(?:({_NUMBER})|P([0-9]{{1,5}}))\s*", re.IGNORECASE)
 _PRINT = re.compile(r"(?:PRINT\s+|\?\s*)P([0-9]{1,5})\s*", re.IGNORECASE)
@@ -141,7 +156,9 @@ class CardSettings:
         self._memory.remove(SAVED)
 
     def obey(self, line: str) -> list[str]:
-        """Obey a line and return what the card shows; raises CommandError, with what came before it in the line done."""
+        """Obey a line and return what the card shows; raises CommandError,
+        with what came before it in the line done.
+        """
         text = line.strip()
         if not text:
             return []
@@ -188,7 +205,9 @@ class CardSettings:
         return []
 
     def _ballscrew(self, word: str) -> list[str]:
-        """Take a word of the BSC input file (page 107), or show the words of an axis; the command in front is assumed."""
+        """Take a word of the BSC input file (page 107), or show the words of an axis;
+        the command in front is assumed.
+        """
         found = _BSC.fullmatch(word)
         if found is None:
             raise CommandError("Syntax error")

@@ -1,7 +1,10 @@
-"""The form of a command that sets parameters, taken from the schema: ``NOTCH {i}({notch.frequency}, {notch.width})``.
+"""The form of a command that sets parameters, taken from the schema: ``NOTCH {i}({notch.frequency},
+{notch.width})``.
 
-``{i}`` is the instance, ``{k}`` its place from 0, ``{n}`` its number, ``{v}`` the value of the parameter that names the command, and
-``{other.id}`` that of another one. Blanks between signs may be there or not (``TLM X 2``, ``TLM X4``, page 115).
+``{i}`` is the instance, ``{k}`` its place from 0, ``{n}`` its number, ``{v}`` the value of the parameter that
+names the command, and
+``{other.id}`` that of another one. Blanks between signs may be there or not (``TLM X 2``, ``TLM X4``,
+page 115).
 """
 
 from __future__ import annotations
@@ -65,7 +68,8 @@ class Command:
     def __init__(self, template: str, settings: tuple[CommandSetting, ...]) -> None:
         head, _, tail = template.partition(" ")
         self.word, self.form = ("", template) if "{" in head else (head.upper(), tail)
-        """A word in front of all arguments, which need not be repeated: PPU, but not the DAC of ``DAC{k} GAIN``."""
+        """A word in front of all arguments, which need not be repeated: PPU,
+        but not the DAC of ``DAC{k} GAIN``."""
         self.settings = settings
         self._by_instance = {s.instance.casefold(): s for s in settings}
         self._by_place = {s.place: s for s in settings}
@@ -114,7 +118,9 @@ class Command:
 
 
 def commands_of(schema: Schema, machine: str) -> list[Command]:
-    """Return the commands of a family; parameters with one form (``P{i}={v}``) share it, by their instances."""
+    """Return the commands of a family; parameters with one form (``P{i}={v}``) share it, by their
+    instances.
+    """
     return _commands(schema, machine, _usual_form)
 
 

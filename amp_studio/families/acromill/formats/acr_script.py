@@ -1,12 +1,13 @@
-"""The script of commands that sets an ACR controller, as the terminal of AcroMill sends them (pages 91 and 113 to 135).
+"""The script of commands that sets an ACR controller,
+as the terminal of AcroMill sends them (pages 91 and 113 to 135).
 
-A setting is written in the form that its parameter names: ``PPU X4096``, ``EXC AXIS0 4``, ``NOTCH X(500, 50)``. One
-setting is in a line; several axes behind one command are read too, as ``PPU X4096 Y4096`` is printed (page 114).
-Written are scales, signs and limits before the gains they make safe (see ``ORDER``).
+A setting is written in the form that its parameter names: ``PPU X4096``, ``EXC AXIS0 4``, ``NOTCH X(500,
+50)``. One setting is in a line; several axes behind one command are read too, as ``PPU X4096 Y4096`` is
+printed (page 114). Written are scales, signs and limits before the gains they make safe (see ``ORDER``).
 ``REM`` begins a remark (page 128).
 
-A start-up program is such a script among other commands. Lines that set nothing are kept in their place, and a setting is written
-back with every sign that it had; only a figure whose value has changed is another one.
+A start-up program is such a script among other commands. Lines that set nothing are kept in their place, and
+a setting is written back with every sign that it had; only a figure whose value has changed is another one.
 """
 
 from __future__ import annotations
@@ -77,20 +78,38 @@ _OF_A_PROGRAM = re.compile(
     r"\s*(?:[0-9]+\s+[A-Z]|(?P<assigned>P|BIT)[0-9]+\s*=|[FXYZABCUV]\s*[-+.0-9]|(?P<word>[A-Z]+)[0-9]*(?![A-Z]))",
     re.IGNORECASE,
 )
-"""A line with a number, as of a PLC program (page 114); an assignment (pages 45 and 128); a feed or a move (page 115); a command."""
+"""A line with a number, as of a PLC program (page 114); an assignment (pages 45 and 128);
+a feed or a move (page 115); a command."""
 
-ORDER = ("PPU", "MULT", "DAC", "EXC", "TLM", "LOPASS", "NOTCH", "DWIDTH", "DGAIN", "FBVEL", "PGAIN", "IDELAY", "ILIMIT",
-         "IGAIN", "FFVEL", "FFACC")  # fmt: skip
-"""The order in which settings are written, by the word of their command; the others follow in the manual's order.
+ORDER = (
+    "PPU",
+    "MULT",
+    "DAC",
+    "EXC",
+    "TLM",
+    "LOPASS",
+    "NOTCH",
+    "DWIDTH",
+    "DGAIN",
+    "FBVEL",
+    "PGAIN",
+    "IDELAY",
+    "ILIMIT",
+    "IGAIN",
+    "FFVEL",
+    "FFACC",
+)
+"""The order in which settings are written, by the word of their command;
+the others follow in the manual's order.
 
-A controller obeys line by line, so a gain that came before its scale, sign or limit would move an axis with the old one.
-The guide sets pulses, counting, polarity and error band first (page 114), then the torque limit and the damping before
-P Gain, the integral and the feedforwards (page 115). Filters and the delay and limit of the integral come before the
-gains they limit; that much is ours.
+A controller obeys line by line, so a gain that came before its scale, sign or limit would move an axis with
+the old one. The guide sets pulses, counting, polarity and error band first (page 114), then the torque limit
+and the damping before P Gain, the integral and the feedforwards (page 115). Filters and the delay and limit
+of the integral come before the gains they limit; that much is ours.
 """
 
 
-# -- reading -------------------------------------------------------------------------------------------------------
+# -- reading
 
 
 @dataclass
@@ -180,7 +199,9 @@ def _lines(text: str, commands: list[Command], words: set[str]) -> Iterator[_Scr
 
 
 def _is_of_a_program(text: str, words: set[str]) -> bool:
-    """Return whether a line that sets nothing here is another command; one with the word of a setting is a slip."""
+    """Return whether a line that sets nothing here is another command;
+    one with the word of a setting is a slip.
+    """
     found = _OF_A_PROGRAM.match(text)
     if found is None:
         return False
@@ -206,9 +227,11 @@ def _check_letters(lines: list[_ScriptLine], letters: Sequence[str]) -> None:
                 axis, at = other[setting.instance]
                 here = letters.index(setting.instance)
                 line.fault = FormatError(
-                    f"{setting.instance} is AXIS{axis} of this program (line {at}), and here it is AXIS{here}",
-                    line.number, argument.column,
-                )  # fmt: skip
+                    f"{setting.instance} is AXIS{axis} of this program (line {at}), and here it is"
+                    f" AXIS{here}",
+                    line.number,
+                    argument.column,
+                )
         if line.fault is not None:
             line.arguments = []
 
@@ -261,7 +284,9 @@ def _not_read(line: _ScriptLine, at: int, known: list[Command]) -> FormatError:
 
 
 def _set_aside_repeated(lines: list[_ScriptLine]) -> None:
-    """Take what is set more than once for not understood: which value counts, the run of the script decides."""
+    """Take what is set more than once for not understood: which value counts, the run of the script
+    decides.
+    """
     counts = Counter(a.setting for line in lines for a in line.arguments)
     twice = {setting for setting, count in counts.items() if count > 1}
     for line in lines:
@@ -314,7 +339,7 @@ def _recognises(text: str) -> bool:
     return any(line.arguments for line in lines)
 
 
-# -- writing -------------------------------------------------------------------------------------------------------
+# -- writing
 
 
 def _write(file: ParameterFile) -> str:
@@ -365,7 +390,9 @@ def _row(file: ParameterFile, setting: CommandSetting, system: str) -> str:
 def _filled(
     file: ParameterFile, layout: list[str], rows: dict[Address, str], units: list[str]
 ) -> Iterator[str]:
-    """Yield the lines of a kept script with the values of now; a new setting comes after all that go before it."""
+    """Yield the lines of a kept script with the values of now;
+    a new setting comes after all that go before it.
+    """
     machine = file.machine
     commands = [*commands_of(file.schema, machine), *program_commands_of(file.schema, machine)]
     kept_lines = {n: _kept_line(row, n, commands) for n, row in enumerate(layout) if _is_set(row)}
@@ -427,7 +454,9 @@ def _unit_remark(file: ParameterFile, text: str, system: str) -> str:
 
 
 def _with_values(file: ParameterFile, line: _ScriptLine, system: str) -> str:
-    """Return a line of a script with the values of now, every other sign as it was; empty where none of them is set."""
+    """Return a line of a script with the values of now, every other sign as it was;
+    empty where none of them is set.
+    """
     text, is_any = line.text, False
     for argument in reversed(line.arguments):
         if not _row(file, argument.setting, system):

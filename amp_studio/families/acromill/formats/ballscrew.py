@@ -1,6 +1,8 @@
-"""The BSC input file of an ACR controller: ballscrew compensation, a word of one position on each line (page 107).
+"""The BSC input file of an ACR controller: ballscrew compensation,
+a word of one position on each line (page 107).
 
-``X0E.00325`` adds 0.00325 at position 0 of X, which is home; the positions of an axis follow each other without a gap.
+``X0E.00325`` adds 0.00325 at position 0 of X, which is home;
+the positions of an axis follow each other without a gap.
 """
 
 from __future__ import annotations
@@ -60,6 +62,5 @@ def _write(file: ParameterFile) -> str:
 
 
 FORMAT = TextFormat(
-    "bsc", "ballscrew compensation of an ACR controller", ".bsc", _recognises, _read, _write,
-    newline="\r\n",
-)  # fmt: skip
+    "bsc", "ballscrew compensation of an ACR controller", ".bsc", _recognises, _read, _write, newline="\r\n"
+)

@@ -1,7 +1,7 @@
 """Ballscrew compensation: appendix A.
 
-A table is one text of words parted by blanks, as the lines of the file the control reads: ``X0E.00325``, the letter of
-the axis, the position counted from home, and what is added there.
+A table is one text of words parted by blanks, as the lines of the file the control reads: ``X0E.00325``, the
+letter of the axis, the position counted from home, and what is added there.
 """
 
 from __future__ import annotations
@@ -27,10 +27,11 @@ def ballscrew_difference(position: float, measured: Sequence[float]) -> float:
 
 
 def ballscrew_words(axis: str, differences: Sequence[float], home: float) -> str:
-    """Table of an axis from the compensation at positions 0, 1, 2, …, begun at the position of home (page 107).
+    """Table of an axis from the compensation at positions 0, 1, 2, …,
+    begun at the position of home (page 107).
 
-    Positions before home wrap around to its end. With home at 2 and 42 positions, position 2 is word 0 and positions 0
-    and 1 are words 40 and 41.
+    Positions before home wrap around to its end. With home at 2 and 42 positions, position 2 is word 0 and
+    positions 0 and 1 are words 40 and 41.
     """
     if not re.fullmatch("[A-Z]", axis):
         raise ValueError(f"{axis!r} is no letter of an axis.")
@@ -53,7 +54,9 @@ def _figure(difference: float) -> str:
 
 
 def is_ballscrew_table(axis: str, table: str) -> bool:
-    """Whether a text is a table of this axis: a word for each position from 0 on, without a gap (page 107)."""
+    """Whether a text is a table of this axis: a word for each position from 0 on, without a gap (page
+    107).
+    """
     words = [_WORD.fullmatch(word) for word in table.split()]
     return bool(words) and all(
         word is not None and word[1] == axis and word[2] == str(n) for n, word in enumerate(words)
@@ -66,6 +69,8 @@ def ballscrew_positions(table: str) -> float:
 
 
 def ballscrew_offset(primary: float, secondary: float, backlash: float) -> float:
-    """Ballscrew compensation at work: secondary less primary setpoint, less backlash where it is used (page 107)."""
+    """Ballscrew compensation at work: secondary less primary setpoint,
+    less backlash where it is used (page 107).
+    """
     given = finite("The secondary setpoint", secondary) - finite("The primary setpoint", primary)
     return given - finite("Backlash", backlash)

@@ -8,8 +8,8 @@ from amp_studio.validate import finite, not_negative, positive
 def ramp_for(speed: float, seconds: float) -> float:
     """Ramp in units/s² that reaches a speed in units a minute in a time (page 115).
 
-    0 to 3000 turns a minute, which are 50 a second, in 0.1 s: 500. Page 115 sets this ramp for a move at 500 turns a
-    minute and expects 0.1 s there too; that takes 17 ms.
+    0 to 3000 turns a minute, which are 50 a second, in 0.1 s: 500. Page 115 sets this ramp for a move at 500
+    turns a minute and expects 0.1 s there too; that takes 17 ms.
     """
     return finite("The speed", speed) / 60.0 / positive("The time", seconds)
 
@@ -23,7 +23,9 @@ def ramp_time(speed: float, ramp: float) -> float:
 
 
 def index_time(distance: float, speed: float) -> float:
-    """Time in s of a move at a speed in units a minute, its ramps left out (page 115): 15 turns at 500 take 1.8 s."""
+    """Time in s of a move at a speed in units a minute, its ramps left out (page 115):
+    15 turns at 500 take 1.8 s.
+    """
     return abs(finite("The distance", distance)) * 60.0 / positive("The speed", speed)
 
 

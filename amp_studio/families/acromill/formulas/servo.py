@@ -12,7 +12,7 @@ LOPASS_SHARE = 0.1
 """The low-pass frequency must not exceed this part of the servo update frequency (page 128)."""
 
 
-# --------------------------------------------------------------------------------- gains
+# -- gains
 
 
 def proportional_gain(volts: float, pulses: float) -> float:
@@ -39,7 +39,8 @@ def velocity_feedforward(p_gain: float, following_error: float, velocity: float)
 def torque_limit(amplifier_amps: float, amplifier_volts: float, motor_amps: float, percent: float) -> float:
     """Torque Limits in volts for a share of what the motor may have continuously (page 115).
 
-    15 A at 10 V and a motor of 6 A: 100 % is 10 / 15 × 6 = 4 V and 10 % is 0.4 V, where the guide prints TLM X4.
+    15 A at 10 V and a motor of 6 A: 100 % is 10 / 15 × 6 = 4 V and 10 % is 0.4 V,
+    where the guide prints TLM X4.
     """
     full = positive("The input of the amplifier", amplifier_volts) / positive("Its current", amplifier_amps)
     return (
@@ -55,11 +56,13 @@ def dac_gain(bits: float, volts: float) -> float:
     return 2.0 ** (whole("The number of bits", bits) - 1) / positive("The range", volts)
 
 
-# ------------------------------------------------------------------------- sampling and filters
+# -- sampling and filters
 
 
 def servo_rate(period_us: float) -> float:
-    """Servo update frequency in Hz for a period in µs (pages 113 and 128): 500 µs are 2000 Hz, 400 µs 2500 Hz."""
+    """Servo update frequency in Hz for a period in µs (pages 113 and 128): 500 µs are 2000 Hz,
+    400 µs 2500 Hz.
+    """
     return 1e6 / positive("The servo period", period_us)
 
 
@@ -79,8 +82,8 @@ def lopass_limit(servo_hz: float) -> float:
 def filter_gain(sections: Sequence[Sequence[float]], frequency_hz: float, servo_hz: float) -> float:
     """Magnitude of the two cascaded filters at a frequency, from their coefficients (page 128).
 
-    A section is (a0, a1, a2, b1, b2) of (a0 + a1/z + a2/z²) / (1 - b1/z - b2/z²); z is on the unit circle at that
-    frequency. How LOPASS and NOTCH fill the coefficients is not printed.
+    A section is (a0, a1, a2, b1, b2) of (a0 + a1/z + a2/z²) / (1 - b1/z - b2/z²); z is on the unit circle at
+    that frequency. How LOPASS and NOTCH fill the coefficients is not printed.
     """
     angle = 2.0 * math.pi * not_negative("The frequency", frequency_hz)
     delay = cmath.exp(-1j * angle / positive("The servo update frequency", servo_hz))

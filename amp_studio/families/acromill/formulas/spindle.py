@@ -6,7 +6,9 @@ from amp_studio.validate import finite, not_negative, positive
 
 
 def spindle_scaling(volts: float, highest_rpm: float) -> float:
-    """Spindle Scaling in V/rpm of a drive with its highest speed at ``volts`` (page 77): 10 V, 3000 rpm: 0.00333."""
+    """Spindle Scaling in V/rpm of a drive with its highest speed at ``volts`` (page 77): 10 V, 3000 rpm:
+    0.00333.
+    """
     return positive("The voltage", volts) / positive("The highest speed", highest_rpm)
 
 

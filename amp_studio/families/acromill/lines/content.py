@@ -1,6 +1,8 @@
-"""What an ACR card contains: a script that would set it as it is, and its ballscrew words, under a line that names the kind.
+"""What an ACR card contains: a script that would set it as it is, and its ballscrew words,
+under a line that names the kind.
 
-A setting is a line in the form of its command. One that the card has and that is off is its name alone: ``LOPASS X``.
+A setting is a line in the form of its command. One that the card has and that is off is its name alone:
+``LOPASS X``.
 """
 
 from __future__ import annotations
@@ -40,7 +42,9 @@ _NAMED = 5
 
 @dataclass
 class CardContent:
-    """A content taken apart; names are those of commands (``PPU X``) and of ballscrew positions (``BSC X0``)."""
+    """A content taken apart; names are those of commands (``PPU X``) and of ballscrew positions (``BSC
+    X0``).
+    """
 
     system: str
     figures: dict[str, tuple[str, ...]] = field(default_factory=dict)
@@ -84,7 +88,9 @@ class CardContent:
         return {**self.figures, **{name: (figure,) for name, figure in self.ballscrew.items()}}
 
     def lines(self) -> dict[str, str]:
-        """Return the line that sets each setting, in the order in which they are sent; the name alone if it is off."""
+        """Return the line that sets each setting, in the order in which they are sent;
+        the name alone if it is off.
+        """
         lines = {}
         for setting in settings():
             figures = self.figures.get(setting.name)
@@ -127,12 +133,15 @@ class AcrContent(TakesAllOrRefuses):
         return file_of(schema, TextRead(found.values), "card")
 
     def encode(self, file: ParameterFile, held: bytes) -> bytes:
-        """Return the settings of the card with those of a file in them; raises ImageError, which names what it does not have."""
+        """Return the settings of the card with those of a file in them; raises ImageError,
+        which names what it does not have.
+        """
         card = CardContent.read(held)
         if system_of(file) != card.system:
             raise ImageError(
-                f"the figures of the file are {system_of(file)}, and the card was read as {card.system}: a card does not "
-                "know its unit (?protocol=terminal is inch, ?protocol=terminal-metric is metric)"
+                f"the figures of the file are {system_of(file)}, and the card was read as {card.system}: a"
+                " card does not know its unit (?protocol=terminal is inch, ?protocol=terminal-metric is"
+                " metric)"
             )
         wanted = _figures_in(file, card)
         if absent := [name for name in wanted if name not in card.figures]:
@@ -158,13 +167,14 @@ class AcrContent(TakesAllOrRefuses):
             raise ImageError(f"the card does not have {names_of(absent)}, which the copy sets")
         if short := [name for name in card.figures if name not in copy.figures]:
             raise ImageError(
-                f"the copy does not have {names_of(short)}, which the card has: it is short and cannot be put back as a "
-                "whole (the parameter file beside it can be downloaded: it sets what it has)"
+                f"the copy does not have {names_of(short)}, which the card has: it is short and cannot be put"
+                " back as a whole (the parameter file beside it can be downloaded: it sets what it has)"
             )
         stuck = [name for name, figures in copy.figures.items() if not figures and card.figures[name]]
         if stuck:
             raise ImageError(
-                f"{names_of(stuck)} is off in the copy and on at the card, and how a filter is switched off is not printed"
+                f"{names_of(stuck)} is off in the copy and on at the card, and how a filter is switched off"
+                " is not printed"
             )
         for name, figures in copy.figures.items():
             if not same_figures(figures, card.figures[name]):
@@ -182,11 +192,16 @@ class AcrContent(TakesAllOrRefuses):
 
 
 def changed(a: bytes, b: bytes) -> list[str]:
-    """Return the settings that differ between two contents, in the order in which they are sent; raises ImageError."""
+    """Return the settings that differ between two contents, in the order in which they are sent;
+    raises ImageError.
+    """
     first, second = CardContent.read(a), CardContent.read(b)
     one, other = first.names(), second.names()
-    return [name for name in {**first.lines(), **second.lines()}
-            if name not in one or name not in other or not same_figures(one[name], other[name])]  # fmt: skip
+    return [
+        name
+        for name in {**first.lines(), **second.lines()}
+        if name not in one or name not in other or not same_figures(one[name], other[name])
+    ]
 
 
 def same_figures(a: Iterable[str], b: Iterable[str]) -> bool:
@@ -208,7 +223,9 @@ def _shown(figure: str) -> Decimal:
 
 @cache
 def settings() -> tuple[CommandSetting, ...]:
-    """Return all settings that a card keeps, in the order in which they are sent. P parameters do not outlast its power."""
+    """Return all settings that a card keeps, in the order in which they are sent.
+    P parameters do not outlast its power.
+    """
     schema = load_schema(FAMILY)
     rank = {word: n for n, word in enumerate(acr_script.ORDER)}
 
@@ -223,7 +240,9 @@ def settings() -> tuple[CommandSetting, ...]:
 
 
 def _figures_of(line: str, by_name: dict[str, CommandSetting]) -> tuple[str, tuple[str, ...]]:
-    """Return which setting a line sets and with which figures, none for its name alone; an empty name where it sets none."""
+    """Return which setting a line sets and with which figures, none for its name alone;
+    an empty name where it sets none.
+    """
     if line in by_name:
         return line, ()
     figure = r"([+-]?(?:[0-9]+(?:\.[0-9]+)?|\.[0-9]+))"
@@ -288,7 +307,9 @@ def names_of(names: list[str]) -> str:
 
 
 def positions_of(rows: list[str]) -> Iterator[tuple[str, str]]:
-    """Yield the positions of a ballscrew table that a card lists, ``X0E.00325``; raises ValueError for something else."""
+    """Yield the positions of a ballscrew table that a card lists, ``X0E.00325``;
+    raises ValueError for something else.
+    """
     for row in rows:
         found = _BALLSCREW.fullmatch(f"BSC {row.strip()}")
         if found is None:

@@ -1,4 +1,5 @@
-"""An ACR card over its terminal: every setting asked for by its query, set by its command, read back, and saved with ESAVE.
+"""An ACR card over its terminal: every setting asked for by its query, set by its command, read back,
+and saved with ESAVE.
 
 Pages 91 and 113 to 135 of the AcroMill user's guide; docs/protocols/acr-terminal.md.
 """
@@ -77,7 +78,9 @@ Figures = tuple[str, ...]
 
 
 class TerminalDriver(AcrContent, LineDriver):
-    """Speaks to a card whose figures are in inches; the card does not know itself in which unit system they are."""
+    """Speaks to a card whose figures are in inches;
+    the card does not know itself in which unit system they are.
+    """
 
     family, protocol = FAMILY, "terminal"
     usual = USUAL
@@ -135,7 +138,9 @@ class TerminalDriver(AcrContent, LineDriver):
         return CardAxis(axis, self._pulses[axis], encoder, primary, secondary, within != 0.0)
 
     def _shown(self, query: str) -> float:
-        """Return a figure that may change from one look to the next, so that it is asked for until it is one; raises TransferError."""
+        """Return a figure that may change from one look to the next,
+        so that it is asked for until it is one; raises TransferError.
+        """
         rows: list[str] = []
         for _ in range(SET_TRIES):
             rows = self._terminal.obey(query)
@@ -169,8 +174,8 @@ class TerminalDriver(AcrContent, LineDriver):
     def _fetched(self, stage: str) -> bytes:
         """Return every setting; what was read before the line showed damage for the first time is read again.
 
-        A setting counts as one that the card does not have where a second reading lacks it too. Raises ImageDamagedError
-        where an earlier reading has it: what is short is no copy.
+        A setting counts as one that the card does not have where a second reading lacks it too. Raises
+        ImageDamagedError where an earlier reading has it: what is short is no copy.
         """
         found = CardContent(self.system)
         asked = [*settings(), *AXES]
@@ -222,7 +227,8 @@ class TerminalDriver(AcrContent, LineDriver):
         )  # words: this card does not show its tables
 
     def _readable(self, query: str, is_answer: Callable[[list[str]], bool]) -> list[str]:
-        """Return the answer of a query: figures, the error of the card in words, or nothing. Raises ImageDamagedError.
+        """Return the answer of a query: figures, the error of the card in words, or nothing.
+        Raises ImageDamagedError.
 
         Whatever else comes, even twice, was damaged on the line and proves nothing of the card.
         """
@@ -271,14 +277,17 @@ class TerminalDriver(AcrContent, LineDriver):
             rows = self._terminal.obey("ESAVE", SAVE_WAIT, sending.begin_save)
             if rows:
                 raise ControlFullError(
-                    f"the card answers ESAVE with '{rows[0][:SHOWN]}', and loses with its power what it has not saved"
+                    f"the card answers ESAVE with '{rows[0][:SHOWN]}', and loses with its power what it has"
+                    " not saved"
                 )
             if self._terminal.cuts == cuts:
                 return Receipt(restart_needed=False, notes=("The card has saved it (ESAVE).",))
         raise ConnectionCutError("the line breaks each time the card is to save")
 
     def _command(self, sending: _Sending, name: str) -> str:
-        """Send the command of one setting; returns what the card answers instead of obeying it, "" for nothing."""
+        """Send the command of one setting; returns what the card answers instead of obeying it,
+        "" for nothing.
+        """
         rows = self._terminal.obey(sending.lines[name], sent=partial(sending.begin, name))
         return f"the card answers '{rows[0][:SHOWN]}'" if rows else ""
 
@@ -296,7 +305,9 @@ class TerminalDriver(AcrContent, LineDriver):
         raise sending.refused(name, fault)
 
     def _prove_tables(self, sending: _Sending) -> None:
-        """Read each ballscrew table back as a whole, and send again what is another; raises ImageRejectedError."""
+        """Read each ballscrew table back as a whole, and send again what is another;
+        raises ImageRejectedError.
+        """
         for axis in dict.fromkeys(name[4] for name in sending.names if name in sending.content.ballscrew):
             names, fault = [name for name in sending.names if name.startswith(f"BSC {axis}")], ""
             for _ in range(SET_TRIES):

@@ -14,14 +14,16 @@ PRIMARY, SECONDARY, SETPOINT_STEP = 12294, 12295, 256
 NOT_EXCESS, BIT_STEP = 769, 32
 """Bit for not excess error of the first axis (page 113)."""
 INFERRED = (
-    "inferred: setpoints 256 parameters apart from axis to axis (page 107 prints those of the first); assumed: setpoints in pulses, a set bit is"
-    " shown as -1, and ? shows a bit as it shows a parameter"
+    "inferred: setpoints 256 parameters apart from axis to axis (page 107 prints those of the first);"
+    " assumed: setpoints in pulses, a set bit is shown as -1, and ? shows a bit as it shows a parameter"
 )
 
 
 @dataclass(frozen=True)
 class CardAxis:
-    """What a card shows of one axis: pulses for a unit, encoder position and setpoints in pulses, and whether its error is below EXC."""
+    """What a card shows of one axis: pulses for a unit, encoder position and setpoints in pulses,
+    and whether its error is below EXC.
+    """
 
     axis: str
     pulses: float

@@ -1,6 +1,8 @@
-"""The terminal of an ACR card as a line to it: a command is typed, its echo compared, and only then obeyed (page 91).
+"""The terminal of an ACR card as a line to it: a command is typed, its echo compared,
+and only then obeyed (page 91).
 
-A line that was damaged on its way is therefore never obeyed, and half a line that somebody has left is taken away first.
+A line that was damaged on its way is therefore never obeyed,
+and half a line that somebody has left is taken away first.
 """
 
 from __future__ import annotations
@@ -37,7 +39,8 @@ LARGEST = 1 << 15  # bytes of an answer
 
 BACKSPACE = b"\b"
 SPOIL = b"Q)"
-"""No figure ends so, and no command has a bracket that was not opened: what is left of a line is not obeyed with it."""
+"""No figure ends so, and no command has a bracket that was not opened:
+what is left of a line is not obeyed with it."""
 _PROMPT = re.compile(rb"(?:^|[\r\n])P([0-9]{2})> ?$")
 
 
@@ -74,8 +77,8 @@ class Terminal:
     ) -> list[str]:
         """Have the card obey a line, in at most so many seconds; raises TransferError.
 
-        ``sent`` is called before the sign that has the line obeyed goes out. It may go out again after a fault, so that
-        only commands are sent whose repetition changes nothing.
+        ``sent`` is called before the sign that has the line obeyed goes out. It may go out again after a
+        fault, so that only commands are sent whose repetition changes nothing.
         """
         self.look()
         fault = ""
@@ -167,7 +170,8 @@ class Terminal:
         keep: int = 0,
         gap: float | None = None,
     ) -> bytes:
-        """Return what has come once it is enough or the time is over, or nothing has followed it for ``gap`` seconds.
+        """Return what has come once it is enough or the time is over,
+        or nothing has followed it for ``gap`` seconds.
 
         Of what is only looked through, ``keep`` bytes stay.
         """

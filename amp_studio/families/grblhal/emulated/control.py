@@ -9,5 +9,7 @@ from .firmware import Firmware
 
 
 def emulate_grbl(listen: Endpoint, options: EmulatedOptions) -> int:
-    """Run an emulated control with grblHAL, or with Grbl 1.1 as its machine type asks for, until it is asked to quit."""
+    """Run an emulated control with grblHAL, or with Grbl 1.1 as its machine type asks for,
+    until it is asked to quit.
+    """
     return serve_device(listen, options, Firmware)

@@ -1,7 +1,8 @@
-"""What the firmware does with the bytes of its line: protocol.c, system.c and report.c of the grblHAL core, Grbl 1.1 likewise.
+"""What the firmware does with the bytes of its line: protocol.c, system.c and report.c of the grblHAL core,
+Grbl 1.1 likewise.
 
-Its memory is written after the answer to a setting, when the next byte or nothing comes (nvs_buffer.c): who cuts the power
-between the two begins with the defaults.
+Its memory is written after the answer to a setting, when the next byte or nothing comes (nvs_buffer.c): who
+cuts the power between the two begins with the defaults.
 """
 
 from __future__ import annotations
@@ -96,9 +97,14 @@ class Firmware:
         return found
 
     def _save(self) -> None:
-        content = json.dumps({
-            "settings": self.settings.values(), "offsets": self.offsets, "startup": self.startup, "build": self.build,
-        }).encode()  # fmt: skip
+        content = json.dumps(
+            {
+                "settings": self.settings.values(),
+                "offsets": self.offsets,
+                "startup": self.startup,
+                "build": self.build,
+            }
+        ).encode()
         self._memory.replace(MEMORY, _checksum(content) + b"\n" + content)
         self.is_writing = False
 
@@ -215,7 +221,8 @@ class Firmware:
         elif equals and name.isdigit():
             self._need_rest()
             self.settings.store(int(name), text)
-            # In check mode it stays in RAM (protocol.c ``protocol_execute_realtime``); a Grbl 1.1 writes at once.
+            # In check mode it stays in RAM (protocol.c ``protocol_execute_realtime``); a Grbl 1.1 writes at
+            # once.
             self.is_writing = self.state != "Check" or self.settings.is_classic
         elif equals and name == "RST":
             self._reset(text)
@@ -385,8 +392,15 @@ class Firmware:
         }
         if self.settings.is_classic:
             return common
-        return {**common, "+": self._values, "EG": self._groups, "ES": self._descriptions, "ESH": self._helps,
-                "EA": self._alarms, "EE": self._errors}  # fmt: skip
+        return {
+            **common,
+            "+": self._values,
+            "EG": self._groups,
+            "ES": self._descriptions,
+            "ESH": self._helps,
+            "EA": self._alarms,
+            "EE": self._errors,
+        }
 
     def _identity(self) -> Iterator[str]:
         if self.settings.is_classic:
@@ -395,8 +409,14 @@ class Firmware:
         yield f"[VER:1.1f.20260817:{self.build}]"
         yield f"[OPT:VNM{'H' if self.settings.all[22].value else ''},100,1024,{len(self._axes)},0]"
         yield f"[AXS:{len(self._axes)}:{self._axes}]"
-        yield from ("[NEWOPT:ENUMS,RT+]", "[FIRMWARE:grblHAL]", "[NVS STORAGE:*EEPROM]", "[FREE MEMORY:64K]",
-                    "[DRIVER:Emulated]", "[DRIVER VERSION:1]")  # fmt: skip
+        yield from (
+            "[NEWOPT:ENUMS,RT+]",
+            "[FIRMWARE:grblHAL]",
+            "[NVS STORAGE:*EEPROM]",
+            "[FREE MEMORY:64K]",
+            "[DRIVER:Emulated]",
+            "[DRIVER VERSION:1]",
+        )
 
     def _values(self) -> Iterator[str]:
         for setting in self.settings.available():
@@ -450,7 +470,9 @@ class Firmware:
     # -- the operator --------------------------------------------------------------------------------
 
     def command(self, line: str) -> str:
-        """Do what the operator asks for: ``state Run``, ``alarm 1``, ``message TEXT``, ``power``, ``status``."""
+        """Do what the operator asks for: ``state Run``, ``alarm 1``, ``message TEXT``, ``power``,
+        ``status``.
+        """
         verb, _, rest = line.partition(" ")
         match verb, rest:
             case "state", _ if rest in _STATES:

@@ -1,7 +1,8 @@
-"""The machine behind an emulated Grbl: its settings make the axes, blocks and jogs move them, and $H homes them.
+"""The machine behind an emulated Grbl: its settings make the axes, blocks and jogs move them,
+and $H homes them.
 
-From machine_limits.c, motion_control.c and gcode.c of the grblHAL core. A block is moved when the one before is at its end: the
-look-ahead of the planner is not emulated (corners are exact stops).
+From machine_limits.c, motion_control.c and gcode.c of the grblHAL core. A block is moved when the one before
+is at its end: the look-ahead of the planner is not emulated (corners are exact stops).
 """
 
 from __future__ import annotations
@@ -16,7 +17,8 @@ from amp_studio.sim import AxisLaw, AxisParameters, ParameterValue, SimulatedAxi
 from .stored_settings import CLASSIC, FAMILY, StoredSettings
 
 PHASES = range(44, 50)
-"""Settings with the axes that are homed together, in their order (limits of the classic build: Z, then X and Y)."""
+"""Settings with the axes that are homed together, in their order (limits of the classic build: Z,
+then X and Y)."""
 CLASSIC_PHASES = (0b100, 0b011)
 
 

@@ -1,6 +1,8 @@
-"""The settings of an emulated control: what is delivered, how a text is stored, how it is shown, what moves what.
+"""The settings of an emulated control: what is delivered, how a text is stored, how it is shown,
+what moves what.
 
-From settings.c of the grblHAL core. It shares no code with the driver, which has to find out how this behaves.
+From settings.c of the grblHAL core. It shares no code with the driver,
+which has to find out how this behaves.
 """
 
 from __future__ import annotations
@@ -34,7 +36,9 @@ class RefusedError(Exception):
 
 @dataclass
 class StoredSetting:
-    """One setting. ``bits`` is how much room a whole number has; ``shown_decimals`` those of a decimal number."""
+    """One setting. ``bits`` is how much room a whole number has;
+    ``shown_decimals`` those of a decimal number.
+    """
 
     number: int
     name: str
@@ -94,7 +98,10 @@ class StoredSetting:
         if self.kind == _AXES:
             assert len(self.labels) == axes
         bounds = ("" if b is None else f"{b:g}" for b in (self.least or None, self.most))
-        return f"[SETTING:{self.number}|{self.group}|{self.name}|{self.unit}|{self.kind}|{form}|{'|'.join(bounds)}|{int(self.needs_restart)}|{int(self.number in _ZERO_OR)}]"  # fmt: skip
+        what = (self.number, self.group, self.name, self.unit, self.kind, form, *bounds)
+        return (
+            f"[SETTING:{'|'.join(map(str, (*what, int(self.needs_restart), int(self.number in _ZERO_OR))))}]"
+        )
 
 
 class StoredSettings:
@@ -127,7 +134,9 @@ class StoredSettings:
                 yield setting
 
     def named(self, number: int) -> StoredSetting | None:
-        """Return a setting that is asked for alone: $24 and $25 are shown then, though no list has them (recorded)."""
+        """Return a setting that is asked for alone: $24 and $25 are shown then,
+        though no list has them (recorded).
+        """
         listed = (s for s in self.available() if s.number == number)
         return self.all[number] if number in (24, 25) else next(listed, None)
 
@@ -143,7 +152,9 @@ class StoredSettings:
         self._move(number)
 
     def _move(self, number: int) -> None:
-        """Change what a setting moves (``set_homing_enable``, ``set_reset_actions``, ``set_homing_feedrates``)."""
+        """Change what a setting moves (``set_homing_enable``, ``set_reset_actions``,
+        ``set_homing_feedrates``).
+        """
         homing = self._whole(22)
         if number == 22:
             if not homing & 1:
@@ -199,13 +210,20 @@ def _setting(parameter: Parameter, number: int, axis: str, axes: str, group: int
             kind, labels = _AXES, tuple(axes)
     low, high = next(iter((parameter.ranges or {}).values()), (None, None))
     return StoredSetting(
-        number, f"{axis}-axis {parameter.name.lower()}" if axis else parameter.name,
-        _unit(parameter), kind, labels,
-        0.5 if number in _ZERO_OR else low if isinstance(low, (int, float)) and low else None, high if isinstance(high, (int, float)) else None,
-        (storage.bits if storage else None) or 32, (storage.decimals if storage else None) or 0,
+        number,
+        f"{axis}-axis {parameter.name.lower()}" if axis else parameter.name,
+        _unit(parameter),
+        kind,
+        labels,
+        0.5 if number in _ZERO_OR else low if isinstance(low, (int, float)) and low else None,
+        high if isinstance(high, (int, float)) else None,
+        (storage.bits if storage else None) or 32,
+        (storage.decimals if storage else None) or 0,
         parameter.effect is not None and parameter.effect.level == "restart",
-        _GROUP_BASE + axes.index(axis) if axis else group, parameter.help.what, 0.0,
-    )  # fmt: skip
+        _GROUP_BASE + axes.index(axis) if axis else group,
+        parameter.help.what,
+        0.0,
+    )
 
 
 def _unit(parameter: Parameter) -> str:

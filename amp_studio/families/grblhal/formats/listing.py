@@ -1,7 +1,8 @@
-"""The answer to ``$$`` as every sender saves it: ``$110=500.000`` on each line, with whatever is around it (log.py).
+"""The answer to ``$$`` as every sender saves it: ``$110=500.000`` on each line,
+with whatever is around it (log.py).
 
-The machine type is the one whose settings these are and whose bounds the values fit. What the schema does not have is
-kept as text and written back.
+The machine type is the one whose settings these are and whose bounds the values fit. What the schema does not
+have is kept as text and written back.
 """
 
 from __future__ import annotations
@@ -40,8 +41,8 @@ def _read(text: str, schema: Schema, options: ReadOptions) -> TextRead:
     listing = _chosen(log, options.listing)
     if _is_of_grbl_08(listing):
         raise FormatError(
-            "this is a listing of Grbl 0.8, whose numbers mean other settings ($0 is the steps of X, not the pulse): "
-            "it is not read. Read one of Grbl 0.9 or newer",
+            "this is a listing of Grbl 0.8, whose numbers mean other settings ($0 is the steps of X, not the"
+            " pulse): it is not read. Read one of Grbl 0.9 or newer",
             listing.first_line,
             1,
         )
@@ -80,7 +81,9 @@ def _place(listing: LoggedListing) -> str:
 
 
 def _log_of(relative: Relative) -> Log:
-    """Return the settings of a related firmware as a listing; raises FormatError where it has none in common."""
+    """Return the settings of a related firmware as a listing; raises FormatError where it has none in
+    common.
+    """
     if not relative.settings:
         raise FormatError(f"nothing of this {relative.name} is a setting of Grbl")
     lines = dict.fromkeys(relative.settings, 1)
@@ -95,7 +98,9 @@ def _account_of(relative: Relative) -> str:
 
 
 def _is_of_grbl_08(listing: LoggedListing) -> bool:
-    """Return whether a listing is of the time before the steps were $100: $8 to $10 are lengths there, or a remark names them."""
+    """Return whether a listing is of the time before the steps were $100: $8 to $10 are lengths there,
+    or a remark names them.
+    """
     if max(listing.settings) > 22:
         return False
     fractions = [n for n in (9, 10) if re.fullmatch(r"0?\.\d*[1-9]\d*", figure(listing.settings.get(n, "")))]
@@ -112,7 +117,7 @@ def _chosen(log: Log, number: int) -> LoggedListing:
     return log.listings[number - 1]  # 0 is the last one
 
 
-# -- machine type ------------------------------------------------------------------------------------------------------
+# -- machine type
 
 
 @dataclass(frozen=True)
@@ -123,7 +128,8 @@ class _Fit:
     values: dict[Address, Value]
     unknown: tuple[int, ...]
     other: tuple[int, ...]
-    """Settings that another build has under a number that is known of some builds: their text does not fit there."""
+    """Settings that another build has under a number that is known of some builds:
+    their text does not fit there."""
     unreadable: dict[int, str]
     """Number -> why its text is no value."""
     outside: int
@@ -154,7 +160,9 @@ def _machine(schema: Schema, log: Log, listing: LoggedListing, wanted: str) -> _
 
 
 def _hint(log: Log, listing: LoggedListing) -> str:
-    """Return the machine type that the control or the remarks of its listing name; empty where they name none."""
+    """Return the machine type that the control or the remarks of its listing name;
+    empty where they name none.
+    """
     greeting = log.greeting.casefold()
     # Grbl_ESP32 alone has the debounce as a decimal (SettingsDefinitions.cpp:376, a FloatSetting).
     if (
@@ -225,7 +233,7 @@ def _axes(schema: Schema, log: Log, settings: Iterable[int], machine: str) -> di
     return {(declared.letters, ""): Value("".join(letters[:count]))}
 
 
-# -- what a person should know ------------------------------------------------------------------------------------------
+# -- what a person should know
 
 
 def _unreadable(listing: LoggedListing, fit: _Fit) -> FormatError:
@@ -248,8 +256,8 @@ def _notes(
             f"{n} ({_place(one)})" for n, one in enumerate(log.listings, 1) if one is not listing
         )
         yield (
-            f"the text has {len(log.listings)} listings, and number {log.listings.index(listing) + 1} is read "
-            f"({_place(listing)}). --listing chooses another: {others}"
+            f"the text has {len(log.listings)} listings, and number {log.listings.index(listing) + 1} is read"
+            f" ({_place(listing)}). --listing chooses another: {others}"
         )
     if listing.changed:
         changes = ", ".join(
@@ -265,18 +273,22 @@ def _notes(
     if log.bare:
         yield f"a number without $ is read as a setting: line {', '.join(map(str, log.bare[:9]))}"
     if log.refused:
-        yield f"what the control answered with an error is left out: line {', '.join(map(str, log.refused[:9]))}"
+        yield (
+            "what the control answered with an error is left out: line"
+            f" {', '.join(map(str, log.refused[:9]))}"
+        )
     kept = sorted((*fit.unknown, *fit.unreadable))
     if kept:
         yield (
-            f"{len(kept)} of {len(listing.settings)} settings {_are(kept)} not known without the control and kept as text: "
-            + ", ".join(f"${n}" for n in kept)
+            f"{len(kept)} of {len(listing.settings)} settings {_are(kept)} not known without the control and"
+            " kept as text: " + ", ".join(f"${n}" for n in kept)
         )
     if fit.other:
         have = "has" if len(fit.other) == 1 else "have"
         yield (
-            f"{len(fit.other)} of {len(listing.settings)} settings {have} in this build another meaning than is known, "
-            f"or no value, and {_are(list(fit.other))} kept as text: {', '.join(f'${n}' for n in sorted(fit.other))}"
+            f"{len(fit.other)} of {len(listing.settings)} settings {have} in this build another meaning than"
+            f" is known, or no value, and {_are(list(fit.other))} kept as text:"
+            f" {', '.join(f'${n}' for n in sorted(fit.other))}"
         )
     if any(log.startup.values()):
         lines = ", ".join(key for key, block in log.startup.items() if block)
@@ -284,17 +296,23 @@ def _notes(
     if log.others:
         n, line = log.others[0]
         count = "a line" if len(log.others) == 1 else f"{len(log.others)} lines"
-        yield f"{count} without a setting left out: line {n}, {quoted(short(line))}{', …' if len(log.others) > 1 else ''}"
+        yield (
+            f"{count} without a setting left out: line {n},"
+            f" {quoted(short(line))}{', …' if len(log.others) > 1 else ''}"
+        )
     if not options.machine:
         name = next(m.name for m in schema.family.machines if m.key == fit.machine)
-        yield f"machine type {name}; --machine chooses another: {', '.join(m.key for m in schema.family.machines)}"
+        yield (
+            f"machine type {name}; --machine chooses another:"
+            f" {', '.join(m.key for m in schema.family.machines)}"
+        )
 
 
 def _are(numbers: list[int]) -> str:
     return "is" if len(numbers) == 1 else "are"
 
 
-# -- writing -----------------------------------------------------------------------------------------------------------
+# -- writing
 
 
 def _write(file: ParameterFile) -> str:

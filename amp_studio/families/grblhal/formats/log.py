@@ -1,4 +1,5 @@
-"""What a saved text of a Grbl contains: listings of settings, between whatever a sender, a forum or a person puts around them.
+"""What a saved text of a Grbl contains: listings of settings, between whatever a sender,
+a forum or a person puts around them.
 
     $110=500.000 (X-axis maximum rate, mm/min)      as the control shows it, with a remark
     [12:30:01] > $110=500                           time stamps, marks of a direction, names of programs
@@ -8,7 +9,8 @@
     ; [BOARD:T41U5XBB]                              what the control answers to $I, plain or as a remark
     Kleine CNC, 21.12.2015:                         a heading
 
-A number that comes again begins a new listing. A few settings that come again are changes of the listing before them.
+A number that comes again begins a new listing.
+A few settings that come again are changes of the listing before them.
 """
 
 from __future__ import annotations
@@ -101,7 +103,8 @@ class LoggedListing:
         self.whole[number] = whole
 
     def text_of(self, number: int, texts: Container[int]) -> str:
-        """Return the value of a setting that is a text, as those of ``texts`` are: it may contain the signs that begin a remark.
+        """Return the value of a setting that is a text, as those of ``texts`` are:
+        it may contain the signs that begin a remark.
 
         Where no figure has a remark there are none; else one begins behind a blank.
         """
@@ -153,7 +156,8 @@ def _has_settings(text: str, anywhere: bool) -> bool:
 def read_log(text: str) -> Log:
     """Return the listings of a text in their order, and what is around them.
 
-    Settings in the middle of a line are read only where the text has no listing otherwise: "then I set $22=1" is none.
+    Settings in the middle of a line are read only where the text has no listing otherwise:
+    "then I set $22=1" is none.
     """
     text = _OBJECT.sub(_in_one_line, text)
     found = _read(text, anywhere=False)
@@ -164,7 +168,9 @@ def read_log(text: str) -> Log:
 
 
 def _in_one_line(found: re.Match[str]) -> str:
-    """Return an object that names a setting and its value as a setting, on the line of its name; any other as it is."""
+    """Return an object that names a setting and its value as a setting, on the line of its name;
+    any other as it is.
+    """
     name, value = _NAMED.search(found[0]), _ITS_VALUE.search(found[0])
     if name is None or value is None:
         return found[0]
@@ -203,11 +209,14 @@ def _read(text: str, *, anywhere: bool) -> Log:
 
 
 _Piece = tuple[int, str, str, str, bool]
-"""A setting of a line: number, text, remark, all that is behind its sign, and whether the sign before the number is missing."""
+"""A setting of a line: number, text, remark, all that is behind its sign,
+and whether the sign before the number is missing."""
 
 
 def _lines(text: str, anywhere: bool) -> Iterator[tuple[int, str, str, list[_Piece]]]:
-    """Yield number, text, text without what a sender writes before it, and the settings of each line that is not empty."""
+    """Yield number, text, text without what a sender writes before it,
+    and the settings of each line that is not empty.
+    """
     if "<td" in text[:_LONGEST_PAGE]:
         if text.count("<tr") > text.count("\n"):  # a page without lines
             text = text.replace("<tr", "\n<tr")

@@ -1,7 +1,7 @@
 """The arithmetic of the firmware that rules and calculators use.
 
-Every function is pure. Lengths are mm, or degrees of an axis that turns; speeds are per minute, accelerations per second
-squared. An argument that makes no sense raises ValueError with one sentence that names it.
+Every function is pure. Lengths are mm, or degrees of an axis that turns; speeds are per minute, accelerations
+per second squared. An argument that makes no sense raises ValueError with one sentence that names it.
 """
 
 from .axes import axis_place, homing_phases, is_turning, mask_end, rotary_end

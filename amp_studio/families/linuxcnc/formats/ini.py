@@ -1,7 +1,8 @@
 """The configuration file of LinuxCNC, byte for byte: what nobody changed is written back as it was read.
 
-Its lines are kept in the parameter file, with those of the files that it includes. A changed value is another one in its line; what is
-behind a number, the order of the lines and every remark stay. A new value becomes a line at the end of its section.
+Its lines are kept in the parameter file, with those of the files that it includes. A changed value is another
+one in its line; what is behind a number, the order of the lines and every remark stay.
+A new value becomes a line at the end of its section.
 """
 
 from __future__ import annotations
@@ -31,7 +32,9 @@ _KIND = "ini"
 """Key of the header under which the lines are kept."""
 _HEAD = "# LinuxCNC configuration"
 _SECTIONS = re.compile(
-    r"(?m)^(?:[ \t]*\[(?:EMC|KINS|TRAJ|EMCMOT|EMCIO|RS274NGC|HAL|JOINT_[0-9]+|AXIS_[XYZABCUVW0-8]|SPINDLE_[0-9])\]|#INCLUDE[ \t]+\S+\.inc)"
+    r"(?m)^(?:[ \t]*\[(?:EMC|KINS|TRAJ|EMCMOT|EMCIO|RS274NGC|HAL"
+    r"|JOINT_[0-9]+|AXIS_[XYZABCUVW0-8]|SPINDLE_[0-9])\]"
+    r"|#INCLUDE[ \t]+\S+\.inc)"
 )
 _LISTS = "lists"
 """The table of keys of which every line counts."""
@@ -39,7 +42,9 @@ _LISTS = "lists"
 
 @dataclass(frozen=True)
 class _Row:
-    """One entry and what it is: a value of ``address``, an ``unknown`` name, or a line that sets nothing here."""
+    """One entry and what it is: a value of ``address``, an ``unknown`` name,
+    or a line that sets nothing here.
+    """
 
     entry: IniEntry
     address: Address | None = None
@@ -48,7 +53,7 @@ class _Row:
     unknown: str = ""
 
 
-# -- reading -----------------------------------------------------------------------------------------------------------
+# -- reading
 
 
 def _recognises(text: str) -> bool:
@@ -205,7 +210,7 @@ def _turns(schema: Schema, address: Address, counting: Mapping[tuple[str, str], 
         return False
 
 
-# -- writing -----------------------------------------------------------------------------------------------------------
+# -- writing
 
 
 def texts_of(file: ParameterFile) -> dict[str, str]:
@@ -326,7 +331,8 @@ def _write(file: ParameterFile) -> str:
     included = _included(file)
     if changed := [name for name, text in texts.items() if name and text != included[name]]:
         raise FormatError(
-            f"a value of the included file {changed[0]} was changed: change it there, or send the whole folder"
+            f"a value of the included file {changed[0]} was changed: change it there, or send the whole"
+            " folder"
         )
     kept = file.header.extra.get(_KIND)
     encoding = str(kept.get("encoding", "utf-8")) if isinstance(kept, dict) else "utf-8"

@@ -1,6 +1,7 @@
 """What rules of LinuxCNC ask about joints and axes.
 
-Every function is pure. Lists have a value for each joint in order, null where it has none. Lengths are mm, or degrees.
+Every function is pure. Lists have a value for each joint in order, null where it has none. Lengths are mm,
+or degrees.
 """
 
 from .joints import (

@@ -1,4 +1,6 @@
-"""The emulated 9/PC: in the house protocol of a gateway on its host PC, and at its own screen as the manual prints it."""
+"""The emulated 9/PC: in the house protocol of a gateway on its host PC,
+and at its own screen as the manual prints it.
+"""
 
 from __future__ import annotations
 

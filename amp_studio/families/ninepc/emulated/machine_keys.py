@@ -1,7 +1,10 @@
-"""The machine behind the emulated 9/PC: the jog and home keys, MDI blocks, and what its position screen shows (chapters 5, 6 and 8).
+"""The machine behind the emulated 9/PC: the jog and home keys, MDI blocks,
+and what its position screen shows (chapters 5, 6 and 8).
 
-Commands are keys: ``jog X+ second`` goes on until ``release``, ``jog X+ increment third`` is one increment, ``manual-home X`` the home key (5-3),
-``mdi G28 X5``, ``mdi G0 X10 Y5`` and ``mdi G1 X10 F500`` a block, ``position`` the position screen. The house protocol shows no positions.
+Commands are keys: ``jog X+ second`` goes on until ``release``, ``jog X+ increment third`` is one increment,
+``manual-home X`` the home key (5-3),
+``mdi G28 X5``, ``mdi G0 X10 Y5`` and ``mdi G1 X10 F500`` a block, ``position`` the position screen.
+The house protocol shows no positions.
 """
 
 from __future__ import annotations

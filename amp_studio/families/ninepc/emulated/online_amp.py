@@ -1,9 +1,11 @@
 """On-line AMP at the screen of the emulated 9/PC: the softkeys behind {AXIS PARAM} (chapter 36).
 
-``axis-param 1340 0.005`` is {REPLCE VALUE}, ``axis-param 1340 add 0.001`` {ADD TO VALUE}, ``axis-param 1801 increase`` and
-``decrease`` are {INCRE VALUE} and {DECRE VALUE}; ``axis-calib X insert 100 0.004``, ``replace``, ``delete`` and ``begin deviation - 0`` (input, start, first position) work on the
-points of an axis, ``cal-status X`` switches its calibration off and ``home X`` on again. Each is stored with {UPDATE & EXIT} at once and
-counts without a restart. Assumed, because it is not printed: that a step is the last decimal that is stored.
+``axis-param 1340 0.005`` is {REPLCE VALUE}, ``axis-param 1340 add 0.001`` {ADD TO VALUE}, ``axis-param 1801
+increase`` and
+``decrease`` are {INCRE VALUE} and {DECRE VALUE}; ``axis-calib X insert 100 0.004``, ``replace``, ``delete``
+and ``begin deviation - 0`` (input, start, first position) work on the points of an axis, ``cal-status X``
+switches its calibration off and ``home X`` on again. Each is stored with {UPDATE & EXIT} at once and counts
+without a restart. Assumed, because it is not printed: that a step is the last decimal that is stored.
 """
 
 from __future__ import annotations
@@ -139,7 +141,8 @@ class OnlineAmp:
             case "delete", [at]:
                 return deleted(table, read_exact(at)[0])
         raise ValueError(
-            "axis-calib takes an axis and begin INPUT START POSITION, insert or replace POSITION FIGURE, or delete POSITION"
+            "axis-calib takes an axis and begin INPUT START POSITION, insert or replace POSITION FIGURE, or"
+            " delete POSITION"
         )
 
     def _axis(self, file: ParameterFile, text: str) -> str:
@@ -147,7 +150,9 @@ class OnlineAmp:
 
 
 def _sum(file: ParameterFile, address: Address, by: Fraction) -> Value:
-    """Return a value with a number added; raises ValueError with the message of the screen if it is out of range."""
+    """Return a value with a number added; raises ValueError with the message
+    of the screen if it is out of range.
+    """
     old, new = file.get(address), stepped(file, address, by)
     assert old is not None
     if Fraction(repr(new.value)) != Fraction(repr(old.value)) + by:  # it stopped at its bound

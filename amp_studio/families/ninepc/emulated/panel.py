@@ -1,8 +1,10 @@
-"""The emulated 9/PC at its own screen: password, Patch AMP, and what it shows at each start (chapters 2, 33, 36 and 37).
+"""The emulated 9/PC at its own screen: password, Patch AMP, and what it shows at each start (chapters 2, 33,
+36 and 37).
 
-Commands are keys: ``password AB-D4`` is {PASSWORD}, ``patch-amp LOCK`` the softkey {PATCH AMP} with its second
-password, ``search 1750`` is {SEARCH NUMBER}, ``replace 1750 40`` {REPLACE VALUE}, ``update`` {UPDATE & EXIT}, ``leave``
-goes without it, and ``can`` is the key [CAN]. ``patch KEY=VALUE`` of every emulated control does all of it at once.
+Commands are keys: ``password AB-D4`` is {PASSWORD}, ``patch-amp LOCK`` the softkey {PATCH AMP} with its
+second password, ``search 1750`` is {SEARCH NUMBER}, ``replace 1750 40`` {REPLACE VALUE}, ``update`` {UPDATE &
+EXIT}, ``leave`` goes without it, and ``can`` is the key [CAN].
+``patch KEY=VALUE`` of every emulated control does all of it at once.
 """
 
 from __future__ import annotations
@@ -39,7 +41,10 @@ def axes_supported(hardware: Mapping[str, str]) -> int:
 class NinePcPanel:
     """What an operator sees and does at a 9/PC that supports so many axes."""
 
-    words = f"password WORD, patch-amp WORD, search NUMBER, replace NUMBER VALUE, update, leave, can, messages, {OnlineAmp.words}, {MachineKeys.words}"
+    words = (
+        "password WORD, patch-amp WORD, search NUMBER, replace NUMBER VALUE, update, leave, can, messages,"
+        f" {OnlineAmp.words}, {MachineKeys.words}"
+    )
 
     def __init__(self, axes: int = MOST_AXES) -> None:
         self._axes = axes
@@ -149,7 +154,9 @@ class NinePcPanel:
         return self._search(number)
 
     def _update(self, control: Control) -> str:
-        """Store all that was edited at once; it becomes active when the control is switched off and on (page 37-3)."""
+        """Store all that was edited at once; it becomes active
+        when the control is switched off and on (page 37-3).
+        """
         edited = self._screen()
         control.patch(lambda _image: edited)
         self._edited = None
@@ -174,7 +181,9 @@ def _corrections(file: ParameterFile) -> Iterator[str]:
 
 
 def _master_password(control: Control) -> str:
-    """Return the six characters of 101 to 106; those that are not set are as delivered, AB-D4 (page 33-11)."""
+    """Return the six characters of 101 to 106; those that are not set are as delivered, AB-D4 (page
+    33-11).
+    """
     file = _amp_of(control)
     codes = []
     for n in range(1, _CHARACTERS + 1):

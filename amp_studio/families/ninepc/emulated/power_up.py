@@ -1,8 +1,9 @@
 """What a 9/PC makes of its AMP when it starts: why it stays in E-Stop, and what its screen shows.
 
-Written from the reference manual alone; a page is beside each behaviour. Assumed, because it is not printed: to which
-values the following-error limits are corrected (here the smaller ones become smaller, Excess Error stays as it protects the
-machine), that the stored AMP stays as it is, the order of several messages, and all words but those in capitals.
+Written from the reference manual alone; a page is beside each behaviour. Assumed, because it is not printed:
+to which values the following-error limits are corrected (here the smaller ones become smaller, Excess Error
+stays as it protects the machine), that the stored AMP stays as it is, the order of several messages,
+and all words but those in capitals.
 """
 
 from __future__ import annotations
@@ -35,7 +36,9 @@ def fitted(file: ParameterFile) -> list[str]:
 
 
 def held_in_estop(file: ParameterFile, axes: int) -> Iterator[str]:
-    """Yield each reason why a control that supports so many axes does not come out of E-Stop with this AMP."""
+    """Yield each reason why a control that supports so many axes does not come out of E-Stop with this
+    AMP.
+    """
     here = fitted(file)
     spindles = [axis for axis in here if _choice(file, ("axis.type", axis)) == "spindle"]
     if len(here) > axes:
@@ -54,7 +57,10 @@ def held_in_estop(file: ParameterFile, axes: int) -> Iterator[str]:
         if code and not _is_dac_code(
             code
         ):  # by the manual no value switches the monitor off; 0 is taken as off
-            yield f"parameter {number} contains {write_number(float(code))}, which is no function and axis (page A-6)"
+            yield (
+                f"parameter {number} contains {write_number(float(code))}, which is no function and axis"
+                " (page A-6)"
+            )
 
 
 def _dual_groups(file: ParameterFile, here: list[str]) -> Iterator[str]:
@@ -70,7 +76,9 @@ def _dual_groups(file: ParameterFile, here: list[str]) -> Iterator[str]:
 
 
 def corrected_limits(file: ParameterFile) -> dict[str, dict[Address, Fraction]]:
-    """Return axis -> the following-error limits that the control corrects, in the unit of Patch AMP (page 7-20)."""
+    """Return axis -> the following-error limits that the control corrects,
+    in the unit of Patch AMP (page 7-20).
+    """
     found = {}
     for axis in fitted(file):
         limits = [(address, _number(file, address)) for address in ((name, axis) for name in _LIMITS)]

@@ -1,8 +1,8 @@
 """The sheet for keying values in at the control: its number, what it stores, in the control's own unit.
 
 Lines are ``number``, ``stored value``, ``unit`` and ``name`` between tabs; what comes after ``#`` is for the
-reader, but for ``# machine``, which decides what the numbers mean. Only values that the control lets one key in are in
-it; a choice without a printed code is a remark.
+reader, but for ``# machine``, which decides what the numbers mean. Only values that the control lets one key
+in are in it; a choice without a printed code is a remark.
 """
 
 from __future__ import annotations

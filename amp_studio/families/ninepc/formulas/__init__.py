@@ -8,12 +8,7 @@ An argument that makes no sense raises ValueError with one sentence that names i
 contradicts itself the formula is taken, not the printed number; the text of the function states it.
 """
 
-from .axes import (
-    dcm_position,
-    home_distance,
-    inside_zone,
-    rollover_position,
-)
+from .axes import dcm_position, home_distance, inside_zone, rollover_position
 from .calibration import calibration_fault, calibration_net, calibration_points
 from .compensation import (
     compensated_feedrate,
@@ -22,11 +17,7 @@ from .compensation import (
     is_block_generated,
     lowest_compensated_feedrate,
 )
-from .coupled import (
-    dual_group_limit,
-    split_axis_skew,
-    split_axis_skew_at,
-)
+from .coupled import dual_group_limit, split_axis_skew, split_axis_skew_at
 from .cycles import (
     chamfer_length,
     depth_before_finish,
@@ -154,10 +145,7 @@ from .tuning import (
     net_correction,
     typical_integral_gain,
 )
-from .words import (
-    largest_word,
-    word_value,
-)
+from .words import largest_word, word_value
 
 __all__ = [
     "COUNTS_PER_INCH_LIMIT",

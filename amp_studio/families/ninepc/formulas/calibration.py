@@ -1,8 +1,10 @@
-"""Axis calibration on line: chapter 36. The table of an axis is one text, its points as the control's screen has them.
+"""Axis calibration on line: chapter 36. The table of an axis is one text,
+its points as the control's screen has them.
 
-``deviation - mm 0:0 100:0.004``: how points are given (``measurement`` or ``deviation``), at which end the table starts
-(``-`` or ``+``), the unit, and for each point the position that the control reads and the figure beside it, the most
-negative first. A deviation is the actual position less the reading (page 36-7). Five decimals are assumed; none are printed.
+``deviation - mm 0:0 100:0.004``: how points are given (``measurement`` or ``deviation``), at which end the
+table starts (``-`` or ``+``), the unit, and for each point the position that the control reads and the figure
+beside it, the most negative first. A deviation is the actual position less the reading (page 36-7). Five
+decimals are assumed; none are printed.
 """
 
 from __future__ import annotations
@@ -34,7 +36,9 @@ class CalibrationTextError(AmpStudioError, ValueError):
 
 @dataclass(frozen=True)
 class CalibrationText:
-    """A table as the control has it; ``points`` are positions and deviations, the most negative position first."""
+    """A table as the control has it; ``points`` are positions and deviations,
+    the most negative position first.
+    """
 
     input: str
     start: str
@@ -56,7 +60,8 @@ def read_calibration(text: str) -> CalibrationText:
     words = text.split()
     if len(words) < 4 or words[0] not in INPUTS or words[1] not in STARTS or words[2] not in LONGEST_INTERVAL:
         raise CalibrationTextError(
-            "it begins with measurement or deviation, - or +, and mm, in or deg, followed by points as 100:0.004"
+            "it begins with measurement or deviation, - or +, and mm, in or deg, followed by points as"
+            " 100:0.004"
         )
     points = []
     for word in words[3:]:
@@ -93,13 +98,15 @@ def _check(table: CalibrationText) -> None:
             )
         if abs(by) > STEEPEST * distance:
             raise CalibrationTextError(
-                f"the deviation {_figure(by)} at {_figure(at)} is more than 2 % of the {_figure(distance)} {table.unit} "
-                "from the point before it (PARAMETER OUT OF RANGE)"
+                f"the deviation {_figure(by)} at {_figure(at)} is more than 2 % of the {_figure(distance)}"
+                f" {table.unit} from the point before it (PARAMETER OUT OF RANGE)"
             )
 
 
 def calibration_fault(table: str, turns: bool) -> str:
-    """Return why a text is no calibration table of an axis that turns or not, as a clause; "" if it is one (page 36-7)."""
+    """Return why a text is no calibration table of an axis that turns or not, as a clause;
+    "" if it is one (page 36-7).
+    """
     try:
         read = read_calibration(table)
     except CalibrationTextError as error:

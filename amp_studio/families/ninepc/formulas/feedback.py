@@ -20,7 +20,7 @@ SERCOS_CYCLE_MS = (1, 30)
 """Range of Cycle Time for SERCOS (page 7-4)."""
 
 
-# ---------------------------------------------------------------------------- chapter 7: SERCOS ring
+# -- chapter 7: SERCOS ring
 
 
 def sercos_ring_baud(drives_mhz: Sequence[float]) -> float:
@@ -55,7 +55,7 @@ def sercos_servos(cycle_ms: float, baud_mhz: float) -> int | None:
     return 4 if baud_mhz <= 2 else None
 
 
-# ------------------------------------------------------------------- chapter 7, appendix B: feedback
+# -- chapter 7, appendix B: feedback
 
 
 def counts_per_cycle(lines: float) -> int:

@@ -11,7 +11,7 @@ JERK_SCANS = (2, 60)
 """Shortest and longest S-curve in coarse scans (page 10-19)."""
 
 
-# ------------------------------------------------------------------------------ chapter 9: feedrates
+# -- chapter 9: feedrates
 
 
 def vector_feedrate_limit(distances: Sequence[float], limits: Sequence[float]) -> float:
@@ -48,7 +48,7 @@ def arc_reaches(start: tuple[float, float], end: tuple[float, float], radius: fl
     return math.dist(start, end) <= 2.0 * abs(radius)
 
 
-# ------------------------------------------------------------------------------- chapter 10: acc/dec
+# -- chapter 10: acc/dec
 
 
 def response_time_ms(gain: float) -> float:

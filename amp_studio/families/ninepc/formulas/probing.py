@@ -21,7 +21,7 @@ def approach_end(start: float, expected: float, approach: float) -> float:
     return start + math.copysign(not_negative("Approach Distance", approach), way)
 
 
-# -------------------------------------------------------------------------- chapter 30: adaptive feed
+# -- chapter 30: adaptive feed
 
 
 def feedrate_change_percent(
@@ -36,11 +36,13 @@ def feedrate_change_percent(
     return proportional + finite("The integrated torque error", integrated_error) * integral_gain
 
 
-# ------------------------------------------------------------------------- chapter 30: adaptive depth
+# -- chapter 30: adaptive depth
 
 
 def trigger_direction(before: float, further_in: float) -> int:
-    """Controlling Axis Trigger Dir, 1 or -1, from two positions: Z10 to Z5 into the part is -1 (page 30-9)."""
+    """Controlling Axis Trigger Dir, 1 or -1, from two positions: Z10 to Z5 into the part is -1 (page
+    30-9).
+    """
     way = finite("The position further in the part", further_in) - finite("The position before", before)
     if way == 0:
         raise ValueError("A move without length has no direction.")

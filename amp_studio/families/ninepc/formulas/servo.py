@@ -14,7 +14,7 @@ LARGEST_INERTIA_RATIO = 3
 """The last choice of Load Inertia Ratio is 1 : 3 (page 7-71)."""
 
 
-# -------------------------------------------------------------------------- chapter 7: position loop
+# -- chapter 7: position loop
 
 
 def reversal_first_direction(value: float) -> str:
@@ -97,7 +97,7 @@ def analog_voltage(servo_volts: float, motor_amps: float, drive_amps: float) -> 
     return servo_volts * motor_amps / drive
 
 
-# -------------------------------------------------------------------------- chapter 7: velocity loop
+# -- chapter 7: velocity loop
 
 
 def acceleration_command(

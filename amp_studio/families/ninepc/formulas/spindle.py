@@ -12,7 +12,7 @@ DEGREES_PER_GAIN_UNIT = 0.36
 TURN = 360.0
 
 
-# --------------------------------------------------------------------------- chapter 7: 1394 spindles
+# -- chapter 7: 1394 spindles
 
 
 def spindle_speed(motor_rpm: float, motor_teeth: float, shaft_teeth: float) -> float:
@@ -27,7 +27,7 @@ def spindle_motor_speed(spindle_rpm: float, motor_teeth: float, shaft_teeth: flo
     return finite("The spindle speed", spindle_rpm) * shaft / whole("The number of motor teeth", motor_teeth)
 
 
-# ------------------------------------------------------------- chapters 11 and 16: speeds in a program
+# -- chapters 11 and 16: speeds in a program
 
 
 def css_spindle_speed(surface_speed: float, radius: float, inch: bool) -> float:
@@ -49,7 +49,7 @@ def feed_per_minute(per_revolution: float, rpm: float) -> float:
     return not_negative("The feed per revolution", per_revolution) * not_negative("The spindle speed", rpm)
 
 
-# ------------------------------------------------- chapters 12 and 13: analog output and deviation
+# -- chapters 12 and 13: analog output and deviation
 
 
 def spindle_voltage(rpm: float, max_rpm: float, volts_at_max: float) -> float:
@@ -87,7 +87,7 @@ def deviation_filter_time_ms(shortest_ms: float, longest_ms: float) -> float:
     return (not_negative("The time of the smallest change", shortest_ms) + longest) / 2.0
 
 
-# ------------------------------------------------------------------- chapters 12 and 13: orienting
+# -- chapters 12 and 13: orienting
 
 
 def spindle_zero_angle(marker: float, calibration: float) -> float:
@@ -115,7 +115,7 @@ def spindle_following_error(rpm: float, gain: float) -> float:
     return DEGREES_PER_GAIN_UNIT * not_negative("The spindle speed", rpm) / positive("The gain", gain)
 
 
-# ---------------------------------------------------------------------- chapter 27: solid tapping
+# -- chapter 27: solid tapping
 
 
 def tapping_gain(axis_gain: float, spindle_gain: float) -> float:

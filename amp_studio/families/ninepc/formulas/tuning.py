@@ -15,7 +15,7 @@ LAST_AXIS = 8
 """A 9/PC has axes 1 to 8 (page 3-5)."""
 
 
-# ---------------------------------------------------------------------------------- appendix A
+# -- appendix A
 
 
 def dac_monitor_code(function: float, axis: float) -> int:
@@ -42,7 +42,7 @@ def typical_integral_gain(proportional_gain: float) -> tuple[float, float]:
     return gain / 10.0, gain / 5.0
 
 
-# -------------------------------------------------------------- chapter 36: axis calibration on line
+# -- chapter 36: axis calibration on line
 
 
 def calibration_deviation(reading: float, actual: float) -> float:

@@ -1,7 +1,7 @@
 """An emulated NUM control in utility 5: a person at its keys loads, unloads and checks the parameter table.
 
-Written from sections 13.2.1 to 13.2.6 of the NUM parameter manual (pages 13-3 to 13-14). What these pages leave open is
-marked "assumed" here and in docs/protocols/num-table.md.
+Written from sections 13.2.1 to 13.2.6 of the NUM parameter manual (pages 13-3 to 13-14). What these pages
+leave open is marked "assumed" here and in docs/protocols/num-table.md.
 """
 
 from __future__ import annotations
@@ -27,7 +27,10 @@ PIECE = 128  # bytes it sends in one turn
 
 Doing = Literal["menu", "ready", "asking", "reading", "held", "sending"]
 Job = Literal["load", "unload", "verify"]
-COMMANDS = f"load, unload, verify, enter, start, reference NNNNNNNN, comment TEXT, exit, parity none|even|odd, line BAUD STOP, patch P9N0=FF, reset, status, quit, {NumKeys.words}"
+COMMANDS = (
+    "load, unload, verify, enter, start, reference NNNNNNNN, comment TEXT, exit, parity none|even|odd, line"
+    f" BAUD STOP, patch P9N0=FF, reset, status, quit, {NumKeys.words}"
+)
 
 
 class NumControl:
@@ -70,7 +73,9 @@ class NumControl:
         self._keys.advance(duration)
 
     def line_set(self, baud: int, stop: int) -> None:
-        """Compare how the client has set its end: another rate, or fewer stop bits than are awaited, make no characters."""
+        """Compare how the client has set its end: another rate, or fewer stop bits than are awaited,
+        make no characters.
+        """
         self._fits = self._baud in (0, baud) and stop >= self._stop
 
     def answer(self) -> bytes:
@@ -101,7 +106,9 @@ class NumControl:
         return self._doing == "reading" and not self._is_stopped
 
     def _keep_for_later(self, data: bytes) -> None:
-        """Keep what came while the peripheral was stopped, as far as there is room; outside a load nobody reads it."""
+        """Keep what came while the peripheral was stopped, as far as there is room;
+        outside a load nobody reads it.
+        """
         if self._doing in ("reading", "held"):
             self._later += data[: BUFFER - len(self._later)]
 
@@ -237,7 +244,10 @@ class NumControl:
             case "patch" if found := re.fullmatch(r"P([0-9]{1,4})N([0-9]{1,4})=(.*)", rest):
                 return self._patch(int(found[1]), int(found[2]), found[3])
             case "status" if not rest:
-                return f"{self._doing} {self._job} job reference {self._parameters.job_reference} parity {self._parity}"
+                return (
+                    f"{self._doing} {self._job} job reference {self._parameters.job_reference} parity"
+                    f" {self._parity}"
+                )
         raise ValueError(f"not possible now, or no command: {COMMANDS}")
 
     def _select(self, job: Job) -> str:

@@ -1,4 +1,6 @@
-"""The parameter table with which an emulated NUM control is delivered: printed defaults, and 0 where none is printed."""
+"""The parameter table with which an emulated NUM control is delivered: printed defaults,
+and 0 where none is printed.
+"""
 
 from __future__ import annotations
 
@@ -10,7 +12,9 @@ from amp_studio.files import new_file
 
 
 def delivered_table(family: str) -> bytes:
-    """Return every word of every parameter whose type is printed, as lines of a table with Xoff behind them."""
+    """Return every word of every parameter whose type is printed, as lines of a table with Xoff behind
+    them.
+    """
     file = new_file(family)
     known, words = words_of(file.schema, file.machine), dict[tuple[int, int], str]()
     parameter, first = 0, 0

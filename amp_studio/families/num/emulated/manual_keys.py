@@ -1,7 +1,9 @@
-"""The machine behind an emulated NUM control: jog and homing in manual mode, and the position page (chapters 6 and 7).
+"""The machine behind an emulated NUM control: jog and homing in manual mode,
+and the position page (chapters 6 and 7).
 
-Commands are keys: ``jog X+ slow`` goes on until ``release``, ``homing X`` the homing mode with the key of the direction of P15, ``position`` the axis page.
-The peripheral line carries parameters alone (chapter 13): what the axes do is on the screen.
+Commands are keys: ``jog X+ slow`` goes on until ``release``, ``homing X`` the homing mode with the key of the
+direction of P15, ``position`` the axis page. The peripheral line carries parameters alone (chapter 13):
+what the axes do is on the screen.
 """
 
 from __future__ import annotations

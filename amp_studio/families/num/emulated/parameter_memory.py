@@ -1,6 +1,7 @@
 """The machine parameters of an emulated NUM control, as utility 5 loads, lists and unloads them.
 
-Written from section 13.2.6 and page 1-3 of the NUM parameter manual; it shares nothing with the driver and the text format.
+Written from section 13.2.6 and page 1-3 of the NUM parameter manual;
+it shares nothing with the driver and the text format.
 """
 
 from __future__ import annotations
@@ -49,9 +50,17 @@ def _decimal(low: int, high: int) -> WordType:
     return WordType(re.compile("[+-]?[0-9]{1,10}"), 10, low, high)
 
 
-TYPES = {0: _hex(8), 1: _decimal(-32_768, 32_767), 2: _decimal(-99_999_999, 99_999_999), 4: _decimal(0, 99_999_999),
-         5: _decimal(0, 65_535), 6: _hex(32), 7: _hex(16), 8: WordType(re.compile("[ -~]*")),
-         9: WordType(re.compile(r"[+-]?[0-9]*\.?[0-9]*(?:E[+-]?[0-9]+)?"))}  # fmt: skip
+TYPES = {
+    0: _hex(8),
+    1: _decimal(-32_768, 32_767),
+    2: _decimal(-99_999_999, 99_999_999),
+    4: _decimal(0, 99_999_999),
+    5: _decimal(0, 65_535),
+    6: _hex(32),
+    7: _hex(16),
+    8: WordType(re.compile("[ -~]*")),
+    9: WordType(re.compile(r"[+-]?[0-9]*\.?[0-9]*(?:E[+-]?[0-9]+)?")),
+}
 
 
 def measured(line: str) -> bytes:
@@ -82,7 +91,9 @@ class ParameterMemory:
     """Type and words of every parameter, with the job reference of the CNC; kept in a folder."""
 
     def __init__(self, memory: Memory, delivered: bytes) -> None:
-        """Take what the folder has, else the table ``delivered``; raises ValueError for a folder of something else."""
+        """Take what the folder has, else the table ``delivered``;
+        raises ValueError for a folder of something else.
+        """
         self._memory = memory
         self.job_reference = "00000000"
         self.types: dict[int, int] = {}
@@ -178,7 +189,9 @@ class ParameterMemory:
         self._memory.remove(TAKEN)
 
     def lines(self, start: str = "") -> Iterator[bytes]:
-        """Yield the lines of the table as it is unloaded; ``start`` is what the operator made of the first one."""
+        """Yield the lines of the table as it is unloaded;
+        ``start`` is what the operator made of the first one.
+        """
         yield measured(start or f"%{self.job_reference}")
         for parameter, words in sorted(self.words.items()):
             for first in range(0, len(words), _MOST):

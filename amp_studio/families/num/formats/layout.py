@@ -153,7 +153,9 @@ def compose(cells: Cells, heads: Heads, forms: Mapping[int, Spelling], layout: T
 
 
 def _arranged(cells: Cells, layout: TableLayout) -> list[Placed]:
-    """Return the lines of a table: those remembered as far as their words are there, the rest in its place."""
+    """Return the lines of a table: those remembered as far as their words are there, the rest in its
+    place.
+    """
     left = dict.fromkeys(sorted(cells), True)
     arranged: list[Placed] = []
     for block in layout.blocks:
@@ -169,7 +171,9 @@ def _arranged(cells: Cells, layout: TableLayout) -> list[Placed]:
 
 
 def runs(words: Iterable[Word], typed: bool) -> Iterator[Placed]:
-    """Divide words into the lines of the control: ten to a line from word 0, and a separate line after each gap."""
+    """Divide words into the lines of the control: ten to a line from word 0,
+    and a separate line after each gap.
+    """
     first, count = (-1, -1), 0
     for parameter, n in words:
         if count and (parameter, n) == (first[0], first[1] + count) and n % MOST_VALUES:

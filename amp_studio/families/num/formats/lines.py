@@ -14,9 +14,16 @@ from .words import Word
 _LINE = re.compile(r"(.*);([0-9A-F]{2})")
 _START = re.compile(r"%([0-9]{8})(?![0-9])([ -~]*)")
 HEADER = re.compile(r"P(0|[1-9][0-9]{0,3})N(0|[1-9][0-9]{0,3})(?::t([0-9])n([1-9][0-9]{0,3}))?")
-_HEADER_PARTS = (("P", "'P'"), ("0|[1-9][0-9]{0,3}", "the number of the parameter"), ("N", "'N'"),
-                 ("0|[1-9][0-9]{0,3}", "the number of its first word"), (":t", "':t' or the end"),
-                 ("[0-9]", "the code of a type"), ("n", "'n'"), ("[1-9][0-9]{0,3}", "the number of words"))  # fmt: skip
+_HEADER_PARTS = (
+    ("P", "'P'"),
+    ("0|[1-9][0-9]{0,3}", "the number of the parameter"),
+    ("N", "'N'"),
+    ("0|[1-9][0-9]{0,3}", "the number of its first word"),
+    (":t", "':t' or the end"),
+    ("[0-9]", "the code of a type"),
+    ("n", "'n'"),
+    ("[1-9][0-9]{0,3}", "the number of words"),
+)
 _TAIL = re.compile(r"(?:\r\n|\n)*\x1a?[\0\r\n]*")
 
 

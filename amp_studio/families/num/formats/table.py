@@ -1,8 +1,8 @@
 """The parameter table that NUM controls send and take (section 13.2.6).
 
-``%`` and the job reference, then a header ``PaNb:tcnd`` and a data line ``#`` for each ten words, Xoff at the end;
-every line closes with ``;`` and its length in hexadecimal. ``docs/formats.md`` lists what was decided where the manual
-is silent.
+``%`` and the job reference, then a header ``PaNb:tcnd`` and a data line ``#`` for each ten words, Xoff at the
+end; every line closes with ``;`` and its length in hexadecimal. ``docs/formats.md`` lists what was decided
+where the manual is silent.
 """
 
 from __future__ import annotations
@@ -94,7 +94,9 @@ class _Reader:
         )
 
     def _count(self, block: Block) -> int | None:
-        """Return how many words the parameter has; the header has to agree with the others and with the schema."""
+        """Return how many words the parameter has; the header has to agree with the others
+        and with the schema.
+        """
         parameter, line = block.first[0], block.line
         if block.code is None or block.count is None:
             return self.heads[parameter][1] if parameter in self.heads else self.known.counts.get(parameter)
@@ -138,7 +140,9 @@ class _Reader:
         raise FormatError(message, block.line + 1, column)
 
     def _keep(self, block: Block, kept: list[tuple[Word, str]]) -> None:
-        """Keep words that the schema does not have: those that follow each other under the number of the first."""
+        """Keep words that the schema does not have: those that follow each other under the number of the
+        first.
+        """
         unknown, (_, colon, form) = self.found.unknown, block.header.partition(":")
         key, behind = "", (-1, -1)
         for word, text in kept:
@@ -174,7 +178,9 @@ class _Reader:
             raise FormatError(f"{name_of(word)}: {error}", *self.places[word]) from None
 
     def missing(self) -> Iterator[str]:
-        """Yield what the table leaves open: parameters and words that it does not have, other numbers of words."""
+        """Yield what the table leaves open: parameters and words that it does not have,
+        other numbers of words.
+        """
         here: dict[int, set[int]] = {}
         for parameter, word in self.places:
             here.setdefault(parameter, set()).add(word)
@@ -282,6 +288,12 @@ def _spelled(file: ParameterFile, meaning: WordMeaning, form: Spelling | None) -
 
 
 FORMAT = TextFormat(
-    "num", "NUM parameter table", ".par", _recognises, _read, _write,
-    encoding="ascii", other_endings=(".num", ".txt"),
-)  # fmt: skip
+    "num",
+    "NUM parameter table",
+    ".par",
+    _recognises,
+    _read,
+    _write,
+    encoding="ascii",
+    other_endings=(".num", ".txt"),
+)

@@ -1,8 +1,9 @@
-"""The words of a NUM control: which number is which value of the schema, how a word is spelled, what it means.
+"""The words of a NUM control: which number is which value of the schema, how a word is spelled,
+what it means.
 
-A word of a known parameter is spelled and understood by the storage the schema gives it: notation, bits, sign,
-unit, scale and the control's code of its type. For a parameter that the schema does not have, the type that the table
-names is used (page 1-3).
+A word of a known parameter is spelled and understood by the storage the schema gives it: notation, bits,
+sign, unit, scale and the control's code of its type. For a parameter that the schema does not have, the type
+that the table names is used (page 1-3).
 """
 
 from __future__ import annotations
@@ -67,7 +68,8 @@ class Spelling:
     def of(cls, storage: Storage) -> Spelling:
         """Return how words are spelled that the control stores in such a way.
 
-        Page 13-14 shows eight digits for hexadecimal words of 32 bits and no leading zeros for those of 8 bits.
+        Page 13-14 shows eight digits for hexadecimal words of 32 bits and no leading zeros
+        for those of 8 bits.
         """
         bits = storage.bits or 32
         if storage.notation == "hex":
@@ -145,7 +147,8 @@ class WordMeaning:
     address: Address
     parameter: Parameter
     unit: str | None
-    """In which the control keeps it; None where other words decide: millimetres are degrees on an axis that turns."""
+    """In which the control keeps it; None where other words decide:
+    millimetres are degrees on an axis that turns."""
 
     @classmethod
     def of(cls, schema: Schema, address: Address) -> WordMeaning:
@@ -175,7 +178,9 @@ class WordMeaning:
         return checked(parameter, from_stored(parameter, content, self.unit_in(file)))
 
     def content(self, file: ParameterFile, value: Value) -> Content:
-        """Return what the word of a value contains, before it is made a whole number; raises InvalidValueError."""
+        """Return what the word of a value contains, before it is made a whole number;
+        raises InvalidValueError.
+        """
         found = value.value
         if self.parameter.choices:
             return code_of(self.parameter, value)
@@ -210,7 +215,9 @@ class KnownWords:
     """Parameter -> type and number of its words, where the schema knows the type."""
 
     def form(self, parameter: int, heads: Mapping[int, tuple[int, int]]) -> Spelling | None:
-        """Return how the words of a parameter are spelled: by the schema, else by the type that a table gives."""
+        """Return how the words of a parameter are spelled: by the schema,
+        else by the type that a table gives.
+        """
         own = self.forms.get(parameter)
         if (own is None or own.code is None) and parameter in heads:
             return WORD_TYPES[heads[parameter][0]]

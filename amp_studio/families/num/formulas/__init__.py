@@ -1,7 +1,8 @@
 """The named formulas of the NUM 1020/1040/1060 parameter manual, a module for each subject.
 
-Every function is pure. An argument that makes no sense raises ValueError with one sentence that names it. Where the
-manual contradicts itself the formula is taken, not the printed number; the text of the function states it.
+Every function is pure. An argument that makes no sense raises ValueError with one sentence that names it.
+Where the manual contradicts itself the formula is taken, not the printed number;
+the text of the function states it.
 """
 
 from .axes import assignment_word, axis_name, carried_partner, indexing_increment, limited_in_force

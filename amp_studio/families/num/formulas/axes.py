@@ -34,7 +34,8 @@ def limited_in_force(modulo: float, limited: float) -> int:
 
 
 def carried_partner(word: float) -> float:
-    """Word of P9 of the axis that makes a carrier and carried pair with this one (page 4-34): U for X, X for U.
+    """Word of P9 of the axis that makes a carrier and carried pair with this one (page 4-34): U for X,
+    X for U.
 
     -1 for an axis that has no such partner, a rotary one or none at all.
     """

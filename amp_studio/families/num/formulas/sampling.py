@@ -25,7 +25,9 @@ def _within(value: float, limits: tuple[float, float]) -> float:
 
 
 def sampling_period_in_force(period: float, uc_sii: bool) -> float:
-    """Sampling period with which the CNC works: 2000 to 20000 µs, on a UC SII whole steps of 2 ms (page 9-10)."""
+    """Sampling period with which the CNC works: 2000 to 20000 µs,
+    on a UC SII whole steps of 2 ms (page 9-10).
+    """
     bounded = _within(finite("The sampling period", period), PERIOD_LIMITS)
     return bounded // UC_SII_STEP * UC_SII_STEP if uc_sii else bounded
 
@@ -69,7 +71,8 @@ def stack_kbytes(words: float) -> float:
 def potentiometer_range_in_force(low: float, high: float, spindle: bool) -> tuple[float, float]:
     """Range of a potentiometer in %: as given if it has 100 % in it, else the control's own (page 9-18).
 
-    Both ends 0 to 255 and the upper one above the lower; else 0 to 120 for feed rates, 50 to 100 for spindles.
+    Both ends 0 to 255 and the upper one above the lower; else 0 to 120 for feed rates,
+    50 to 100 for spindles.
     """
     if 0.0 <= low < high <= 255.0 and low <= 100.0 <= high:
         return low, high
@@ -89,7 +92,8 @@ def free_access_kbytes(total: float, customer: float, oem: float, num: float) ->
 def sequence_word(characters: str) -> int:
     """Word of P38 for a sequence of one to four characters, the last one in the lowest byte (page 10-4).
 
-    The example prints 001B9143 for ESC [ C; with the code of the bracket it is 001B5B43 (erratum e-p38-bracket).
+    The example prints 001B9143 for ESC [ C; with the code of the bracket it is 001B5B43 (erratum
+    e-p38-bracket).
     """
     if not 1 <= len(characters) <= 4:
         raise ValueError(f"A sequence has one to four characters, not {len(characters)}.")

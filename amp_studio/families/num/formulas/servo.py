@@ -1,7 +1,8 @@
 """Servo-control: chapter 6, and what chapter 11 adds to its parameters.
 
-Speeds are mm or degrees per minute as in the words of P30, times (the sampling period too) are ms, and ``unit`` is the
-internal unit of the axis in mm or degrees (see ``units``). The manual's own formulas take mm/s and seconds.
+Speeds are mm or degrees per minute as in the words of P30, times (the sampling period too) are ms, and
+``unit`` is the internal unit of the axis in mm or degrees (see ``units``).
+The manual's own formulas take mm/s and seconds.
 """
 
 from __future__ import annotations
@@ -45,12 +46,14 @@ def axis_turns(axis: float, modulo: float, limited: float, assignment: float) ->
 def axis_unit(
     axis: float, modulo: float, limited: float, assignment: float, digits: float, divider: float
 ) -> float:
-    """Internal unit of one axis in mm, or in degrees where it turns (page 4-18); the last two are P4N2 and P4N4."""
+    """Internal unit of one axis in mm, or in degrees where it turns (page 4-18);
+    the last two are P4N2 and P4N4.
+    """
     turns = axis_turns(axis, modulo, limited, assignment)
     return rotary_unit_deg(divider) if turns else internal_unit_mm(digits)
 
 
-# ------------------------------------------------------------------------------------- speed and acceleration
+# -- speed and acceleration
 
 
 def increments_per_sample(speed: float, period: float, unit: float) -> float:
@@ -66,7 +69,8 @@ def largest_traverse_rate(period: float, unit: float) -> float:
 
 
 def slowest_axis(speeds: Sequence[float | None], measured: float, servoed: float) -> float:
-    """Speed of Fast JOG: the lowest top speed among the servo-controlled axes, in the order of addresses (page 6-42).
+    """Speed of Fast JOG: the lowest top speed among the servo-controlled axes,
+    in the order of addresses (page 6-42).
 
     The masks are those of P2 and P3; an axis without a top speed does not count.
     """
@@ -91,7 +95,8 @@ def buildup_acceleration(speed: float, buildup_time: float) -> float:
 def average_acceleration(speed_variation: float, least_time: float, acceleration: float) -> float:
     """Average acceleration with the sin² function for a change of speed (page 6-38).
 
-    ``least_time`` is the word of P53; 0 is the old way, half of the greatest acceleration whatever the change.
+    ``least_time`` is the word of P53; 0 is the old way,
+    half of the greatest acceleration whatever the change.
     """
     half = not_negative("The acceleration", acceleration) / 2.0
     change = not_negative("The speed variation", speed_variation) / 60.0
@@ -108,7 +113,7 @@ def approach_speed(acceleration: float, time_constant: float, divider: float = 1
     return round(per_second * 60.0 / positive("The divider", divider), 6)
 
 
-# ------------------------------------------------------------------------------------- the position loop
+# -- the position loop
 
 
 def loop_gain_per_second(gain: float) -> float:
@@ -127,7 +132,9 @@ def measured_time_constant(speed: float, following_error: float) -> float:
 
 
 def of_group(values: Sequence[float | None], assignment: float) -> float:
-    """Value of the group of an axis, out of one for each group: the left digit of its word of P9 (page 4-24)."""
+    """Value of the group of an axis, out of one for each group: the left digit of its word of P9 (page
+    4-24).
+    """
     group = int(assignment) >> 4
     found = values[group] if group < len(values) else None
     if found is None:
@@ -156,7 +163,8 @@ def reference_points(voltage: float) -> float:
 def loop_gain_coefficient(max_speed: float, time_constant: float, unit: float, voltage: float = 9.0) -> float:
     """Servo-System Loop Gain Coefficient KVAR from top speed and time constant (page 6-14).
 
-    ``voltage`` is the reference at which the axis has its top speed; another than 9 V takes its place (page 6-44).
+    ``voltage`` is the reference at which the axis has its top speed;
+    another than 9 V takes its place (page 6-44).
     """
     error = steady_following_error(
         positive("The speed", max_speed), positive("The time constant", time_constant)
@@ -186,7 +194,7 @@ def theoretical_speeds(following_error: float, time_constant: float) -> tuple[fl
     return GAIN_BAND[0] * speed, GAIN_BAND[1] * speed
 
 
-# ------------------------------------------------------------------------------------- tolerances
+# -- tolerances
 
 
 def in_position_window(standing_error: float) -> float:
@@ -195,7 +203,9 @@ def in_position_window(standing_error: float) -> float:
 
 
 def movement_tolerances(window: float) -> tuple[float, float]:
-    """Least and greatest usual tolerance of Dynamic Movement Control: 2 and 4 in-position windows (page 11-8)."""
+    """Least and greatest usual tolerance of Dynamic Movement Control:
+    2 and 4 in-position windows (page 11-8).
+    """
     window = not_negative("The in-position window", window)
     return 2.0 * window, 4.0 * window
 
@@ -212,7 +222,7 @@ def circle_speed(tolerance: float, time_constant: float, radius: float) -> float
     return math.sqrt(room) * 60000.0 / positive("The time constant", time_constant)
 
 
-# ------------------------------------------------------------------------------------- very high speed machining
+# -- very high speed machining
 
 
 def effective_anticipation(percent: float) -> float:

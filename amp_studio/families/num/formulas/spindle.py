@@ -21,11 +21,13 @@ FULL_REFERENCE_V = 10.0
 """Reference at which a spindle has the highest speed of its range (page 8-16)."""
 
 
-# ------------------------------------------------------------------------------------- measurement of the angle
+# -- measurement of the angle
 
 
 def spindle_modulo(points: float) -> int:
-    """Increments in a revolution: the power of two at or above the encoder's points, at least 4096 (page 8-12)."""
+    """Increments in a revolution: the power of two at or above the encoder's points,
+    at least 4096 (page 8-12).
+    """
     modulo = LEAST_MODULO
     while modulo < whole("The number of encoder points", points):
         modulo *= 2
@@ -51,7 +53,7 @@ def largest_measured_speed(points: float, period: float) -> float:
     return revolutions * 60e6 / positive("The sampling period", period)
 
 
-# --------------------------------------------------------------------------------------------------- indexing
+# -- indexing
 
 
 def indexing_reference(error: float, gain: float, limit: float) -> float:
@@ -65,11 +67,13 @@ def indexing_reference(error: float, gain: float, limit: float) -> float:
 
 
 def indexing_standstill(period: float) -> float:
-    """Speed in rpm below which an indexed spindle counts as stopped: 3/4096 revolution in a sample (page 8-5)."""
+    """Speed in rpm below which an indexed spindle counts as stopped:
+    3/4096 revolution in a sample (page 8-5).
+    """
     return 3.0 / 4096.0 * 60e6 / positive("The sampling period", period)
 
 
-# ----------------------------------------------------------------------------------------------- speed ranges
+# -- speed ranges
 
 
 def ranges_for_speed(
@@ -91,10 +95,11 @@ def ranges_for_speed(
 def speed_gap(
     minima: Sequence[float | None], maxima: Sequence[float | None], limits: Sequence[float | None]
 ) -> float:
-    """Speed in rpm above which the next range begins too late, 0 where no speed between the ranges is lost (page 8-16).
+    """Speed in rpm above which the next range begins too late,
+    0 where no speed between the ranges is lost (page 8-16).
 
-    A range ends at its limit speed, or at its highest speed if that is 0; the next speed is 1 rpm higher. A range
-    whose highest speed is 0 does not exist, and one that ends before it begins has no speeds.
+    A range ends at its limit speed, or at its highest speed if that is 0; the next speed is 1 rpm higher. A
+    range whose highest speed is 0 does not exist, and one that ends before it begins has no speeds.
     """
     _same_length(minima, maxima, limits)
     there = [(low, limit or high) for low, high, limit in zip(minima, maxima, limits, strict=True) if high]
@@ -131,21 +136,23 @@ def spindle_reference_points(speed: float, range_max: float) -> int:
     return round(spindle_reference_volts(speed, range_max) * DAC_POINTS_AT_9_V / 9.0)
 
 
-# ---------------------------------------------------------------------------------------------- rigid tapping
+# -- rigid tapping
 
 
 def tapping_deceleration_distance(pitch: float, speed: float, deceleration: float) -> float:
     """Distance above the bottom at which a tap begins to slow down: pitch x S² / (2 x A x 60²) (page 8-32).
 
-    In the length unit of ``pitch``, with S in rpm and A, the word of P62, in revolutions per s squared. The brackets
-    are not printed (erratum e-p62-distance).
+    In the length unit of ``pitch``, with S in rpm and A, the word of P62, in revolutions per s squared. The
+    brackets are not printed (erratum e-p62-distance).
     """
     turns = not_negative("The spindle speed", speed) ** 2 / (2.0 * 3600.0 * positive("A", deceleration))
     return positive("The pitch", pitch) * turns
 
 
 def hole_bottom_speed(millivolts: float, range_max: float) -> float:
-    """Speed in rpm of the least reference in the hole bottom, by the 10 V of the range (pages 8-32 and 8-16)."""
+    """Speed in rpm of the least reference in the hole bottom, by the 10 V of the range (pages 8-32 and
+    8-16).
+    """
     top = positive("The highest speed of the range", range_max)
     return not_negative("The reference", millivolts) / 1000.0 / FULL_REFERENCE_V * top
 

@@ -6,7 +6,9 @@ from amp_studio.validate import finite
 
 
 def axis_travel(least: float, most: float) -> float:
-    """Travel of an axis between its lower and its upper limit (page 7-12); below zero where they are exchanged."""
+    """Travel of an axis between its lower and its upper limit (page 7-12);
+    below zero where they are exchanged.
+    """
     return finite("The upper travel limit", most) - finite("The lower travel limit", least)
 
 

@@ -1,4 +1,6 @@
-"""What a NUM control contains: its parameter table, as it unloads it (page 13-14), under a line that names the kind."""
+"""What a NUM control contains: its parameter table, as it unloads it (page 13-14),
+under a line that names the kind.
+"""
 
 from __future__ import annotations
 
@@ -59,7 +61,9 @@ class NumTableContent(TakesAllOrRefuses):
         return content
 
     def lacks(self, content: bytes, earlier: bytes) -> str:
-        """Return the words that the CNC had; those of another one, by its job reference, do not count. Raises ImageError."""
+        """Return the words that the CNC had; those of another one, by its job reference, do not count.
+        Raises ImageError.
+        """
         if reference_of(content) != reference_of(earlier):
             return ""
         present = words_of_table(content)
@@ -92,8 +96,8 @@ class NumTableContent(TakesAllOrRefuses):
 def content_of_table(table: str) -> bytes:
     """Return the content of a table that has come.
 
-    What a person typed behind the job reference is left out of it, and Xoff is on a line alone: both would be another
-    content of the same control.
+    What a person typed behind the job reference is left out of it, and Xoff is on a line alone: both would be
+    another content of the same control.
     """
     first, end, rest = table.partition("\n")
     if end and not rest.endswith("\n\x13") and rest != "\x13":
@@ -137,7 +141,9 @@ def words_of_table(content: bytes) -> dict[str, str]:
 
 
 def _check_reference(file: ParameterFile, present: ParameterFile) -> None:
-    """Refuse a file that was read from a CNC with another job reference, as the control itself does (page 13-10)."""
+    """Refuse a file that was read from a CNC with another job reference,
+    as the control itself does (page 13-10).
+    """
     there, here = (_reference(each) for each in (file, present))
     if there is not None and there != (here or "00000000"):
         raise _other_reference("the file", there, here or "00000000")
@@ -151,7 +157,8 @@ def _reference(file: ParameterFile) -> str | None:
 
 def _other_reference(what: str, there: str, here: str) -> ImageError:
     return ImageError(
-        f"{what} is of a CNC with the job reference {there}, and this one has {here} (NUM parameter manual, page 13-10)"
+        f"{what} is of a CNC with the job reference {there}, and this one has {here} (NUM parameter manual,"
+        " page 13-10)"
     )
 
 

@@ -1,4 +1,5 @@
-"""The tool as the peripheral of a NUM control: it takes and gives the parameter table while a person presses the keys.
+"""The tool as the peripheral of a NUM control:
+it takes and gives the parameter table while a person presses the keys.
 
 Sections 13.2.3 to 13.2.6 of the NUM parameter manual; docs/protocols/num-table.md.
 """
@@ -53,21 +54,23 @@ UNLOAD_TEXT = (
     "(NUM parameter manual, page 13-12)"
 )
 LOAD_TEXT = (
-    "At the control: MACHINE SETUP DATA, 2 LOAD, Enter at READY? (page 13-10). The table is sent as soon as the "
-    f"control asks for it, or in {READY_WAIT:g} s"
+    "At the control: MACHINE SETUP DATA, 2 LOAD, Enter at READY? (page 13-10). The table is sent as soon as"
+    f" the control asks for it, or in {READY_WAIT:g} s"
 )
 CHECK_TEXT = (
-    "At the control: MACHINE SETUP DATA, 4 CHECK, Enter at READY? (page 13-13). It compares the table with its memory. The "
-    f"table is sent as soon as the control asks for it, or in {READY_WAIT:g} s"
+    "At the control: MACHINE SETUP DATA, 4 CHECK, Enter at READY? (page 13-13). It compares the table with"
+    f" its memory. The table is sent as soon as the control asks for it, or in {READY_WAIT:g} s"
 )
 HELD_TEXT = (
-    "The control has stopped the table. Where it shows a number with %, replace it by the job reference (page 13-10); "
-    "where it shows FILE ERROR, stop here"
+    "The control has stopped the table. Where it shows a number with %, replace it by the job reference (page"
+    " 13-10); where it shows FILE ERROR, stop here"
 )
 
 
 class PeripheralDriver(NumTableContent, LineDriver):
-    """Speaks to a control in utility 5. Every operation is begun by a person; what to press comes through ``progress``."""
+    """Speaks to a control in utility 5. Every operation is begun by a person;
+    what to press comes through ``progress``.
+    """
 
     family, protocol = FAMILY, "peripheral"
     usual = USUAL
@@ -97,7 +100,8 @@ class PeripheralDriver(NumTableContent, LineDriver):
         """Return the driver of an endpoint; raises WrongFamilyError where another family is asked for."""
         place = endpoint.with_usual(USUAL)
         if place.bits == 7 and place.parity in ("even", "odd"):
-            # The same ten bits a character; so a damaged one is seen here, where the port would pass it on unnoticed.
+            # The same ten bits a character; so a damaged one is seen here, where the port would pass it on
+            # unnoticed.
             place = replace(place, bits=8, parity="none")
         driver = super().at(place, family)
         driver.is_checked = endpoint.kind in ("tcp", "tls")
@@ -156,7 +160,9 @@ class PeripheralDriver(NumTableContent, LineDriver):
     # -- unload -----------------------------------------------------------------------------------
 
     def _unloaded(self, stage: str, seconds: float) -> bytes:
-        """Have a person unload until a table has come undamaged, twice the same where nothing on the line shows damage."""
+        """Have a person unload until a table has come undamaged,
+        twice the same where nothing on the line shows damage.
+        """
         before, fault, last = b"", "", TransferError("no table")
         for _ in range(UNLOADS):
             self._line()  # what comes before the port is open is lost
@@ -176,7 +182,10 @@ class PeripheralDriver(NumTableContent, LineDriver):
                 continue
             if self.is_checked or reader.parity != "none" or content == before:
                 return content
-            fault = "Nothing on this line (no parity) shows a damaged character: unload it once more, to compare. "
+            fault = (
+                "Nothing on this line (no parity) shows a damaged character: unload it once more, to"
+                " compare. "
+            )
             last = ImageDamagedError("two unloads of the table were not the same")
             before = content
         raise last
@@ -227,9 +236,11 @@ class PeripheralDriver(NumTableContent, LineDriver):
     # -- load and check ---------------------------------------------------------------------------
 
     def _check(self, content: bytes) -> bool:
-        """Have the control compare a table with its memory; returns whether it took it to its end (page 13-13).
+        """Have the control compare a table with its memory;
+        returns whether it took it to its end (page 13-13).
 
-        Where a parameter differs the control stops there and shows FILE ERROR, and the person may stop here too.
+        Where a parameter differs the control stops there and shows FILE ERROR,
+        and the person may stop here too.
         """
         lines = table_text(content).splitlines(keepends=True)
         try:

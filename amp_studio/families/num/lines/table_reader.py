@@ -15,10 +15,11 @@ _BEFORE = frozenset((0x00, 0x7F, 0x0A, 0x0D, XON, XOFF))
 
 
 class TableReader:
-    """Takes an unload as it comes. Which parity its characters have, ``%`` shows: it has three ones, so A5 is even.
+    """Takes an unload as it comes. Which parity its characters have, ``%`` shows: it has three ones,
+    so A5 is even.
 
-    The manual itself gives Xoff as 93 (page 9-20), which is 13 with even parity in the eighth bit. Odd parity leaves ``%``
-    as it is, and shows at the first character with an even number of ones.
+    The manual itself gives Xoff as 93 (page 9-20), which is 13 with even parity in the eighth bit. Odd parity
+    leaves ``%`` as it is, and shows at the first character with an even number of ones.
     """
 
     def __init__(self) -> None:
@@ -56,7 +57,8 @@ class TableReader:
 
     def _take(self, byte: int) -> None:
         if byte & 0x80 and self.parity == "none" and len(self.table) < 13:
-            # The job reference has eight digits: one of 0, 3, 5, 6 or 9, or the ";" with its length, shows odd parity.
+            # The job reference has eight digits: one of 0, 3, 5, 6 or 9, or the ";" with its length, shows
+            # odd parity.
             self.parity = "odd"
             if any(with_parity(sign, "odd") != sign for sign in self.table):
                 raise self._damaged("a character with a parity error")

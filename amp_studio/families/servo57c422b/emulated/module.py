@@ -1,8 +1,9 @@
-"""An emulated 57C422B: 4096 registers, the commands in 66 and 67 with their handshake, and the faults of register 73.
+"""An emulated 57C422B: 4096 registers, the commands in 66 and 67 with their handshake,
+and the faults of register 73.
 
-Written from chapter 4 of the instruction manual. Our copy has lost the figures with the bit numbers: bits that no text and
-no program of the manual names are ASSUMED below. Behind each axis is a simulated one, made from its registers, that moves while
-time passes (`advance`).
+Written from chapter 4 of the instruction manual. Our copy has lost the figures with the bit numbers: bits
+that no text and no program of the manual names are ASSUMED below. Behind each axis is a simulated one, made
+from its registers, that moves while time passes (`advance`).
 """
 
 from __future__ import annotations
@@ -34,7 +35,8 @@ FAULTS = {"POSITION ERROR": POSITION_ERROR, "VELOCITY ERROR": VELOCITY_ERROR, "O
 """Alarm of the simulated axis -> bit of register 73."""
 IN_POSITION, MOST_ERROR, VELOCITY, ERROR, PERIOD = 10, 8, 78, 80, 83
 READ_ONLY = frozenset((*range(70, 83), *range(84, 88), *range(99, 104)))
-"""Written by the module; the manual calls 72 to 82, 84 to 87 and 99 to 103 its own. What a write to them does is not printed: here nothing."""
+"""Written by the module; the manual calls 72 to 82, 84 to 87 and 99 to 103 its own.
+What a write to them does is not printed: here nothing."""
 NAME = "57C422B module in an emulated rack"
 
 
@@ -62,7 +64,9 @@ class Module:
         self.stop_all()
 
     def stop_all(self) -> None:
-        """Obey STOP ALL / CLEAR from the programming terminal: feedback and drive reference off, system fault (page 4-38)."""
+        """Obey STOP ALL / CLEAR from the programming terminal: feedback and drive reference off,
+        system fault (page 4-38).
+        """
         for axis in AXES.values():
             self.words[axis + MODE] &= ~LOOP & 0xFFFF
             self._follow_mode(axis, 0)
@@ -74,7 +78,9 @@ class Module:
         self._disable(axis)
 
     def advance(self, duration: float) -> None:
-        """Let time pass, s: the axes move, and their state is in registers 72 and 73 (continuously, 4-34 and 4-37)."""
+        """Let time pass, s: the axes move, and their state is in registers 72 and 73 (continuously,
+        4-34 and 4-37).
+        """
         for axis, motion in self._motion.items():
             simulated = motion.simulated
             if simulated is None:
@@ -185,7 +191,9 @@ class Module:
             self._set(axis + STATUS, ACKNOWLEDGE)
 
     def _may(self, axis: int, command: int) -> bool:
-        """Return whether a command has legal parameters: a move needs a rate (page 4-38) and a loop that is on (assumed)."""
+        """Return whether a command has legal parameters: a move needs a rate (page 4-38)
+        and a loop that is on (assumed).
+        """
         if not command & MOVE:
             return True
         rates = (double(self.words, axis + ACCELERATION), double(self.words, axis + DECELERATION))
@@ -249,7 +257,9 @@ class Module:
     # -- small parts ------------------------------------------------------------------
 
     def _set(self, register: int, bits: int) -> None:
-        """Set bits of a status or fault register; those that are enabled cause an interrupt (pages 4-43 to 4-45)."""
+        """Set bits of a status or fault register; those that are enabled cause an interrupt (pages 4-43 to
+        4-45).
+        """
         new = bits & ~self.words[register]
         self.words[register] |= bits
         axis, number = register // AXIS_Y * AXIS_Y, register % AXIS_Y

@@ -15,7 +15,9 @@ SPEED, ACCELERATION = 65.536, 0.065536
 
 
 class ModuleMotion:
-    """Moves one axis of a module; ``axis`` is X or Y. Without gains that can be simulated the axis does not follow at all."""
+    """Moves one axis of a module; ``axis`` is X or Y.
+    Without gains that can be simulated the axis does not follow at all.
+    """
 
     def __init__(self, axis: str) -> None:
         self.name = axis
@@ -46,7 +48,9 @@ class ModuleMotion:
         return self.simulated.velocity * SCAN if self.simulated else 0.0
 
     def bind(self, words: Sequence[int]) -> bool:
-        """Take the registers of the module over while the axis is at rest; returns whether an axis can move with them."""
+        """Take the registers of the module over while the axis is at rest;
+        returns whether an axis can move with them.
+        """
         own = tuple(words[self._first : self._first + AXIS_Y])
         if own[:63] == self._words or (self.simulated and self.simulated.is_busy):
             return self.simulated is not None

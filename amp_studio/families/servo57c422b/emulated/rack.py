@@ -100,8 +100,10 @@ class Rack:
             self.module.power_on()
             return "switched off and on: the registers are lost"
         if verb == "status" and not rest:
-            words = (f"{name} R72={self.module.read(axis + 72):04X}H R73={self.module.read(axis + 73):04X}H"
-                     for name, axis in AXES.items())  # fmt: skip
+            words = (
+                f"{name} R72={self.module.read(axis + 72):04X}H R73={self.module.read(axis + 73):04X}H"
+                for name, axis in AXES.items()
+            )
             return "status " + " ".join(words)
         raise ValueError(f"{quoted(line)} is no command: {COMMANDS}")
 

@@ -1,8 +1,8 @@
 """AutoMax texts of the 57C422B: a table of registers, and the assignments of a BASIC task.
 
 A line of the table is the number of a register and its content, in decimals or, as the tasks of the manual
-write it, in hexadecimals (``01414H``, page 5-5). A double word is two registers. The task sets variables: ``%`` is one
-register, ``!`` a double word (page 4-48).
+write it, in hexadecimals (``01414H``, page 5-5). A double word is two registers. The task sets variables:
+``%`` is one register, ``!`` a double word (page 4-48).
 """
 
 from __future__ import annotations
@@ -46,7 +46,9 @@ def _in_signs(text: str) -> str:
 
 
 def _number(registers: Registers, of: NumberInRegisters) -> str:
-    """Write the number of a register: the bits of a word, and what no signed number can express, in hexadecimals."""
+    """Write the number of a register: the bits of a word, and what no signed number can express,
+    in hexadecimals.
+    """
     storage = registers.parameter(of.address).storage
     bits = 16 * len(of.words)
     if (storage and storage.notation == "hex" and of.number) or of.number >= 1 << (bits - 1):
@@ -54,7 +56,7 @@ def _number(registers: Registers, of: NumberInRegisters) -> str:
     return str(of.number)
 
 
-# -- the table -----------------------------------------------------------------------------------------------------
+# -- the table
 
 _TABLE_HEAD = "! Register table"
 _ROW = re.compile(r"(\s*R?)([0-9]{1,9})(\s*[,;=]\s*|\s+)([^\s!]+)", re.IGNORECASE)
@@ -110,7 +112,9 @@ def _read_table(text: str, schema: Schema, options: ReadOptions) -> TextRead:
 
 
 def _kept_word(key: str, text: str) -> str:
-    """Return a word that was kept without knowing its register; raises FormatError where a person made it none."""
+    """Return a word that was kept without knowing its register;
+    raises FormatError where a person made it none.
+    """
     try:
         read_word(text)
     except InvalidValueError as error:
@@ -127,7 +131,7 @@ def _lines(text: str) -> list[str]:
     return [line.removesuffix("\r") for line in text.rstrip("\x1a").split("\n")]
 
 
-# -- the task ------------------------------------------------------------------------------------------------------
+# -- the task
 
 _KIND = "basic"
 _SET = re.compile(r"(?:LET\s+)?([A-Z][A-Z0-9_]*[%!]?)\s*=\s*(.*)", re.IGNORECASE | re.DOTALL)
@@ -137,8 +141,10 @@ _FIRST_LINE, _LAST_LINE, _STEP = 2000, 29999, 10
 class Variables:
     """The names of registers in a task: those of the manual's own tasks, else ``REG_`` and the number.
 
-    The configuration of a rack gives the names (page 4-2). Which variable is which register the family's table
-    ``basic-variables`` lists; ``REG_64%`` is printed for register 64 (page 4-48) and does for every other one.
+    The configuration of a rack gives the names (page 4-2). Which variable is which register the family's
+    table
+    ``basic-variables`` lists; ``REG_64%`` is printed for register 64 (page 4-48)
+    and does for every other one.
     """
 
     def __init__(self, schema: Schema) -> None:
@@ -189,7 +195,9 @@ def _write_task(file: ParameterFile) -> str:
 
 
 def _assignment(registers: Registers, variables: Variables, of: NumberInRegisters) -> str:
-    """Return the assignment of a register; two of them where a ``!``, whose first register is the upper half, will not do."""
+    """Return the assignment of a register; two of them where a ``!``,
+    whose first register is the upper half, will not do.
+    """
     if is_low_first(registers.parameter(of.address)):
         return " \\ ".join(
             f"{variables.name(of.register + n, 1)}={write_hexadecimal(word)}"
@@ -199,7 +207,9 @@ def _assignment(registers: Registers, variables: Variables, of: NumberInRegister
 
 
 def _acts_at_once(file: ParameterFile, address: Address) -> bool:
-    """Return whether the module acts on a register as soon as it is written: such ones come last in a task."""
+    """Return whether the module acts on a register as soon as it is written: such ones come last in a
+    task.
+    """
     return (file.schema.parameters[address[0]].effect or file.schema.family.effect).level == "at-once"
 
 
@@ -271,7 +281,9 @@ def _row(line: BasicLine, settings: dict[int, Written]) -> PassthroughLine:
 
 
 def _setting(statement: BasicStatement, variables: Variables) -> Written:
-    """Return what an assignment writes; raises FormatError for a statement that is none, or of nothing known."""
+    """Return what an assignment writes; raises FormatError for a statement that is none, or of nothing
+    known.
+    """
     found = _SET.fullmatch(statement.text)
     if found is None:
         raise statement.fault(f"'{statement.short}' assigns no value to a register")
@@ -287,13 +299,6 @@ def _setting(statement: BasicStatement, variables: Variables) -> Written:
 
 
 TABLE = TextFormat(
-    "registers",
-    "AutoMax register table",
-    ".reg",
-    _is_table,
-    _read_table,
-    _write_table,
-    _SIGNS,
-    "\r\n",
+    "registers", "AutoMax register table", ".reg", _is_table, _read_table, _write_table, _SIGNS, "\r\n"
 )
 TASK = TextFormat("basic", "AutoMax BASIC task", ".bas", _is_task, _read_task, _write_task, _SIGNS, "\r\n")

@@ -1,7 +1,7 @@
 r"""The lines of a BASIC task, taken apart into statements: ``2030 PGAIN%=18700 \!Position Gain`` (page 5-5).
 
-A line begins with its number; ``\`` is between statements, ``!`` or ``REM`` before a remark, and ``&`` at the end of
-what goes on in the next line (page 4-48). A ``!`` that follows a name at once belongs to it.
+A line begins with its number; ``\`` is between statements, ``!`` or ``REM`` before a remark, and ``&`` at the
+end of what goes on in the next line (page 4-48). A ``!`` that follows a name at once belongs to it.
 """
 
 from __future__ import annotations

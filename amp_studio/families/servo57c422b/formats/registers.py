@@ -1,7 +1,7 @@
 """The registers of a control: which parameter each belongs to, and the values that written registers mean.
 
-Where a register means several parameters (a gear ratio as one number or as two, page 4-15; the points of a cam
-table, page 4-57) the one that exists for the machine counts, as its other registers decide.
+Where a register means several parameters (a gear ratio as one number or as two, page 4-15; the points of a
+cam table, page 4-57) the one that exists for the machine counts, as its other registers decide.
 """
 
 from __future__ import annotations
@@ -88,15 +88,18 @@ class Registers:
 
 @lru_cache(maxsize=8)
 def registers_of(schema: Schema, machine: str) -> Registers:
-    """Return the registers of a family on one machine type: thousands of them, worked out once for all its files."""
+    """Return the registers of a family on one machine type: thousands of them,
+    worked out once for all its files.
+    """
     return Registers(schema, machine)
 
 
-# -- values to registers -------------------------------------------------------------------------------------------
+# -- values to registers
 
 
 def contents_of(file: ParameterFile, registers: Registers) -> list[NumberInRegisters]:
-    """Return the content of the registers for a file, by rising number: the values that exist and can be written.
+    """Return the content of the registers for a file, by rising number:
+    the values that exist and can be written.
 
     Raises FormatError for a value that does not fit, and where two values share a register.
     """
@@ -128,7 +131,7 @@ def is_writable(file: ParameterFile, address: Address) -> bool:
     )
 
 
-# -- registers to values -------------------------------------------------------------------------------------------
+# -- registers to values
 
 
 @dataclass(frozen=True)
@@ -140,7 +143,9 @@ class _Cell:
 
 
 class RegisterValues:
-    """The values that written registers mean; ``leftover`` are those that mean none, where they are wanted."""
+    """The values that written registers mean; ``leftover`` are those that mean none, where they are
+    wanted.
+    """
 
     def __init__(self, registers: Registers, keep_unknown: bool) -> None:
         self.registers, self.keep_unknown = registers, keep_unknown
@@ -150,7 +155,9 @@ class RegisterValues:
         self._done: set[int] = set()
 
     def take(self, source: Written) -> None:
-        """Take one written number; raises FormatError where a register is written twice or the number is too long."""
+        """Take one written number; raises FormatError where a register is written twice
+        or the number is too long.
+        """
         bits = WORD * source.words
         low = 0 if source.is_pattern else -(1 << (bits - 1))
         if not low <= source.number < 1 << bits:
@@ -197,7 +204,8 @@ class RegisterValues:
             name, numbers = self.registers.label(claims[0]), ", ".join(map(str, mine))
             self._leave(
                 register,
-                f"register {register} is half of {name}, registers {numbers}, and {', '.join(missing)} is missing",
+                f"register {register} is half of {name}, registers {numbers}, and {', '.join(missing)} is"
+                " missing",
             )
             return
         if self.registers.parameter(claims[0]).access == "read":
@@ -231,6 +239,8 @@ class RegisterValues:
 
 
 def _split(source: Written) -> Iterator[tuple[int, int]]:
-    """Yield register and word of a written number; of a double word the first register is the upper half (page 4-48)."""
+    """Yield register and word of a written number;
+    of a double word the first register is the upper half (page 4-48).
+    """
     for n in range(source.words):
         yield source.register + n, source.number >> WORD * (source.words - 1 - n) & 0xFFFF

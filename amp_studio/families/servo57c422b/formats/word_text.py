@@ -1,4 +1,6 @@
-"""Words as the tasks of the 57C422B are written with: whole numbers, decimal or hexadecimal (pages 4-48 and 5-5)."""
+"""Words as the tasks of the 57C422B are written with: whole numbers,
+decimal or hexadecimal (pages 4-48 and 5-5).
+"""
 
 from __future__ import annotations
 
@@ -11,12 +13,16 @@ _HEXADECIMAL = re.compile(r"([0-9][0-9A-F]{0,19})H", re.IGNORECASE)
 
 
 def write_hexadecimal(pattern: int) -> str:
-    """Write the bits of a word as the tasks of the manual do: ``01414H``, ``02H``, ``01DH`` (page 5-5), ``0H``."""
+    """Write the bits of a word as the tasks of the manual do: ``01414H``, ``02H``, ``01DH`` (page 5-5),
+    ``0H``.
+    """
     return f"0{pattern:X}H" if pattern else "0H"
 
 
 def read_word(text: str) -> tuple[int, bool]:
-    """Read a whole number, and return whether it is hexadecimal: the bits as they are. Raises InvalidValueError."""
+    """Read a whole number, and return whether it is hexadecimal: the bits as they are.
+    Raises InvalidValueError.
+    """
     text = text.strip()
     if found := _HEXADECIMAL.fullmatch(text):
         return int(found[1], 16), True

@@ -1,9 +1,9 @@
 """The named formulas of the 57C422B 2-axis servo module manual, a module for each subject.
 
-Every function is pure. Positions are encoder counts after quadrature, speeds counts/s, accelerations counts/s2, times
-ms unless the name has seconds; a word is the content of the register. A unit is whatever the machine is laid out
-in. An argument that makes no sense raises ValueError with one sentence that names it. Where the manual contradicts
-itself the formula is taken, not the printed number.
+Every function is pure. Positions are encoder counts after quadrature, speeds counts/s, accelerations
+counts/s2, times ms unless the name has seconds; a word is the content of the register. A unit is whatever the
+machine is laid out in. An argument that makes no sense raises ValueError with one sentence that names it.
+Where the manual contradicts itself the formula is taken, not the printed number.
 """
 
 from .cam import (

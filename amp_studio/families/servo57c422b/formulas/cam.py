@@ -22,7 +22,9 @@ def cam_largest_value(speed: float, counts_per_unit: float, time_scans: float) -
 
 
 def needs_words(largest_value: float) -> bool:
-    """Return whether a time cam with this largest value has to be stored in words, beyond 127 counts (page 4-50)."""
+    """Return whether a time cam with this largest value has to be stored in words,
+    beyond 127 counts (page 4-50).
+    """
     return abs(finite("The largest value", largest_value)) > 127
 
 
@@ -45,19 +47,25 @@ def cam_points(cycle_s: float, time_scans: float) -> int:
 
 
 def cam_jump(value: float, next_value: float, time_ms: float) -> float:
-    """Acceleration in counts/s2 from one value of a time cam to the next, as at the loop back point (page 4-56)."""
+    """Acceleration in counts/s2 from one value of a time cam to the next,
+    as at the loop back point (page 4-56).
+    """
     seconds = positive("The time between points", time_ms) / 1000.0
     return (finite("The next value", next_value) - finite("The value", value)) / seconds**2
 
 
 def cam_master_travel(points: float, increment: float) -> float:
-    """Travel of the master, in counts, over a whole position cam: its points are one increment apart (page 4-53)."""
+    """Travel of the master, in counts, over a whole position cam:
+    its points are one increment apart (page 4-53).
+    """
     steps = whole("The number of points", points) - 1
     return steps * not_negative("The master axis position increment", increment)
 
 
 def bytes_word(first: float, second: float) -> int:
-    """Register that contains two values of a time cam in bytes: the earlier one is the low byte (page 4-49)."""
+    """Register that contains two values of a time cam in bytes: the earlier one is the low byte (page
+    4-49).
+    """
     values = [whole("A value", value, -128) for value in (first, second)]
     if max(values) > 127:
         raise ValueError(f"A value of a cam in bytes must be -128 to 127, not {max(first, second)!r}.")

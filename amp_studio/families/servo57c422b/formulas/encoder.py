@@ -9,7 +9,9 @@ CHANNEL_HZ = 250000.0
 
 
 def counts_per_revolution(lines: float, quadrature: float) -> float:
-    """Encoder counts of a turn, quadrature included (page 4-4): 1000 lines with *4 are 4000 counts (page 4-48)."""
+    """Encoder counts of a turn, quadrature included (page 4-4):
+    1000 lines with *4 are 4000 counts (page 4-48).
+    """
     return positive("The lines of the encoder", lines) * _quadrature(quadrature)
 
 

@@ -47,12 +47,16 @@ def velocity_error_word(speed: float) -> float:
 
 
 def measured_velocity(counts: float, period_ms: float) -> float:
-    """Speed in counts/s of the counts in registers 78, 79, gathered for the period of register 83 (page 4-41)."""
+    """Speed in counts/s of the counts in registers 78, 79,
+    gathered for the period of register 83 (page 4-41).
+    """
     return finite("The counts", counts) / (positive("The period", period_ms) / 1000.0)
 
 
 def home_speeds(speed: float) -> tuple[float, float]:
-    """Slow and fast speed of homing in the printed program, a hundredth and a tenth of the axis' speed (page 5-6)."""
+    """Slow and fast speed of homing in the printed program,
+    a hundredth and a tenth of the axis' speed (page 5-6).
+    """
     whole_speed = positive("The speed", speed)
     return whole_speed / 100.0, whole_speed / 10.0
 
@@ -68,7 +72,9 @@ def s_curve_time(trapezoidal_time: float) -> float:
 
 
 def gear_ratio(feedback_travel: float, gearing_travel: float) -> float:
-    """Gear ratio: travel of the feedback axis over that of the gearing reference axis, in counts (page 4-15)."""
+    """Gear ratio: travel of the feedback axis over that of the gearing reference axis, in counts (page
+    4-15).
+    """
     return finite("The travel of the feedback axis", feedback_travel) / positive(
         "The travel of the gearing reference axis", gearing_travel
     )
@@ -77,7 +83,9 @@ def gear_ratio(feedback_travel: float, gearing_travel: float) -> float:
 def gear_ratio_of_units(
     ratio: float, feedback_counts_per_unit: float, gearing_counts_per_unit: float
 ) -> float:
-    """Gear ratio in counts of one in units: times feedback counts of a unit over gearing counts (page 5-8)."""
+    """Gear ratio in counts of one in units: times feedback counts of a unit over gearing counts (page
+    5-8).
+    """
     scaled = positive("The feedback counts of a unit", feedback_counts_per_unit) * positive(
         "The ratio", ratio
     )
@@ -97,8 +105,8 @@ def voltage_word(volts: float) -> float:
 def backlash_moves(distance: float, backlash: float) -> tuple[int, ...]:
     """Moves, in counts, that a commanded move becomes with automatic backlash compensation (page 4-21).
 
-    A move in the direction of the compensation's sign is made as it is; one against it overruns by the compensation
-    and comes back.
+    A move in the direction of the compensation's sign is made as it is; one against it overruns by the
+    compensation and comes back.
     """
     counts = whole("The distance", distance, -(2**31))
     play = whole("The backlash compensation", backlash, -(2**31))

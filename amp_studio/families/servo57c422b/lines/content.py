@@ -1,7 +1,7 @@
 """What the registers of a module contain: those that an application sets, under a line that names the kind.
 
-Command, mode and interrupt registers (64 to 67, 104, 105, 4095) start motions or answer them: they are read live and never
-part of a content, of a copy, or of a download.
+Command, mode and interrupt registers (64 to 67, 104, 105, 4095) start motions or answer them: they are read
+live and never part of a content, of a copy, or of a download.
 """
 
 from __future__ import annotations

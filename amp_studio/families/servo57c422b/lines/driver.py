@@ -1,4 +1,5 @@
-"""A 57C422B module in a rack: registers written one at a time and read back, and taken over by a command with its handshake.
+"""A 57C422B module in a rack: registers written one at a time and read back,
+and taken over by a command with its handshake.
 
 Instruction manual, pages 4-1 to 4-37; docs/protocols/registers.md.
 """
@@ -68,14 +69,18 @@ class RegisterDriver(RegisterContent, LineDriver):
         self._line.close()
 
     def _identity(self) -> ControlIdentity:
-        """Return the name of the rack and the version that the module's registers 99 to 103 contain (page 4-42)."""
+        """Return the name of the rack and the version that the module's registers 99
+        to 103 contain (page 4-42).
+        """
         name = self._line.name()
         characters = b"".join(word.to_bytes(2, "big") for word in self._line.read(VERSION, VERSION_WORDS))
         revision = characters.decode("ascii", "replace").strip("\0 ")
         return ControlIdentity(FAMILY, self.protocol, name[:60], revision, load_schema(FAMILY).signature)
 
     def status(self) -> ControlStatus:
-        """Return what the module's registers show of both axes; it latches them, which changes nothing else (page 4-32)."""
+        """Return what the module's registers show of both axes; it latches them,
+        which changes nothing else (page 4-32).
+        """
         identity = self._identity()
         axes = [self._axis_status(first, name) for first, name in AXES.items()]
         return status_of(identity, axes)
@@ -112,7 +117,8 @@ class RegisterDriver(RegisterContent, LineDriver):
     def _send(self, replacement: Replacement, sent: SentValues) -> Receipt:
         """Write the registers that differ, read each back, and have the module take its setups over.
 
-        Raises NotInEmergencyStopError while a control loop is on: what is written then becomes active in a motion.
+        Raises NotInEmergencyStopError while a control loop is on:
+        what is written then becomes active in a motion.
         """
         before, wanted = words_of_content(replacement.held), words_of_content(replacement.content)
         changed = [register for register in settings() if before[register] != wanted[register]]
@@ -137,7 +143,8 @@ class RegisterDriver(RegisterContent, LineDriver):
         for axis, name in AXES.items():
             if self._line.read(axis + MODE, 1)[0] & LOOP:
                 raise NotInEmergencyStopError(
-                    f"the control loop of axis {name} is on (R{axis + MODE}, bit 0): switch it off to download"
+                    f"the control loop of axis {name} is on (R{axis + MODE}, bit 0): switch it off to"
+                    " download"
                 )
 
     def _write(self, register: int, word: int) -> None:

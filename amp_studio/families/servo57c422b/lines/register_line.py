@@ -1,4 +1,6 @@
-"""A line to the registers of a rack: one request, one answer, each with its number and a checksum (docs/protocols/registers.md)."""
+"""A line to the registers of a rack: one request, one answer,
+each with its number and a checksum (docs/protocols/registers.md).
+"""
 
 from __future__ import annotations
 
@@ -40,7 +42,9 @@ def unframed(line: bytes) -> tuple[int, str] | None:
 
 
 class RegisterLine:
-    """Reads and writes registers; a request that is not answered goes out again, for its repetition changes nothing."""
+    """Reads and writes registers; a request that is not answered goes out again,
+    for its repetition changes nothing.
+    """
 
     def __init__(self, open_link: OpenLink, waiting: Waiting) -> None:
         self._open_link = open_link

@@ -13,22 +13,40 @@ SHOWN = ((MODE, 1), (STATUS, 12))
 SCAN = 0.00125
 """s"""
 STATES = {
-    0: "axis done", 1: "axis locked", 2: "axis busy", 5: "home sequence complete", 6: "auto tuning complete",
-    7: "control loop enabled", 8: "feedback registration sensed", 9: "gearing registration sensed", 10: "gearing marker sensed",
+    0: "axis done",
+    1: "axis locked",
+    2: "axis busy",
+    5: "home sequence complete",
+    6: "auto tuning complete",
+    7: "control loop enabled",
+    8: "feedback registration sensed",
+    9: "gearing registration sensed",
+    10: "gearing marker sensed",
     15: "command acknowledge",
-}  # fmt: skip
+}
 """Bits of register 72; 0, 8 to 10 and 15 are printed, the others follow from the order of section 4.37."""
 FAULTS = {
-    0: "Overtravel", 4: "Maximum position error exceeded", 5: "Maximum velocity error exceeded", 6: "Feedback fault",
-    7: "Output clamped", 8: "Illegal command", 9: "System fault",
-}  # fmt: skip
-"""Bits of register 73; 4 and 5 are printed, and that 7 is no fault; the others follow from the order of section 4.38."""
-INFERRED = "inferred: the bits of registers 72 and 73 but 0, 8, 9, 10, 15 and 4, 5, by the order of sections 4.37 and 4.38; figures 4.36 and 4.37 are lost."
+    0: "Overtravel",
+    4: "Maximum position error exceeded",
+    5: "Maximum velocity error exceeded",
+    6: "Feedback fault",
+    7: "Output clamped",
+    8: "Illegal command",
+    9: "System fault",
+}
+"""Bits of register 73; 4 and 5 are printed, and that 7 is no fault;
+the others follow from the order of section 4.38."""
+INFERRED = (
+    "inferred: the bits of registers 72 and 73 but 0, 8, 9, 10, 15 and 4, 5, by the order of sections 4.37"
+    " and 4.38; figures 4.36 and 4.37 are lost."
+)
 
 
 @dataclass(frozen=True)
 class AxisRegisters:
-    """Registers of one axis that were read together, by the first of each run; ``is_latched`` whether positions are of now."""
+    """Registers of one axis that were read together, by the first of each run;
+    ``is_latched`` whether positions are of now.
+    """
 
     axis: str
     is_latched: bool
@@ -51,7 +69,8 @@ def status_of(identity: ControlIdentity, axes: Sequence[AxisRegisters]) -> Contr
     """Return the status of a module."""
     notes = [INFERRED]
     notes += [
-        f"The positions of axis {each.axis} are those of the last latch: a command of another program is in its register 66 or 67."
+        f"The positions of axis {each.axis} are those of the last latch: a command of another program is in"
+        " its register 66 or 67."
         for each in axes
         if not each.is_latched
     ]

@@ -1,8 +1,8 @@
 """The named formulas of the Syntec slides, a module for each subject.
 
-Every function is pure. Lengths that a parameter contains are in BLU; travel per turn may be in any one unit, and a
-feedrate is then that unit per minute. Speeds of the following error are mm/min with the BLU in mm, or deg/min with it
-in deg. "Pages" are the sections that ``parameter_db/syntec/family.yaml`` counts.
+Every function is pure. Lengths that a parameter contains are in BLU; travel per turn may be in any one unit,
+and a feedrate is then that unit per minute. Speeds of the following error are mm/min with the BLU in mm, or
+deg/min with it in deg. "Pages" are the sections that ``parameter_db/syntec/family.yaml`` counts.
 
 An argument that makes no sense raises ValueError with one sentence that names it. Where the manual
 contradicts itself the formula is taken, not the printed number; the text of the function states it.
@@ -25,17 +25,8 @@ from .following import (
     following_error,
     following_error_limit,
 )
-from .home import (
-    home_grid,
-    homing_search_limit,
-    is_home_grid_advised,
-    is_home_inaccurate,
-    is_index_ignored,
-)
-from .limits import (
-    is_inside_protection,
-    protected_range,
-)
+from .home import home_grid, homing_search_limit, is_home_grid_advised, is_home_inaccurate, is_index_ignored
+from .limits import is_inside_protection, protected_range
 from .resolution import (
     axis_move,
     blu_count,

@@ -33,7 +33,9 @@ def hardware_basic_time_us(series: str) -> float:
 
 
 def is_basic_time_printed(series: str) -> bool:
-    """Whether the hardware basic time of a series is printed, not assumed (page 1.4.1, erratum e-3203-series)."""
+    """Whether the hardware basic time of a series is printed, not assumed (page 1.4.1,
+    erratum e-3203-series).
+    """
     return series in PRINTED_BASIC_TIMES_US
 
 
@@ -48,7 +50,9 @@ def dda_pulses_per_minute(time_us: float) -> float:
 
 
 def dda_motor_speed(time_us: float, pulses: float) -> float:
-    """Highest motor speed under the DDA limit in rpm, with so many pulses a turn after multiplication (page 1.4.2)."""
+    """Highest motor speed under the DDA limit in rpm,
+    with so many pulses a turn after multiplication (page 1.4.2).
+    """
     return dda_pulses_per_minute(time_us) / positive("pulses", pulses)
 
 
@@ -57,7 +61,8 @@ def dda_feedrate(
 ) -> float:
     """Highest feedrate under the DDA limit, in the unit of the pitch per minute (page 1.4.2).
 
-    The printed formula has no gear; with one the screw turns by the ratio of page 1.2.6 slower than the motor.
+    The printed formula has no gear; with one the screw turns by the ratio
+    of page 1.2.6 slower than the motor.
     """
     # One division at the end, so that whole figures give an exact limit.
     way = US_PER_MINUTE * positive("pitch", pitch) * positive("motor_teeth", motor_teeth)

@@ -22,7 +22,9 @@ def is_home_grid_advised(grid: float) -> bool:
 
 
 def is_index_ignored(grid: float, enabled: bool) -> bool:
-    """Whether the first index is passed over: below 50 percent with the home grid function ON (page 2.2.4.1)."""
+    """Whether the first index is passed over: below 50 percent with the home grid function ON (page
+    2.2.4.1).
+    """
     return enabled and not_negative("grid", grid) < 50.0
 
 

@@ -8,7 +8,9 @@ from amp_studio.validate import finite
 
 
 def protected_range(first: float, second: float) -> tuple[float, float] | None:
-    """Protected range of an axis from its two ends in G22, in either order; none where they are equal (page 3.4)."""
+    """Protected range of an axis from its two ends in G22, in either order;
+    none where they are equal (page 3.4).
+    """
     low, high = sorted((finite("first", first), finite("second", second)))
     return None if low == high else (low, high)
 
@@ -16,7 +18,8 @@ def protected_range(first: float, second: float) -> tuple[float, float] | None:
 def is_inside_protection(
     positions: Sequence[float], positives: Sequence[float], negatives: Sequence[float]
 ) -> bool:
-    """Whether a position lies in the block of the axes' ranges, which it does in all of them or not at all (page 3.5).
+    """Whether a position lies in the block of the axes' ranges,
+    which it does in all of them or not at all (page 3.5).
 
     An axis whose two ends are equal has no range and takes no part; without any range nothing is protected.
     """

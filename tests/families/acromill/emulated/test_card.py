@@ -1,4 +1,6 @@
-"""An emulated ACR card parses and answers as the guide shows: prompt, echo, the commands of pages 113 to 135."""
+"""An emulated ACR card parses and answers as the guide shows: prompt, echo, the commands of pages 113 to
+135.
+"""
 
 from __future__ import annotations
 

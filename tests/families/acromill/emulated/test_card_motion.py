@@ -1,4 +1,6 @@
-"""The machine behind an emulated ACR card: its words, the HOME key and an MDI block move its axes, and the driver reads their status."""
+"""The machine behind an emulated ACR card: its words, the HOME key and an MDI block move its axes,
+and the driver reads their status.
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,6 @@
-"""An ACR card is set over its terminal: each line's echo compared, each setting read back, saved; nothing is half obeyed."""
+"""An ACR card is set over its terminal: each line's echo compared, each setting read back, saved;
+nothing is half obeyed.
+"""
 
 from __future__ import annotations
 
@@ -46,9 +48,16 @@ def bench(tmp_path: Path) -> CardBench:
 
 def small_file(**settings: str) -> ParameterFile:
     """Return a file that sets nothing but these; ``X`` of gains, scales and tables."""
-    ids = {"ppu": "axes.pulses_per_unit", "pgain": "servo.p_gain", "exc": "axes.excess_error_band",
-           "notch": "tuning.notch_frequency", "width": "tuning.notch_width", "lopass": "tuning.lopass_frequency",
-           "table": "ballscrew.table", "units": "control.default_units"}  # fmt: skip
+    ids = {
+        "ppu": "axes.pulses_per_unit",
+        "pgain": "servo.p_gain",
+        "exc": "axes.excess_error_band",
+        "notch": "tuning.notch_frequency",
+        "width": "tuning.notch_width",
+        "lopass": "tuning.lopass_frequency",
+        "table": "ballscrew.table",
+        "units": "control.default_units",
+    }
     file = ParameterFile(load_schema("acromill"))
     for name, text in settings.items():
         parameter = file.schema.parameters[ids[name]]
@@ -57,13 +66,23 @@ def small_file(**settings: str) -> ParameterFile:
     return file
 
 
-def send(bench: CardBench, file: ParameterFile, kept: list[bytes], cancel: threading.Event | None = None,
-         progress: Callable[[str, int, int], None] = lambda *_: None) -> Outcome:  # fmt: skip
+def send(
+    bench: CardBench,
+    file: ParameterFile,
+    kept: list[bytes],
+    cancel: threading.Event | None = None,
+    progress: Callable[[str, int, int], None] = lambda *_: None,
+) -> Outcome:
     def keep(old: bytes) -> str:
         kept.append(old)
         return "kept"
 
-    return download(bench.driver, WantedContent(partial(bench.driver.encode, file), file.schema.signature), keep, Exchange(progress, cancel))  # fmt: skip
+    return download(
+        bench.driver,
+        WantedContent(partial(bench.driver.encode, file), file.schema.signature),
+        keep,
+        Exchange(progress, cancel),
+    )
 
 
 def test_what_differs_is_sent_line_by_line_read_back_and_saved(bench: CardBench) -> None:
@@ -71,13 +90,25 @@ def test_what_differs_is_sent_line_by_line_read_back_and_saved(bench: CardBench)
     before = upload(bench.driver)
     bench.lines[0].sent.clear()
     outcome = send(bench, small_file(pgain="0.08", ppu="4096", exc="0.25"), kept)
-    assert outcome.text == (
-        "Download complete and read back equal. The card has saved it (ESAVE). What it contained before is kept in kept."
+    assert (
+        outcome.text
+        == "Download complete and read back equal. The card has saved it (ESAVE). What it contained before is"
+        " kept in kept."
     )
     commands = bytes(bench.lines[0].sent).decode().split("\r")
     sets = commands[commands.index("PPU X4096") :][:10]
-    assert sets == ["PPU X4096", "PPU X", "PPU X", "EXC AXIS0 0.25", "EXC AXIS0", "EXC AXIS0", "PGAIN X0.08", "PGAIN X",
-                    "PGAIN X", "ESAVE"]  # fmt: skip
+    assert sets == [
+        "PPU X4096",
+        "PPU X",
+        "PPU X",
+        "EXC AXIS0 0.25",
+        "EXC AXIS0",
+        "EXC AXIS0",
+        "PGAIN X0.08",
+        "PGAIN X",
+        "PGAIN X",
+        "ESAVE",
+    ]
     assert kept == [before]
     assert bench.switch_on().settings.values["PGAIN X"] == "0.08"
 
@@ -87,7 +118,14 @@ def test_a_copy_that_was_kept_goes_back(bench: CardBench) -> None:
     send(bench, small_file(pgain="0.08", table="X0E.00325 X1E-.00100"), kept)
     bench.obey("PGAIN X0.09")
     now = upload(bench.driver)
-    outcome = download(bench.driver, WantedContent(partial(bench.driver.refit, now.replace(b"PGAIN X0.09", b"PGAIN X0.000000199")), load_schema("acromill").signature), lambda _: "kept")  # fmt: skip
+    outcome = download(
+        bench.driver,
+        WantedContent(
+            partial(bench.driver.refit, now.replace(b"PGAIN X0.09", b"PGAIN X0.000000199")),
+            load_schema("acromill").signature,
+        ),
+        lambda _: "kept",
+    )
     assert outcome.verified
     assert bench.card.settings.values["PGAIN X"] == "1.99E-07"
     with pytest.raises(
@@ -167,9 +205,11 @@ def test_a_command_that_the_card_refuses_is_named_with_its_line_and_all_is_read_
     refuse(bench, "PGAIN X0.08", ["Number out of range"])
     with pytest.raises(ImageRejectedError) as caught:
         send(bench, small_file(pgain="0.08", ppu="4096"), [])
-    assert str(caught.value) == (
-        "line 83 of the script, 'PGAIN X0.08': the card answers 'Number out of range'; 1 of 2 values were confirmed; the control contains the new PPU X "
-        "and the old values of the rest (what it contained before is kept in kept)"
+    assert (
+        str(caught.value)
+        == "line 83 of the script, 'PGAIN X0.08': the card answers 'Number out of range'; 1 of 2 values were"
+        " confirmed; the control contains the new PPU X and the old values of the rest (what it contained"
+        " before is kept in kept)"
     )
     assert bench.switch_on().settings.values["PPU X"] == "10000", "nothing was saved"
 
@@ -178,7 +218,10 @@ def test_a_setting_that_the_card_takes_otherwise_is_named(bench: CardBench) -> N
     refuse(bench, "PPU X4096", [])
     with pytest.raises(
         ImageRejectedError,
-        match="line 3 of the script, 'PPU X4096': the card takes it and shows 10000; 0 of 1 values were confirmed; noth",
+        match=(
+            "line 3 of the script, 'PPU X4096': the card takes it and shows 10000; 0 of 1 values were"
+            " confirmed; noth"
+        ),
     ):
         send(bench, small_file(ppu="4096"), [])
 
@@ -433,9 +476,12 @@ class Hostile:
         (lambda _n, last: last, ControlSilentError),
         (lambda _n, last: b"\r\nP00>" if b"\r" in last else last, ProtocolMismatchError),
         (lambda n, last: b"\r\n%d\r\nP00>" % n if b"\r" in last else last, ImageDamagedError),
-        (lambda n, last: b"\r\n\x1b[2J\r\nP00>" if last == b"\r" else b"\r\nP00>" if last else b"", ControlSilentError),
+        (
+            lambda n, last: b"\r\n\x1b[2J\r\nP00>" if last == b"\r" else b"\r\nP00>" if last else b"",
+            ControlSilentError,
+        ),
     ],
-)  # fmt: skip
+)
 def test_a_hostile_other_end_is_bounded(
     bench: CardBench, answer: Callable[[int, bytes], bytes], kind: type[TransferError]
 ) -> None:
@@ -455,9 +501,18 @@ def test_silence_is_told_each_second_and_ends(bench: CardBench) -> None:
 
 def test_a_content_that_was_cut_off_or_is_no_script_is_refused(bench: CardBench) -> None:
     held = upload(bench.driver)
-    for damaged in (b"", b"ACR script 1\n", held[:-1], held[:-9], held.replace(b"PPU X10000\n", b""),
-                    held.replace(b"PPU X10000", b"PPU X10000 Y5"), held.replace(b"PPU Y", b"PPU X"), held + b"\n",
-                    held.replace(b"inch", b"ells"), held.replace(b"PPU X10000", b"X4\nPPU X10000")):  # fmt: skip
+    for damaged in (
+        b"",
+        b"ACR script 1\n",
+        held[:-1],
+        held[:-9],
+        held.replace(b"PPU X10000\n", b""),
+        held.replace(b"PPU X10000", b"PPU X10000 Y5"),
+        held.replace(b"PPU Y", b"PPU X"),
+        held + b"\n",
+        held.replace(b"inch", b"ells"),
+        held.replace(b"PPU X10000", b"X4\nPPU X10000"),
+    ):
         with pytest.raises(ImageError):
             bench.driver.decode(damaged)
 

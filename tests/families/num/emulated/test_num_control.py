@@ -1,4 +1,6 @@
-"""An emulated NUM control refuses what the control refuses, and shows the messages of pages 13-10 to 13-13."""
+"""An emulated NUM control refuses what the control refuses, and shows the messages of pages 13-10 to
+13-13.
+"""
 
 from __future__ import annotations
 
@@ -106,12 +108,18 @@ def test_another_identification_number_stops_the_load_until_it_is_the_job_refere
         (line("%00000000") + line("#0"), "[line 2: a data line without a header]"),
         (line("%00000000") + line("P9N30:t0n32") + line("#0 0 0"), "[line 3: P9 has 32 words]"),
         (line("%00000000") + line("P9N0:t0n32") + line("#0 100"), "[line 3: 100 is no word of type 0]"),
-        (line("%00000000") + line("P9N0:t0n32") + line("#" + " ".join("0" * 11)), "[line 3: more than 10 values]"),
-        (line("%00000000") + line("P9N0:t0n32") + line("P10N0:t0n32"), "[P9: P9N0:t0n32 without its data line]"),
+        (
+            line("%00000000") + line("P9N0:t0n32") + line("#" + " ".join("0" * 11)),
+            "[line 3: more than 10 values]",
+        ),
+        (
+            line("%00000000") + line("P9N0:t0n32") + line("P10N0:t0n32"),
+            "[P9: P9N0:t0n32 without its data line]",
+        ),
         (line("%00000000") + line("P9N0:t0n32") + XOFF, "[P9: the table ends within a line]"),
         (b"%" + b"0" * 400, "[line 1: a line without an end]"),
     ],
-)  # fmt: skip
+)
 def test_a_bad_line_stops_the_load_with_file_error(bench: Bench, table: bytes, fault: str) -> None:
     bench.press("load", "enter")
     assert bench.send(table).endswith(XOFF)

@@ -1,4 +1,6 @@
-"""A driver at an emulated NUM control, and a person at its keys who does what the driver's progress asks for."""
+"""A driver at an emulated NUM control, and a person at its keys who does what the driver's progress asks
+for.
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,6 @@
-"""Every verb works over the parameter table of a NUM control; the person reads what to press on standard error."""
+"""Every verb works over the parameter table of a NUM control;
+the person reads what to press on standard error.
+"""
 
 from __future__ import annotations
 

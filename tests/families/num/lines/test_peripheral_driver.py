@@ -1,4 +1,6 @@
-"""The tool as the peripheral of a NUM control: it loads, unloads and shows the person what to press; nothing is half done."""
+"""The tool as the peripheral of a NUM control: it loads, unloads and shows the person what to press;
+nothing is half done.
+"""
 
 from __future__ import annotations
 
@@ -61,7 +63,12 @@ def send(
         kept.append(old)
         return "kept"
 
-    return download(bench.driver, WantedContent(partial(bench.driver.encode, file), file.schema.signature), keep, Exchange(bench.progress, cancel))  # fmt: skip
+    return download(
+        bench.driver,
+        WantedContent(partial(bench.driver.encode, file), file.schema.signature),
+        keep,
+        Exchange(bench.progress, cancel),
+    )
 
 
 @pytest.mark.parametrize("parity", ["none", "even", "odd"])
@@ -86,7 +93,12 @@ def test_a_copy_that_was_kept_goes_back(bench: NumBench) -> None:
     kept: list[bytes] = []
     send(bench, small_file("P9N0=07"), kept)
     driver, signature = bench.driver, load_schema("num").signature
-    outcome = download(driver, WantedContent(partial(driver.refit, kept[0]), signature, is_return=True), lambda _: "again", Exchange(bench.progress))  # fmt: skip
+    outcome = download(
+        driver,
+        WantedContent(partial(driver.refit, kept[0]), signature, is_return=True),
+        lambda _: "again",
+        Exchange(bench.progress),
+    )
     assert outcome.verified
     assert bench.words(9)[0] == "0"
 
@@ -156,9 +168,10 @@ def test_a_load_that_the_control_stops_for_good_is_told_and_what_it_contains_is_
     bench.wrap = lambda link: Damaging(link, Faults(), cut=False)
     with pytest.raises(ImageRejectedError) as caught:
         send(bench, small_file("P9N0=07", "P9N31=08"), [])
-    assert str(caught.value) == (
-        "the control has stopped the table for 300 s; the control contains the new P9N0 and the old values of the rest "
-        "(what it contained before is kept in kept)"
+    assert (
+        str(caught.value)
+        == "the control has stopped the table for 300 s; the control contains the new P9N0 and the old values"
+        " of the rest (what it contained before is kept in kept)"
     )
     assert bench.told[-3:-1] == [
         HELD_TEXT,
@@ -294,7 +307,7 @@ class Hostile:
         (lambda n: b"%00000000;09\n" if n == 1 else b"" if n % 100 else b"P", ImageDamagedError),
         (lambda n: b"x" if n % 150 == 0 else b"", ImageDamagedError),
     ],
-)  # fmt: skip
+)
 def test_a_hostile_other_end_is_bounded(
     bench: NumBench, answer: Callable[[int], bytes], kind: type[TransferError]
 ) -> None:

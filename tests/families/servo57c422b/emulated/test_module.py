@@ -1,4 +1,6 @@
-"""The emulated module: commands with their handshake, faults and interrupts as chapter 4 of the manual has them."""
+"""The emulated module: commands with their handshake,
+faults and interrupts as chapter 4 of the manual has them.
+"""
 
 from __future__ import annotations
 
@@ -31,7 +33,9 @@ GAINS = {3: 17595, 4: 768, 5: 78, 6: 8320, 7: 28, 8: 2000, 9: 4000, 10: 10, 31: 
 
 @pytest.fixture
 def module() -> Module:
-    """Return a module whose X axis has its loop on, and gains, speed (10000 counts/s) and rates (50000 counts/s2) for a move."""
+    """Return a module whose X axis has its loop on, and gains, speed (10000 counts/s)
+    and rates (50000 counts/s2) for a move.
+    """
     module = Module()
     for register, word in GAINS.items():
         module.write(register, word)
@@ -145,7 +149,9 @@ def test_incremental_moves_add_up(module: Module) -> None:
 
 
 def test_homing_with_switch_and_marker_moves_the_axis_and_names_its_place(module: Module) -> None:
-    """01DH: negative onto the switch, slowly off it, on to the marker (4-29, 5-6); there it is what 17, 18 are."""
+    """01DH: negative onto the switch, slowly off it, on to the marker (4-29, 5-6); there it is what 17,
+    18 are.
+    """
     module.write(2, 0x1D)
     module.write(66, HOME)
     module.write(66, 0)
@@ -190,7 +196,9 @@ def test_a_speed_that_the_loop_cannot_follow_trips_by_register_8(module: Module)
 def test_velocity_control_stops_at_the_software_limit_and_leaves_it_after_bit_2_was_off(
     module: Module,
 ) -> None:
-    """4-25: at the limit a change of direction alone does nothing; bit 2 off, on with the direction changed."""
+    """4-25: at the limit a change of direction alone does nothing; bit 2 off, on with the direction
+    changed.
+    """
     module.write(2, 1 << 10)
     put(module, 11, 3000)
     put(module, 13, -3000)
@@ -252,10 +260,17 @@ def test_a_request_is_answered_with_its_number(rack: Rack) -> None:
     assert said(rack, framed(6, "R 2 2")) == framed(6, "R 2 0 160")
 
 
-@pytest.mark.parametrize("line", [
-    b"\r\n", b"R 0 1\r\n", framed(1, "R 0 1").replace(b"R", b"r"), b"x" * 5_000 + b"\r\n", framed(1, "R 0 1")[:-4] + b"0\r\n",
-    b"1 R 0 1*ffff\r\n",
-])  # fmt: skip
+@pytest.mark.parametrize(
+    "line",
+    [
+        b"\r\n",
+        b"R 0 1\r\n",
+        framed(1, "R 0 1").replace(b"R", b"r"),
+        b"x" * 5_000 + b"\r\n",
+        framed(1, "R 0 1")[:-4] + b"0\r\n",
+        b"1 R 0 1*ffff\r\n",
+    ],
+)
 def test_a_damaged_line_gets_no_answer_and_the_next_one_does(rack: Rack, line: bytes) -> None:
     assert said(rack, line) == b""
     assert said(rack, framed(2, "R 0 1")) == framed(2, "R 0 0")

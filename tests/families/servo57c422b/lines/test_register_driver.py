@@ -1,4 +1,6 @@
-"""The driver of live registers: what it reads, writes and never writes, the handshake, and its state after a break."""
+"""The driver of live registers: what it reads, writes and never writes, the handshake,
+and its state after a break.
+"""
 
 from __future__ import annotations
 
@@ -52,7 +54,12 @@ def gains(x: int = 17595, y: int = 4000) -> ParameterFile:
 
 
 def loaded(bench: RackBench, file: ParameterFile, **how: Any) -> Outcome:
-    return download(bench.driver, WantedContent(lambda held: bench.driver.encode(file, held), file.schema.signature), lambda _: "kept", Exchange(**how))  # fmt: skip
+    return download(
+        bench.driver,
+        WantedContent(lambda held: bench.driver.encode(file, held), file.schema.signature),
+        lambda _: "kept",
+        Exchange(**how),
+    )
 
 
 def test_the_rack_names_itself_and_the_version_in_99_to_103(bench: RackBench) -> None:
@@ -186,10 +193,18 @@ def test_a_copy_is_recognised_decoded_and_put_back(bench: RackBench) -> None:
     assert (outcome.verified, bench.driver.fetch()) == (True, content)
 
 
-@pytest.mark.parametrize("damage", [
-    lambda c: c[:-1], lambda c: c + b"R1 1\n", lambda c: c.replace(b"R3 ", b"R3  "), lambda c: c.replace(b"R3 0", b"R3 65536"),
-    lambda c: c.replace(b"R3 0\n", b""), lambda c: c.replace(b"R3 0", b"R3 00"), lambda c: c.replace(b"R3 0", b"R3 \xb2"),
-])  # fmt: skip
+@pytest.mark.parametrize(
+    "damage",
+    [
+        lambda c: c[:-1],
+        lambda c: c + b"R1 1\n",
+        lambda c: c.replace(b"R3 ", b"R3  "),
+        lambda c: c.replace(b"R3 0", b"R3 65536"),
+        lambda c: c.replace(b"R3 0\n", b""),
+        lambda c: c.replace(b"R3 0", b"R3 00"),
+        lambda c: c.replace(b"R3 0", b"R3 \xb2"),
+    ],
+)
 def test_a_damaged_content_is_refused(bench: RackBench, damage) -> None:
     content = bench.driver.fetch()
     assert damage(content) != content
