@@ -89,7 +89,7 @@ def test_ports_are_listed_with_their_usb_names(
     monkeypatch.setattr("serial.tools.list_ports.comports", lambda: [ADAPTER, BARE_PORT])
     assert run(["ports", "--json"]) == 0
     assert json.loads(capsys.readouterr().out)["ports"] == [
-        dict.fromkeys(FOUND, "") | {"device": "/dev/ttyS0"},
+        dict.fromkeys((*FOUND, "lasting"), "") | {"device": "/dev/ttyS0"},
         FOUND | {"lasting": str(links / "usb-FTDI_FT232R-if00")},
     ]
     assert run(["ports"]) == 0
