@@ -52,40 +52,14 @@ def test_a_line_tells_all_about_a_value(tmp_path: Path, mill: ParameterFile) -> 
     print_report(mill, tmp_path / "r.csv")
     lines = {(n["id"], n["instance"]): tuple(n.values()) for n in table_of(tmp_path / "r.csv")}
     name, group = "Home Calibration", "Home Parameters"
-    whole = (
-        "1300",
-        "home.calibration",
-        "1",
-        name,
-        group,
-        "12.5",
-        "mm",
-        "0",
-        "yes",
-        "in-force",
-        "",
-        "yes",
-        "",
-    )
-    assert lines["home.calibration", "1"] == whole
-    whole = (
-        "2300",
-        "home.calibration",
-        "2",
-        name,
-        group,
-        "-0.1",
-        "in",
-        "0",
-        "yes",
-        "in-force",
-        "",
-        "yes",
-        "",
-    )
-    assert lines["home.calibration", "2"] == whole
-    whole = ("4300", "home.calibration", "4", name, group, "0", "deg", "0", "no", "in-force", "", "yes", "")
-    assert lines["home.calibration", "4"] == whole
+    for number, instance, value, unit, changed in (
+        ("1300", "1", "12.5", "mm", "yes"),
+        ("2300", "2", "-0.1", "in", "yes"),
+        ("4300", "4", "0", "deg", "no"),
+    ):
+        names = (number, "home.calibration", instance, name, group)
+        line = (*names, value, unit, "0", changed, "in-force", "", "yes", "")
+        assert lines["home.calibration", instance] == line
     tail = ("999999", "mm", "203.2", "yes", "in-force", "by J. Fitter on 2026-07-01", "yes", "")
     assert lines["servo.gain_break_point", "1"][5:] == tail
     unset = lines["servo.inposition_band", "2"]
