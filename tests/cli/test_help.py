@@ -116,6 +116,17 @@ def test_checking_a_file_loads_nothing_of_printing_saving_and_explaining() -> No
     assert done.stdout.splitlines()[-1] == "[]"
 
 
+def test_reading_tables_and_messages_does_not_load_what_checks_facts() -> None:
+    """Compiled facts have been checked: checking them again would load pydantic at each start."""
+    load_schema("9pc")
+    code = (
+        "import sys; from amp_studio import cli; from amp_studio.schema import load_schema;"
+        "load_schema('9pc').tables; cli.run(['show', '9pc', '1300']); print('pydantic' in sys.modules)"
+    )
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
+    assert done.stdout.splitlines()[-1] == "False"
+
+
 def test_help_names_the_families_and_scenarios_that_there_are() -> None:
     assert tuple(families()) == family_ids()
     assert set(SIMULATED) <= set(scenario_names())

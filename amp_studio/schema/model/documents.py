@@ -95,11 +95,12 @@ class ControlMessage(Model):
 
     def table(self) -> Table:
         """Return it as a table to look up: when it comes, causes and cures in their order."""
+        # Made of facts that have been checked: checking them again would load pydantic at each start.
         rows = [("When", self.means)] if self.means else []
         for part, texts in (("Cause", self.causes), ("Cure", self.cures)):
             rows += [(f"{part} {n}" if len(texts) > 1 else part, text) for n, text in enumerate(texts, 1)]
         head = ("Part", "What")
-        return Table(
+        return Table.model_construct(
             id=self.id,
             title=self.name,
             page=self.page,
@@ -125,7 +126,7 @@ class Messages(Model):
         """Return the list, and behind it each message that has a code, causes and cures."""
         rows = tuple((m.code, m.text or m.title, m.means, ", ".join(m.every_page)) for m in self.messages)
         head = ("Code", "Message", "What it means", "Page")
-        listed = Table(
+        listed = Table.model_construct(
             id=self.id,
             title=self.title,
             page=self.page,
