@@ -35,7 +35,8 @@ def name_of_language(code: str) -> str:
     """Return the name of a language in itself; raises ValueError for an unknown code."""
     if code not in language_codes():
         raise ValueError(f"Unknown language '{code}'. Known: {', '.join(language_codes())}")
-    return str(_file(code)["name"])
+    head = (FOLDER / f"{code}.toml").read_text(encoding="utf-8").partition("\n[")[0]
+    return str(tomllib.loads(head)["name"])
 
 
 def texts_of(code: str, section: TextSection) -> dict[str, Forms]:

@@ -7,7 +7,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable
 from functools import partial
 
-from PySide6.QtCore import Signal
+from PySide6.QtCore import QTimer, Signal
 from PySide6.QtGui import QAction
 from PySide6.QtWidgets import QVBoxLayout, QWidget
 
@@ -32,6 +32,8 @@ from .left_panel import LeftPanel
 
 CommitValue = Callable[[Workspace, Address, str], bool]
 """Sets a value of a file from typed text; returns whether it was set."""
+_QUIET_MS = 300
+"""After the first paint, and sooner than a person can have typed a value."""
 
 
 class FilePage(QWidget):
@@ -103,6 +105,7 @@ class FilePage(QWidget):
         workspace.saved.connect(self._tell)
         workspace.undo_stack.indexChanged.connect(self._tell)  # a step is on the stack only after it was made
         self.left.choose()
+        QTimer.singleShot(_QUIET_MS, self, workspace.validator.prepare_edit)
 
     def _tell(self, *_: object) -> None:
         self.changed.emit(self)
