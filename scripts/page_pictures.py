@@ -134,9 +134,9 @@ def new(stage: Stage, _: Path) -> QPixmap:
     from amp_studio.ui.dialogs.new_file_dialog import NewFileDialog
 
     dialog = NewFileDialog(stage.window, "9pc")
-    dialog.machine.setCurrentIndex(dialog.machine.findData("mill"))
-    dialog.axes.setText("X,Y,Z,S")
-    dialog.name.setText("mill")
+    dialog.form.set_answer("machine", "mill")
+    dialog.form.set_answer("axes", "X,Y,Z,S")
+    dialog.form.set_answer("name", "mill")
     dialog.show()
     taken = _grab(dialog)
     dialog.close()

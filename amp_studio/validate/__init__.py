@@ -19,7 +19,7 @@ if TYPE_CHECKING:
         rules_beside,
     )
     from .builder_rules import NO_RULES, RULES_FILE, BuilderRules, Suppressed
-    from .calculator import calculate, calculators, shown_result
+    from .calculator import Calculator, calculate, calculators, shown_result
     from .cell_expression import Entered, enter, read_plain
     from .explanation import Explanation, explain, rule_title
     from .finding import NOT_SET, SEVERITIES, Finding, Setting, not_set

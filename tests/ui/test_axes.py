@@ -5,6 +5,7 @@ from __future__ import annotations
 import pytest
 from PySide6.QtCore import Qt
 from PySide6.QtTest import QTest
+from PySide6.QtWidgets import QComboBox
 
 from amp_studio.files import ParameterFile, fitted_axes
 from amp_studio.schema import Value
@@ -17,11 +18,11 @@ from .conftest import Person, action
 
 def choose(dialog: AxisDialog, axis: str, **labels: str) -> None:
     """Choose an axis and, by the last word of a parameter's id, its choices."""
-    dialog.axis_box.setCurrentIndex(dialog.axis_box.findData(axis))
-    for parameter_id, box in dialog._fields.items():
+    dialog.form.set_answer("axis", axis)
+    for parameter_id in dialog.form.editors:
         label = labels.get(parameter_id.rpartition(".")[2])
         if label:
-            box.setCurrentIndex(box.findData(label))
+            dialog.form.set_answer(parameter_id, label)
 
 
 def test_a_dialog_begins_with_the_selected_axis(window: MainWindow) -> None:
@@ -56,10 +57,10 @@ def test_tab_goes_through_the_fields_before_the_buttons(window: MainWindow, qtbo
     dialog = axis._dialog(window, "Configure servo")
     dialog.ask_for(["servo.hardware_type", "servo.loop_type"])
     dialog.show()
-    dialog.axis_box.setFocus()
+    dialog.form.editors["axis"].setFocus()
     for parameter_id, row in (("servo.hardware_type", 0), ("servo.loop_type", 1)):
         QTest.keyClick(dialog.focusWidget(), Qt.Key.Key_Tab)
-        field = dialog._fields[parameter_id]
+        field = dialog.form.editors[parameter_id]
         assert dialog.focusWidget() is field
         field.setCurrentIndex(row)
         QTest.keyClick(field, Qt.Key.Key_Down)
@@ -92,7 +93,7 @@ def test_axes_of_two_types_are_not_copied(
 
     def run(dialog: AxisDialog) -> int:
         choose(dialog, "1")
-        dialog._form.itemAt(1, dialog._form.ItemRole.FieldRole).widget().setCurrentIndex(3)
+        dialog.form.editor("target", QComboBox).setCurrentIndex(3)
         return 1
 
     monkeypatch.setattr(AxisDialog, "exec", run)

@@ -34,8 +34,8 @@ def opened(open_window: Callable[..., MainWindow], tmp_path: Path) -> Callable[.
 
 def choose(dialog: AxisDialog, axis: str, other: str) -> None:
     """Choose an axis, and another one or a letter."""
-    dialog.axis_box.setCurrentIndex(dialog.axis_box.findData(axis))
-    second = next(b for b in dialog.findChildren(QComboBox) if b is not dialog.axis_box)
+    dialog.form.set_answer("axis", axis)
+    second = next(b for b in dialog.findChildren(QComboBox) if b is not dialog.form.editors["axis"])
     at = second.findData(other)
     second.setCurrentIndex(at if at >= 0 else second.findText(other))
 
@@ -91,7 +91,7 @@ def test_an_axis_of_an_acromill_is_named_added_and_deleted(opened, accept) -> No
     accept(AxisDialog, lambda d: choose(d, "Z", "C"))
     action(window, "Name Axis").trigger()
     assert heads(window)[-1] == "C Z"
-    accept(AxisDialog, lambda d: d.axis_box.setCurrentIndex(2))
+    accept(AxisDialog, lambda d: d.form.editor("axis", QComboBox).setCurrentIndex(2))
     action(window, "Delete Axis").trigger()
     assert fitted_axes(file) == ("X", "Y")
 

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from PySide6.QtWidgets import QComboBox
+
 from amp_studio.schema import Value
 from amp_studio.ui.dialogs.calculator_dialog import CalculatorDialog
 from amp_studio.ui.main_window import MainWindow
@@ -22,13 +24,14 @@ def test_the_formulas_of_the_parameter_come_first_and_the_result_can_be_used(win
     window.go_to(GAIN_BREAK)
     dialog = calculator(window)
     own = window.workspace.file.schema.parameters[GAIN_BREAK[0]].formulas
-    assert tuple(dialog.formula.itemData(n) for n in range(len(own))) == own
-    dialog.formula.setCurrentText("Gain break point")
-    dialog.fields["max_contouring"].setText("4000")
-    assert dialog.outcome.text() == "Still needed: Gain"
+    formula = dialog.form.editor("formula", QComboBox)
+    assert tuple(formula.itemData(n) for n in range(len(own))) == own
+    formula.setCurrentText("Gain break point")
+    dialog.form.set_answer("argument.max_contouring", "4000")
+    assert dialog.form.answer("outcome") == "Still needed: Gain"
     assert not dialog.use.isEnabled()
-    dialog.fields["gain"].setText("1")
-    assert dialog.outcome.text() == "4"
+    dialog.form.set_answer("argument.gain", "1")
+    assert dialog.form.answer("outcome") == "4"
     assert dialog.use.text() == "Use the result as the value of 1730 Gain Break Point, in mm"
     dialog.use.click()
     assert window.workspace.file.get(GAIN_BREAK) == Value(4.0, "mm")
@@ -37,10 +40,11 @@ def test_the_formulas_of_the_parameter_come_first_and_the_result_can_be_used(win
 def test_another_formula_asks_for_its_own_arguments(window: MainWindow, person: Person) -> None:
     """Page 14-2, example 14.1: 1000 to 3000 with 800 to 1500, asked for 1800."""
     dialog = calculator(window)
-    dialog.formula.setCurrentText("Synchronized speed")
-    assert list(dialog.fields) == ["requested", "controlling", "follower"]
+    dialog.form.editor("formula", QComboBox).setCurrentText("Synchronized speed")
+    names = [f"argument.{name}" for name in ("requested", "controlling", "follower")]
+    assert [key for key in dialog.form.editors if key in names] == names
     for name, text in (("requested", "1800"), ("controlling", "1000, 3000"), ("follower", "800, 1500")):
-        dialog.fields[name].setText(text)
-    assert dialog.outcome.text() == "1500"
-    dialog.fields["follower"].setText("fast")
-    assert dialog.outcome.text().startswith("'fast' is no follower")
+        dialog.form.set_answer(f"argument.{name}", text)
+    assert dialog.form.answer("outcome") == "1500"
+    dialog.form.set_answer("argument.follower", "fast")
+    assert dialog.form.answer("outcome").startswith("'fast' is no follower")

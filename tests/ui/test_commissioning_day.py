@@ -82,8 +82,8 @@ class Day:
 
 def a_new_machine_like_the_example(day: Day) -> None:
     def like_the_example(dialog: NewFileDialog) -> None:
-        dialog.like.setCurrentIndex(dialog.like.findData(day.example))
-        dialog.name.setText("DAY")
+        dialog.form.set_answer("like", day.example)
+        dialog.form.set_answer("name", "DAY")
 
     day.accept(NewFileDialog, like_the_example)
     day.person.chooses(day.path)
@@ -160,7 +160,7 @@ def bookmark_filter_note_and_save(day: Day) -> None:
     window.page.filters.choose("bookmarked", True)
     assert [row.parameter.id for row in window.table.rows] == [EXCESS[0]]
     window.page.filters.clear()
-    day.accept(NoteDialog, lambda dialog: dialog.text.setPlainText("measured with the new drives"))
+    day.accept(NoteDialog, lambda dialog: dialog.form.set_answer("note", "measured with the new drives"))
     window.edits.note()
     assert window.save()
     assert "measured with the new drives" in day.path.read_text(encoding="utf-8")
@@ -210,7 +210,7 @@ def the_control_gets_it_after_a_look_at_what_changes(day: Day, control: Control)
 
 def the_report_for_the_cabinet_is_written(day: Day) -> None:
     report = day.path.with_suffix(".csv")
-    day.accept(ReportDialog, lambda dialog: dialog.path.setText(str(report)))
+    day.accept(ReportDialog, lambda dialog: dialog.form.set_answer("path", str(report)))
     day.do("Report")
     assert "Excess Error" in report.read_text(encoding="utf-8")
 

@@ -242,9 +242,9 @@ def test_a_new_file_has_its_axes_and_is_on_disk(open_window, tmp_path: Path, per
     window = open_window()
 
     def fill(dialog: NewFileDialog) -> None:
-        dialog.family.setCurrentIndex(dialog.family.findData("9pc"))
-        dialog.machine.setCurrentIndex(dialog.machine.findData("mill"))
-        dialog.axes.setText("X, Z, S")
+        dialog.form.set_answer("family", "9pc")
+        dialog.form.set_answer("machine", "mill")
+        dialog.form.set_answer("axes", "X, Z, S")
 
     accept(NewFileDialog, fill)
     person.chooses(tmp_path / "new")
@@ -257,13 +257,13 @@ def test_a_new_file_has_its_axes_and_is_on_disk(open_window, tmp_path: Path, per
 
 def test_an_axis_name_that_is_not_offered_is_named_while_it_is_typed(open_window) -> None:
     dialog = NewFileDialog(open_window(), "9pc")
-    dialog.axes.setText("X, Q")
+    dialog.form.set_answer("axes", "X, Q")
     assert "'Q'" in dialog.fault.text()
-    assert not dialog.create_button.isEnabled()
+    assert not dialog.ok.isEnabled()
     dialog.accept()
     assert not dialog.result()
-    dialog.axes.setText("X, Z")
-    assert dialog.create_button.isEnabled()
+    dialog.form.set_answer("axes", "X, Z")
+    assert dialog.ok.isEnabled()
 
 
 def test_recover_backup_asks_and_says_what_is_lost(
@@ -290,7 +290,7 @@ def test_machine_facts_are_a_step_and_save_nothing_by_themselves(
     window: MainWindow, path: Path, example: bytes, accept
 ) -> None:
     edit(window)
-    accept(file_dialogs.FactsDialog, lambda d: d.notes.setPlainText("checked by two"))
+    accept(file_dialogs.FactsDialog, lambda d: d.form.set_answer("notes", "checked by two"))
 
     window.files.facts()
 

@@ -268,11 +268,11 @@ def test_a_finding_is_left_as_it_is_with_a_reason_and_a_name(wrong: MainWindow, 
     wrong.findings.select(finding)
 
     def fill(dialog: SuppressDialog) -> bool:
-        dialog.reason.setText("measured on the machine")
-        dialog.name.clear()
+        dialog.form.set_answer("reason", "measured on the machine")
+        dialog.form.set_answer("name", "")
         ok = dialog.findChild(QDialogButtonBox).button(QDialogButtonBox.StandardButton.Ok)
         assert not ok.isEnabled(), "a name is wanted"
-        dialog.name.setText("J. Doe")
+        dialog.form.set_answer("name", "J. Doe")
         assert ok.isEnabled()
         return True
 

@@ -39,8 +39,9 @@ def dialog(qtbot: QtBot, record: Path) -> IdentifyDialog:
 
 
 def type_scale(dialog: IdentifyDialog, text: str) -> None:
-    dialog.scale.setText(text)
-    dialog.scale.editingFinished.emit()
+    scale = dialog.form.editor("scale", QLineEdit)
+    scale.setText(text)
+    scale.editingFinished.emit()
 
 
 def test_amperes_need_a_scale_and_then_the_fit_is_shown(dialog: IdentifyDialog) -> None:
@@ -69,7 +70,7 @@ def test_the_machine_is_saved_and_opened_again(
     failed: list[Exception] = []
     page = MachinePage(lambda *_: runs.append("run"), lambda: (FILE, "1"), failed.append)
     qtbot.addWidget(page)
-    page.form.offer(
+    page.form.offer_settings(
         {
             f"model.{name}": name
             for name in ("acceleration_per_output", "viscous_friction", "coulomb_friction", "gravity")
@@ -78,7 +79,7 @@ def test_the_machine_is_saved_and_opened_again(
     )
     monkeypatch.setattr(QFileDialog, "getOpenFileName", lambda *_: (str(tmp_path / "x.yaml"), ""))
     page.open.click()
-    field = page.form.fields["model.coulomb_friction"]
+    field = page.form.editors["model.coulomb_friction"]
     assert isinstance(field, QLineEdit)
     assert float(field.text()) == pytest.approx(4.0, rel=0.02)
     assert runs == ["run"]
@@ -96,7 +97,7 @@ def test_the_figures_of_a_record_fill_the_fields_when_they_are_accepted(
         lambda *_: runs.append("run"), lambda: (FILE, "1"), lambda error: pytest.fail(str(error))
     )
     qtbot.addWidget(page)
-    page.form.offer(
+    page.form.offer_settings(
         {
             f"model.{name}": name
             for name in ("acceleration_per_output", "viscous_friction", "coulomb_friction", "gravity")
@@ -110,11 +111,11 @@ def test_the_figures_of_a_record_fill_the_fields_when_they_are_accepted(
     monkeypatch.setattr(IdentifyDialog, "exec", lambda self: QDialog.DialogCode.Accepted)
     page.record.click()
     assert runs == ["run"]
-    assert page.form.values()["model.acceleration_per_output"].endswith(" mm/s2")
+    assert page.form.given()["model.acceleration_per_output"].endswith(" mm/s2")
     page.leave_axis("1")
-    assert len(page.form.values()) == 4
-    field = page.form.fields["model.gravity"]
+    assert len(page.form.given()) == 4
+    field = page.form.editors["model.gravity"]
     assert isinstance(field, QLineEdit)
     field.setText("7")
     page.leave_axis("2")
-    assert page.form.values() == {"model.gravity": "7"}, "what somebody has typed stays"
+    assert page.form.given() == {"model.gravity": "7"}, "what somebody has typed stays"

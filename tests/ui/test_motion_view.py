@@ -64,7 +64,7 @@ def settled(view: MotionView, qtbot: QtBot) -> None:
 
 def field(view: MotionView, name: str) -> QLineEdit:
     """Return the field of a setting."""
-    found = view.settings.fields[f"move.{name}"]
+    found = view.settings.editors[f"move.{name}"]
     assert isinstance(found, QLineEdit)
     return found
 
@@ -166,12 +166,12 @@ def test_every_scenario_of_the_family_can_be_chosen_and_has_its_own_settings(
     }
     choose(view, "velocity", qtbot)
     assert [panel.title for panel in view.plot.picture.panels] == ["position", "velocity", "torque"]
-    assert "move.distance" not in view.settings.fields
+    assert "move.distance" not in view.settings.editors
     choose(view, "circle", qtbot)
     assert view.plot.picture.above
     assert "radius error" in view.figures.toPlainText()
     choose(view, "step", qtbot)
-    assert "move.distance" in view.settings.fields
+    assert "move.distance" in view.settings.editors
 
 
 def test_the_trace_before_an_edit_lies_under_the_one_after_it(

@@ -6,6 +6,7 @@ from collections.abc import Callable
 from pathlib import Path
 
 import pytest
+from PySide6.QtWidgets import QComboBox
 
 from amp_studio.files import fitted_axes
 from amp_studio.files.creation import new_like
@@ -25,9 +26,12 @@ def dialog(open_window: Callable[..., MainWindow]) -> Callable[[str], NewFileDia
 
 def test_a_family_with_fixed_axes_says_so_before_ok(dialog) -> None:
     new = dialog("57c422b")
-    assert not new.axes.isEnabled()
-    assert new.note.text() == "Reliance 57C422B 2-Axis Servo Module always has the axes X and Y (page 4-1)."
-    assert new.create_button.isEnabled()
+    assert not new.form.editors["axes"].isEnabled()
+    assert (
+        new.form.answer("note")
+        == "Reliance 57C422B 2-Axis Servo Module always has the axes X and Y (page 4-1)."
+    )
+    assert new.ok.isEnabled()
     assert fitted_axes(new.make()) == ("X", "Y")
 
 
@@ -43,10 +47,10 @@ def test_a_family_with_fixed_axes_says_so_before_ok(dialog) -> None:
 )
 def test_every_other_family_takes_axes_in_the_dialog(dialog, family: str, axes: str, fitted: int) -> None:
     new = dialog(family)
-    new.axes.setText(axes)
-    assert new.create_button.isEnabled(), new.fault.text()
+    new.form.set_answer("axes", axes)
+    assert new.ok.isEnabled(), new.fault.text()
     assert len(fitted_axes(new.make())) == fitted
-    assert new.place.text().endswith(f"; axes {' '.join(a.strip() for a in axes.split(','))}")
+    assert new.form.answer("place").endswith(f"; axes {' '.join(a.strip() for a in axes.split(','))}")
 
 
 @pytest.mark.parametrize(
@@ -54,47 +58,48 @@ def test_every_other_family_takes_axes_in_the_dialog(dialog, family: str, axes: 
 )
 def test_axes_that_cannot_be_are_refused_while_they_are_typed(dialog, family: str, axes: str) -> None:
     new = dialog(family)
-    new.axes.setText(axes)
+    new.form.set_answer("axes", axes)
     assert new.fault.text()
-    assert not new.create_button.isEnabled()
+    assert not new.ok.isEnabled()
 
 
 def test_where_the_axes_are_written_is_said_with_the_page(dialog) -> None:
     new = dialog("num")
-    assert "Axis Assignment to a Group, Number of CNC Axis Groups, Measured Axes" in new.note.text()
-    assert "(page 4-24)" in new.note.text()
-    assert "X.2 is X of group 2" in new.note.text()
+    assert "Axis Assignment to a Group, Number of CNC Axis Groups, Measured Axes" in new.form.answer("note")
+    assert "(page 4-24)" in new.form.answer("note")
+    assert "X.2 is X of group 2" in new.form.answer("note")
 
 
 def test_another_family_changes_what_is_offered(dialog) -> None:
     new = dialog("57c422b")
-    new.family.setCurrentIndex(new.family.findData("acromill"))
-    assert new.axes.isEnabled()
-    assert [new.units.itemData(n) for n in range(new.units.count())] == ["metric", "inch"]
-    new.units.setCurrentIndex(1)
+    new.form.set_answer("family", "acromill")
+    assert new.form.editors["axes"].isEnabled()
+    units = new.form.editor("units", QComboBox)
+    assert [units.itemData(n) for n in range(units.count())] == ["metric", "inch"]
+    units.setCurrentIndex(1)
     assert new.make().header.units == "inch"
-    new.family.setCurrentIndex(new.family.findData("num"))
-    assert not new.units.isEnabled()
+    new.form.set_answer("family", "num")
+    assert not units.isEnabled()
 
 
 def test_a_file_like_an_example_has_its_values_but_not_its_notes(dialog) -> None:
     new = dialog("9pc")
     example = next(e for e in examples() if e.family == "9pc")
-    new.like.setCurrentIndex(new.like.findData(example.path))
-    assert not new.axes.isEnabled()
-    assert example.path.name in new.note.text()
-    new.name.setText("MINE")
+    new.form.set_answer("like", example.path)
+    assert not new.form.editors["axes"].isEnabled()
+    assert example.path.name in new.form.answer("note")
+    new.form.set_answer("name", "MINE")
     made = new.make()
     assert (made.header.name, made.header.notes) == ("MINE", "")
     assert made.values == new_like(on_disk(example.path), "MINE").values
     assert not [a for a in made.values if a[0] == "password.character"], "passwords stay with their machine"
-    assert "Home Calibration" in new.note.text(), "it is named what is not taken over"
+    assert "Home Calibration" in new.form.answer("note"), "it is named what is not taken over"
 
 
 def test_a_file_like_one_of_mine(dialog, path: Path, person: Person) -> None:
     new = dialog("9pc")
     person.chooses(path)
-    new._choose_like(new.like.count() - 1)
+    new.form.set_answer("like", "other")
     assert new.source() == path
     assert new.make().get(("axis.name", "1")) == Value("x")
 
@@ -102,6 +107,6 @@ def test_a_file_like_one_of_mine(dialog, path: Path, person: Person) -> None:
 def test_a_file_of_another_family_cannot_be_the_pattern(dialog, path: Path, person: Person) -> None:
     new = dialog("num")
     person.chooses(path)
-    new._choose_like(new.like.count() - 1)
+    new.form.set_answer("like", "other")
     assert "is a file for Allen-Bradley 9/PC AMP" in new.fault.text()
-    assert not new.create_button.isEnabled()
+    assert not new.ok.isEnabled()

@@ -12,6 +12,7 @@ from PySide6.QtCore import QPointF, Qt
 from PySide6.QtGui import QDesktopServices
 from PySide6.QtPrintSupport import QPrintDialog, QPrinter
 from PySide6.QtTest import QTest
+from PySide6.QtWidgets import QCheckBox
 from pytestqt.qtbot import QtBot
 
 from amp_studio.files.example_files import examples
@@ -170,8 +171,8 @@ def test_the_contents_are_chosen_once_for_the_preview_and_the_dialog(
     window: MainWindow, panel: PreviewPanel, settled, accept, tmp_path: Path
 ) -> None:
     pages = len(panel.view.pages)
-    panel.head.options.chapters["signatures"].click()
-    panel.head.options.paper.setCurrentIndex(1)
+    panel.head.options.editor("signatures", QCheckBox).click()
+    panel.head.options.set_answer("paper", "letter")
     settled(panel)
     assert len(panel.view.pages) == pages - 1
     assert panel.view._sizes[0] == pytest.approx((612, 792), abs=3)
@@ -180,14 +181,14 @@ def test_the_contents_are_chosen_once_for_the_preview_and_the_dialog(
 
     def fill(dialog: ReportDialog) -> None:
         seen.append(dialog.contents())
-        dialog.options.language.setCurrentIndex(1)
-        dialog.path.setText(str(tmp_path / "report.txt"))
+        dialog.form.set_answer("language", "de")
+        dialog.form.set_answer("path", str(tmp_path / "report.txt"))
 
     accept(ReportDialog, fill)
     action(window, "Report").trigger()
     assert (seen[0].paper, seen[0].changed_only) == ("letter", True)
     assert "signatures" in seen[0].without
-    assert panel.head.options.contents().language == "de"
+    assert panel.head.options.answer("language") == "de"
     assert ReportChoice(UserSettings()).contents == window.report_choice.contents
 
 

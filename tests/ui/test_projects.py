@@ -139,12 +139,12 @@ def test_a_file_in_use_elsewhere_is_not_deleted(window: MainWindow, project: Pro
 
 
 def test_a_new_file_goes_into_the_project(window: MainWindow, project: Project, accept) -> None:
-    accept(NewFileDialog, lambda d: d.name.setText("fresh"))
+    accept(NewFileDialog, lambda d: d.form.set_answer("name", "fresh"))
     action(window, "New").trigger()
     assert window.workspace.path == project.path("fresh")
 
     faults: list[str] = []
-    accept(NewFileDialog, lambda d: (d.name.setText("mill"), faults.append(d.fault.text())))
+    accept(NewFileDialog, lambda d: (d.form.set_answer("name", "mill"), faults.append(d.fault.text())))
     action(window, "New").trigger()
     assert faults == ["The project already has a file 'mill'. Choose another name."]
     assert window.workspace.path == project.path("fresh")
@@ -152,20 +152,20 @@ def test_a_new_file_goes_into_the_project(window: MainWindow, project: Project, 
 
 def test_a_new_project_and_its_information(open_window, tmp_path: Path, accept, person: Person) -> None:
     window = open_window()
-    accept(file_dialogs.ProjectDialog, lambda d: d.name.setText("Lathe"))
+    accept(file_dialogs.ProjectDialog, lambda d: d.form.set_answer("name", "Lathe"))
     person.chooses(tmp_path)
     action(window, "New Project").trigger()
     assert Project.open(tmp_path).info.name == "Lathe"
 
-    accept(file_dialogs.ProjectDialog, lambda d: d.control.setText("tcp://10.0.0.1:9600"))
+    accept(file_dialogs.ProjectDialog, lambda d: d.form.set_answer("control", "tcp://10.0.0.1:9600"))
     action(window, "Project Information").trigger()
     assert Project.open(tmp_path).info.control == "tcp://10.0.0.1:9600"
 
 
-def test_a_project_needs_a_name(open_window, person: Person) -> None:
+def test_a_project_needs_a_name(open_window) -> None:
     dialog = file_dialogs.ProjectDialog(None, open_window())
     dialog.accept()
-    assert "Type a name for the project" in person.reads()
+    assert dialog.fault.text() == "Type a name for the project."
     assert not dialog.result()
 
 

@@ -319,7 +319,7 @@ def test_a_note_is_marked_in_its_cell_shown_in_its_tip_and_undone(
     window: MainWindow, file: ParameterFile, accept
 ) -> None:
     window.go_to((EXCESS, "1"))
-    accept(NoteDialog, lambda dialog: dialog.text.setPlainText("long spindle"))
+    accept(NoteDialog, lambda dialog: dialog.form.set_answer("note", "long spindle"))
     window.edits.note()
     index = window.table.index_of((EXCESS, "1"))
     assert value_note(file, (EXCESS, "1")) == "long spindle"

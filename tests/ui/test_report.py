@@ -21,7 +21,7 @@ def test_a_report_in_each_format(
     window: MainWindow, tmp_path: Path, accept, ending: str, begins: bytes
 ) -> None:
     path = tmp_path / f"report.{ending}"
-    accept(ReportDialog, lambda d: d.path.setText(str(path)))
+    accept(ReportDialog, lambda d: d.form.set_answer("path", str(path)))
 
     action(window, "Report").trigger()
 
@@ -35,7 +35,7 @@ def test_the_report_holds_what_is_edited_and_not_what_is_saved(
 ) -> None:
     path = tmp_path / "report.csv"
     window.edits.commit(("servo.excess_error", "1"), "3.75 mm")
-    accept(ReportDialog, lambda d: (d.path.setText(str(path)), d.options.changed.setChecked(True)))
+    accept(ReportDialog, lambda d: (d.form.set_answer("path", str(path)), d.form.set_answer("changed", True)))
     action(window, "Report").trigger()
     assert "3.75" in path.read_text(encoding="utf-8")
 
@@ -43,7 +43,7 @@ def test_the_report_holds_what_is_edited_and_not_what_is_saved(
 def test_an_unknown_ending_is_told_and_nothing_is_written(
     window: MainWindow, tmp_path: Path, accept, person: Person
 ) -> None:
-    accept(ReportDialog, lambda d: d.path.setText(str(tmp_path / "report.doc")))
+    accept(ReportDialog, lambda d: d.form.set_answer("path", str(tmp_path / "report.doc")))
     action(window, "Report").trigger()
     assert "unknown report format" in person.reads()
     assert not (tmp_path / "report.doc").exists()
@@ -53,7 +53,7 @@ def test_the_report_is_opened_when_wanted(window: MainWindow, tmp_path: Path, ac
     opened = []
     monkeypatch.setattr(QDesktopServices, "openUrl", lambda url: opened.append(Path(url.toLocalFile())))
     path = tmp_path / "report.txt"
-    accept(ReportDialog, lambda d: (d.path.setText(str(path)), d.show_it.setChecked(True)))
+    accept(ReportDialog, lambda d: (d.form.set_answer("path", str(path)), d.form.set_answer("open", True)))
     action(window, "Report").trigger()
     assert opened == [path]
 
@@ -62,10 +62,10 @@ def test_browsing_gives_the_ending_that_was_chosen(window: MainWindow, tmp_path:
     from PySide6.QtWidgets import QFileDialog
 
     dialog = ReportDialog(tmp_path / "mill.amp", window)
-    assert dialog.path.text() == str(tmp_path / "mill.pdf")
+    assert dialog.form.answer("path") == str(tmp_path / "mill.pdf")
     monkeypatch.setattr(QFileDialog, "getSaveFileName", lambda *_: (str(tmp_path / "named"), "HTML (*.html)"))
-    dialog._browse()
-    assert dialog.path.text() == str(tmp_path / "named.html")
+    dialog.form.browse("path")
+    assert dialog.form.answer("path") == str(tmp_path / "named.html")
 
 
 @pytest.mark.parametrize("verb", ["Report", "Export"])
@@ -76,7 +76,7 @@ def test_what_a_written_file_could_not_keep_is_said(
     path.write_bytes(b"old")
     (tmp_path / "other name").hardlink_to(path)
     if verb == "Report":
-        accept(ReportDialog, lambda d: d.path.setText(str(path)))
+        accept(ReportDialog, lambda d: d.form.set_answer("path", str(path)))
     else:
         person.chooses(path)
         person.answers("Export")  # without the secrets
@@ -100,7 +100,7 @@ def test_a_report_is_shown_as_pages_and_goes_to_a_printer(
 
     monkeypatch.setattr(QPrintPreviewDialog, "exec", printed)
     monkeypatch.setattr("amp_studio.ui.paper.printing.PPI", 40)
-    accept(ReportDialog, lambda d: (d.options.changed.setChecked(True), setattr(d, "to_printer", True)))
+    accept(ReportDialog, lambda d: (d.form.set_answer("changed", True), setattr(d, "to_printer", True)))
     action(window, "Report").trigger()
     assert shown == ["Report"]
     content = out.read_bytes()

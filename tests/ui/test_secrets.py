@@ -169,7 +169,7 @@ def test_no_report_has_a_secret_and_an_export_only_where_it_is_asked_for(
     for clear in (False, True):
         if clear:
             action(window, "Show Secrets").trigger()
-        accept(ReportDialog, lambda d: d.path.setText(str(tmp_path / "r.csv")))
+        accept(ReportDialog, lambda d: d.form.set_answer("path", str(tmp_path / "r.csv")))
         action(window, "Report").trigger()
         assert SECRET not in (tmp_path / "r.csv").read_text("utf-8")
         person.chooses(tmp_path / "e.csv")

@@ -32,9 +32,8 @@ def file(mill: MainWindow) -> ParameterFile:
 
 
 def fill(dialog: AxisDialog, axis: str, text: str) -> None:
-    dialog.axis_box.setCurrentIndex(dialog.axis_box.findData(axis))
-    (field,) = dialog._fields.values()
-    field.setText(text)
+    dialog.form.set_answer("axis", axis)
+    dialog.form.set_answer("axis.name", text)
 
 
 def test_only_axes_that_may_have_a_port_have_a_column(mill: MainWindow) -> None:
@@ -55,7 +54,7 @@ def test_an_axis_is_named_by_a_text(mill: MainWindow, file: ParameterFile, accep
 
 
 def test_a_deleted_axis_has_no_port(mill: MainWindow, file: ParameterFile, accept) -> None:
-    accept(AxisDialog, lambda dialog: dialog.axis_box.setCurrentIndex(dialog.axis_box.findData("3")))
+    accept(AxisDialog, lambda dialog: dialog.form.set_answer("axis", "3"))
     action(mill, "Delete Axis").trigger()
     assert fitted_axes(file) == ("1", "2")
 

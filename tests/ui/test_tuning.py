@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 from PySide6.QtCore import Qt
 from PySide6.QtTest import QTest
-from PySide6.QtWidgets import QAbstractButton, QApplication, QLabel, QWidget
+from PySide6.QtWidgets import QAbstractButton, QApplication, QComboBox, QLabel, QWidget
 from pytestqt.qtbot import QtBot
 
 from amp_studio.files import Document, new_file
@@ -201,7 +201,7 @@ def test_measured_points_are_asked_about_and_become_one_step(
     def answer(dialog: MeasuredDialog) -> None:
         assert not dialog.set_button.isEnabled()
         assert "what an error is" in dialog.missing.text()
-        dialog.sign.setCurrentIndex(1)
+        dialog.form.editor("sign", QComboBox).setCurrentIndex(1)
         assert dialog.set_button.isEnabled()
         assert "0.01300 mm measured, 0.00000 mm expected" in dialog.summary.text()
 
@@ -223,7 +223,7 @@ def test_a_file_that_is_no_measurement_is_named_in_the_dialog(
     qtbot.addWidget(dialog)
     assert "decimal comma" in dialog.missing.text()
     assert not dialog.set_button.isEnabled()
-    dialog.decimal.setCurrentIndex(1)
+    dialog.form.editor("decimal", QComboBox).setCurrentIndex(1)
     assert "does not name" in dialog.missing.text()
 
 
@@ -234,10 +234,10 @@ def test_a_circle_of_a_ball_bar_asks_which_axis_it_is(workspace, tmp_path: Path,
     dialog = MeasuredDialog(workspace.file, "1", path)
     qtbot.addWidget(dialog)
     dialog.show()
-    dialog.sign.setCurrentIndex(1)
+    dialog.form.editor("sign", QComboBox).setCurrentIndex(1)
     assert "first or the second" in dialog.missing.text()
-    assert dialog.circle.isVisible()
-    dialog.circle.setCurrentIndex(1)
+    assert dialog.form.editors["circle"].isVisible()
+    dialog.form.editor("circle", QComboBox).setCurrentIndex(1)
     assert dialog.missing.text() == ""
     assert dialog.proposal is not None
     assert list(dialog.proposal.settings) == [REVERSAL]

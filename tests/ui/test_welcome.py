@@ -69,7 +69,7 @@ def test_a_family_opens_the_dialog_for_a_new_file_of_it(open_window, qtbot: QtBo
     page = open_window().welcome
     read_all(page, qtbot)
     asked: list[str] = []
-    monkeypatch.setattr(NewFileDialog, "exec", lambda d: asked.append(d.family.currentData()) or 0)
+    monkeypatch.setattr(NewFileDialog, "exec", lambda d: asked.append(d.form.answer("family")) or 0)
     page.families.setCurrentRow(2)
     QTest.keyClick(page.families, Qt.Key.Key_Return)
     assert asked == [page.families.item(2).data(KEY)]

@@ -78,14 +78,14 @@ def _profile(window: StudioWindow) -> AxisProfile:
     return profile
 
 
-def _dialog(window: StudioWindow, title: str) -> AxisDialog:
+def _dialog(window: StudioWindow, title: str, note: str = "") -> AxisDialog:
     """Return a dialog that offers the axis of the selected cell first."""
     workspace = window.workspace_in_front
     address, axes = window.selected(), fitted_axes(workspace.file)
     here = axes[0] if axes else ""
     if address and address[1] in axes and workspace.file.evaluation.scope(address) == "axis":
         here = address[1]
-    return AxisDialog(workspace, title, here, window)
+    return AxisDialog(workspace, title, here, window, note)
 
 
 def _ask(window: StudioWindow, title: str, parameter_ids: list[str]) -> None:
@@ -108,19 +108,17 @@ def name(window: StudioWindow) -> None:
         _ask(window, title, [profile.name])
         return
     dialog = _dialog(window, title)
-    letter = dialog.ask_for_letter()
+    dialog.ask_for_letter()
     if run_dialog(dialog):
-        axis, name = dialog.axis(), letter.currentText()
+        axis, name = dialog.axis(), dialog.form.answer("letter")
         workspace.do(title, lambda: rename_axis(workspace.file, axis, name))
 
 
 def configure_type(window: StudioWindow) -> None:
     """Make an axis linear, rotary, a spindle or unfitted; the units of its lengths change with it."""
     workspace, profile, title = window.workspace_in_front, _profile(window), tr("Configure axis type")
-    dialog = _dialog(window, title)
-    dialog.note.setText(
-        tr("The numbers stay the same; only the unit changes, from mm to degrees or from degrees to mm.")
-    )
+    note = tr("The numbers stay the same; only the unit changes, from mm to degrees or from degrees to mm.")
+    dialog = _dialog(window, title, note)
     dialog.ask_for([profile.type])
     if run_dialog(dialog):
         axis, text = dialog.axis(), dialog.texts()[(profile.type, dialog.axis())]
@@ -142,17 +140,15 @@ def add(window: StudioWindow) -> None:
     workspace = window.workspace_in_front
     dialog = AddAxisDialog(workspace, window)
     if run_dialog(dialog):
-        name, place = dialog.name(), dialog.place()
+        name, place = dialog.form.answer("letter"), dialog.form.answer("place")
         workspace.do(tr("Add axis {name}").format(name=name), lambda: add_axis(workspace.file, name, place))
 
 
 def delete(window: StudioWindow) -> None:
     """Make an axis unfitted and set its values to their defaults."""
     workspace = window.workspace_in_front
-    dialog = _dialog(window, tr("Delete axis"))
-    dialog.note.setText(
-        tr("The axis becomes unfitted and its values are set to their defaults. You can undo this.")
-    )
+    note = tr("The axis becomes unfitted and its values are set to their defaults. You can undo this.")
+    dialog = _dialog(window, tr("Delete axis"), note)
     if run_dialog(dialog):
         axis = dialog.axis()
         name = axis_title(workspace.file, axis)
@@ -165,13 +161,11 @@ def delete(window: StudioWindow) -> None:
 def copy(window: StudioWindow) -> None:
     """Copy the values of one axis to another of the same type."""
     workspace = window.workspace_in_front
-    dialog = _dialog(window, tr("Copy axis"))
-    target = dialog.ask_for_target(tr("&To axis"))
-    dialog.note.setText(
-        tr("All values of the axis are copied, except its name. Both axes must have the same type.")
-    )
+    note = tr("All values of the axis are copied, except its name. Both axes must have the same type.")
+    dialog = _dialog(window, tr("Copy axis"), note)
+    dialog.ask_for_target(tr("&To axis"))
     if run_dialog(dialog):
-        source, axis = dialog.axis(), str(target.currentData())
+        source, axis = dialog.axis(), dialog.form.answer("target")
         step = tr("Copy axis {source} to {target}").format(source=source, target=axis)
         workspace.do(step, lambda: copy_axis(workspace.file, source, axis))
 
@@ -179,13 +173,11 @@ def copy(window: StudioWindow) -> None:
 def swap(window: StudioWindow) -> None:
     """Let two axes change places."""
     workspace = window.workspace_in_front
-    dialog = _dialog(window, tr("Swap axes"))
-    other = dialog.ask_for_target(tr("&With axis"))
-    dialog.note.setText(
-        tr("The axes change places with all their values. What names an axis by its number follows.")
-    )
+    note = tr("The axes change places with all their values. What names an axis by its number follows.")
+    dialog = _dialog(window, tr("Swap axes"), note)
+    dialog.ask_for_target(tr("&With axis"))
     if run_dialog(dialog):
-        first, second = dialog.axis(), str(other.currentData())
+        first, second = dialog.axis(), dialog.form.answer("target")
         step = tr("Swap axes {first} and {second}").format(first=first, second=second)
         workspace.do(step, lambda: swap_axes(workspace.file, first, second))
 

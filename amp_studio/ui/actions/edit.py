@@ -168,8 +168,8 @@ class Edits(Translated):
                 path,
                 finding.rule,
                 dialog.params(),
-                reason=dialog.reason.text(),
-                by=dialog.name.text(),
+                reason=dialog.form.answer("reason"),
+                by=dialog.form.answer("name"),
                 notify=notes.append,
             )
             workspace.read_own_rules()

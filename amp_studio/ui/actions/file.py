@@ -339,7 +339,8 @@ class Files(Translated):
         workspace = self.window.workspace_in_front
         dialog = FactsDialog(workspace.file.header, self.window)
         if run_dialog(dialog):
-            workspace.do(self.tr("Machine facts"), lambda: vars(workspace.file.header).update(dialog.texts()))
+            texts = dialog.form.answers()
+            workspace.do(self.tr("Machine facts"), lambda: vars(workspace.file.header).update(texts))
 
 
 def _opened(how: Callable[[Path], Document], path: Path) -> CheckedDocument:

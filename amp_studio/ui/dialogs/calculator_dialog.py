@@ -6,11 +6,12 @@ import re
 from collections.abc import Callable
 
 from PySide6.QtCore import Qt
-from PySide6.QtWidgets import QComboBox, QDialog, QFormLayout, QLabel, QLineEdit, QPushButton, QWidget
+from PySide6.QtWidgets import QDialog, QPushButton, QVBoxLayout, QWidget
 
 from amp_studio.schema import Address, shown
 from amp_studio.ui.base.workspace import Workspace
-from amp_studio.validate import calculate, calculators, shown_result
+from amp_studio.ui.forms.form import Field, Form
+from amp_studio.validate import Calculator, calculate, calculators, shown_result
 
 
 class CalculatorDialog(QDialog):
@@ -31,53 +32,56 @@ class CalculatorDialog(QDialog):
         self._family = workspace.file.schema.family.family
         self._known = calculators(self._family)
         own = workspace.file.schema.parameters[address[0]].formulas if address else ()
-        self.formula = QComboBox()
-        for name in (*own, *(name for name in sorted(self._known) if name not in own)):
-            self.formula.addItem(self._known[name].title, name)
-        self.description, self.outcome = QLabel(), QLabel()
-        for label in (self.description, self.outcome):
-            label.setWordWrap(True)
-            label.setTextInteractionFlags(Qt.TextInteractionFlag.TextSelectableByMouse)
+        names = (*own, *(name for name in sorted(self._known) if name not in own))
+        formulas = [(name, self._known[name].title) for name in names]
+        self._above = (
+            Field("formula", self.tr("&Formula"), "choice", names[0], formulas),
+            Field("description", "", "words"),
+        )
+        self._below = (Field("outcome", self.tr("Result"), "words"),)
+        self.form = Form((*self._above, *self._below))
         self.use = QPushButton()
         self.use.clicked.connect(self._use)
-        self.fields: dict[str, QLineEdit] = {}
-        self._form = QFormLayout(self)
-        self._form.addRow(self.tr("&Formula"), self.formula)
-        self._form.addRow(self.description)
-        self._form.addRow(self.tr("Result"), self.outcome)
-        self._form.addRow(self.use)
-        self.formula.currentTextChanged.connect(self._choose)
+        layout = QVBoxLayout(self)
+        layout.addWidget(self.form)
+        layout.addWidget(self.use)
+        self.form.changed.connect(self._change)
         workspace.closed.connect(self.close)
         self._choose()
 
-    def _choose(self, *_: object) -> None:
-        for field in self.fields.values():
-            self._form.removeRow(field)
-        self.fields.clear()
-        calculator = self._known[self.formula.currentData()]
-        self.description.setText(calculator.description)
-        for n, argument in enumerate(calculator.arguments):
-            field = self.fields[argument.name] = QLineEdit()
-            field.setPlaceholderText(argument.default or argument.example)
-            field.textChanged.connect(self._work_out)
-            self._form.insertRow(2 + n, argument.title, field)
+    @property
+    def _formula(self) -> Calculator:
+        return self._known[self.form.answer("formula")]
+
+    def _change(self, key: str) -> None:
+        if key == "formula":
+            self._choose()
+        else:
+            self._work_out()
+
+    def _choose(self) -> None:
+        arguments = (
+            Field(f"argument.{a.name}", a.title, hint=a.default or a.example) for a in self._formula.arguments
+        )
+        self.form.offer((*self._above, *arguments, *self._below))
+        self.form.set_answer("description", self._formula.description)
         self._work_out()
 
-    def _work_out(self, *_: object) -> None:
-        texts = {name: field.text() for name, field in self.fields.items()}
+    def _work_out(self) -> None:
+        arguments = self._formula.arguments
+        texts = {a.name: self.form.answer(f"argument.{a.name}") for a in arguments}
         self.use.setEnabled(False)
         self.use.setText(self.tr("Use the result as a value"))
-        arguments = self._known[self.formula.currentData()].arguments
-        missing = [a.title for a in arguments if a.default is None and not texts[a.name].strip()]
+        missing = [a.title for a in arguments if a.default is None and not texts[a.name]]
         if missing:
-            self.outcome.setText(self.tr("Still needed: {names}").format(names="; ".join(missing)))
+            self.form.set_answer("outcome", self.tr("Still needed: {names}").format(names="; ".join(missing)))
             return
         try:
-            result = calculate(self._family, self.formula.currentData(), texts)
+            result = calculate(self._family, self._formula.name, texts)
         except ValueError as error:
-            self.outcome.setText(self._titled(f"{error}.".replace("..", ".")))
+            self.form.set_answer("outcome", self._titled(f"{error}.".replace("..", ".")))
             return
-        self.outcome.setText(shown_result(result))
+        self.form.set_answer("outcome", shown_result(result))
         if self._address and isinstance(result, (int, float)) and not isinstance(result, bool):
             label = self._workspace.file.machine_schema.label(self._address)
             unit = shown(self._workspace.typed_unit(self._address))
@@ -90,12 +94,12 @@ class CalculatorDialog(QDialog):
 
     def _titled(self, text: str) -> str:
         """Return a message with the titles of the formula and of its arguments for their names."""
-        calculator = self._known[self.formula.currentData()]
+        calculator = self._formula
         titles = {calculator.name: calculator.title, **{a.name: a.title for a in calculator.arguments}}
         for name, title in titles.items():
             text = re.sub(rf"\b{name}\b", title, text) if "_" in name else text
         return text
 
     def _use(self) -> None:
-        if self._address and self._commit(self._address, self.outcome.text()):
+        if self._address and self._commit(self._address, self.form.answer("outcome")):
             self.close()

@@ -4,17 +4,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from PySide6.QtCore import Qt
-from PySide6.QtWidgets import (
-    QComboBox,
-    QDialog,
-    QDialogButtonBox,
-    QFileDialog,
-    QFormLayout,
-    QLabel,
-    QLineEdit,
-    QWidget,
-)
+from PySide6.QtWidgets import QFileDialog, QLineEdit, QWidget
 
 from amp_studio.files import (
     ENDING,
@@ -32,7 +22,10 @@ from amp_studio.files import (
     why_axes_are_fixed,
 )
 from amp_studio.schema import Schema, family_ids, load_schema
-from amp_studio.ui.base.theme import severity_ink
+from amp_studio.ui.base.translated import tr
+from amp_studio.ui.forms.form import Field, FormDialog
+
+from .file_dialogs import family_choices
 
 _OTHER = "other"
 
@@ -44,7 +37,7 @@ def read_families() -> None:
     examples()
 
 
-class NewFileDialog(QDialog):
+class NewFileDialog(FormDialog):
     """Asks for a new file. What a family cannot choose is off, with the reason;
     what is wrong is shown while it is typed.
     """
@@ -57,127 +50,89 @@ class NewFileDialog(QDialog):
         project: Project | None = None,
         recent: list[Path] | None = None,
     ) -> None:
-        super().__init__(parent)
-        self.setWindowTitle(self.tr("New parameter file"))
-        self.setMinimumWidth(560)
         self._project, self._recent = project, recent or []
-        self.family, self.machine, self.units, self.like = (QComboBox() for _ in range(4))
-        for each in family_ids():
-            self.family.addItem(load_schema(each).family.name, each)
-        self.family.setCurrentIndex(max(self.family.findData(family), 0))
-        self.axes, self.name = QLineEdit(), QLineEdit("MACHINE_1")
-        self.note, self.place, self.fault = QLabel(), QLabel(), QLabel()
-        for label in (self.note, self.place, self.fault):
-            label.setWordWrap(True)
-            label.setTextFormat(Qt.TextFormat.PlainText)
-        self.buttons = QDialogButtonBox(QDialogButtonBox.StandardButton.Cancel)
-        self.create_button = self.buttons.addButton(
-            self.tr("Create &File"), QDialogButtonBox.ButtonRole.AcceptRole
+        fields = (
+            Field("family", tr("&Control"), "choice", family, family_choices()),
+            Field("machine", tr("&Machine type"), "choice"),
+            Field("axes", tr("&Axes")),
+            Field("note", "", "words"),
+            Field("units", tr("&Units shown"), "choice"),
+            Field("like", tr("&Like"), "choice"),
+            Field("name", tr("&Name"), default="MACHINE_1"),
+            Field("place", "", "words"),
         )
-        self._lay_out()
+        super().__init__(tr("New parameter file"), fields, tr("Create &File"), parent, width=560)
+        self.form.entered.connect(self._choose)
         self._choose_family()
-        self.family.currentIndexChanged.connect(self._choose_family)
-        self.like.activated.connect(self._choose_like)
-        self.like.currentIndexChanged.connect(self._show_like)
-        self.machine.currentIndexChanged.connect(self._check)
-        for field in (self.axes, self.name):
-            field.textChanged.connect(self._check)
-
-    def _lay_out(self) -> None:
-        form = QFormLayout(self)
-        for label, field in (
-            (self.tr("&Control"), self.family),
-            (self.tr("&Machine type"), self.machine),
-            (self.tr("&Axes"), self.axes),
-        ):
-            form.addRow(label, field)
-        form.addRow("", self.note)
-        for label, field in (
-            (self.tr("&Units shown"), self.units),
-            (self.tr("&Like"), self.like),
-            (self.tr("&Name"), self.name),
-        ):
-            form.addRow(label, field)
-        form.addRow("", self.place)
-        form.addRow("", self.fault)
-        form.addRow(self.buttons)
-        self.buttons.accepted.connect(self.accept)
-        self.buttons.rejected.connect(self.reject)
 
     # -- what is offered -------------------------------------------------------------
 
     @property
     def _schema(self) -> Schema:
-        return load_schema(str(self.family.currentData()))
+        return load_schema(self.form.answer("family"))
 
-    def _choose_family(self, *_: object) -> None:
+    def _choose(self, key: str) -> None:
+        if key == "family":
+            self._choose_family()
+        elif key == "like":
+            self._choose_like()
+
+    def _choose_family(self) -> None:
         """Offer what the chosen family has."""
         family = self._schema.family
-        for box, entries, chosen in (
-            (self.machine, [(m.name, m.key) for m in family.machines], family.default_machine),
-            (self.units, [(self._system(s), s) for s in family.units], "metric"),
-            (self.like, self._likes(), None),
-        ):
-            box.blockSignals(True)
-            box.clear()
-            for text, key in entries:
-                box.addItem(text, key)
-            box.setCurrentIndex(max(box.findData(chosen), 0))
-            box.blockSignals(False)
+        machines = [(machine.key, machine.name) for machine in family.machines]
+        self.form.offer_choices("machine", machines, family.default_machine)
+        self.form.offer_choices("units", [(each, self._system(each)) for each in family.units], "metric")
+        self.form.offer_choices("like", self._likes(), None)
         one_system = self.tr("{family} has one system of units").format(family=family.name)
-        self.units.setEnabled(len(family.units) > 1)
-        self.units.setToolTip("" if len(family.units) > 1 else one_system)
+        self.form.enable("units", len(family.units) > 1, one_system)
         self._show_like()
 
     def _system(self, system: str) -> str:
         return {"metric": self.tr("Metric (mm)"), "inch": self.tr("Inch")}.get(system, system)
 
-    def _likes(self) -> list[tuple[str, object]]:
-        family = str(self.family.currentData())
-        found: list[tuple[str, object]] = [(self.tr("The printed defaults"), None)]
-        found += [
-            (self.tr("Example: {title}").format(title=e.title), e.path)
-            for e in examples()
-            if e.family == family
-        ]
+    def _likes(self) -> list[tuple[object, str]]:
+        family = self.form.answer("family")
+        title = self.tr("Example: {title}")
         return [
-            *found,
-            *((path.name, path) for path in self._recent),
-            (self.tr("Another file of mine…"), _OTHER),
+            (None, self.tr("The printed defaults")),
+            *((e.path, title.format(title=e.title)) for e in examples() if e.family == family),
+            *((path, path.name) for path in self._recent),
+            (_OTHER, self.tr("Another file of mine…")),
         ]
 
-    def _choose_like(self, index: int) -> None:
+    def _choose_like(self) -> None:
         """Ask for the file when another one is wanted."""
-        if self.like.itemData(index) != _OTHER:
-            return
-        text, _ = QFileDialog.getOpenFileName(self, self.tr("Like which file"), "", f"(*{ENDING})")
-        if text:
-            self.like.insertItem(index, Path(text).name, Path(text))
-        self.like.setCurrentIndex(index if text else 0)
+        if self.form.answer("like") == _OTHER:
+            text, _ = QFileDialog.getOpenFileName(self, self.tr("Like which file"), "", f"(*{ENDING})")
+            if text:
+                self._recent.append(Path(text))
+            self.form.offer_choices("like", self._likes(), Path(text) if text else None)
+        self._show_like()
 
     def source(self) -> Path | None:
         """Return the file that the new one is to be like; None for the printed defaults."""
-        found = self.like.currentData()
+        found = self.form.answer("like")
         return found if isinstance(found, Path) else None
 
-    def _show_like(self, *_: object) -> None:
+    def _show_like(self) -> None:
         """A file like another one has its machine type, axes and units."""
-        source, fixed = self.source(), why_axes_are_fixed(self._schema)
-        self.machine.setEnabled(source is None and self.machine.count() > 1)
-        self.axes.setEnabled(source is None and not fixed)
-        self.units.setEnabled(source is None and self.units.count() > 1)
+        source, fixed, family = self.source(), why_axes_are_fixed(self._schema), self._schema.family
+        self.form.enable("machine", source is None and len(family.machines) > 1)
+        self.form.enable("axes", source is None and not fixed)
         if source is not None:
-            self.note.setText(
-                self.tr("Machine type, axes and units are those of {name}. Not taken over: {own}.").format(
-                    name=source.name, own=", ".join(p.name for p in of_one_machine(self._schema))
-                )
+            self.form.enable("units", False)
+            note = self.tr("Machine type, axes and units are those of {name}. Not taken over: {own}.").format(
+                name=source.name, own=", ".join(p.name for p in of_one_machine(self._schema))
             )
         elif fixed:
-            self.note.setText(self.tr("{reason}.").format(reason=fixed))
+            note = self.tr("{reason}.").format(reason=fixed)
         else:
-            self.note.setText(self._axes_note())
-        self.axes.setPlaceholderText("" if fixed else self.tr("Leave empty for the default axes"))
-        self._check()
+            note = self._axes_note()
+        self.form.set_answer("note", note)
+        hint = "" if fixed else self.tr("Leave empty for the default axes")
+        self.form.editor("axes", QLineEdit).setPlaceholderText(hint)
+        self.check()
 
     def _axes_note(self) -> str:
         """Return which letters there are, and what they are written to."""
@@ -196,19 +151,19 @@ class NewFileDialog(QDialog):
         """Return the new file; raises ValueError for axes the family cannot have,
         and for a file that cannot be read.
         """
-        name, source = self.name.text().strip(), self.source()
+        name, source = self.form.answer("name"), self.source()
         if source is not None:
             like = open_file(source).file
-            if like.schema.family.family != self.family.currentData():
+            if like.schema.family.family != self.form.answer("family"):
                 raise ValueError(
                     self.tr("{file} is a file for {family}.").format(
                         file=source.name, family=like.schema.family.name
                     )
                 )
             return new_like(like, name)
-        axes = [a.strip() for a in self.axes.text().split(",") if a.strip()] if self.axes.isEnabled() else []
-        file = new_file(str(self.family.currentData()), str(self.machine.currentData()), axes, name)
-        file.header.units = str(self.units.currentData() or file.header.units)
+        given = self.form.answers()
+        file = new_file(given["family"], given["machine"], self._axes(), name)
+        file.header.units = given["units"] or file.header.units
         return file
 
     def path(self) -> Path | None:
@@ -216,9 +171,9 @@ class NewFileDialog(QDialog):
         ValueError for a name that cannot be.
         """
         project = self._project
-        if project is None or project.info.family != self.family.currentData():
+        if project is None or project.info.family != self.form.answer("family"):
             return None
-        path = project.path(self.name.text().strip())
+        path = project.path(self.form.answer("name"))
         if path.exists():
             raise ValueError(
                 self.tr("The project already has a file '{name}'. Choose another name.").format(
@@ -227,35 +182,27 @@ class NewFileDialog(QDialog):
             )
         return path
 
-    def _check(self, *_: object) -> None:
-        """Show what will be written where, or what is wrong."""
-        fault, made = "", None
+    def _axes(self) -> list[str]:
+        if not self.form.editors["axes"].isEnabled():
+            return []
+        return [axis.strip() for axis in self.form.answer("axes").split(",") if axis.strip()]
+
+    def problem(self) -> str:
+        """Show what will be written where, and return what is wrong."""
+        fault, made, path = "", None, None
         try:
             path, made = self.path(), self.make()
         except (OSError, ValueError) as error:
-            path, fault = None, str(error)
+            fault = str(error)
         if path is not None:
-            self.place.setText(
-                self.tr("{file} in the project folder {folder}").format(file=path.name, folder=path.parent)
+            place = self.tr("{file} in the project folder {folder}").format(
+                file=path.name, folder=path.parent
             )
         else:
-            name = f"{self.name.text().strip() or 'machine'}{ENDING}"
-            self.place.setText(self.tr("{file}; the folder is asked for next").format(file=name))
-        if made is not None and self.axes.isEnabled() and self.axes.text().strip():
+            name = f"{self.form.answer('name') or 'machine'}{ENDING}"
+            place = self.tr("{file}; the folder is asked for next").format(file=name)
+        if made is not None and self._axes():
             axes = " ".join(axis_letter(made, a) or a for a in fitted_axes(made))
-            self.place.setText(self.place.text() + self.tr("; axes {axes}").format(axes=axes))
-        self.fault.setText(fault)
-        self.fault.setStyleSheet(f"color: {severity_ink('error').name()}")
-        self.fault.setVisible(bool(fault))
-        self.create_button.setEnabled(not fault)
-
-    def accept(self) -> None:
-        """Close the dialog when the file can be made; what is wrong is shown in it."""
-        self._check()
-        if self.create_button.isEnabled():
-            super().accept()
-
-    def done(self, result: int) -> None:
-        """Close the dialog; its input can be read until the next event."""
-        super().done(result)
-        self.deleteLater()
+            place += self.tr("; axes {axes}").format(axes=axes)
+        self.form.set_answer("place", place)
+        return fault

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from PySide6.QtCore import Qt
 from PySide6.QtGui import QKeyEvent
-from PySide6.QtWidgets import QComboBox, QDialog, QDialogButtonBox, QFormLayout, QPlainTextEdit, QWidget
+from PySide6.QtWidgets import QPlainTextEdit, QWidget
 
 from amp_studio.files import (
     group_note,
@@ -15,51 +15,44 @@ from amp_studio.files import (
     value_note,
 )
 from amp_studio.schema import Address
+from amp_studio.ui.base.translated import tr
 from amp_studio.ui.base.workspace import Workspace
+from amp_studio.ui.forms.form import Field, FormDialog
 
 
-class NoteDialog(QDialog):
+class NoteDialog(FormDialog):
     """Edits one note after the other; each is a step to undo when the dialog is accepted."""
 
     def __init__(self, workspace: Workspace, address: Address | None, parent: QWidget | None = None) -> None:
-        super().__init__(parent)
         self._workspace, self._address = workspace, address
         file = workspace.file
-        self.setWindowTitle(self.tr("Note"))
-        self.resize(460, 260)
-        self.about, self.text = QComboBox(), QPlainTextEdit()
-        self.text.setTabChangesFocus(True)
-        self.text.setReadOnly(not workspace.may_edit)
-        self.text.setAccessibleName(self.tr("Note"))
-        self._texts: dict[str, str] = {"machine": machine_note(file)}
+        self._texts: dict[str, str] = {}
+        self._names: dict[str, str] = {}
         if address is not None:
             group = file.schema.group_of[address[0]]
             self._group = group.key
-            self._texts |= {"value": value_note(file, address), "group": group_note(file, group.key)}
-            self.about.addItem(workspace.name_of(address), "value")
-            self.about.addItem(group.section or group.name, "group")
-        self.about.addItem(self.tr("The whole machine"), "machine")
-        self._old = dict(self._texts)
-        self._shown = str(self.about.currentData())
-        self.text.setPlainText(self._texts[self._shown])
-        self.about.currentIndexChanged.connect(self._turn)
-        form = QFormLayout(self)
-        form.addRow(self.tr("&About"), self.about)
-        form.addRow(self.tr("&Note"), self.text)
-        buttons = QDialogButtonBox()
-        buttons.addButton(self.tr("&Save Note"), QDialogButtonBox.ButtonRole.AcceptRole).setEnabled(
-            workspace.may_edit
+            self._texts = {"value": value_note(file, address), "group": group_note(file, group.key)}
+            self._names = {"value": workspace.name_of(address), "group": group.section or group.name}
+        self._texts["machine"], self._names["machine"] = machine_note(file), tr("The whole machine")
+        self._old, self._about = dict(self._texts), next(iter(self._texts))
+        fields = (
+            Field("about", tr("&About"), "choice", choices=[*self._names.items()]),
+            Field("note", tr("&Note"), "lines", self._texts[self._about]),
         )
-        buttons.addButton(self.tr("Cancel"), QDialogButtonBox.ButtonRole.RejectRole)
-        buttons.accepted.connect(self.accept)
-        buttons.rejected.connect(self.reject)
-        form.addRow(buttons)
-        self.text.setFocus()
+        super().__init__(tr("Note"), fields, tr("&Save Note"), parent)
+        text = self.form.editor("note", QPlainTextEdit)
+        text.setReadOnly(not workspace.may_edit)
+        text.setFocus()
+        self.form.entered.connect(self._turn)
 
-    def _turn(self) -> None:
-        self._texts[self._shown] = self.text.toPlainText()
-        self._shown = str(self.about.currentData())
-        self.text.setPlainText(self._texts[self._shown])
+    def problem(self) -> str:
+        """Return why no note can be saved."""
+        return "" if self._workspace.may_edit else tr("The file is read-only: notes can be read.")
+
+    def _turn(self, _: str) -> None:
+        self._texts[self._about] = self.form.answer("note")
+        self._about = self.form.answer("about")
+        self.form.set_answer("note", self._texts[self._about])
 
     def keyPressEvent(self, event: QKeyEvent) -> None:
         """Ctrl+Enter saves, as Enter is a new line of the note."""
@@ -75,7 +68,7 @@ class NoteDialog(QDialog):
         """Put the notes that were changed into the file, as one step; raises NoteError,
         and then nothing is changed.
         """
-        self._texts[self._shown] = self.text.toPlainText()
+        self._texts[self._about] = self.form.answer("note")
         changed = {key: text for key, text in self._texts.items() if text.strip() != self._old[key]}
         file, address = self._workspace.file, self._address
 
@@ -88,5 +81,5 @@ class NoteDialog(QDialog):
                 elif address is not None:
                     set_value_note(file, address, text)
 
-        about = self.about.itemText(self.about.findData(next(iter(changed), "machine")))
+        about = self._names[next(iter(changed), "machine")]
         self._workspace.do(self.tr("Note about {name}").format(name=about), put)

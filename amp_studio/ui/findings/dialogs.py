@@ -7,12 +7,9 @@ from collections.abc import Callable, Iterable
 
 from PySide6.QtCore import Qt, QUrl
 from PySide6.QtWidgets import (
-    QCheckBox,
     QDialog,
     QDialogButtonBox,
-    QFormLayout,
     QLabel,
-    QLineEdit,
     QTextBrowser,
     QTreeWidget,
     QTreeWidgetItem,
@@ -24,8 +21,9 @@ from amp_studio.report import FindingGroup, finding_groups, fix_lines, severity_
 from amp_studio.schema import Address, written
 from amp_studio.ui.base.figures import sentence
 from amp_studio.ui.base.theme import severity_html, severity_icon
-from amp_studio.ui.base.translated import worded
+from amp_studio.ui.base.translated import tr, worded
 from amp_studio.ui.base.workspace import Workspace
+from amp_studio.ui.forms.form import Field, FormDialog
 from amp_studio.validate import Finding, explain
 
 
@@ -77,45 +75,28 @@ class WhyDialog(QDialog):
         self._go_to(self._linked[int(url.toString().removeprefix("seen:"))])
 
 
-class SuppressDialog(QDialog):
+class SuppressDialog(FormDialog):
     """Asks who suppresses a finding, and why."""
 
     def __init__(self, finding: Finding, who: str, parent: QWidget) -> None:
-        super().__init__(parent)
-        self.setWindowTitle(self.tr("Suppress a Finding"))
-        self.setMinimumWidth(520)
         self._finding = finding
-        effect = QLabel(
-            f"<b>{html.escape(sentence(finding.message))}</b><br>The finding is no longer listed, but reports"
-            " print it with the reason and the name. The suppression is saved in rules.yaml beside the file."
+        effect = tr(
+            "The finding is no longer listed, but reports print it with the reason and the name. The"
+            " suppression is saved in rules.yaml beside the file."
         )
-        effect.setWordWrap(True)
-        self.reason, self.name = QLineEdit(), QLineEdit(who)
-        self.everywhere = QCheckBox(self.tr("Also suppress the same finding of other parameters"))
-        self.everywhere.setEnabled(bool(finding.addresses))
-        buttons = QDialogButtonBox(
-            QDialogButtonBox.StandardButton.Ok | QDialogButtonBox.StandardButton.Cancel
+        everywhere = tr("Also suppress the same finding of other parameters")
+        reason, name = tr("Type a reason."), tr("Type the name of the person who suppresses it.")
+        fields = (
+            Field("reason", tr("&Reason"), check=lambda text: "" if text else reason),
+            Field("name", tr("&Name"), default=who, check=lambda text: "" if text else name),
+            Field("everywhere", everywhere, "check", default=False, enabled=bool(finding.addresses)),
         )
-        self._ok = buttons.button(QDialogButtonBox.StandardButton.Ok)
-        self._ok.setText(self.tr("&Suppress"))
-        buttons.accepted.connect(self.accept)
-        buttons.rejected.connect(self.reject)
-        form = QFormLayout(self)
-        form.addRow(effect)
-        form.addRow(self.tr("&Reason"), self.reason)
-        form.addRow(self.tr("&Name"), self.name)
-        form.addRow(self.everywhere)
-        form.addRow(buttons)
-        for field in (self.reason, self.name):
-            field.textChanged.connect(self._look)
-        self._look()
-
-    def _look(self) -> None:
-        self._ok.setEnabled(bool(self.reason.text().strip() and self.name.text().strip()))
+        note = f"<b>{html.escape(sentence(finding.message))}</b><br>{effect}"
+        super().__init__(tr("Suppress a Finding"), fields, tr("&Suppress"), parent, note=note, width=520)
 
     def params(self) -> tuple[str, ...]:
         """Return the parameters of the suppression; empty for all instances."""
-        return () if self.everywhere.isChecked() else tuple(map(written, self._finding.addresses))
+        return () if self.form.answer("everywhere") else tuple(map(written, self._finding.addresses))
 
 
 class FixSeveralDialog(QDialog):

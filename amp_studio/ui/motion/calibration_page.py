@@ -6,6 +6,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from fractions import Fraction
+from typing import Literal
 
 from PySide6.QtCore import Qt
 from PySide6.QtGui import QKeySequence, QShortcut
@@ -13,7 +14,6 @@ from PySide6.QtWidgets import (
     QAbstractItemView,
     QCheckBox,
     QComboBox,
-    QFormLayout,
     QHBoxLayout,
     QHeaderView,
     QInputDialog,
@@ -44,6 +44,7 @@ from amp_studio.files import ParameterFile
 from amp_studio.schema import Address, Value, read_exact, shown
 from amp_studio.ui.base.theme import GAP2, ROW, colour, font
 from amp_studio.ui.base.translated import worded
+from amp_studio.ui.forms.form import Field, Form
 
 from .error_plot import ErrorPlot, ErrorTrace
 from .tuning_target import TuningTarget
@@ -117,14 +118,25 @@ class CalibrationPage(QWidget):
         return button
 
     def _arrange(self) -> None:
-        form = QFormLayout()
-        for label, box in (
-            (self.tr("A&xis"), self.axis),
-            (self.tr("&Figures are"), self.input),
-            (self.tr("Starts at the"), self.start),
-        ):
-            box.setAccessibleName(label.replace("&", ""))
-            form.addRow(label, box)
+        form = Form(
+            (
+                Field("axis", self.tr("A&xis"), "choice", editor=lambda: self.axis),
+                Field(
+                    "input",
+                    self.tr("&Figures are"),
+                    "choice",
+                    editor=lambda: self.input,
+                    visible=lambda _: self._offers("inputs"),
+                ),
+                Field(
+                    "start",
+                    self.tr("Starts at the"),
+                    "choice",
+                    editor=lambda: self.start,
+                    visible=lambda _: self._offers("starts"),
+                ),
+            )
+        )
         self._form = form
         buttons = QHBoxLayout()
         for button in (self.insert, self.replace, self.delete, self.clear):
@@ -133,7 +145,7 @@ class CalibrationPage(QWidget):
         left, right = QWidget(), QWidget()
         column = QVBoxLayout(left)
         column.setContentsMargins(0, 0, GAP2, 0)
-        column.addLayout(form)
+        column.addWidget(form)
         column.addWidget(self.was_on)
         column.addWidget(self.table, 1)
         column.addLayout(buttons)
@@ -180,11 +192,7 @@ class CalibrationPage(QWidget):
             self.plot,
         ):
             widget.setVisible(form is not None)
-        for box, choices in (
-            (self.input, form.inputs if form else ()),
-            (self.start, form.starts if form else ()),
-        ):
-            self._form.setRowVisible(box, bool(choices))
+        self._form.show_visible()
         if axes and form is not None:
             self._show_table(file, offered)
         elif form is None:
@@ -193,6 +201,11 @@ class CalibrationPage(QWidget):
             )
         self.read.setEnabled(bool(axes) and self.target.may_edit)
         self._filling = False
+
+    def _offers(self, what: Literal["inputs", "starts"]) -> bool:
+        """Return whether the table of the control has several kinds of figures, or of beginnings."""
+        table = self._offered(self.target.file).table if self.target else None
+        return table is not None and bool(getattr(table, what))
 
     @staticmethod
     def _offered(file: ParameterFile) -> Compensation:

@@ -25,6 +25,7 @@ from amp_studio.ui.base.plot import Plot
 from amp_studio.ui.base.task import in_background
 from amp_studio.ui.base.theme import GAP2, GAP3
 from amp_studio.ui.base.translated import worded
+from amp_studio.ui.forms.form import Field, Form
 
 
 class IdentifyDialog(QDialog):
@@ -38,10 +39,14 @@ class IdentifyDialog(QDialog):
         self.resize(980, 640)
         self.plot = Plot()
         self.plot.setAccessibleName(self.tr("Measured and predicted torque"))
-        self.scale = QLineEdit()
-        self.scale.setPlaceholderText(self.tr("only for A, Nm or N: 0.056 A"))
-        self.scale.setToolTip(self.tr("Torque of the record for 1 % of rated torque, or for 1 V of output"))
-        self.scale.editingFinished.connect(self.refresh)
+        scale = Field(
+            "scale",
+            self.tr("S&cale"),
+            tip=self.tr("Torque of the record for 1 % of rated torque, or for 1 V of output"),
+            hint=self.tr("only for A, Nm or N: 0.056 A"),
+        )
+        self.form = Form((scale,))
+        self.form.editor("scale", QLineEdit).editingFinished.connect(self.refresh)
         self.message = QLabel()
         self.message.setWordWrap(True)
         self.message.setTextFormat(Qt.TextFormat.PlainText)
@@ -60,9 +65,7 @@ class IdentifyDialog(QDialog):
 
     def _arrange(self, cancel: QPushButton) -> None:
         left = QVBoxLayout()
-        given = QFormLayout()
-        given.addRow(self.tr("S&cale"), self.scale)
-        left.addLayout(given)
+        left.addWidget(self.form)
         left.addSpacing(GAP2)
         left.addLayout(self.figures)
         left.addWidget(self.message)
@@ -82,7 +85,7 @@ class IdentifyDialog(QDialog):
 
     def refresh(self) -> None:
         """Fit the record again with the scale that is given."""
-        scale = self.scale.text().strip() or None
+        scale = self.form.answer("scale") or None
         try:
             self.trace = in_background(
                 self,

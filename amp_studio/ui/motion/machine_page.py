@@ -93,7 +93,7 @@ class MachinePage(QWidget):
         """Fill the fields of a machine and simulate with it."""
         self._taken = self._present()[1], dict(settings)
         for name, text in settings.items():
-            field = self.form.fields.get(name)
+            field = self.form.editors.get(name)
             if not isinstance(field, QLineEdit):
                 self._fail(SimulationError(f"{name} is not used in the simulation of this axis", name))
                 return
@@ -108,7 +108,7 @@ class MachinePage(QWidget):
         if of == axis:
             return
         for name, text in settings.items():
-            field = self.form.fields.get(name)
+            field = self.form.editors.get(name)
             if isinstance(field, QLineEdit) and field.text() == text:
                 field.clear()
         self._taken = axis, {}

@@ -8,18 +8,7 @@ from functools import partial
 from pathlib import Path
 
 from PySide6.QtCore import Qt
-from PySide6.QtWidgets import (
-    QCheckBox,
-    QComboBox,
-    QDialog,
-    QFormLayout,
-    QHBoxLayout,
-    QLabel,
-    QPlainTextEdit,
-    QPushButton,
-    QVBoxLayout,
-    QWidget,
-)
+from PySide6.QtWidgets import QDialog, QHBoxLayout, QLabel, QPlainTextEdit, QPushButton, QVBoxLayout, QWidget
 
 from amp_studio.calibration import (
     DECIMALS,
@@ -42,6 +31,7 @@ from amp_studio.schema import shown
 from amp_studio.ui.base.figures import show_value
 from amp_studio.ui.base.task import in_background
 from amp_studio.ui.base.theme import GAP2, GAP3, colour
+from amp_studio.ui.forms.form import Field, Form
 
 from .error_plot import ErrorPlot, ErrorTrace
 
@@ -61,7 +51,8 @@ class MeasuredDialog(QDialog):
         self.setWindowTitle(self.tr("Measured Points — {name}").format(name=path.name))
         self.resize(920, 620)
         self._offered = compensation_of(file.schema.family.family)
-        self._make_fields()
+        self.form = Form(self._fields())
+        self.form.entered.connect(lambda _: self.refresh())
         self.summary, self.missing = QLabel(), QLabel()
         for label in (self.summary, self.missing):
             label.setWordWrap(True)
@@ -80,7 +71,7 @@ class MeasuredDialog(QDialog):
         buttons.addWidget(self.set_button)
         buttons.addWidget(cancel)
         left, right = QVBoxLayout(), QVBoxLayout()
-        left.addLayout(self._form())
+        left.addWidget(self.form)
         left.addWidget(self.summary)
         left.addStretch(1)
         right.addWidget(self.plot, 3)
@@ -95,75 +86,74 @@ class MeasuredDialog(QDialog):
         layout.addLayout(buttons)
         self.refresh()
 
-    def _make_fields(self) -> None:
-        as_named = (self.tr("as the file names it"), "")
-        self.unit = _choice(as_named, *((shown(u), u) for u in POSITION_UNITS))
-        self.error_unit = _choice(as_named, *((shown(u), u) for u in ERROR_UNITS))
-        self.sign = _choice(
-            as_named,
-            (self.tr("measured less target (ISO 230-2)"), "measured-target"),
-            (self.tr("target less measured (correction)"), "target-measured"),
+    def _fields(self) -> tuple[Field, ...]:
+        named = ("", self.tr("as the file names it"))
+        signs = (
+            ("measured-target", self.tr("measured less target (ISO 230-2)")),
+            ("target-measured", self.tr("target less measured (correction)")),
         )
-        self.decimal = _choice((self.tr("point"), DECIMALS[0]), (self.tr("comma"), DECIMALS[1]))
-        self.was_on = _choice(
-            (self.tr("choose…"), _ASK),
-            (self.tr("off"), "off"),
-            (self.tr("on: points are what is left over"), "on"),
+        marks = ((DECIMALS[0], self.tr("point")), (DECIMALS[1], self.tr("comma")))
+        states = (
+            (_ASK, self.tr("choose…")),
+            ("off", self.tr("off")),
+            ("on", self.tr("on: points are what is left over")),
         )
-        self.circle = _choice(
-            (self.tr("choose…"), ""),
-            (self.tr("the first one: it turns round at 0° and 180°"), "first"),
-            (self.tr("the second one: at 90° and 270°"), "second"),
+        axes = (
+            ("", self.tr("choose…")),
+            ("first", self.tr("the first one: it turns round at 0° and 180°")),
+            ("second", self.tr("the second one: at 90° and 270°")),
         )
-        form = self._offered.table
+        table = self._offered.table
         names = {"deviation": self.tr("deviation"), "measurement": self.tr("measured position")}
-        self.input = _choice(*((names[key], key) for key in reversed(form.inputs if form else ())))
+        inputs = [(key, names[key]) for key in reversed(table.inputs if table else ())]
         ends = {"-": self.tr("most negative position"), "+": self.tr("most positive position")}
-        self.start = _choice(*((ends[key], key) for key in reversed(form.starts if form else ())))
-        self.table, self.reversal = (
-            QCheckBox(self.tr("Calibration &table")),
-            QCheckBox(self.tr("&Reversal error")),
+        starts = [(key, ends[key]) for key in reversed(table.starts if table else ())]
+        units = [named, *((unit, shown(unit)) for unit in POSITION_UNITS)]
+        error_units = [named, *((unit, shown(unit)) for unit in ERROR_UNITS)]
+        is_compensated = self._is_compensated()
+        return (
+            Field("unit", self.tr("&Positions in"), "choice", "", units),
+            Field("error_unit", self.tr("&Errors in"), "choice", "", error_units),
+            Field("sign", self.tr("An error &is"), "choice", "", (named, *signs)),
+            Field("decimal", self.tr("&Decimal sign"), "choice", choices=marks),
+            Field(
+                "was_on",
+                self.tr("&Compensation was"),
+                "choice",
+                choices=states,
+                visible=lambda _: is_compensated,
+            ),
+            Field(
+                "circle",
+                self.tr("A&xis of the circle"),
+                "choice",
+                choices=axes,
+                visible=lambda _: self._is_circle,
+            ),
+            Field("input", self.tr("&Figures are"), "choice", choices=inputs, visible=lambda _: bool(inputs)),
+            Field(
+                "start",
+                self.tr("Table starts &at the"),
+                "choice",
+                choices=starts,
+                visible=lambda _: bool(starts),
+            ),
+            Field(
+                "table",
+                self.tr("Calibration &table"),
+                "check",
+                default=True,
+                head=self.tr("Set"),
+                enabled=table is not None,
+            ),
+            Field(
+                "reversal",
+                self.tr("&Reversal error"),
+                "check",
+                default=True,
+                enabled=bool(self._offered.reversal),
+            ),
         )
-        for box in (self.table, self.reversal):
-            box.setChecked(True)
-            box.toggled.connect(lambda *_: self.refresh())
-        self.table.setEnabled(form is not None)
-        self.reversal.setEnabled(bool(self._offered.reversal))
-        for each in (
-            self.unit,
-            self.error_unit,
-            self.sign,
-            self.decimal,
-            self.was_on,
-            self.circle,
-            self.input,
-            self.start,
-        ):
-            each.currentIndexChanged.connect(lambda *_: self.refresh())
-
-    def _form(self) -> QFormLayout:
-        form = QFormLayout()
-        rows: tuple[tuple[str, QComboBox], ...] = (
-            (self.tr("&Positions in"), self.unit),
-            (self.tr("&Errors in"), self.error_unit),
-            (self.tr("An error &is"), self.sign),
-            (self.tr("&Decimal sign"), self.decimal),
-            (self.tr("&Compensation was"), self.was_on),
-            (self.tr("A&xis of the circle"), self.circle),
-            (self.tr("&Figures are"), self.input),
-            (self.tr("Table starts &at the"), self.start),
-        )
-        for label, box in rows:
-            box.setAccessibleName(label.replace("&", ""))
-            form.addRow(label, box)
-        form.setRowVisible(self.was_on, self._is_compensated())
-        form.setRowVisible(self.circle, False)
-        self._rows = form
-        for box in (self.input, self.start):
-            form.setRowVisible(box, box.count() > 0)
-        form.addRow(self.tr("Set"), self.table)
-        form.addRow("", self.reversal)
-        return form
 
     def _is_compensated(self) -> bool:
         try:
@@ -177,20 +167,15 @@ class MeasuredDialog(QDialog):
 
     def refresh(self) -> None:
         """Read the points again with the present answers, and show what they come to."""
-        answers = MeasurementAnswers(
-            self.unit.currentData(),
-            self.error_unit.currentData(),
-            self.sign.currentData(),
-            self.decimal.currentData(),
-        )
-        was_on = self.was_on.currentData()
+        given = self.form.answers()
+        answers = MeasurementAnswers(given["unit"], given["error_unit"], given["sign"], given["decimal"])
         wish = Wish(
-            None if was_on == _ASK else was_on == "on",
-            self.input.currentData() or "",
-            self.start.currentData() or "",
-            table=self.table.isChecked() and self.table.isEnabled(),
-            reversal=self.reversal.isChecked(),
-            circle=self.circle.currentData(),
+            None if given["was_on"] == _ASK else given["was_on"] == "on",
+            given["input"] or "",
+            given["start"] or "",
+            table=given["table"] and self._offered.table is not None,
+            reversal=given["reversal"],
+            circle=given["circle"],
         )
         try:
             measurement, self.proposal = in_background(
@@ -201,7 +186,7 @@ class MeasuredDialog(QDialog):
             self._show_nothing(str(error))
         else:
             self._show(measurement, self.proposal)
-        self._rows.setRowVisible(self.circle, self._is_circle)
+        self.form.show_visible()
 
     def _work(self, answers: MeasurementAnswers, wish: Wish) -> tuple[Measurement, Proposal]:
         unit = base_unit(self._file, self._offered, self._axis)
@@ -305,10 +290,3 @@ class MeasuredDialog(QDialog):
         if not proposal.settings:
             lines.append(self.tr("Nothing would be set."))
         return lines
-
-
-def _choice(*options: tuple[str, str]) -> QComboBox:
-    box = QComboBox()
-    for text, data in options:
-        box.addItem(text, data)
-    return box

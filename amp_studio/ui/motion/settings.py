@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping
 
 from PySide6.QtCore import Qt
-from PySide6.QtWidgets import QComboBox, QFormLayout, QLineEdit, QScrollArea, QWidget
+from PySide6.QtWidgets import QLineEdit, QScrollArea, QWidget
 
 from amp_studio.schema import dimension, read_number, shown, unit_named
 from amp_studio.ui.base.translated import worded
+from amp_studio.ui.forms.form import Field, Form
 
 MODE = "move.mode"
 RAMPS = (
@@ -31,66 +32,41 @@ LENGTHS = (
 FEEDRATE, SECOND = "move.feedrate", "move.second_axis"
 
 
-class SettingsForm(QWidget):
+class SettingsForm(Form):
     """One field for each setting; an empty field takes the default."""
 
     def __init__(self, changed: Callable[[], None]) -> None:
         super().__init__()
-        self._changed = changed
         self._units = ("mm", "mm/min")
-        self.fields: dict[str, QLineEdit | QComboBox] = {}
-        self._layout = QFormLayout(self)
-        self._layout.setContentsMargins(0, 0, 0, 0)
-        self._layout.setFieldGrowthPolicy(QFormLayout.FieldGrowthPolicy.AllNonFixedFieldsGrow)
+        self.entered.connect(lambda _: changed())
 
-    def offer(
+    def offer_settings(
         self, settings: Mapping[str, str], units: tuple[str, str], axes: Iterable[tuple[str, str]] = ()
     ) -> None:
         """Show the fields of these settings (name -> what it is) and keep what is in them;
         ``units`` of length and feedrate.
         """
-        texts = {name: field.text() for name, field in self.fields.items() if isinstance(field, QLineEdit)}
-        chosen = {
-            name: field.currentData() for name, field in self.fields.items() if isinstance(field, QComboBox)
+        self._units = units
+        choices = {
+            MODE: tuple((key, worded(title)) for key, title in RAMPS),
+            SECOND: (("", worded("the next one")), *axes),
         }
-        if list(settings) == list(self.fields) and units == self._units and SECOND not in settings:
-            return
-        while self._layout.rowCount():
-            self._layout.removeRow(0)
-        self._units, self.fields = units, {}
-        for name, meaning in settings.items():
-            field = self._choice(name, axes) if name in (MODE, SECOND) else self._line(name, meaning)
-            if isinstance(field, QLineEdit):
-                field.setText(texts.get(name, ""))
-            else:
-                field.blockSignals(True)
-                field.setCurrentIndex(max(0, field.findData(chosen.get(name, ""))))
-                field.blockSignals(False)
-            field.setToolTip(meaning)
-            field.setAccessibleName(_title(name))
-            self._layout.addRow(_title(name), field)
-            # In a window that is shown already, a new row has no height before it is shown too.
-            for widget in (field, self._layout.labelForField(field)):
-                widget.show()
-            self.fields[name] = field
+        self.offer(
+            [
+                Field(name, _title(name), "choice", "", choices[name], meaning)
+                if name in choices
+                else Field(name, _title(name), tip=meaning, hint=self._hint(name, meaning))
+                for name, meaning in settings.items()
+            ],
+            keep=True,
+        )
 
-    def _line(self, name: str, meaning: str) -> QLineEdit:
-        field = QLineEdit()
+    def _hint(self, name: str, meaning: str) -> str:
         unit = self._unit(name)
         default = meaning.partition("default: ")[2] or "automatic"
         unit = unit or ("" if name in (*LENGTHS, FEEDRATE) else meaning.partition(" (")[2].partition(")")[0])
         empty = f"{self.tr('empty:')} {worded(default)}"
-        field.setPlaceholderText(f"{shown(unit)}, {empty}" if unit else empty)
-        field.returnPressed.connect(self._changed)
-        return field
-
-    def _choice(self, name: str, axes: Iterable[tuple[str, str]]) -> QComboBox:
-        field = QComboBox()
-        choices = RAMPS if name == MODE else (("", "the next one"), *axes)
-        for key, title in choices:
-            field.addItem(worded(title), key)
-        field.currentIndexChanged.connect(lambda _: self._changed())
-        return field
+        return f"{shown(unit)}, {empty}" if unit else empty
 
     def _unit(self, name: str) -> str:
         return self._units[0] if name in LENGTHS else self._units[1] if name == FEEDRATE else ""
@@ -98,25 +74,19 @@ class SettingsForm(QWidget):
     def show_defaults(self, defaults: Mapping[str, str]) -> None:
         """Show in the empty fields what is taken now."""
         for name, text in defaults.items():
-            field = self.fields.get(name)
+            field = self.editors.get(name)
             if isinstance(field, QLineEdit):
                 empty = self.tr("empty:")
                 unit, _, _ = field.placeholderText().rpartition(empty)
                 field.setPlaceholderText(f"{unit}{empty} {text}")
 
-    def values(self) -> dict[str, float | str]:
+    def given(self) -> dict[str, float | str]:
         """Return what is given; raises ValueError with one sentence for a wrong unit or no number."""
-        found: dict[str, float | str] = {}
-        for name, field in self.fields.items():
-            if isinstance(field, QComboBox):
-                if field.currentData():
-                    found[name] = str(field.currentData())
-                continue
-            if not field.text().strip():
-                continue
-            unit = self._unit(name)
-            found[name] = _read(name, field.text(), unit) if unit else field.text().strip()
-        return found
+        given = {name: text for name, text in self.answers().items() if text}
+        return {
+            name: _read(name, text, unit) if (unit := self._unit(name)) else text
+            for name, text in given.items()
+        }
 
 
 def _read(name: str, text: str, unit: str) -> str:
@@ -144,13 +114,3 @@ def scrolled(form: QWidget) -> QScrollArea:
     area.setWidget(form)
     area.setFocusPolicy(Qt.FocusPolicy.NoFocus)  # the fields in it take the keyboard, and it follows them
     return area
-
-
-def refill(box: QComboBox, entries: Sequence[tuple[str, str]], wanted: str) -> None:
-    """Fill a box without a signal and choose an entry by its key, else the first."""
-    box.blockSignals(True)
-    box.clear()
-    for key, title in entries:
-        box.addItem(title, key)
-    box.setCurrentIndex(max(box.findData(wanted), 0))
-    box.blockSignals(False)

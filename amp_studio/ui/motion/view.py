@@ -15,7 +15,6 @@ from PySide6.QtWidgets import (
     QCheckBox,
     QComboBox,
     QFileDialog,
-    QFormLayout,
     QHBoxLayout,
     QLabel,
     QPushButton,
@@ -45,11 +44,12 @@ from amp_studio.ui.base.task import Task, TaskProgress
 from amp_studio.ui.base.theme import severity_ink
 from amp_studio.ui.base.translated import worded
 from amp_studio.ui.base.workspace import Workspace
+from amp_studio.ui.forms.form import Field, Form, fill_choices
 from amp_studio.ui.forms.pages import LINK
 
 from .machine_page import MachinePage
 from .results import AssumptionsPage, FiguresPage, RecommendationsPage, name_of
-from .settings import SettingsForm, refill, scrolled
+from .settings import SettingsForm, scrolled
 
 MOST_HEIGHT = 148
 """Pixels of the settings of a scenario; more of them are scrolled."""
@@ -147,10 +147,12 @@ class MotionView(QWidget):
             button.setEnabled(False)
 
     def _arrange(self) -> None:
-        form = QFormLayout()
-        form.setFieldGrowthPolicy(QFormLayout.FieldGrowthPolicy.AllNonFixedFieldsGrow)
-        form.addRow(self.tr("S&cenario"), self.scenario)
-        form.addRow(self.tr("A&xis"), self.axis)
+        form = Form(
+            (
+                Field("scenario", self.tr("S&cenario"), "choice", editor=lambda: self.scenario),
+                Field("axis", self.tr("A&xis"), "choice", editor=lambda: self.axis),
+            )
+        )
         tools = QHBoxLayout()
         for widget in (self.settling, self.all_of_it, self.compare, self.keep):
             tools.addWidget(widget)
@@ -173,7 +175,7 @@ class MotionView(QWidget):
         side = QWidget()
         right = QVBoxLayout(side)
         right.setContentsMargins(0, 0, 0, 0)
-        right.addLayout(form)
+        right.addWidget(form)
         self._above = scrolled(self.settings)
         right.addWidget(self._above)
         right.addWidget(self.tabs, 1)
@@ -212,17 +214,17 @@ class MotionView(QWidget):
         file = self._workspace.file
         found, self._impossible = _possible(file)
         titles = [(axis, axis_title(file, axis)) for axis in found.axes]
-        refill(
+        fill_choices(
             self.scenario,
             [(each.name, worded(each.name.capitalize())) for each in found.scenarios],
             str(self.scenario.currentData() or "step"),
         )
-        refill(self.axis, titles, wanted)
+        fill_choices(self.axis, titles, wanted)
         chosen = next((each for each in found.scenarios if each.name == self.scenario.currentData()), None)
         others = [each for each in titles if each[0] != self.axis.currentData()]
         self.scenario.setToolTip(chosen.title if chosen else "")
-        self.settings.offer(chosen.settings if chosen else {}, self._units(), others)
-        self.machine.offer(found.model, ("", ""))
+        self.settings.offer_settings(chosen.settings if chosen else {}, self._units(), others)
+        self.machine.offer_settings(found.model, ("", ""))
         self._above.setFixedHeight(min(MOST_HEIGHT, self.settings.sizeHint().height()))
 
     def _units(self) -> tuple[str, str]:
@@ -259,7 +261,7 @@ class MotionView(QWidget):
             self._stop(self._impossible)
             return
         try:
-            settings = {**self.settings.values(), **self.machine.values()}
+            settings = {**self.settings.given(), **self.machine.given()}
         except ValueError as error:
             self._fail(error)
             return

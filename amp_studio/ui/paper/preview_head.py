@@ -19,7 +19,8 @@ from PySide6.QtWidgets import (
 
 from amp_studio.report import Contents
 from amp_studio.ui.base.theme import GAP, GAP2, GAP3, HEAD, ICON, font, icon
-from amp_studio.ui.window.report_options import ReportOptions
+from amp_studio.ui.forms.form import Form
+from amp_studio.ui.window.report_options import contents_of, report_fields
 
 
 class PreviewHead(QWidget):
@@ -51,8 +52,8 @@ class PreviewHead(QWidget):
         self._row.addWidget(self.page)
         self._row.addWidget(self._of)
         self._row.addStretch(1)
-        self.options = ReportOptions(contents)
-        self.options.chosen.connect(lambda: self.contents_wanted.emit(self.options.contents()))
+        self.options = Form(report_fields(contents))
+        self.options.entered.connect(lambda _: self.contents_wanted.emit(contents_of(self.options.answers())))
         self.show_count(0)
 
     def add_button(

@@ -21,7 +21,7 @@ from amp_studio.ui.base.loading import load
 from amp_studio.ui.base.task import Task, TaskProgress
 from amp_studio.ui.forms.message_bar import MessageBar
 from amp_studio.ui.page.file_page import FilePage
-from amp_studio.ui.window.report_options import ReportChoice
+from amp_studio.ui.window.report_options import ReportChoice, answers_of
 
 from .page_view import PageView, Spot
 from .preview_head import PreviewHead
@@ -160,7 +160,7 @@ class PreviewPanel(QWidget):
         self._choice.contents = contents
 
     def _chosen(self) -> None:
-        self.head.options.show_contents(self._choice.contents)
+        self.head.options.show_answers(answers_of(self._choice.contents))
         self.set_again()
 
     def _look_from_near(self) -> None:

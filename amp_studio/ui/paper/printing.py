@@ -34,7 +34,7 @@ def print_report(window: StudioWindow, workspace: Workspace) -> None:
     dialog = ReportDialog(workspace.path, window, window.report_choice.contents)
     if not run_dialog(dialog):
         return
-    path, show = dialog.output, dialog.show_it.isChecked()
+    path, show = dialog.output, dialog.form.answer("open")
     window.report_choice.contents = dialog.contents()
     if dialog.to_printer:
         _preview(window, workspace)

@@ -4,15 +4,12 @@ and kept for the next time.
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-
 from PySide6.QtCore import QObject, Signal
-from PySide6.QtWidgets import QCheckBox, QComboBox, QFormLayout, QLabel, QVBoxLayout, QWidget
 
 from amp_studio.languages import language_codes, name_of_language
-from amp_studio.report import CHAPTERS, PAPER_SIZES, SORTS, UNIT_CHOICES, Chapter, Contents
-from amp_studio.ui.base.theme import GAP
-from amp_studio.ui.base.translated import language_in_use
+from amp_studio.report import CHAPTERS, PAPER_SIZES, SORTS, UNIT_CHOICES, Contents
+from amp_studio.ui.base.translated import language_in_use, tr
+from amp_studio.ui.forms.form import Answers, Field
 
 from .settings import UserSettings
 
@@ -61,96 +58,59 @@ class ReportChoice(QObject):
         self.changed.emit()
 
 
-class ReportOptions(QWidget):
-    """The fields of it."""
-
-    chosen = Signal()
-    """A person has changed a field."""
-
-    def __init__(self, contents: Contents, parent: QWidget | None = None) -> None:
-        super().__init__(parent)
-        self.sort = _box(
-            {
-                "group": self.tr("By group"),
-                "number": self.tr("By parameter number"),
-                "axis": self.tr("Axis and non-axis parameters"),
-                "steps": self.tr("By step of commissioning"),
-            }
-        )
-        self.units = _box(
-            {
-                "file": self.tr("As in the file"),
-                "metric": self.tr("Metric"),
-                "inch": self.tr("Inch"),
-                "both": self.tr("Both, the other system's below"),
-            }
-        )
-        self.language = _box({code: name_of_language(code) for code in language_codes()})
-        self.paper = _box({"a4": "A4", "letter": self.tr("US Letter")})
-        self.changed = QCheckBox(self.tr("Only values that &differ from the default"))
-        self.inactive = QCheckBox(self.tr("Also what the control &ignores on this machine"))
-        named = {
-            "pictures": self.tr("Pi&ctures"),
-            "motion": self.tr("&Motion, simulated"),
-            "power-up": self.tr("Part pro&grams after power-up"),
-            "exchanges": self.tr("E&xchanges with controls"),
-            "signatures": self.tr("&Signatures"),
-        }
-        self.chapters: dict[Chapter, QCheckBox] = {each: QCheckBox(named[each]) for each in CHAPTERS}
-        self.form = form = QFormLayout(self)
-        form.setContentsMargins(0, 0, 0, 0)
-        for label, field in (
-            (self.tr("&Order"), self.sort),
-            (self.tr("&Units"), self.units),
-            (self.tr("&Language"), self.language),
-            (self.tr("P&aper"), self.paper),
-        ):
-            form.addRow(label, field)
-            field.currentIndexChanged.connect(lambda _: self.chosen.emit())
-        chapters = QWidget()
-        column = QVBoxLayout(chapters)
-        column.setContentsMargins(0, 0, 0, 0)
-        column.setSpacing(GAP)
-        for box in self.chapters.values():
-            column.addWidget(box)
-        form.addRow("", self.changed)
-        form.addRow("", self.inactive)
-        form.addRow(QLabel(self.tr("Chapters")), chapters)
-        for box in (self.changed, self.inactive, *self.chapters.values()):
-            box.toggled.connect(lambda _: self.chosen.emit())
-        self.show_contents(contents)
-
-    def show_contents(self, contents: Contents) -> None:
-        """Show a choice without telling anybody."""
-        self.blockSignals(True)
-        for box, key in (
-            (self.sort, contents.sort),
-            (self.units, contents.units),
-            (self.language, contents.language),
-            (self.paper, contents.paper),
-        ):
-            box.setCurrentIndex(max(box.findData(key), 0))
-        self.changed.setChecked(contents.changed_only)
-        self.inactive.setChecked(contents.inactive)
-        for chapter, check in self.chapters.items():
-            check.setChecked(chapter not in contents.without)
-        self.blockSignals(False)
-
-    def contents(self) -> Contents:
-        """Return what is chosen."""
-        return Contents(
-            self.sort.currentData(),
-            self.changed.isChecked(),
-            self.inactive.isChecked(),
-            self.units.currentData(),
-            self.language.currentData(),
-            frozenset(chapter for chapter, box in self.chapters.items() if not box.isChecked()),
-            self.paper.currentData(),
-        )
+def report_fields(contents: Contents) -> tuple[Field, ...]:
+    """Return the fields of what a report contains."""
+    given = answers_of(contents)
+    sorts = {
+        "group": tr("By group"),
+        "number": tr("By parameter number"),
+        "axis": tr("Axis and non-axis parameters"),
+        "steps": tr("By step of commissioning"),
+    }
+    units = {
+        "file": tr("As in the file"),
+        "metric": tr("Metric"),
+        "inch": tr("Inch"),
+        "both": tr("Both, the other system's below"),
+    }
+    languages = [(code, name_of_language(code)) for code in language_codes()]
+    papers = [("a4", "A4"), ("letter", tr("US Letter"))]
+    chapters = {
+        "pictures": tr("Pi&ctures"),
+        "motion": tr("&Motion, simulated"),
+        "power-up": tr("Part pro&grams after power-up"),
+        "exchanges": tr("E&xchanges with controls"),
+        "signatures": tr("&Signatures"),
+    }
+    return (
+        Field("sort", tr("&Order"), "choice", given["sort"], [*sorts.items()]),
+        Field("units", tr("&Units"), "choice", given["units"], [*units.items()]),
+        Field("language", tr("&Language"), "choice", given["language"], languages),
+        Field("paper", tr("P&aper"), "choice", given["paper"], papers),
+        Field("changed", tr("Only values that &differ from the default"), "check", given["changed"]),
+        Field("inactive", tr("Also what the control &ignores on this machine"), "check", given["inactive"]),
+        *(
+            Field(each, chapters[each], "check", given[each], head="" if n else tr("Chapters"))
+            for n, each in enumerate(CHAPTERS)
+        ),
+    )
 
 
-def _box(names: Mapping[str, str]) -> QComboBox:
-    box = QComboBox()
-    for key, name in names.items():
-        box.addItem(name, key)
-    return box
+def answers_of(contents: Contents) -> dict[str, object]:
+    """Return what the fields show for a choice."""
+    return {
+        "sort": contents.sort,
+        "units": contents.units,
+        "language": contents.language,
+        "paper": contents.paper,
+        "changed": contents.changed_only,
+        "inactive": contents.inactive,
+        **{chapter: chapter not in contents.without for chapter in CHAPTERS},
+    }
+
+
+def contents_of(given: Answers) -> Contents:
+    """Return what is chosen in the fields."""
+    without = frozenset(chapter for chapter in CHAPTERS if not given[chapter])
+    shared = (given["units"], given["language"], without, given["paper"])
+    return Contents(given["sort"], given["changed"], given["inactive"], *shared)
