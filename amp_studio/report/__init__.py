@@ -13,7 +13,7 @@ from amp_studio.front_pages import front_page
 if TYPE_CHECKING:
     from .apart import run_apart
     from .axes import place_of
-    from .contents import CHAPTERS, PAPER_SIZES, SORTS, UNIT_CHOICES, Chapter, Contents
+    from .contents import CHAPTERS, PAPER_SIZES, SORTS, UNIT_CHOICES, Contents
     from .dangers import dangers_of_change
     from .findings.alike import alike, same_finding_text
     from .findings.by_rule import FindingGroup, finding_axes, finding_groups, fix_lines, fix_text

@@ -10,7 +10,7 @@ from PySide6.QtWidgets import QDialog, QPushButton, QVBoxLayout, QWidget
 
 from amp_studio.schema import Address, shown
 from amp_studio.ui.base.workspace import Workspace
-from amp_studio.ui.forms.form import Field, Form
+from amp_studio.ui.forms.form import Field, FieldForm
 from amp_studio.validate import Calculator, calculate, calculators, shown_result
 
 
@@ -39,7 +39,7 @@ class CalculatorDialog(QDialog):
             Field("description", "", "words"),
         )
         self._below = (Field("outcome", self.tr("Result"), "words"),)
-        self.form = Form((*self._above, *self._below))
+        self.form = FieldForm((*self._above, *self._below))
         self.use = QPushButton()
         self.use.clicked.connect(self._use)
         layout = QVBoxLayout(self)

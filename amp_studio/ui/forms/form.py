@@ -1,5 +1,5 @@
 """Forms are declared: a field is its key, label, tip, kind, default, check, and when it is visible.
-``Form`` makes the widgets of its fields, ``FormDialog`` a dialog of one form.
+``FieldForm`` makes the widgets of its fields, ``FormDialog`` a dialog of one form.
 """
 
 from __future__ import annotations
@@ -28,7 +28,7 @@ from PySide6.QtWidgets import (
 from amp_studio.ui.base.theme import colour
 from amp_studio.ui.base.translated import tr
 
-Answers = Mapping[str, Any]
+FormAnswers = Mapping[str, Any]
 """Key -> what is given: the text of a line, the key of a choice, whether a box is checked."""
 
 E = TypeVar("E", bound=QWidget)
@@ -54,7 +54,7 @@ class Field:
     """What is left of a ``check``, for the first one of several."""
     check: Callable[[Any], str] | None = None
     """Returns what is wrong with an answer, as a sentence; empty where nothing is."""
-    visible: Callable[[Answers], bool] | None = None
+    visible: Callable[[FormAnswers], bool] | None = None
     enabled: bool = True
     editor: Callable[[], QWidget] | None = None
     """Makes another widget than the one of the kind, which is read as that one is."""
@@ -77,7 +77,7 @@ def _row_of(box: QComboBox, key: object) -> int:
     return next((n for n in range(box.count()) if box.itemData(n) == key), -1)
 
 
-class Form(QWidget):
+class FieldForm(QWidget):
     """The widgets of fields, one below the other."""
 
     changed = Signal(str)
@@ -231,7 +231,7 @@ class Form(QWidget):
         """Give an answer, as the user does."""
         self._show_answer(self._fields[key], answer)
 
-    def show_answers(self, answers: Answers) -> None:
+    def show_answers(self, answers: FormAnswers) -> None:
         """Show answers without a signal."""
         self.blockSignals(True)
         for key, answer in answers.items():
@@ -282,7 +282,7 @@ class FormDialog(QDialog):
         super().__init__(parent)
         self.setWindowTitle(title)
         self.setMinimumWidth(width)
-        self.form, self.note, self.fault = Form(fields), QLabel(note), QLabel()
+        self.form, self.note, self.fault = FieldForm(fields), QLabel(note), QLabel()
         self.fault.setTextFormat(Qt.TextFormat.PlainText)
         self.buttons = QDialogButtonBox(
             QDialogButtonBox.StandardButton.Ok | QDialogButtonBox.StandardButton.Cancel

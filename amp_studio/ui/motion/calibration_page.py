@@ -44,7 +44,7 @@ from amp_studio.files import ParameterFile
 from amp_studio.schema import Address, Value, read_exact, shown
 from amp_studio.ui.base.theme import GAP2, ROW, colour, font
 from amp_studio.ui.base.translated import worded
-from amp_studio.ui.forms.form import Field, Form
+from amp_studio.ui.forms.form import Field, FieldForm
 
 from .error_plot import ErrorPlot, ErrorTrace
 from .tuning_target import TuningTarget
@@ -118,7 +118,7 @@ class CalibrationPage(QWidget):
         return button
 
     def _arrange(self) -> None:
-        form = Form(
+        form = FieldForm(
             (
                 Field("axis", self.tr("A&xis"), "choice", editor=lambda: self.axis),
                 Field(

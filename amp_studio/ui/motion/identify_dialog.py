@@ -25,7 +25,7 @@ from amp_studio.ui.base.plot import Plot
 from amp_studio.ui.base.task import in_background
 from amp_studio.ui.base.theme import GAP2, GAP3
 from amp_studio.ui.base.translated import worded
-from amp_studio.ui.forms.form import Field, Form
+from amp_studio.ui.forms.form import Field, FieldForm
 
 
 class IdentifyDialog(QDialog):
@@ -45,7 +45,7 @@ class IdentifyDialog(QDialog):
             tip=self.tr("Torque of the record for 1 % of rated torque, or for 1 V of output"),
             hint=self.tr("only for A, Nm or N: 0.056 A"),
         )
-        self.form = Form((scale,))
+        self.form = FieldForm((scale,))
         self.form.editor("scale", QLineEdit).editingFinished.connect(self.refresh)
         self.message = QLabel()
         self.message.setWordWrap(True)

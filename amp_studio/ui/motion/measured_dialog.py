@@ -31,7 +31,7 @@ from amp_studio.schema import shown
 from amp_studio.ui.base.figures import show_value
 from amp_studio.ui.base.task import in_background
 from amp_studio.ui.base.theme import GAP2, GAP3, colour
-from amp_studio.ui.forms.form import Field, Form
+from amp_studio.ui.forms.form import Field, FieldForm
 
 from .error_plot import ErrorPlot, ErrorTrace
 
@@ -51,7 +51,7 @@ class MeasuredDialog(QDialog):
         self.setWindowTitle(self.tr("Measured Points — {name}").format(name=path.name))
         self.resize(920, 620)
         self._offered = compensation_of(file.schema.family.family)
-        self.form = Form(self._fields())
+        self.form = FieldForm(self._fields())
         self.form.entered.connect(lambda _: self.refresh())
         self.summary, self.missing = QLabel(), QLabel()
         for label in (self.summary, self.missing):

@@ -9,7 +9,7 @@ from PySide6.QtWidgets import QLineEdit, QScrollArea, QWidget
 
 from amp_studio.schema import dimension, read_number, shown, unit_named
 from amp_studio.ui.base.translated import worded
-from amp_studio.ui.forms.form import Field, Form
+from amp_studio.ui.forms.form import Field, FieldForm
 
 MODE = "move.mode"
 RAMPS = (
@@ -32,7 +32,7 @@ LENGTHS = (
 FEEDRATE, SECOND = "move.feedrate", "move.second_axis"
 
 
-class SettingsForm(Form):
+class SettingsForm(FieldForm):
     """One field for each setting; an empty field takes the default."""
 
     def __init__(self, changed: Callable[[], None]) -> None:

@@ -44,7 +44,7 @@ from amp_studio.ui.base.task import Task, TaskProgress
 from amp_studio.ui.base.theme import severity_ink
 from amp_studio.ui.base.translated import worded
 from amp_studio.ui.base.workspace import Workspace
-from amp_studio.ui.forms.form import Field, Form, fill_choices
+from amp_studio.ui.forms.form import Field, FieldForm, fill_choices
 from amp_studio.ui.forms.pages import LINK
 
 from .machine_page import MachinePage
@@ -147,7 +147,7 @@ class MotionView(QWidget):
             button.setEnabled(False)
 
     def _arrange(self) -> None:
-        form = Form(
+        form = FieldForm(
             (
                 Field("scenario", self.tr("S&cenario"), "choice", editor=lambda: self.scenario),
                 Field("axis", self.tr("A&xis"), "choice", editor=lambda: self.axis),

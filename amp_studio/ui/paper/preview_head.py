@@ -19,7 +19,7 @@ from PySide6.QtWidgets import (
 
 from amp_studio.report import Contents
 from amp_studio.ui.base.theme import GAP, GAP2, GAP3, HEAD, ICON, font, icon
-from amp_studio.ui.forms.form import Form
+from amp_studio.ui.forms.form import FieldForm
 from amp_studio.ui.window.report_options import contents_of, report_fields
 
 
@@ -52,7 +52,7 @@ class PreviewHead(QWidget):
         self._row.addWidget(self.page)
         self._row.addWidget(self._of)
         self._row.addStretch(1)
-        self.options = Form(report_fields(contents))
+        self.options = FieldForm(report_fields(contents))
         self.options.entered.connect(lambda _: self.contents_wanted.emit(contents_of(self.options.answers())))
         self.show_count(0)
 

@@ -9,7 +9,7 @@ from PySide6.QtCore import QObject, Signal
 from amp_studio.languages import language_codes, name_of_language
 from amp_studio.report import CHAPTERS, PAPER_SIZES, SORTS, UNIT_CHOICES, Contents
 from amp_studio.ui.base.translated import language_in_use, tr
-from amp_studio.ui.forms.form import Answers, Field
+from amp_studio.ui.forms.form import Field, FormAnswers
 
 from .settings import UserSettings
 
@@ -109,7 +109,7 @@ def answers_of(contents: Contents) -> dict[str, object]:
     }
 
 
-def contents_of(given: Answers) -> Contents:
+def contents_of(given: FormAnswers) -> Contents:
     """Return what is chosen in the fields."""
     without = frozenset(chapter for chapter in CHAPTERS if not given[chapter])
     shared = (given["units"], given["language"], without, given["paper"])
