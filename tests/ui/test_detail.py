@@ -20,30 +20,33 @@ def page(window: MainWindow) -> str:
     return window.detail.page.toPlainText()
 
 
-def test_help_says_what_it_is_where_it_counts_and_what_is_allowed(window: MainWindow) -> None:
-    window.go_to(EXCESS)
-    assert (window.detail.number.text(), window.detail.name.text()) == ("1750", "Excess Error")
-    assert window.detail.value.text() == "11 mm"
-    assert window.detail.axes.choice == "1"
+def test_help_says_what_it_is_where_it_counts_and_what_is_allowed(window_to_read: MainWindow) -> None:
+    window_to_read.go_to(EXCESS)
+    assert (window_to_read.detail.number.text(), window_to_read.detail.name.text()) == (
+        "1750",
+        "Excess Error",
+    )
+    assert window_to_read.detail.value.text() == "11 mm"
+    assert window_to_read.detail.axes.choice == "1"
     for part in ("Allowed here: 0 to", "What it does", "page 7-"):
-        assert part in page(window)
+        assert part in page(window_to_read)
 
 
-def test_a_danger_stands_in_a_box_before_the_help(window: MainWindow) -> None:
-    window.go_to(EXCESS)
-    shown = page(window)
+def test_a_danger_stands_in_a_box_before_the_help(window_to_read: MainWindow) -> None:
+    window_to_read.go_to(EXCESS)
+    shown = page(window_to_read)
     assert "DANGER\nThis limit guards against damage and injury" in shown
     assert shown.index("DANGER") < shown.index("What it does") < shown.index("The order must be")
-    assert colour("errorbg").name() in window.detail.page.toHtml()
+    assert colour("errorbg").name() in window_to_read.detail.page.toHtml()
 
 
-def test_facts_are_folded_until_they_are_wanted(window: MainWindow) -> None:
-    window.go_to(EXCESS)
-    assert "servo.excess_error" not in page(window)
-    window.detail.page.anchorClicked.emit(QUrl("fold:facts"))
-    assert "servo.excess_error" in page(window)
-    window.detail.page.anchorClicked.emit(QUrl("fold:facts"))
-    assert "servo.excess_error" not in page(window)
+def test_facts_are_folded_until_they_are_wanted(window_to_read: MainWindow) -> None:
+    window_to_read.go_to(EXCESS)
+    assert "servo.excess_error" not in page(window_to_read)
+    window_to_read.detail.page.anchorClicked.emit(QUrl("fold:facts"))
+    assert "servo.excess_error" in page(window_to_read)
+    window_to_read.detail.page.anchorClicked.emit(QUrl("fold:facts"))
+    assert "servo.excess_error" not in page(window_to_read)
 
 
 def test_history_has_what_was_saved(window: MainWindow) -> None:
@@ -56,21 +59,21 @@ def test_history_has_what_was_saved(window: MainWindow) -> None:
     assert "today " in page(window)
 
 
-def test_the_bar_has_the_range_and_what_the_rules_allow(window: MainWindow, qtbot) -> None:
+def test_the_bar_has_the_range_and_what_the_rules_allow(window_to_read: MainWindow, qtbot) -> None:
     """With a rapid of 10000 mm/min and this gain the axis trails by 10 mm;
     a tenth more is demanded (page 7-20).
     """
-    window.go_to(EXCESS)
-    assert window.detail.bar.isVisible()
-    qtbot.waitUntil(lambda: bool(window.detail.bar.words), timeout=WAIT_MS)
-    assert window.detail.bar.words == "rules allow from 11"
-    assert window.detail.bar.accessibleDescription() == "0 to 214.1 mm, rules allow from 11"
+    window_to_read.go_to(EXCESS)
+    assert window_to_read.detail.bar.isVisible()
+    qtbot.waitUntil(lambda: bool(window_to_read.detail.bar.words), timeout=WAIT_MS)
+    assert window_to_read.detail.bar.words == "rules allow from 11"
+    assert window_to_read.detail.bar.accessibleDescription() == "0 to 214.1 mm, rules allow from 11"
 
 
-def test_a_choice_and_a_secret_have_no_bar(window: MainWindow) -> None:
+def test_a_choice_and_a_secret_have_no_bar(window_to_read: MainWindow) -> None:
     for address in (("servo.position_loop_type", "1"), ("password.character", "1")):
-        window.go_to(address)
-        assert window.detail.bar.isHidden(), address
+        window_to_read.go_to(address)
+        assert window_to_read.detail.bar.isHidden(), address
 
 
 def test_rules_that_are_not_met_come_first_and_are_counted(window: MainWindow) -> None:
@@ -91,11 +94,17 @@ def test_a_calculated_value_is_taken_by_a_link_and_nothing_else(window: MainWind
     assert window.workspace.file.get(EXCESS) == Value(11.0, "mm")
 
 
-def test_the_axes_of_the_panel_choose_the_cell(window: MainWindow) -> None:
-    window.go_to(EXCESS)
-    assert [button.text() for button in window.detail.axes.buttons.values()] == ["X", "Y", "Z", "B", "S"]
-    window.detail.axes.buttons["3"].click()
-    assert window.selected() == ("servo.excess_error", "3")
+def test_the_axes_of_the_panel_choose_the_cell(window_to_read: MainWindow) -> None:
+    window_to_read.go_to(EXCESS)
+    assert [button.text() for button in window_to_read.detail.axes.buttons.values()] == [
+        "X",
+        "Y",
+        "Z",
+        "B",
+        "S",
+    ]
+    window_to_read.detail.axes.buttons["3"].click()
+    assert window_to_read.selected() == ("servo.excess_error", "3")
 
 
 def test_the_other_open_files_have_their_values_beside(window: MainWindow, path: Path) -> None:
@@ -110,9 +119,9 @@ def test_the_other_open_files_have_their_values_beside(window: MainWindow, path:
     assert "X 7 mm, Y 11 mm" in page(window)
 
 
-def test_the_printed_table_of_a_value_stands_below_its_help(window: MainWindow) -> None:
-    window.go_to(("servo.velocity_proportional_gain", "1"))
-    text = window.detail.page.toPlainText()
+def test_the_printed_table_of_a_value_stands_below_its_help(window_to_read: MainWindow) -> None:
+    window_to_read.go_to(("servo.velocity_proportional_gain", "1"))
+    text = window_to_read.detail.page.toPlainText()
     assert "Velocity Proportional Gain Values for Standard Motors (page 7-55)" in text
     assert "B520E" in text
     assert "26214" in text
@@ -139,17 +148,17 @@ def test_the_range_that_another_parameter_sets_names_it(window: MainWindow) -> N
     assert "Excess" not in text or "Allowed here" in text
 
 
-def test_why_a_parameter_is_out_of_force(window: MainWindow) -> None:
-    file = window.workspace.file
+def test_why_a_parameter_is_out_of_force(window_to_read: MainWindow) -> None:
+    file = window_to_read.workspace.file
     ignored = next(a for a in file.addresses() if file.evaluation.state(a).state == "ignored" and a[1] == "1")
-    window.go_to(ignored)
-    assert f"Ignored: {file.evaluation.state(ignored).why}" in page(window)
+    window_to_read.go_to(ignored)
+    assert f"Ignored: {file.evaluation.state(ignored).why}" in page(window_to_read)
 
 
-def test_a_link_leads_to_the_parameter_on_the_same_axis(window: MainWindow) -> None:
-    window.go_to(("servo.excess_error", "3"))
-    window.detail.page.anchorClicked.emit(QUrl("param:servo.gain_break_point"))
-    assert window.selected() == ("servo.gain_break_point", "3")
+def test_a_link_leads_to_the_parameter_on_the_same_axis(window_to_read: MainWindow) -> None:
+    window_to_read.go_to(("servo.excess_error", "3"))
+    window_to_read.detail.page.anchorClicked.emit(QUrl("param:servo.gain_break_point"))
+    assert window_to_read.selected() == ("servo.gain_break_point", "3")
 
 
 def test_a_page_that_does_not_change_stays_where_it_was_scrolled(window: MainWindow) -> None:
@@ -161,8 +170,8 @@ def test_a_page_that_does_not_change_stays_where_it_was_scrolled(window: MainWin
     assert bar.value() == bar.maximum()
 
 
-def test_formulas_have_their_titles_and_no_names_of_functions(window: MainWindow) -> None:
-    window.go_to(("servo.gain_break_point", "1"))
-    text = window.detail.page.toPlainText()
+def test_formulas_have_their_titles_and_no_names_of_functions(window_to_read: MainWindow) -> None:
+    window_to_read.go_to(("servo.gain_break_point", "1"))
+    text = window_to_read.detail.page.toPlainText()
     assert "Gain break point: " in text
     assert "gain_break_point" not in text

@@ -95,7 +95,6 @@ class DifferenceTable(QTreeWidget):
         first = next(iter(self._items.values()), None)
         if first is not None:
             self.setCurrentItem(first)
-        self.sides_changed.emit()
 
     def _block_of(self, address: Address, shown: set[str] | None) -> str:
         """Return the title of the block of a value; those that begin with a NUL are folded, at the end."""

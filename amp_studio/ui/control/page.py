@@ -48,7 +48,7 @@ from .several import SeveralControls
 from .steps import ExchangeSteps
 
 if TYPE_CHECKING:
-    from amp_studio.transfer.client import Copy
+    from amp_studio.transfer.client import Copy, ImageComparison
 
 
 @dataclass(frozen=True, slots=True)
@@ -376,12 +376,17 @@ class ControlPage(QWidget):
             differences = found.values.differences
             self.table.show_differences(file, differences, to_control=to_control, secrets=secrets)
         self.table.show_sides(self.name, self.title)
-        self.refresh()
+        self._show_all(found)
 
     # -- everything follows the state ------------------------------------------------
 
     def refresh(self, *_: object) -> None:
         """Show the state in every part of the page."""
+        session, file = self.session, self.file
+        self._show_all(session.comparison(file) if session and session.seen and file is not None else None)
+
+    def _show_all(self, found: ImageComparison | None) -> None:
+        """Show the state, with the file compared with what the control contains where it was read."""
         session, file = self.session, self.file
         arrow = "←" if self.direction == "read" else "→"
         control = self.tr("several controls") if self.known.several.isChecked() else self.name
@@ -397,8 +402,6 @@ class ControlPage(QWidget):
         self.conditions.setVisible(own is not None)
         if own is not None:
             self.conditions.show_conditions(conditions_of(session, own))
-        seen = session.seen if session else None
-        found = session.comparison(file) if session and seen and file is not None else None
         is_listed = found is not None and session is not None and session.phase != "done"
         self._show_counts(found.values.same if found else 0, is_listed)
         self._show_middle(found.summary() if found else "")
@@ -782,7 +785,6 @@ class ControlPage(QWidget):
                 if stage == "cut"
                 else self.tr("No answer for {done} s; trying again …").format(done=done)
             )
-        self.state_changed.emit()
 
 
 def _tool(icon_name: str, text: str) -> QToolButton:
