@@ -10,16 +10,16 @@ MOST_NAMED = 20
 
 
 def state_after_break(
-    held: Mapping[str, str], wanted: Mapping[str, str], now: Mapping[str, str]
+    current: Mapping[str, str], wanted: Mapping[str, str], now: Mapping[str, str]
 ) -> tuple[AtControl, tuple[str, ...]]:
     """Return what the control contains, and the numbers of what is new already if that is a part of it.
 
-    ``held`` is what it contained, ``wanted`` what it was to contain, ``now`` what it was read to contain.
+    ``current`` is what it contained, ``wanted`` what it was to contain, ``now`` what it was read to contain.
     Something that is neither old nor new is not known for either.
     """
-    names = sorted({*held, *wanted, *now}, key=_by_numbers)
-    changed = [name for name in names if held.get(name) != wanted.get(name)]
-    other = [name for name in names if now.get(name) not in (held.get(name), wanted.get(name))]
+    names = sorted({*current, *wanted, *now}, key=_by_numbers)
+    changed = [name for name in names if current.get(name) != wanted.get(name)]
+    other = [name for name in names if now.get(name) not in (current.get(name), wanted.get(name))]
     if other:
         return "unknown", ()
     new = [name for name in changed if now.get(name) == wanted.get(name)]

@@ -27,20 +27,20 @@ class ContentKind(Protocol):
     def decode(self, content: bytes) -> ParameterFile:
         """Return what these bytes mean; raises ImageError."""
 
-    def encode(self, file: ParameterFile, held: bytes) -> bytes:
-        """Return what a control that contains ``held`` contains after a download of ``file``.
+    def encode(self, file: ParameterFile, current: bytes) -> bytes:
+        """Return what a control that contains ``current`` contains after a download of ``file``.
 
-        What the file does not set stays as ``held`` has it, where single values are sent. Raises ImageError,
-        which names what the control cannot take.
+        What the file does not set stays as ``current`` has it, where single values are sent. Raises
+        ImageError, which names what the control cannot take.
         """
 
-    def left_out(self, file: ParameterFile, held: bytes) -> str:
-        """Return what of a file a control that contains ``held`` does not have, and what is sent without it;
-        "" for nothing.
+    def left_out(self, file: ParameterFile, current: bytes) -> str:
+        """Return what of a file a control that contains ``current`` does not have, and what is sent
+        without it; "" for nothing.
         """
 
-    def stays(self, file: ParameterFile, held: bytes) -> str:
-        """Return which parts of the values that a file sets stay as ``held`` has them:
+    def stays(self, file: ParameterFile, current: bytes) -> str:
+        """Return which parts of the values that a file sets stay as ``current`` has them:
         bits of axes it does not have; "" for none.
         """
 
@@ -51,8 +51,8 @@ class ContentKind(Protocol):
         Raises ImageError.
         """
 
-    def refit(self, content: bytes, held: bytes) -> bytes:
-        """Return what a control that contains ``held`` contains once ``content`` is put back;
+    def refit(self, content: bytes, current: bytes) -> bytes:
+        """Return what a control that contains ``current`` contains once ``content`` is put back;
         raises ImageError.
         """
 
@@ -65,11 +65,11 @@ class ContentKind(Protocol):
 class TakesAllOrRefuses:
     """What a kind is whose control takes all of a file, or is sent nothing."""
 
-    def left_out(self, file: ParameterFile, held: bytes) -> str:  # noqa: ARG002  # other kinds need them
+    def left_out(self, file: ParameterFile, current: bytes) -> str:  # noqa: ARG002  # other kinds need them
         """Return ""."""
         return ""
 
-    def stays(self, file: ParameterFile, held: bytes) -> str:  # noqa: ARG002  # other kinds need them
+    def stays(self, file: ParameterFile, current: bytes) -> str:  # noqa: ARG002  # other kinds need them
         """Return "": a file of such a control has all of each value."""
         return ""
 
@@ -83,7 +83,7 @@ class WholeContent(TakesAllOrRefuses):
 
     has_header: ClassVar[bool] = False
 
-    def refit(self, content: bytes, held: bytes) -> bytes:  # noqa: ARG002  # other kinds need it
+    def refit(self, content: bytes, current: bytes) -> bytes:  # noqa: ARG002  # other kinds need it
         """Return the content itself."""
         return content
 
@@ -102,10 +102,10 @@ class HouseContent(WholeContent):
         """Return the file of an image; raises ImageError."""
         return decode_image(content)
 
-    def encode(self, file: ParameterFile, held: bytes) -> bytes:
+    def encode(self, file: ParameterFile, current: bytes) -> bytes:
         """Return the image of a file; raises ImageError."""
         image = encode_image(file)
-        if image != held:
+        if image != current:
             decode_image(image)  # what cannot be read again is not sent
         return image
 

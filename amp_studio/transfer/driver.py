@@ -86,7 +86,7 @@ class ControlIdentity:
 class Receipt:
     """What a control answered when it took a download.
 
-    ``restarting``      whether it restarts now; ``incarnation`` is the number of the start that ends
+    ``restarting``      whether it restarts now; ``boot_count`` is the number of the start that ends
     ``restart_needed``  whether a restart by hand makes it current, where it does not restart by itself
     ``notes``           sentences that the person has to know
     ``is_answered``     whether the control itself has answered that it took it; without,
@@ -94,7 +94,7 @@ class Receipt:
     """
 
     restarting: bool = False
-    incarnation: int = 0
+    boot_count: int = 0
     restart_needed: bool = True
     notes: tuple[str, ...] = ()
     is_answered: bool = True

@@ -43,16 +43,16 @@ QUIET = Exchange()
 
 @dataclass(frozen=True)
 class Replacement:
-    """One download as a driver takes it: ``content`` instead of ``held``, which the control contains.
+    """One download as a driver takes it: ``content`` instead of ``current``, which the control contains.
 
     ``signature``  of the schema under which the content was made; "" for one that nobody knows
     """
 
     content: bytes
-    held: bytes
+    current: bytes
     signature: str = ""
 
     @property
-    def held_digest(self) -> bytes:
+    def current_digest(self) -> bytes:
         """The SHA-256 of what may be replaced, and of nothing else."""
-        return hashlib.sha256(self.held).digest()
+        return hashlib.sha256(self.current).digest()

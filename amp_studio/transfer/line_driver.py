@@ -132,7 +132,9 @@ class LineDriver(ABC):
             error.confirmed = replace(error.confirmed, unanswered="")
         try:
             error.at_control, error.new = state_after_break(
-                self._names(replacement.held), self._names(replacement.content), self._names_now(replacement)
+                self._names(replacement.current),
+                self._names(replacement.content),
+                self._names_now(replacement),
             )
         except (TransferError, ImageError):
             error.at_control = "unknown"

@@ -16,7 +16,7 @@ from .progress import SILENT
 SLICE = 0.1  # seconds between two looks at the cancel event
 SILENT_AFTER = 1.8  # seconds without an answer until the waiting caller is notified
 SILENT_EVERY = 1.0
-PERSON = -1
+OPERATOR = -1
 """The total of a progress whose stage is a sentence: what a person is to do at the control."""
 
 OpenLink = Callable[[Callable[[], None]], Link]
@@ -67,7 +67,7 @@ class Waiting:
 
     def ask(self, sentence: str) -> None:
         """Show a person what to do at the control."""
-        self.notify(sentence, 0, PERSON)
+        self.notify(sentence, 0, OPERATOR)
 
     def read(self, link: Link, seconds: float) -> bytes:
         """Return what comes within so many seconds, b"" for nothing; raises LinkError, CancelledError."""

@@ -47,20 +47,22 @@ def state_of(
     writing: Writing, found: GrblContent, *, has_lost_memory: bool = False
 ) -> tuple[AtControl, tuple[str, ...]]:
     """Return what a control that shows ``found`` contains of a download, and which settings are new."""
-    held, wanted = names_of(writing.present), names_of(writing.wanted)
+    present, wanted = names_of(writing.present), names_of(writing.wanted)
     names = {f"${n}" for n in writing.settings} | writing.others.keys()
-    wanted = {name: text for name, text in wanted.items() if name in names or name in held}
-    wanted |= {name: text for name, text in held.items() if name not in names}
+    wanted = {name: text for name, text in wanted.items() if name in names or name in present}
+    wanted |= {name: text for name, text in present.items() if name not in names}
     now = names_of(found)
-    for name in {*held, *wanted}:
+    for name in {*present, *wanted}:
         if name in names:
             is_new = _is_shown(writing, found, name, wanted[name], now.get(name, ""))
-            if is_new and (now.get(name) != held.get(name) or name in writing.sent.names):
+            if is_new and (now.get(name) != present.get(name) or name in writing.sent.names):
                 now[name] = wanted[name]
         elif name in _MOVED:
-            now[name] = held[name]
-    changed = [n for n in held if n not in names and now.get(n) != held[n]]
-    at, new = state_after_break(held, wanted, {n: t for n, t in now.items() if n in held or n in wanted})
+            now[name] = present[name]
+    changed = [n for n in present if n not in names and now.get(n) != present[n]]
+    at, new = state_after_break(
+        present, wanted, {n: t for n, t in now.items() if n in present or n in wanted}
+    )
     if (has_lost_memory and at != "old") or len(changed) >= _MANY:
         after = writing.sent.unanswered  # what a control that has just restarted has still taken
         return "defaults", (after,) if after and now.get(after) == wanted.get(after) else ()

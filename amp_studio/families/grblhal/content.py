@@ -64,7 +64,7 @@ class GrblContent:
     startup: Mapping[int, str] = field(default_factory=dict)
     enumerations: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
 
-    def said(self, name: str) -> str:
+    def identity_word(self, name: str) -> str:
         """Return what follows the name in a line of the identity, "" without one:
         ``said("DRIVER")`` is ``Simulator``.
         """
@@ -77,7 +77,7 @@ class GrblContent:
     @property
     def version(self) -> str:
         """The version of the firmware: ``1.1f.20260817``."""
-        return self.said("VER").split(":")[0]
+        return self.identity_word("VER").split(":")[0]
 
     @property
     def describes_itself(self) -> bool:
@@ -87,7 +87,7 @@ class GrblContent:
     @property
     def axes(self) -> tuple[str, ...]:
         """The letters of its axes in the order of their numbers; Grbl 1.1 has X, Y and Z."""
-        letters = self.said("AXS").partition(":")[2]
+        letters = self.identity_word("AXS").partition(":")[2]
         if letters:
             return tuple(letters)
         return tuple("XYZABCUVW"[: max(1, next(iter(self.offsets.values()), "0,0,0").count(",") + 1)])

@@ -70,18 +70,18 @@ def schema_of(content: bytes) -> Schema:
 class _Maker:
     """Hands over what one control describes of itself, in the terms of every control that does."""
 
-    def __init__(self, told: Description) -> None:
-        self.told = told
+    def __init__(self, described: Description) -> None:
+        self.described = described
         self.known = load_schema(FAMILY)
-        self.axes = tuple(told.axes)
-        self._order = {number: n for n, number in enumerate(told.groups)}
+        self.axes = tuple(described.axes)
+        self._order = {number: n for n, number in enumerate(described.groups)}
         if not self.axes:
             raise DescriptionError("the axes of the control are not described: its answer to $I is needed")
 
     def schema(self, description: bytes) -> Schema:
         control = DescribedControl(
             known=self.known,
-            parameters=[self._parameter(setting) for setting in self.told.settings.values()],
+            parameters=[self._parameter(setting) for setting in self.described.settings.values()],
             axes=self.axes,
             page=PAGE,
             number_format="${n}",
@@ -95,7 +95,7 @@ class _Maker:
     # -- family, messages -------------------------------------------------
 
     def _family(self) -> Family:
-        known, facts = self.known.family, self.told.facts
+        known, facts = self.known.family, self.described.facts
         scopes = {
             k: v.model_copy(update={"instances": self.axes} if k == "axis" else {})
             for k, v in known.scopes.items()
@@ -126,12 +126,12 @@ class _Maker:
 
     def _messages(self) -> Iterable[Messages]:
         """Yield the control's own lists, with what is known of a code; the known list where it has none."""
-        told = {
-            "alarms": ("ALARM", "alarm", "EA", self.told.alarms),
-            "errors": ("error", "error", "EE", self.told.errors),
+        described = {
+            "alarms": ("ALARM", "alarm", "EA", self.described.alarms),
+            "errors": ("error", "error", "EE", self.described.errors),
         }
         for known in self.known.message_lists:
-            word, reaction, page, texts = told[known.id]
+            word, reaction, page, texts = described[known.id]
             by_code = {message.code: message for message in known.messages}
             own = []
             for n, text in sorted(texts.items()):
@@ -149,8 +149,8 @@ class _Maker:
     def _axis(self, setting: Setting) -> str:
         """Return the letter of the axis that a setting is of; empty for a setting of the control."""
         letter, dash, _ = setting.name.partition("-axis ")
-        group = self.told.groups.get(setting.group)
-        inside = self.told.groups.get(group.parent) if group else None
+        group = self.described.groups.get(setting.group)
+        inside = self.described.groups.get(group.parent) if group else None
         if dash and letter in self.axes and inside is not None and inside.name == _AXIS_GROUP:
             return letter if self.axes.index(letter) == setting.number % 10 else ""
         return ""
@@ -160,11 +160,11 @@ class _Maker:
         order = self._order.get(setting.group, len(self._order))
         if self._axis(setting):
             return DescribedGroup("axis", _AXIS_GROUP, order=order)
-        group = self.told.groups.get(setting.group)
+        group = self.described.groups.get(setting.group)
         if group is None:
             return DescribedGroup("other", "Other", order=order)
         same = next((g for g in self.known.groups if g.name == group.name), None)
-        parent = self.told.groups.get(group.parent)
+        parent = self.described.groups.get(group.parent)
         inside = parent is not None and parent.number not in (group.number, parent.parent)
         key = same.key if same else group_key(group.name) or f"group_{group.number}"
         if inside and parent:
@@ -194,7 +194,7 @@ class _Maker:
             of_axes=setting.type == AXES,
             needs_restart=setting.needs_restart,
             secret=setting.type == PASSWORD,
-            text=self.told.helps.get(setting.number, ""),
+            text=self.described.helps.get(setting.number, ""),
             further=further,
             also_alike=(setting.type, setting.format, setting.least, setting.most, setting.may_be_zero),
         )
@@ -202,12 +202,12 @@ class _Maker:
     def _build(self) -> tuple[Parameter, ...]:
         """Return what is compiled in, with the description of this control as the default."""
         axes, rate = (self.known.parameters[p] for p in ("build.axes", "build.max_step_rate"))
-        told = self.told.max_step_rate
+        described = self.described.max_step_rate
         return (
-            axes.model_copy(update={"default": Default(value=self.told.axes, page="I"), "page": "I"}),
+            axes.model_copy(update={"default": Default(value=self.described.axes, page="I"), "page": "I"}),
             rate.model_copy(
                 update={
-                    "default": None if told is None else Default(value=told, unit="Hz", page="I"),
+                    "default": None if described is None else Default(value=described, unit="Hz", page="I"),
                     "page": "I",
                 }
             ),

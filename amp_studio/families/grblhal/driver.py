@@ -85,8 +85,8 @@ class GrblDriver(GrblContentKind, LineDriver):
         """Return what ``$I`` answers."""
         with self._conversation() as line:
             who = read_identity(line)
-            name = who.said("FIRMWARE") or "Grbl"
-            board = who.said("BOARD") or who.said("DRIVER")
+            name = who.identity_word("FIRMWARE") or "Grbl"
+            board = who.identity_word("BOARD") or who.identity_word("DRIVER")
             return ControlIdentity(
                 FAMILY, self.protocol, f"{name} on {board}" if board else name, who.version, axes=who.axes
             )
@@ -123,12 +123,12 @@ class GrblDriver(GrblContentKind, LineDriver):
         """Send what differs, one line at a time, until the control shows it;
         offsets and harmless start-up lines too.
         """
-        wanted, present = read_content(replacement.content), read_content(replacement.held)
-        writing = self._writing = Writing(wanted, present, described(replacement.held), sent)
+        wanted, present = read_content(replacement.content), read_content(replacement.current)
+        writing = self._writing = Writing(wanted, present, described(replacement.current), sent)
         try:
             with self._conversation() as line:
                 self._check_rest(line, writing)
-                if write_content(self._read(line)) != replacement.held:
+                if write_content(self._read(line)) != replacement.current:
                     raise ImageChangedError("somebody has changed the settings since they were read")
                 line.messages, line.has_lost_memory, self._has_lost_memory = [], False, False
                 writing.run(line, self._waiting.notify)

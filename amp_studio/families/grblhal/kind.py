@@ -62,25 +62,25 @@ class GrblContentKind:
         file.unknown.update({f"${number}": text for number, text in others.items()})
         return file
 
-    def encode(self, file: ParameterFile, held: bytes) -> bytes:
+    def encode(self, file: ParameterFile, current: bytes) -> bytes:
         """Return what a control contains after a download: the file's settings by their numbers,
-        else what is in ``held``.
+        else what is in ``current``.
 
         A setting that the control does not have is left out (``left_out`` names it): the number of any other
         means the same in each build. Bits of masks that the file does not have stay as they are (``stays``
         names them). Raises ImageError for a value that the control would not store as it is.
         """
-        present = read_content(held)
-        wanted = _wanted(file, present, held)
-        settings = _fitted(wanted.settings, present, described(held))
+        present = read_content(current)
+        wanted = _wanted(file, present, current)
+        settings = _fitted(wanted.settings, present, described(current))
         return write_content(replace(present, settings=settings))
 
-    def left_out(self, file: ParameterFile, held: bytes) -> str:
+    def left_out(self, file: ParameterFile, current: bytes) -> str:
         """Return the settings and bits of a file that a control of another build does not have;
         raises ImageError.
         """
-        present = read_content(held)
-        wanted = _wanted(file, present, held)
+        present = read_content(current)
+        wanted = _wanted(file, present, current)
         lacking = sorted({*wanted.lacking, *_lacking(wanted.settings, present)})
         lost = (
             [f"bits of axes that the control does not have ({named_bits(wanted.lost)})"]
@@ -89,27 +89,27 @@ class GrblContentKind:
         )
         return " and ".join([text for text in (_lacking_text(lacking),) if text] + lost)
 
-    def stays(self, file: ParameterFile, held: bytes) -> str:
+    def stays(self, file: ParameterFile, current: bytes) -> str:
         """Return the bits of masks that a control has and the file does not; raises ImageError."""
-        return named_bits(_wanted(file, read_content(held), held).kept)
+        return named_bits(_wanted(file, read_content(current), current).kept)
 
     def lacks(self, content: bytes, earlier: bytes) -> str:  # noqa: ARG002  # other kinds need them
         """Return "": settings come and go with options, and are read until two readings are the same."""
         return ""
 
-    def refit(self, content: bytes, held: bytes) -> bytes:
+    def refit(self, content: bytes, current: bytes) -> bytes:
         """Return what a control contains once a copy is put back: its settings, offsets and start-up lines;
         raises ImageError.
 
         How the control describes itself stays, so that a copy of another build goes back too, by the numbers.
         """
-        copy, present = read_content(content), read_content(held)
+        copy, present = read_content(content), read_content(current)
         if copy.axes != present.axes and reports_inches(copy) != reports_inches(present):
             raise ImageError(
                 "the copy is of a control with other axes, and shows offsets in another unit: set $13 alike"
                 " first"
             )
-        settings = _fitted(_masked(copy, content, present, held), present, described(held))
+        settings = _fitted(_masked(copy, content, present, current), present, described(current))
         offsets = {name: at_axes(copy, present, name) for name in present.offsets}
         startup = {**present.startup, **{n: line for n, line in copy.startup.items() if n in present.startup}}
         return write_content(replace(present, settings=settings, offsets=offsets, startup=startup))
@@ -117,18 +117,18 @@ class GrblContentKind:
     def difference(self, content: bytes, found: bytes) -> str:
         """Return which settings, offsets and start-up lines differ as far as the control shows them."""
         wanted, present = read_content(content), read_content(found)
-        told = [
+        differing = [
             f"in ${n}, which is {present.settings.get(n, 'not there')} and not {text}"
             for n, text in wanted.settings.items()
             if not is_shown_as(text, present.settings.get(n, ""))
         ]
-        told += [
+        differing += [
             f"in {name}, which is {present.offsets.get(name, 'not there')} and not {wanted.offsets[name]}"
             for name in offset_differences(wanted, present)
             if name in PUT_BACK
         ]
-        more = [f"and in {len(told) - _SHOWN} more"] if len(told) > _SHOWN else []
-        return ", ".join(told[:_SHOWN] + more)
+        more = [f"and in {len(differing) - _SHOWN} more"] if len(differing) > _SHOWN else []
+        return ", ".join(differing[:_SHOWN] + more)
 
 
 def described(content: bytes) -> Mapping[int, Setting]:
@@ -162,7 +162,7 @@ class _Wanted:
     lost: MaskBits
 
 
-def _wanted(file: ParameterFile, present: GrblContent, held: bytes) -> _Wanted:
+def _wanted(file: ParameterFile, present: GrblContent, current: bytes) -> _Wanted:
     """Return what a file sets at a control.
 
     Raises ImageError for a file of another family,
@@ -173,7 +173,7 @@ def _wanted(file: ParameterFile, present: GrblContent, held: bytes) -> _Wanted:
     lacking: list[int] = []
     lost: MaskBits = {}
     try:
-        schema = _schema_of(present, held)
+        schema = _schema_of(present, current)
         build = _build(schema, present)
         kept = bits_beyond(build, build_of(file), axes_only=file.schema.signature == schema.signature)
         if file.schema.signature != schema.signature:
@@ -200,7 +200,7 @@ def _build(schema: Schema, content: GrblContent) -> Build:
     )
 
 
-def _masked(copy: GrblContent, content: bytes, present: GrblContent, held: bytes) -> dict[int, str]:
+def _masked(copy: GrblContent, content: bytes, present: GrblContent, current: bytes) -> dict[int, str]:
     """Return the settings of a copy with the bits of masks that its build does not have
     as the control has them.
 
@@ -208,7 +208,7 @@ def _masked(copy: GrblContent, content: bytes, present: GrblContent, held: bytes
     """
     settings = dict(copy.settings)
     try:
-        theirs, own = _build(_schema_of(copy, content), copy), _build(_schema_of(present, held), present)
+        theirs, own = _build(_schema_of(copy, content), copy), _build(_schema_of(present, current), present)
     except (InvalidValueError, DescriptionError):
         return settings
     for here, other in ((own, theirs), (theirs, own)):

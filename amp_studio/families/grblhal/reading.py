@@ -25,11 +25,11 @@ _STARTUP = re.compile(r"\$N(\d)=(.*)")
 def read_identity(line: GrblLine) -> GrblContent:
     """Return who answers, without its settings; raises ProtocolMismatchError for what is no Grbl."""
     try:
-        said = line.ask("$I")
+        lines = line.ask("$I")
     except GrblRefusalError as refusal:
         why = "the machine moves" if refusal.code == 8 else f"it answers {refusal} to $I"
         raise ProtocolMismatchError(f"the control does not say what it is: {why}") from None
-    kept = tuple(_clean(text) for text in said if (f := _NAMED.fullmatch(text)) and f[1] in IDENTITY)
+    kept = tuple(_clean(text) for text in lines if (f := _NAMED.fullmatch(text)) and f[1] in IDENTITY)
     if not any(text.startswith("[VER:") for text in kept):
         raise ProtocolMismatchError("what answers there is no Grbl control: it has no version")
     return GrblContent(kept)
@@ -114,7 +114,7 @@ def _read_startup(line: GrblLine) -> dict[int, str]:
 
 def is_grblhal(who: GrblContent) -> bool:
     """Whether a control is one that describes itself, and not a Grbl 1.1."""
-    return who.said("FIRMWARE") == "grblHAL"
+    return who.identity_word("FIRMWARE") == "grblHAL"
 
 
 def read_settings(line: GrblLine, who: GrblContent) -> dict[int, str]:

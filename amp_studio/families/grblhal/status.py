@@ -22,15 +22,15 @@ def status_of(identity: ControlIdentity, report: str, alarm: str = "") -> Contro
     ``alarm`` is the last ``ALARM:n`` pushed.
     """
     state, *parts = report.strip("<>").split("|")
-    said = dict(part.partition(":")[::2] for part in parts)
+    fields = dict(part.partition(":")[::2] for part in parts)
     try:
-        places = [float(each) for each in (said.get("MPos") or said.get("WPos") or "").split(",") if each]
+        places = [float(each) for each in (fields.get("MPos") or fields.get("WPos") or "").split(",") if each]
         feed, speed = (
-            [float(each) for each in said.get("FS", said.get("F", "")).split(",") if each] + [0.0, 0.0]
+            [float(each) for each in fields.get("FS", fields.get("F", "")).split(",") if each] + [0.0, 0.0]
         )[:2]
     except ValueError:
         raise ProtocolMismatchError(f"the control reports '{report[:60]}'") from None
-    pins = said.get("Pn", "")
+    pins = fields.get("Pn", "")
     names = identity.axes or tuple(LETTERS[: len(places)])
     axes = tuple(
         AxisStatus(name, place, unit="mm", states=("limit switch",) if name in pins else ())
@@ -39,12 +39,12 @@ def status_of(identity: ControlIdentity, report: str, alarm: str = "") -> Contro
     values: dict[str, float | str] = {"feed": feed, "spindle speed": speed}
     if pins:
         values["inputs"] = ", ".join(PINS.get(pin, f"limit {pin}") for pin in pins)
-    if "WCO" in said:
-        values["work coordinate offset"] = said["WCO"]
+    if "WCO" in fields:
+        values["work coordinate offset"] = fields["WCO"]
     code = alarm or (f"ALARM:{state.partition(':')[2]}" if state.startswith("Alarm:") else "")
     in_alarm = state.startswith("Alarm")
     faults = (known_fault(identity.family, code or "Alarm", "The control is locked"),) if in_alarm else ()
-    which = "machine" if "MPos" in said else "work"
+    which = "machine" if "MPos" in fields else "work"
     notes = (f"positions in {which} coordinates, in mm unless $13 is on",)
     return ControlStatus(
         identity.family, identity.protocol, identity.name, state, axes, faults, values, notes

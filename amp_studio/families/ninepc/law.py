@@ -119,8 +119,8 @@ def bind(read: AxisParameters) -> AxisLaw:
     if split.slave_of(master) is not None:
         raise SimulationError(f"The master of axis {read.axis} is a slave itself", split.SETS[0][0])
     law, unit, stiffness = _alone(read, master), _kind(read).unit, split.coupling_of(read)
-    said = (split.SLAVE.format(slave.master, unit), split.JOINED if stiffness else split.LOOSE.format(unit))
-    law = replace(law, assumptions=(*law.assumptions, *said))
+    texts = (split.SLAVE.format(slave.master, unit), split.JOINED if stiffness else split.LOOSE.format(unit))
+    law = replace(law, assumptions=(*law.assumptions, *texts))
     return split.coupled(law, slave, _alone(master), stiffness)
 
 
@@ -232,14 +232,14 @@ def _common(
     read: AxisParameters, kind: Kind, notes: list[str] | None = None, master: AxisParameters | None = None
 ) -> dict[str, object]:
     """Return what every kind of axis has, as fields of AxisLaw."""
-    said = notes if notes is not None else []
+    assumptions = notes if notes is not None else []
     cycle = above_zero(read, CYCLE, everywhere=True)
     demand(
         read, CYCLE, cycle, cycle <= LONGEST_CYCLE, f"must be {LONGEST_CYCLE:g} ms or less", everywhere=True
     )
-    ramps: dict[str, Ramp] = ramps_of(master or read, kind.unit, said)
+    ramps: dict[str, Ramp] = ramps_of(master or read, kind.unit, assumptions)
     rapid = if_set(master or read, RAPID)
-    said += [notes_of.SAMPLED, notes_of.RAMPS]
+    assumptions += [notes_of.SAMPLED, notes_of.RAMPS]
     return {
         "axis": read.axis,
         "unit": kind.unit,

@@ -96,7 +96,7 @@ def read_words(read: AxisParameters, notes: list[str]) -> Words:
             "axes.assignment",
         )
     if not constant and of_group is None:
-        raise _unset(read, [f"servo.group_time_constant@{named}"])
+        raise _not_set_error(read, [f"servo.group_time_constant@{named}"])
     above(constant, "servo.group_time_constant", "The time constant of P56 (or P66)")
     acceleration = read.number("servo.acceleration_fast")
     above(acceleration, "servo.acceleration_fast", "Maximum Permissible Acceleration, fast speed (P32)")
@@ -144,10 +144,10 @@ def _demand(read: AxisParameters, of_control: Sequence[str], of_axis: Sequence[s
     missing = [name for name in of_control if read.value(name, everywhere=True) is None]
     missing += [f"{name}@{read.axis}" for name in of_axis if read.value(name) is None]
     if missing:
-        raise _unset(read, missing)
+        raise _not_set_error(read, missing)
 
 
-def _unset(read: AxisParameters, missing: list[str]) -> SimulationError:
+def _not_set_error(read: AxisParameters, missing: list[str]) -> SimulationError:
     return SimulationError(
         f"The simulation of axis {read.axis} needs values that are not set: {', '.join(missing)}",
         missing[0].partition("@")[0],

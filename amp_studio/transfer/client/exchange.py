@@ -62,9 +62,9 @@ class WantedContent:
     is_return: bool = False
     what: str = "Download"
 
-    def of(self, held: bytes) -> bytes:
-        """Return what a control that contains ``held`` shall contain; raises ImageError."""
-        return self.content(held) if callable(self.content) else self.content
+    def of(self, current: bytes) -> bytes:
+        """Return what a control that contains ``current`` shall contain; raises ImageError."""
+        return self.content(current) if callable(self.content) else self.content
 
 
 @dataclass(frozen=True)

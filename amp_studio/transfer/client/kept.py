@@ -147,9 +147,9 @@ def open_copy(path: Path) -> Copy:
     if path.suffix == ENDING:
         file = open_file(path).file
         beside = path.with_suffix(IMAGE)
-        held = _content(beside) if beside.is_file() else b""
-        image = kind_of(held).encode(file, held)
-        is_kept = image == held
+        current = _content(beside) if beside.is_file() else b""
+        image = kind_of(current).encode(file, current)
+        is_kept = image == current
         return Copy(image, file.schema.signature, file, "", is_checked=True, is_kept=is_kept)
     if path.suffix != IMAGE:
         raise CopyError(f"{path} is no copy of what a control contained: those end in {IMAGE} or {ENDING}")

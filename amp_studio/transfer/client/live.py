@@ -35,7 +35,7 @@ class LiveTuning:
         self._address, self._record = address, record
         self._kept = ""
         self._start = b""
-        self._held = b""
+        self._current = b""
         self.file: ParameterFile | None = None
         """What the control contains, as it was last read; None before,
         and after an error until it was read again."""
@@ -54,7 +54,7 @@ class LiveTuning:
         ImageError.
         """
         _, content, _ = look_at(self._driver, exchange)
-        self._held, self.file = content, decode_content(content)
+        self._current, self.file = content, decode_content(content)
         if self.start_file is None:
             self._start, self.start_file = content, self.file.copy()
         return self.file
@@ -65,11 +65,11 @@ class LiveTuning:
         """
         wanted = self._present().copy()
         wanted.set_many(values)
-        return self._send(lambda held: self._driver.encode(wanted, held), "tune", exchange)
+        return self._send(lambda current: self._driver.encode(wanted, current), "tune", exchange)
 
     def put_back(self, exchange: Exchange = QUIET) -> Outcome:
         """Have the control contain again what it contained at the first look; raises as ``set``."""
-        return self._send(lambda held: self._driver.refit(self._start, held), "restore", exchange)
+        return self._send(lambda current: self._driver.refit(self._start, current), "restore", exchange)
 
     def changes(self) -> Comparison:
         """Return what differs in the control from the first look, as it was last read."""
@@ -94,8 +94,8 @@ class LiveTuning:
         wanted = WantedContent(
             make,
             present.schema.signature,
-            expected=hashlib.sha256(self._held).digest(),
-            known=self._held,
+            expected=hashlib.sha256(self._current).digest(),
+            known=self._current,
             is_return=verb == "restore",
             what="Change",
         )

@@ -55,9 +55,9 @@ def download_file(
     remarks: list[str] = []
     with closing(open_driver(address, family)) as driver:
 
-        def content(held: bytes) -> bytes:
-            made = driver.encode(file, held)
-            remarks[:] = remarks_of(driver, file, held)
+        def content(current: bytes) -> bytes:
+            made = driver.encode(file, current)
+            remarks[:] = remarks_of(driver, file, current)
             return made
 
         wanted = WantedContent(content, file.schema.signature, approved, known)
@@ -71,13 +71,13 @@ def download_content(driver: ControlDriver, wanted: WantedContent, recording: Re
         return recording.run(driver, wanted, copy.keep, meanwhile=copy.finish)
 
 
-def remarks_of(kind: ContentKind, file: ParameterFile, held: bytes) -> list[str]:
-    """Return what of a file is not sent to a control that contains ``held``, and what stays there,
+def remarks_of(kind: ContentKind, file: ParameterFile, current: bytes) -> list[str]:
+    """Return what of a file is not sent to a control that contains ``current``, and what stays there,
     each in a sentence.
     """
     texts = (
-        ("Not sent", kind.left_out(file, held)),
-        ("Not in the file, and as the control has it", kind.stays(file, held)),
+        ("Not sent", kind.left_out(file, current)),
+        ("Not in the file, and as the control has it", kind.stays(file, current)),
     )
     return [f"{what}: {text}." for what, text in texts if text]
 

@@ -69,20 +69,20 @@ def _content(each: RecordedExchange, wanted: str, file: ParameterFile, folder: P
         return None
     if copy.file is None or copy.file.schema.family.family != file.schema.family.family:
         return None
-    held = by_schema(copy.file, file.schema)
+    current = by_schema(copy.file, file.schema)
     digest = hashlib.sha256(copy.image).hexdigest()
     if digest != wanted:
         if each.after != wanted or digest != each.before:
             return None
-        held = _changed(held, each, file)
-    return completed(held, copy.image, file)
+        current = _changed(current, each, file)
+    return completed(current, copy.image, file)
 
 
-def _changed(held: ParameterFile, each: RecordedExchange, file: ParameterFile) -> ParameterFile:
+def _changed(current: ParameterFile, each: RecordedExchange, file: ParameterFile) -> ParameterFile:
     """Return a content after the changes of an exchange; secrets, which are recorded without what they were,
     as in ``file``.
     """
-    found = held.copy()
+    found = current.copy()
     for entry, _, text in each.changes:
         address = read_address(entry)
         parameter = found.schema.parameters.get(address[0])

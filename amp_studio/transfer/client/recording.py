@@ -24,7 +24,7 @@ class Recording:
     def __init__(self, verb: str, family: str, address: str, exchange: Exchange) -> None:
         self.exchange = exchange
         self._verb, self._family, self._address = verb, family, address
-        self._held: bytes | None = None
+        self._current: bytes | None = None
         self._content = b""
 
     def run(
@@ -39,9 +39,9 @@ class Recording:
         Raises as ``download``.
         """
 
-        def content(held: bytes) -> bytes:
-            made = wanted.of(held)
-            self._held, self._content = held or None, made
+        def content(current: bytes) -> bytes:
+            made = wanted.of(current)
+            self._current, self._content = current or None, made
             return made
 
         try:
@@ -49,7 +49,7 @@ class Recording:
                 driver, replace(wanted, content=content), keep, self.exchange, meanwhile=meanwhile
             )
         except TransferError as error:
-            if self._held is not None or error.at_control not in ("", "old"):
+            if self._current is not None or error.at_control not in ("", "old"):
                 self._add(error.at_control, error.kept, str(error))
             raise
         self._add(outcome.at_control, outcome.kept, outcome.text, outcome.verified)
@@ -89,15 +89,15 @@ class Recording:
         beside = self.exchange.record
         if beside is None:
             return
-        held = self._held or b""
-        after = digest_of(self._content) if is_proven else digest_of(held) if state == "old" else ""
-        changes = () if state == "old" else changes_of(held, self._content)
+        current = self._current or b""
+        after = digest_of(self._content) if is_proven else digest_of(current) if state == "old" else ""
+        changes = () if state == "old" else changes_of(current, self._content)
         entry = exchange_now(
             self._verb,
             beside,
             self._family,
             self._address,
-            before=digest_of(held),
+            before=digest_of(current),
             after=after,
             state=state,
             kept=kept or "",

@@ -28,7 +28,7 @@ class ImageComparison:
     ``other_units`` values that are the same in another unit
     ``head``        lines of the head that differ
     ``unreadable``  why the control's image cannot be compared with the file, else ""
-    ``absent``      what the file sets and the control does not have, in a sentence, else ""
+    ``missing``      what the file sets and the control does not have, in a sentence, else ""
     ``stays``       which bits of masks the file does not have, so that they were not compared, else ""
     ``is_whole``    whether every byte was compared; else a control shows some values coarser than they are
     ``outside``     what the file sets and no control of this kind keeps: it is neither sent nor compared
@@ -39,7 +39,7 @@ class ImageComparison:
     other_units: tuple[Difference, ...] = ()
     head: tuple[HeadDifference, ...] = ()
     unreadable: str = ""
-    absent: str = ""
+    missing: str = ""
     outside: tuple[Address, ...] = ()
     is_whole: bool = True
     stays: str = ""
@@ -63,8 +63,8 @@ class ImageComparison:
             return f"Nothing differs: {self.values.same} values {much}."
         if self.unreadable:
             return f"The control contains something else: {self.unreadable}."
-        if self.absent:
-            return f"The control cannot contain this file: {self.absent}."
+        if self.missing:
+            return f"The control cannot contain this file: {self.missing}."
         if self.values.differences:
             return "The control contains other values."
         parts = []
@@ -87,15 +87,15 @@ def verify_content(file: ParameterFile, fetched: bytes) -> ImageComparison:
         return _not_compared(str(error) if fetched else "nothing")
     if present.schema.family.family != file.schema.family.family:
         return _not_compared(f"a file for {present.schema.family.name}")
-    absent, stays, is_same, is_whole, wanted = "", "", False, True, file
+    missing, stays, is_same, is_whole, wanted = "", "", False, True, file
     try:
-        content, absent = kind.encode(file, fetched), kind.left_out(file, fetched)
+        content, missing = kind.encode(file, fetched), kind.left_out(file, fetched)
         stays = kind.stays(file, fetched)
-        is_same, is_whole = not absent and not kind.difference(content, fetched), content == fetched
+        is_same, is_whole = not missing and not kind.difference(content, fetched), content == fetched
         # In the control's own units, with what the file leaves as it is.
         wanted = present if is_whole else kind.decode(content)
     except ImageError as error:
-        absent = str(error)
+        missing = str(error)
     head = _head_differences(file, present) if kind.has_header else ()
     found = compare(file.schema, _known(file, wanted), _known(file, present))
     if is_same:  # what is shown coarser than it is
@@ -106,7 +106,7 @@ def verify_content(file: ParameterFile, fetched: bytes) -> ImageComparison:
         found,
         _other_units(wanted, present),
         head,
-        absent=absent,
+        missing=missing,
         outside=outside,
         is_whole=is_whole,
         stays=stays,

@@ -55,7 +55,7 @@ class Control:
         self.identity = identity
         self.memory = Memory(folder)
         self.is_committing = False
-        self._held = ""
+        self._estop_reason = ""
         self._capacity = capacity
         self._accept = accept
         self._lock = EditLock(folder / "control")
@@ -86,7 +86,7 @@ class Control:
         return self._digest
 
     @property
-    def incarnation(self) -> int:
+    def boot_count(self) -> int:
         """Counts the starts of the control."""
         return self._record.incarnation
 
@@ -111,13 +111,13 @@ class Control:
         """Press or release the emergency stop; raises StateError where the control does not come out of
         it.
         """
-        if self._held and not on:
-            raise StateError(f"the control stays in E-stop: {self._held}")
+        if self._estop_reason and not on:
+            raise StateError(f"the control stays in E-stop: {self._estop_reason}")
         self._remember(estop=on)
 
-    def hold(self, reason: str) -> None:
+    def keep_in_estop(self, reason: str) -> None:
         """Keep the control in E-stop for a reason; "" lets it out again when somebody releases it."""
-        self._held = reason
+        self._estop_reason = reason
         if reason and not self._record.estop:
             self._remember(estop=True)
 
@@ -127,7 +127,7 @@ class Control:
 
     def restart(self) -> None:
         """Start again: the active image becomes current."""
-        self._remember(incarnation=self.incarnation + 1, running=True, restart_needed=False)
+        self._remember(incarnation=self.boot_count + 1, running=True, restart_needed=False)
 
     def patch(self, change: Callable[[bytes], bytes]) -> None:
         """Change the image at the control itself; raises RefusalError, OSError, and what ``change``

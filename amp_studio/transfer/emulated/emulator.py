@@ -204,7 +204,7 @@ class Emulator:
             self._drop(caller)
 
     def _stay_away(self, back_at: float) -> None:
-        """Be gone until a time, and come back as a new incarnation."""
+        """Be gone until a time, and come back started once more."""
         self._hang_up()
         left = back_at - self._clock()
         if left <= 0:
@@ -240,7 +240,7 @@ class Emulator:
 
     def _restarted(self) -> str:
         self._control.restart()
-        return f"restarted {self._control.incarnation}"
+        return f"restarted {self._control.boot_count}"
 
     def _prepare_start(self) -> None:
         """Ask the panel for the next start, while there is time;
@@ -260,9 +260,9 @@ class Emulator:
         self._start = None
         for message in start.messages:
             self._show(_line(message))
-        self._control.hold(start.held)
-        if start.held:
-            self._show(f"kept in E-stop: {_line(start.held)}")
+        self._control.keep_in_estop(start.estop_reason)
+        if start.estop_reason:
+            self._show(f"kept in E-stop: {_line(start.estop_reason)}")
 
     def _done(self, line: str) -> str:
         """Do a command and return what the operator reads."""
@@ -305,7 +305,7 @@ class Emulator:
         state = {flag.name: "on" if flags & flag else "off" for flag in Flags}
         words = " ".join(f"{str(name).lower().replace('_', '-')}={on}" for name, on in state.items())
         image = f"size={len(control.image)} sha256={control.sha256.hex()}"
-        return f"status {words} incarnation={control.incarnation} {image}"
+        return f"status {words} incarnation={control.boot_count} {image}"
 
 
 def serve(

@@ -15,11 +15,11 @@ class Start:
     """What comes of a start with a content.
 
     ``messages``  what the control's screen shows, one line each
-    ``held``      why it stays in E-stop; "" where E-stop can be released
+    ``estop_reason``      why it stays in E-stop; "" where E-stop can be released
     """
 
     messages: tuple[str, ...] = ()
-    held: str = ""
+    estop_reason: str = ""
 
 
 class OperatorPanel(Protocol):

@@ -111,7 +111,7 @@ class Responder:
             shorten(who.name),
             shorten(who.revision),
             control.flags,
-            control.incarnation,
+            control.boot_count,
             len(control.image),
             control.sha256,
             self._window,
@@ -152,7 +152,7 @@ class Responder:
         committed = self.control.commit(request)
         self._forget()
         # Asked again after the restart, the answer is the same, and there is nothing left to restart.
-        if committed.restarting and committed.incarnation == self.control.incarnation:
+        if committed.restarting and committed.incarnation == self.control.boot_count:
             self.restart_due = True
         return committed
 

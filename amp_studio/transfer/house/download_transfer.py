@@ -53,7 +53,7 @@ class DownloadTransfer:
         self._line = line
         self._image = replacement.content
         self._signature = replacement.signature
-        self._expected = replacement.held_digest
+        self._expected = replacement.current_digest
         self._digest = hashlib.sha256(self._image).digest()
         control = line.welcome.name if line.welcome is not None else ""
         self._broken = broken

@@ -66,7 +66,7 @@ class HouseDriver(HouseContent):
 
     def wait_restarted(self, receipt: Receipt, seconds: float, exchange: Exchange = QUIET) -> bool:
         """Call the control until it answers with another incarnation."""
-        return self.session.wait_restarted(receipt.incarnation, seconds, exchange) is not None
+        return self.session.wait_restarted(receipt.boot_count, seconds, exchange) is not None
 
     def close(self) -> None:
         """Hang up."""

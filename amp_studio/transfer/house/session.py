@@ -105,7 +105,7 @@ class Session:
         self.close()
         raise failure
 
-    def wait_restarted(self, incarnation: int, seconds: float, exchange: Exchange = QUIET) -> Welcome | None:
+    def wait_restarted(self, boot_count: int, seconds: float, exchange: Exchange = QUIET) -> Welcome | None:
         """Call the control until it answers with another incarnation; None when it has not after ``seconds``.
 
         Raises CancelledError and an error where another control answers.
@@ -126,7 +126,7 @@ class Session:
             except (LinkError, NoAnswerError, RefusalError):
                 self.close()
             else:
-                if welcome.incarnation != incarnation:
+                if welcome.incarnation != boot_count:
                     line.further()
                     line.progress = exchange.progress
                     line.notify("restart", 1, 1)

@@ -13,7 +13,7 @@ from collections.abc import Callable, Iterator
 from .attempt import SLICE
 from .endpoint import Endpoint
 from .link import LinkError, keep_waiting
-from .serial_line import HELD_LIMIT, WRITE_LIMIT
+from .serial_line import FLOW_LIMIT, WRITE_LIMIT
 from .serial_settings import SerialSettings
 from .tcp import TcpLink, connect_tcp
 from .telnet import DO, DONT, IAC, SB, SE, WILL, WONT, Negotiation, Option, TelnetData, TelnetReader
@@ -59,7 +59,7 @@ class Rfc2217Link:
         self._settings: SerialSettings = endpoint.serial_settings()
         self.bytes_per_second: float | None = self._settings.bytes_per_second
         self._endpoint, self._line, self._look = endpoint, line, look
-        line.write_limit = WRITE_LIMIT if self._settings.flow == "none" else HELD_LIMIT
+        line.write_limit = WRITE_LIMIT if self._settings.flow == "none" else FLOW_LIMIT
         self._telnet = TelnetReader()
         self._sent: set[tuple[int, int]] = set()
         self._is_open, self._has_heard, self._is_agreed = True, False, False

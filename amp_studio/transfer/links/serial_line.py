@@ -20,7 +20,7 @@ SLICE = (
     0.05  # seconds a single read may block; setting another limit each time costs a system call on Windows
 )
 WRITE_LIMIT = 2.0  # seconds a tenth of a second's worth of bytes may take
-HELD_LIMIT = 60.0  # seconds the other end may hold the line by flow control
+FLOW_LIMIT = 60.0  # seconds the other end may hold the line by flow control
 MOMENT = 0.02  # seconds between two looks at what has not left yet
 STANDSTILL = 0.2  # seconds in which a line that is not stopped moves at least a byte
 LOOK = 0.1  # seconds between two looks while the line takes nothing
@@ -42,7 +42,7 @@ class SerialLink:
         self._endpoint = endpoint
         self._port = port
         self._look = look
-        self._held_limit = WRITE_LIMIT if settings.flow == "none" else HELD_LIMIT
+        self._flow_limit = WRITE_LIMIT if settings.flow == "none" else FLOW_LIMIT
         self._piece = max(1, min(settings.baud // 100, PIECE))
         self.bytes_per_second: float | None = settings.bytes_per_second
         self.is_open = True
@@ -79,9 +79,9 @@ class SerialLink:
         while (left := self._leaving()) > 0:
             self._look()
             if left != waiting:
-                waiting, end = left, time.monotonic() + self._held_limit
+                waiting, end = left, time.monotonic() + self._flow_limit
             if time.monotonic() >= end:
-                raise LinkError(self._endpoint, f"the other end has taken nothing for {self._held_limit:g} s")
+                raise LinkError(self._endpoint, f"the other end has taken nothing for {self._flow_limit:g} s")
             time.sleep(MOMENT)
 
     def close(self) -> None:
@@ -90,7 +90,7 @@ class SerialLink:
         """
         with contextlib.suppress(OSError, TypeError, AttributeError):
             waiting, end = -1, 0.0
-            while self.is_open and self._held_limit == HELD_LIMIT and (left := self._port.out_waiting) > 0:
+            while self.is_open and self._flow_limit == FLOW_LIMIT and (left := self._port.out_waiting) > 0:
                 if left != waiting:
                     waiting, end = left, time.monotonic() + STANDSTILL
                 if time.monotonic() >= end:
@@ -110,11 +110,11 @@ class SerialLink:
 
     def _await_room(self) -> None:
         """Wait until the port takes a piece; pyserial's own waiting cannot be broken off."""
-        end = time.monotonic() + self._held_limit
+        end = time.monotonic() + self._flow_limit
         while not self._has_room():
             self._look()
             if time.monotonic() >= end:
-                raise LinkError(self._endpoint, f"the other end has taken nothing for {self._held_limit:g} s")
+                raise LinkError(self._endpoint, f"the other end has taken nothing for {self._flow_limit:g} s")
 
     def _has_room(self) -> bool:
         """Wait for room a moment, where the system can be asked for it."""

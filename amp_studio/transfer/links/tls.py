@@ -69,10 +69,8 @@ class TlsLink(TcpLink):
 
 def is_ready(connection: ssl.SSLSocket, wish: ssl.SSLError, seconds: float) -> bool:
     """Wait for what TLS needs of its socket, up to so long; returns whether it is there."""
-    wants_write = isinstance(wish, ssl.SSLWantWriteError)
-    ready = select.select(
-        [] if wants_write else [connection], [connection] if wants_write else [], [], seconds
-    )
+    is_write = isinstance(wish, ssl.SSLWantWriteError)
+    ready = select.select([] if is_write else [connection], [connection] if is_write else [], [], seconds)
     return bool(ready[0] or ready[1])
 
 

@@ -103,13 +103,13 @@ def damage(random_: random.Random, every: int) -> Callable[[bytes], bytes]:
     return spoil
 
 
-def held(bench: Bench) -> GrblContent:
+def current(bench: Bench) -> GrblContent:
     return read_content(bench.driver.fetch())
 
 
 def put(bench: Bench, settings: Mapping[int, str], **others: object) -> Outcome:
     """Download the settings that the control has, with these changed."""
-    present = held(bench)
+    present = current(bench)
     wanted = replace(present, settings={**present.settings, **settings}, **others)
     return download(bench.driver, WantedContent(write_content(wanted), ""), lambda _: "kept")
 

@@ -105,10 +105,10 @@ def answers(line: GrblLine, commands: Sequence[str] = COMMANDS) -> list[tuple[st
     found = []
     for command in commands:
         try:
-            said = [*reduced(line.ask(command, writes=True)), "ok"]
+            identity_word = [*reduced(line.ask(command, writes=True)), "ok"]
         except GrblRefusalError as refusal:
-            said = [f"error:{refusal.code}"]
-        found.append((command, said))
+            identity_word = [f"error:{refusal.code}"]
+        found.append((command, identity_word))
     return found
 
 
@@ -125,7 +125,10 @@ def recorded() -> list[tuple[str, list[str]]]:
 
 def written(conversation: Sequence[tuple[str, list[str]]]) -> str:
     """Return a conversation as it is recorded."""
-    return "".join(f"> {command}\n" + "".join(f"{line}\n" for line in said) for command, said in conversation)
+    return "".join(
+        f"> {command}\n" + "".join(f"{line}\n" for line in identity_word)
+        for command, identity_word in conversation
+    )
 
 
 class Player:
@@ -158,8 +161,8 @@ class Player:
             return
         *lines, self._in = (self._in + text).split("\n")
         for line in lines:
-            said = self._said.get(line, ["error:3"])
-            self._out += "".join(f"{each}\r\n" for each in said).encode()
+            identity_word = self._said.get(line, ["error:3"])
+            self._out += "".join(f"{each}\r\n" for each in identity_word).encode()
 
     def close(self) -> None:
         self._out.clear()

@@ -87,8 +87,8 @@ def download_with_faults(seed: int, folder: Path, only: str | None = None) -> li
             firmware.settings.store(number, text)
         firmware.is_writing = True
     bench.driver.identify()
-    held = bench.driver.fetch()
-    before, present = firmware.settings.values(), read_content(held)
+    current = bench.driver.fetch()
+    before, present = firmware.settings.values(), read_content(current)
     numbers = [n for n in choose.sample(sorted(CHANGES), choose.randint(1, 8)) if n in present.settings]
     wanted = {**present.settings, **{n: CHANGES[n] for n in numbers if CHANGES[n] != "1e3"}}
     if "1" in (wanted.get(20), wanted.get(40)) or 22 in numbers:

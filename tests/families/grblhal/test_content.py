@@ -38,7 +38,7 @@ end 17
 def test_a_content_is_written_in_order_and_read_back() -> None:
     assert write_content(CONTENT).decode() == TEXT
     assert read_content(TEXT.encode()) == CONTENT
-    assert (CONTENT.version, CONTENT.said("DRIVER"), CONTENT.axes) == (
+    assert (CONTENT.version, CONTENT.identity_word("DRIVER"), CONTENT.axes) == (
         "1.1f.20260817",
         "Simulator",
         ("X", "Y", "Z", "A"),

@@ -33,7 +33,7 @@ from amp_studio.transfer.links.endpoint import parse_endpoint
 from amp_studio.transfer.progress import SILENT
 from amp_studio.transfer.sent_values import SentValues
 from amp_studio.transfer.waiting import Waiting
-from tests.families.grblhal.bench import Bench, Clock, edited, held, put, sent
+from tests.families.grblhal.bench import Bench, Clock, current, edited, put, sent
 from tests.families.grblhal.conversation import Player, answers, recorded
 from tests.families.grblhal.faulty_grbl import download_with_faults
 
@@ -112,7 +112,7 @@ def test_a_file_that_sets_only_homing_says_what_goes_with_it(bench: Bench) -> No
 
 
 def test_a_refusal_is_a_sentence_with_the_name_of_the_setting_and_the_rest_is_old(bench: Bench) -> None:
-    present = held(bench)
+    present = current(bench)
     wanted = write_content(replace(present, settings={**present.settings, 32: "1", 30: "250.000"}))
     bench.firmware.settings.all[32].labels = ("Normal",)  # it lists a mode that it refuses
     with pytest.raises(TransferError) as caught:
@@ -169,7 +169,7 @@ def test_what_the_emulated_control_takes_in_check_mode_is_gone_after_the_power(b
     assert line.ask("$130=301.500") == []
     assert line.ask("$130") == ["$130=301.500"]
     bench.firmware.power_cycle()
-    assert held(bench).settings[130] == "200.000"
+    assert current(bench).settings[130] == "200.000"
 
 
 def test_a_locked_control_keeps_what_is_written(bench: Bench) -> None:
@@ -178,7 +178,7 @@ def test_a_locked_control_keeps_what_is_written(bench: Bench) -> None:
     bench.driver.close()
     bench.firmware.power_cycle()
     bench.firmware.answer()
-    assert held(bench).settings[130] == "301.500"
+    assert current(bench).settings[130] == "301.500"
 
 
 @pytest.mark.parametrize(
@@ -206,7 +206,7 @@ def test_an_answer_that_comes_slowly_is_no_silence(bench: Bench) -> None:
 
 
 def test_what_somebody_has_changed_meanwhile_is_not_overwritten(bench: Bench) -> None:
-    present = held(bench)
+    present = current(bench)
     wanted = write_content(replace(present, settings={**present.settings, 130: "5.000"}))
 
     def person(_: bytes) -> str:
@@ -259,7 +259,7 @@ def test_power_lost_while_the_memory_is_written_is_told_as_defaults(bench: Bench
         put(bench, {110: "600.000"})
     assert caught.value.at_control == "defaults"
     assert "the control has lost its memory and contains its defaults" in str(caught.value)
-    assert held(bench).settings[130] == "200.000"
+    assert current(bench).settings[130] == "200.000"
 
 
 def _power_off_at_save(bench: Bench) -> Callable[[bytes], bytes]:
@@ -274,7 +274,7 @@ def _power_off_at_save(bench: Bench) -> Callable[[bytes], bytes]:
 
 
 def test_a_break_after_the_last_answer_is_told_as_new_and_read(bench: Bench) -> None:
-    present = held(bench)
+    present = current(bench)
     wanted = replace(present, settings={**present.settings, 110: "600.000"})
 
     def restart(stage: str, done: int, total: int) -> None:
@@ -293,7 +293,7 @@ def test_a_cable_that_is_out_for_good_leaves_it_unknown(bench: Bench) -> None:
     def pull(stage: str, done: int, total: int) -> None:
         bench.is_cut = bench.is_cut or (stage, done) == ("download", 1)
 
-    present = held(bench)
+    present = current(bench)
     wanted = replace(present, settings={**present.settings, 110: "600.000", 111: "600.000"})
     with pytest.raises(ConnectionCutError) as caught:
         download(bench.driver, WantedContent(write_content(wanted), ""), lambda _: "copy", Exchange(pull))
@@ -309,7 +309,7 @@ def test_who_stops_while_a_broken_line_is_made_again_waits_for_nothing(bench: Be
             bench.is_cut = True
             cancel.set()
 
-    present = held(bench)
+    present = current(bench)
     wanted = replace(present, settings={**present.settings, 110: "600.000", 111: "600.000"})
     began = bench.clock.now
     with pytest.raises(TransferError) as caught:
@@ -321,7 +321,7 @@ def test_who_stops_while_a_broken_line_is_made_again_waits_for_nothing(bench: Be
 
 
 def test_a_setting_that_is_never_answered_is_read_and_not_guessed(bench: Bench) -> None:
-    present = held(bench)
+    present = current(bench)
     bench.firmware._is_deaf = True  # as this build is after a soft reset
     wanted = replace(present, settings={**present.settings, 110: "600.000"})
     with pytest.raises(ControlSilentError) as caught:
@@ -331,7 +331,7 @@ def test_a_setting_that_is_never_answered_is_read_and_not_guessed(bench: Bench) 
 
 def test_who_stops_between_two_settings_reads_which_are_new(bench: Bench) -> None:
     cancel = threading.Event()
-    present = held(bench)
+    present = current(bench)
     wanted = replace(present, settings={**present.settings, 110: "600.000", 111: "600.000", 112: "600.000"})
 
     def stop(stage: str, done: int, total: int) -> None:
@@ -343,18 +343,18 @@ def test_who_stops_between_two_settings_reads_which_are_new(bench: Bench) -> Non
             bench.driver, WantedContent(write_content(wanted), ""), lambda _: "copy", Exchange(stop, cancel)
         )
     assert (caught.value.at_control, caught.value.new) == ("mixed", ("$110", "$111"))
-    assert [held(bench).settings[n] for n in (110, 111, 112)] == ["600.000", "600.000", "500.000"]
+    assert [current(bench).settings[n] for n in (110, 111, 112)] == ["600.000", "600.000", "500.000"]
 
 
 def test_a_line_that_changes_bytes_now_and_then_is_read_until_two_readings_agree(bench: Bench) -> None:
-    first = held(bench)
+    first = current(bench)
     turns = iter([True] + [False] * 10_000)
 
     def spoil(data: bytes) -> bytes:
         return data.replace(b"$130=200", b"$130=300") if b"$130=200" in data and next(turns) else data
 
     bench.spoil_out = spoil
-    assert held(bench) == first
+    assert current(bench) == first
 
 
 def test_what_is_no_grbl_is_told(bench: Bench) -> None:
@@ -380,9 +380,9 @@ def test_the_driver_reads_the_recorded_firmware() -> None:
 def test_the_emulated_control_does_with_settings_what_the_recorded_firmware_did(bench: Bench) -> None:
     line = GrblLine(bench.open, Waiting(bench.clock, bench.clock.sleep))
     own_words = {"$I", "$EG", "$ES", "$ESH", "$EA", "$EE", "$G", "$SED=22"}
-    for (command, said), (_, real) in zip(answers(line), recorded(), strict=True):
+    for (command, identity_word), (_, real) in zip(answers(line), recorded(), strict=True):
         if command not in own_words:
-            assert said == [text for text in real if not text.startswith("[HOME:")], command
+            assert identity_word == [text for text in real if not text.startswith("[HOME:")], command
 
 
 def test_a_fault_of_this_computer_between_two_settings_is_told_with_what_the_control_contains(
@@ -393,7 +393,7 @@ def test_a_fault_of_this_computer_between_two_settings_is_told_with_what_the_con
             raise MemoryError
         return data
 
-    present = held(bench)
+    present = current(bench)
     wanted = replace(present, settings={**present.settings, 110: "600.000", 111: "600.000"})
     bench.spoil_in = fails
     with pytest.raises(
@@ -419,7 +419,7 @@ def test_a_description_that_the_line_has_damaged_is_asked_again(tmp_path: Path) 
 def test_a_download_that_loses_its_line_reports_how_many_values_were_confirmed_and_which_was_not_answered(
     bench: Bench,
 ) -> None:
-    present = held(bench)
+    present = current(bench)
     wanted = replace(present, settings={**present.settings, 110: "600.000", 111: "600.000", 112: "600.000"})
 
     def cut(stage: str, done: int, _total: int) -> None:
@@ -445,14 +445,14 @@ def test_a_number_that_the_line_has_changed_is_written_again(bench: Bench) -> No
     bench.spoil_in = spoil
     assert put(bench, {110: "600.000"}).verified
     assert changed
-    assert (held(bench).settings[110], held(bench).settings[111]) == ("600.000", "500.000")
+    assert (current(bench).settings[110], current(bench).settings[111]) == ("600.000", "500.000")
 
 
 @pytest.mark.parametrize(("others", "at"), [(2, "unknown"), (3, "defaults")])
 def test_three_settings_that_nobody_has_touched_are_more_than_a_damaged_byte(
     bench: Bench, others: int, at: str
 ) -> None:
-    present = held(bench)
+    present = current(bench)
     writing = Writing(
         replace(present, settings={**present.settings, 110: "600.000"}), present, {}, SentValues()
     )

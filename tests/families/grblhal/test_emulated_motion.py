@@ -25,12 +25,12 @@ class Bench:
         self.firmware = Firmware(DeviceSetup("grblhal", Memory(folder), print, machine))
         self.read()
         for line in SETTINGS.split():
-            self.said(line)
+            self.identity_word(line)
 
     def read(self) -> str:
         return b"".join(iter(self.firmware.answer, b"")).decode()
 
-    def said(self, line: str) -> str:
+    def identity_word(self, line: str) -> str:
         self.firmware.receive(line.encode() + b"\n")
         return self.read().strip()
 
@@ -52,7 +52,7 @@ def bench(tmp_path: Path) -> Bench:
 
 
 def test_a_block_moves_the_axes_in_a_line_and_the_state_follows(bench: Bench) -> None:
-    assert bench.said("G91 G1 X30 Y-40 F3000") == "ok"
+    assert bench.identity_word("G91 G1 X30 Y-40 F3000") == "ok"
     bench.after(0.5)
     state, (x, y, _) = bench.status()
     assert state == "Run"
@@ -63,13 +63,13 @@ def test_a_block_moves_the_axes_in_a_line_and_the_state_follows(bench: Bench) ->
 
 
 def test_a_setting_is_not_taken_while_it_moves(bench: Bench) -> None:
-    bench.said("G0 X50")
-    assert bench.said("$110=100") == "error:8"
+    bench.identity_word("G0 X50")
+    assert bench.identity_word("$110=100") == "error:8"
 
 
 def test_homing_is_answered_at_its_end_and_gives_the_machine_its_place(bench: Bench) -> None:
     """machine_limits.c: seek, pull-off, locate, pull-off; -$27 where the switch is at the plus end."""
-    assert bench.said("$H") == ""
+    assert bench.identity_word("$H") == ""
     bench.after(0.2)
     assert bench.status()[0] == "Home"
     assert bench.after(60.0) == "ok"
@@ -78,47 +78,47 @@ def test_homing_is_answered_at_its_end_and_gives_the_machine_its_place(bench: Be
 
 def test_a_switch_that_is_too_far_off_is_alarm_9(bench: Bench) -> None:
     for axis in range(3):
-        bench.said(f"${130 + axis}=2")  # 1.5 times the travel is searched
-    bench.said("$H")
+        bench.identity_word(f"${130 + axis}=2")  # 1.5 times the travel is searched
+    bench.identity_word("$H")
     assert bench.after(30.0) == "ALARM:9\r\nerror:9"
     assert bench.status()[0] == "Alarm"
 
 
 def test_a_move_beyond_the_travel_of_a_homed_axis_is_alarm_2_and_a_jog_is_refused(bench: Bench) -> None:
-    bench.said("$H")
+    bench.identity_word("$H")
     bench.after(60.0)
-    assert bench.said("$J=G91 X-400 F1000") == "error:15"
-    assert bench.said("G90 G0 X-400").startswith("ALARM:2")
+    assert bench.identity_word("$J=G91 X-400 F1000") == "error:15"
+    assert bench.identity_word("G90 G0 X-400").startswith("ALARM:2")
     assert bench.status()[0] == "Alarm"
 
 
 def test_a_jog_is_cancelled_and_a_hold_is_taken_up_again(bench: Bench) -> None:
-    assert bench.said("$J=G91 X200 F3000") == "ok"
+    assert bench.identity_word("$J=G91 X200 F3000") == "ok"
     bench.after(1.0)
     bench.firmware.receive(b"\x85")
     bench.after(1.0)
     state, places = bench.status()
     assert state == "Idle"
     assert 20.0 < places[0] < 80.0
-    bench.said("G91 G0 X50")
+    bench.identity_word("G91 G0 X50")
     bench.after(0.3)
     bench.firmware.receive(b"!")
     bench.after(1.0)
-    held = bench.status()
-    assert held[0] == "Hold:0"
+    current = bench.status()
+    assert current[0] == "Hold:0"
     bench.firmware.receive(b"~")
     bench.after(3.0)
     assert bench.status() == ("Idle", [pytest.approx(places[0] + 50.0, abs=0.02), 0.0, 0.0])
-    assert held[1][0] < bench.status()[1][0]
+    assert current[1][0] < bench.status()[1][0]
 
 
 @pytest.mark.parametrize(
     ("line", "answer"), [("$J=G91 X10", "error:22"), ("$J=F100", "error:16"), ("G1 X10", "error:22")]
 )
 def test_a_move_that_lacks_something_is_refused(bench: Bench, line: str, answer: str) -> None:
-    assert bench.said(line) == answer
+    assert bench.identity_word(line) == answer
 
 
 def test_homing_that_is_off_is_refused(bench: Bench) -> None:
-    bench.said("$22=0")
-    assert bench.said("$H") == "error:5"
+    bench.identity_word("$22=0")
+    assert bench.identity_word("$H") == "error:5"

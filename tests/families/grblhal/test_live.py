@@ -13,7 +13,7 @@ from amp_studio.schema import Value
 from amp_studio.transfer.client.live import LiveTuning
 from amp_studio.transfer.client.record import read_exchanges
 from amp_studio.transfer.errors import TransferError
-from tests.families.grblhal.bench import Bench, held, sent
+from tests.families.grblhal.bench import Bench, current, sent
 
 
 @pytest.fixture
@@ -37,13 +37,13 @@ def test_one_changed_value_is_one_line_and_is_read_back(bench: Bench, live: Live
 def test_the_old_values_go_back_after_several_changes(bench: Bench, live: LiveTuning, tmp_path: Path) -> None:
     assert live.file is not None
     first, second = live.file.find("$120"), live.file.find("$130")
-    before = held(bench).settings
+    before = current(bench).settings
     for value in (25.0, 30.0):
         live.set({first: Value(value, "mm/s2")})
     live.set({second: Value(250.0, "mm")})
     assert len(live.changes().differences) == 2
     live.put_back()
-    assert held(bench).settings == before
+    assert current(bench).settings == before
     assert not live.changes().differences
     assert len(list(tmp_path.glob("*.img"))) == 1  # what it contained at first, once
     verbs = [(each.verb, len(each.changes)) for each in read_exchanges(tmp_path)]

@@ -17,7 +17,7 @@ from amp_studio.transfer.client.exchange import Outcome, WantedContent, download
 from amp_studio.transfer.client.parameters import remarks_of
 from amp_studio.transfer.client.verification import verify_content
 from amp_studio.transfer.content import decode_content
-from tests.families.grblhal.bench import Bench, held
+from tests.families.grblhal.bench import Bench, current
 from tests.families.grblhal.recorded import build
 
 MASKS = {3: "24", 4: "31", 5: "31", 45: "24"}
@@ -49,7 +49,7 @@ def sent_to(bench: Bench, file: ParameterFile) -> Outcome:
 
 
 def masks(bench: Bench) -> dict[int, str]:
-    return {n: held(bench).settings[n] for n in (3, 4, 5, 23, 45) if n in held(bench).settings}
+    return {n: current(bench).settings[n] for n in (3, 4, 5, 23, 45) if n in current(bench).settings}
 
 
 def test_a_file_of_three_axes_leaves_the_bits_of_two_more_axes_as_they_are(three: Bench, five: Bench) -> None:
@@ -106,4 +106,4 @@ def test_the_control_of_the_file_itself_takes_all_bits(five: Bench) -> None:
     file = file_of(five, n3=2)
     assert not five.driver.stays(file, five.driver.fetch())
     assert sent_to(five, file).verified
-    assert held(five).settings[3] == "2"
+    assert current(five).settings[3] == "2"

@@ -21,7 +21,7 @@ from amp_studio.schema import Value, load_schema
 from amp_studio.transfer.client.exchange import WantedContent, download
 from amp_studio.validate import Validator
 
-from .bench import Bench, held
+from .bench import Bench, current
 from .recorded import THREE_AXES
 
 GRBLHAL = load_schema("grblhal")
@@ -185,7 +185,7 @@ def test_a_listing_goes_to_a_control_by_its_numbers_and_what_that_lacks_is_not_s
     file = file_of(GRBLHAL, read("$110=777\n$16=1\n$370=3\n$N0=G21\n"), "mill")
     outcome = download(bench.driver, WantedContent(partial(bench.driver.encode, file), ""), lambda _: "kept")
     assert outcome.verified
-    assert held(bench).settings[110] == "777.000"
+    assert current(bench).settings[110] == "777.000"
     sent = b"".join(bench.received).split()
     assert [line for line in sent if line.partition(b"=")[0] in (b"$110", b"$16", b"$370", b"$N0")] == [
         b"$110=777.000"

@@ -14,14 +14,14 @@ from amp_studio.families.grblhal.content import read_content, write_content
 from amp_studio.transfer.client.exchange import WantedContent, download
 from amp_studio.transfer.errors import TransferError
 from amp_studio.transfer.image import ImageError
-from tests.families.grblhal.bench import Bench, edited, held, put, sent
+from tests.families.grblhal.bench import Bench, current, edited, put, sent
 
 
 def test_disabling_homing_takes_soft_limits_along_and_the_copy_brings_them_back(bench: Bench) -> None:
     put(bench, {22: "1", 20: "1", 40: "1"})
     copy = bench.driver.fetch()
     assert put(bench, {22: "0", 20: "0", 40: "0", 676: "15"}).verified
-    assert [held(bench).settings[n] for n in (20, 22, 40)] == ["0", "0", "0"]
+    assert [current(bench).settings[n] for n in (20, 22, 40)] == ["0", "0", "0"]
     outcome = download(
         bench.driver, WantedContent(partial(bench.driver.refit, copy), "", what="Restore"), lambda _: "kept"
     )
@@ -36,7 +36,7 @@ def test_rates_of_each_axis_come_and_go_with_an_option(bench: Bench) -> None:
     assert download(
         bench.driver, WantedContent(partial(bench.driver.encode, with_rates), ""), lambda _: "kept"
     ).verified
-    now = held(bench).settings
+    now = current(bench).settings
     assert [now[180], now[181], now[182]] == [common] * 3, "each axis has the rate that was there for all"
     assert not {24, 25} & now.keys(), "they are hidden, and not sent"
     assert not bench.driver.left_out(with_rates, bench.driver.fetch())
@@ -44,7 +44,7 @@ def test_rates_of_each_axis_come_and_go_with_an_option(bench: Bench) -> None:
     assert download(
         bench.driver, WantedContent(partial(bench.driver.encode, own), ""), lambda _: "kept"
     ).verified
-    assert held(bench).settings[181] == "31.0"
+    assert current(bench).settings[181] == "31.0"
     assert download(
         bench.driver, WantedContent(partial(bench.driver.refit, before), ""), lambda _: "kept"
     ).verified
@@ -71,7 +71,7 @@ def test_offsets_and_harmless_start_up_lines_are_put_back_and_the_rest_is_told(b
 
 
 def test_a_locked_control_takes_no_offsets_and_nothing_else_of_the_copy_is_sent(bench: Bench) -> None:
-    present = held(bench)
+    present = current(bench)
     wanted = replace(
         present,
         settings={**present.settings, 130: "5.000"},
@@ -121,7 +121,7 @@ def test_offsets_that_are_shown_in_inches_are_put_back_in_inches(bench: Bench) -
     ],
 )
 def test_a_start_up_line_that_does_anything_is_not_sent(bench: Bench, line: str) -> None:
-    present = held(bench)
+    present = current(bench)
     outcome = download(
         bench.driver,
         WantedContent(write_content(replace(present, startup={0: line, 1: ""})), ""),
@@ -140,16 +140,16 @@ def test_a_copy_of_another_build_goes_back_by_the_numbers_or_says_what_is_not_th
     assert download(
         four.driver, WantedContent(partial(four.driver.refit, copy), ""), lambda _: "kept"
     ).verified
-    assert held(four).settings[130] == "300.000"
-    assert held(four).axes == ("X", "Y", "Z", "A")
-    assert held(four).offsets["G54"] == "1.000,2.000,3.000,45.000"
+    assert current(four).settings[130] == "300.000"
+    assert current(four).axes == ("X", "Y", "Z", "A")
+    assert current(four).offsets["G54"] == "1.000,2.000,3.000,45.000"
     four.firmware.settings.store(131, "250")
     back = four.driver.fetch()
     assert download(
         three.driver, WantedContent(partial(three.driver.refit, back), ""), lambda _: "kept"
     ).verified
-    assert held(three).settings[131] == "250.000"
-    assert 103 not in held(three).settings
+    assert current(three).settings[131] == "250.000"
+    assert 103 not in current(three).settings
 
 
 def test_a_copy_in_inches_is_not_put_on_other_axes_in_millimeters(tmp_path: Path) -> None:
@@ -167,7 +167,7 @@ def test_a_file_of_another_build_is_mapped_by_number_and_says_what_is_not_there(
     assert download(
         four.driver, WantedContent(partial(four.driver.encode, file), ""), lambda _: "kept"
     ).verified
-    assert held(four).settings[130] == "300.000"
+    assert current(four).settings[130] == "300.000"
     wide = edited(four, n131=250.0)
     present = three.driver.fetch()
     assert three.driver.left_out(wide, present).startswith(
@@ -176,5 +176,5 @@ def test_a_file_of_another_build_is_mapped_by_number_and_says_what_is_not_there(
     assert download(
         three.driver, WantedContent(partial(three.driver.encode, wide), ""), lambda _: "kept"
     ).verified
-    assert held(three).settings[131] == "250.000"
-    assert 103 not in held(three).settings
+    assert current(three).settings[131] == "250.000"
+    assert 103 not in current(three).settings

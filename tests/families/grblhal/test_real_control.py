@@ -112,8 +112,8 @@ def power_cut(seed: int, folder: Path) -> list[str]:
         real_control(folder) as control,
         closing(GrblDriver(lambda look: connect(parse_endpoint(control.address), look=look))) as driver,
     ):
-        held = driver.fetch()
-        present = read_content(held)
+        current = driver.fetch()
+        present = read_content(current)
         own = replace(
             present,
             settings={

@@ -12,7 +12,7 @@ import pytest
 from rule_machines import sound
 
 from amp_studio.families.ninepc.emulated.panel import NinePcPanel, axes_supported
-from amp_studio.families.ninepc.emulated.power_up import corrected_limits, held_in_estop
+from amp_studio.families.ninepc.emulated.power_up import corrected_limits, estop_reasons
 from amp_studio.files import ParameterFile, new_file
 from amp_studio.schema import Value
 from amp_studio.transfer.emulated.control import Control
@@ -87,7 +87,7 @@ def logged_on(operator: Operator) -> Operator:
 
 
 def test_a_sound_machine_comes_out_of_estop(mill, at) -> None:
-    assert list(held_in_estop(mill, 8)) == []
+    assert list(estop_reasons(mill, 8)) == []
     assert at(mill).keys("estop off") == "estop off"
 
 
@@ -122,27 +122,27 @@ def test_too_many_axes_stay_in_estop(mill, at) -> None:
 )
 def test_what_the_manual_names_holds_it_in_estop(mill, address, value, reason) -> None:
     mill.set(address, Value(value))
-    assert list(held_in_estop(mill, 8)) == [reason]
+    assert list(estop_reasons(mill, 8)) == [reason]
 
 
 def test_tool_offset_modes_that_do_not_go_together_hold_it_with_the_printed_message(mill) -> None:
     mill.set(("tool.geometry_mode", ""), Value("shift-move"))
     mill.set(("tool.wear_mode", ""), Value("shift-delayed-move"))
-    assert list(held_in_estop(mill, 8)) == ["INCOMPATIBLE TOOL ACTIVATION MODES (page 21-4)"]
+    assert list(estop_reasons(mill, 8)) == ["INCOMPATIBLE TOOL ACTIVATION MODES (page 21-4)"]
     mill.set(("tool.wear_mode", ""), Value("delayed"))
-    assert list(held_in_estop(mill, 8)) == []
+    assert list(estop_reasons(mill, 8)) == []
 
 
 @pytest.mark.parametrize("code", [0, 204, 504, 608])  # page A-6
 def test_a_code_of_the_dac_monitor_that_is_a_function_and_an_axis_holds_nothing(mill, code) -> None:
     mill.set(("patch.dac_monitor", "2"), Value(code))
-    assert list(held_in_estop(mill, 8)) == []
+    assert list(estop_reasons(mill, 8)) == []
 
 
 def test_a_control_as_it_is_delivered_is_not_configured_and_shows_nothing(mill, tmp_path: Path) -> None:
     mill.set(("servo.loop_type", "2"), Value("none"))
     control = Control(tmp_path, Identity("9pc", mill.schema.signature), encode_image(mill))
-    assert NinePcPanel(3).started(control).held == ""
+    assert NinePcPanel(3).started(control).estop_reason == ""
     control.close()
 
 
@@ -150,7 +150,7 @@ def test_a_control_as_it_is_delivered_is_not_configured_and_shows_nothing(mill, 
 def test_an_amp_that_cannot_be_read_holds_it_and_ends_nothing(mill, tmp_path: Path, image: bytes) -> None:
     control = Control(tmp_path, Identity("9pc", mill.schema.signature), image)
     control._record.changed_at_control = True
-    assert NinePcPanel().started(control).held == "its AMP cannot be read"
+    assert NinePcPanel().started(control).estop_reason == "its AMP cannot be read"
     control.close()
 
 

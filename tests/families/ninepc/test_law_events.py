@@ -148,11 +148,11 @@ def test_an_incremental_jog_goes_at_the_third_speed() -> None:
     jog = simulate(file, "jog", "1", {"move.increment": "largest", "move.direction": "minus"})
     assert jog.result["feedrate"] == (600.0, "mm/min")
     assert jog.result["stop_position"][0] == pytest.approx(-25.0, abs=0.0254)
-    held = simulate(file, "jog", "1", {"move.hold": "2 s"})
-    assert held.result["feedrate"] == (100.0, "mm/min")
+    current = simulate(file, "jog", "1", {"move.hold": "2 s"})
+    assert current.result["feedrate"] == (100.0, "mm/min")
     # With an exponential ramp the axis goes on by what it has not been given yet: 2 s at the full speed in
     # all.
-    assert held.result["distance"][0] == pytest.approx(100.0 / 60.0 * 2.0)
+    assert current.result["distance"][0] == pytest.approx(100.0 / 60.0 * 2.0)
     with pytest.raises(SimulationError, match=r"leave out move\.speed"):
         simulate(file, "jog", "1", {"move.increment": "largest", "move.speed": "highest"})
     with pytest.raises(SimulationError, match="Unknown jog speed 'warp'"):

@@ -126,10 +126,10 @@ def test_it_is_exchanged_over_its_own_protocol(
 def test_a_copy_of_what_it_held_goes_back_only_where_the_control_can_tell(path: Path, tmp_path: Path) -> None:
     Driver.BENCH["bench"] = b"what nobody can read"
     assert run(["download", str(path), "--to", CONTROL]) == 0
-    held = Driver.BENCH["bench"]
+    current = Driver.BENCH["bench"]
     (kept,) = tmp_path.glob("steps.before-*.img")
     assert run(["restore", str(kept), "--to", f"{CONTROL}?protocol=dnc"]) == 2
-    assert Driver.BENCH["bench"] == held
+    assert Driver.BENCH["bench"] == current
 
 
 def test_its_axis_moves_by_its_own_law(path: Path) -> None:

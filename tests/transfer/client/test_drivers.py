@@ -159,16 +159,16 @@ class Settings(Sheet):
     """A control that takes one setting a line, ``1=5``, by its number, and shows it with one decimal."""
 
     def __init__(
-        self, held: bytes, *, breaks_after: int = 99, cut: type[TransferError] | None = None
+        self, current: bytes, *, breaks_after: int = 99, cut: type[TransferError] | None = None
     ) -> None:
         super().__init__(signature="another build", all_or_nothing=False, maps_numbers=True)
-        self.content, self._left, self._cut = held, breaks_after, cut
+        self.content, self._left, self._cut = current, breaks_after, cut
 
-    def encode(self, file: Any, held: bytes) -> bytes:
+    def encode(self, file: Any, current: bytes) -> bytes:
         """Put the lines of ``file``, bytes too here, over those that are there;
         a number that is not there is an error.
         """
-        lines = dict(line.split(b"=") for line in held.splitlines())
+        lines = dict(line.split(b"=") for line in current.splitlines())
         for number, value in (line.split(b"=") for line in file.splitlines()):
             if number not in lines:
                 raise ImageError(f"the control does not have the setting {number.decode()}")
@@ -185,9 +185,9 @@ class Settings(Sheet):
 
     def send(self, replacement: Replacement, *_: Any) -> Receipt:
         self.calls.append("send")
-        self.content = replacement.held
+        self.content = replacement.current
         for line in replacement.content.splitlines():
-            if line not in replacement.held.splitlines():
+            if line not in replacement.current.splitlines():
                 if not self._left:
                     raise ConnectionCutError("the line broke", "mixed", new=("1",))
                 self._left -= 1
@@ -252,7 +252,7 @@ class Reversed(HouseContent):
     def decode(self, content: bytes) -> ParameterFile:
         return decode_image(content.removeprefix(b"REVERSED 1\n")[::-1])
 
-    def encode(self, file: ParameterFile, held: bytes) -> bytes:
+    def encode(self, file: ParameterFile, current: bytes) -> bytes:
         return b"REVERSED 1\n" + encode_image(file)[::-1]
 
 

@@ -101,7 +101,7 @@ def test_an_image_that_is_there_already_is_not_written(bench: Callable[..., Any]
     assert (outcome.at_control, outcome.verified, outcome.written, outcome.kept) == ("new", True, False, None)
     assert outcome.text == "The control contains exactly this image already; nothing was written."
     assert shelf.kept == []
-    assert made.control.incarnation == 1
+    assert made.control.boot_count == 1
 
 
 def test_a_control_without_an_image_has_nothing_to_keep(bench: Callable[..., Any]) -> None:

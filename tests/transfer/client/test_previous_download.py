@@ -35,9 +35,9 @@ def path(tmp_path: Path) -> Path:
 
 def record(path: Path, before: ParameterFile | None, after: ParameterFile) -> Path | None:
     """Record a download of a file, as the program does; returns the copy that was kept."""
-    held, sent = (b"" if file is None else encode_image(file) for file in (before, after))
-    kept = keep_image(held, path.parent, "mill", readable=False) if held else None
-    digests = [hashlib.sha256(image).hexdigest() if image else "" for image in (held, sent)]
+    current, sent = (b"" if file is None else encode_image(file) for file in (before, after))
+    kept = keep_image(current, path.parent, "mill", readable=False) if current else None
+    digests = [hashlib.sha256(image).hexdigest() if image else "" for image in (current, sent)]
     add_exchange(
         path,
         exchange_now(
@@ -49,7 +49,7 @@ def record(path: Path, before: ParameterFile | None, after: ParameterFile) -> Pa
             after=digests[1],
             state="new",
             kept=str(kept or ""),
-            changes=changes_of(held, sent),
+            changes=changes_of(current, sent),
         ),
     )
     return kept

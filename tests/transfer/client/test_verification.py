@@ -22,7 +22,7 @@ def test_a_control_that_cannot_contain_a_file_is_not_the_same() -> None:
     file.take({("servo.p_gain", "X"): read_value(gain, "0.08", next(iter(file.schema.units_of(gain))))})
     found = verify_content(file, CARD)
     assert not found.is_same
-    assert found.absent == "the card does not have PGAIN X, which the file sets"
+    assert found.missing == "the card does not have PGAIN X, which the file sets"
     assert found.summary().startswith("The control cannot contain this file")
 
 

@@ -22,7 +22,7 @@ def make(new_control: Callable[..., Control]) -> Callable[..., Control]:
 def test_a_new_control_is_in_estop_and_restarts_by_itself(make: Callable[..., Control]) -> None:
     control = make()
     assert control.flags == Flags.ESTOP | Flags.RUNNING | Flags.AUTOSTART
-    assert (control.image, control.incarnation) == (OLD, 1)
+    assert (control.image, control.boot_count) == (OLD, 1)
 
 
 def test_a_download_replaces_the_image_and_keeps_the_one_before(make: Callable[..., Control]) -> None:
@@ -47,7 +47,7 @@ def test_what_it_holds_and_its_state_outlive_the_process(make: Callable[..., Con
     control = make(folder)
     assert control.image == NEW
     assert control.flags == Flags.RUNNING, "not in E-stop, no autostart, and a start makes the image current"
-    assert control.incarnation == 2
+    assert control.boot_count == 2
     control.close()
     assert make(folder, estop=True).flags & Flags.ESTOP, "the panel can be set again at the start"
 

@@ -30,7 +30,7 @@ def test_a_line_cut_at_any_byte_is_made_again_and_the_download_done(
         resumed += sent.reconnections > 1
         assert made.control.image == NEW, f"cut at byte {cut_at}"
         assert made.control.memory.read("previous.img") == OLD
-        assert made.control.incarnation <= 2, "one commit, one restart"
+        assert made.control.boot_count <= 2, "one commit, one restart"
         made.control.close()
     assert cut_at > 400, "the whole exchange was cut through"
     assert resumed > 250

@@ -62,7 +62,7 @@ def run(options: Options) -> int:
                 "same_bytes": found.is_same,
                 "sha256": sha256(fetched),
                 "unreadable": found.unreadable or None,
-                "absent": found.absent or None,
+                "absent": found.missing or None,
                 "stays": found.stays or None,
                 "header": [asdict(d) for d in found.head],
                 "other_units": [difference_json(file, d, options.secrets) for d in found.other_units],

@@ -370,12 +370,12 @@ def _settings(file: ParameterFile) -> list[CommandSetting]:
 
 def _row(file: ParameterFile, setting: CommandSetting, system: str) -> str:
     """Return the line of a setting; empty where it is not set, or does not exist for this machine."""
-    unset = [a for a in setting.addresses if file.get(a) is None]
+    not_set = [a for a in setting.addresses if file.get(a) is None]
     hidden = any(file.evaluation.state(a).state == "hidden" for a in setting.addresses)
-    if hidden or len(unset) == len(setting.addresses):
+    if hidden or len(not_set) == len(setting.addresses):
         return ""
-    if unset:
-        needed = ", ".join(written(a) for a in unset)
+    if not_set:
+        needed = ", ".join(written(a) for a in not_set)
         raise FormatError(f"{setting.name} has several values, and {needed} is not set")
     figures = []
     for address in setting.addresses:

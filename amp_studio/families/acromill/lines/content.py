@@ -132,11 +132,11 @@ class AcrContent(TakesAllOrRefuses):
             ]  # as delivered; the card itself does not know it
         return file_of(schema, TextRead(found.values), "card")
 
-    def encode(self, file: ParameterFile, held: bytes) -> bytes:
+    def encode(self, file: ParameterFile, current: bytes) -> bytes:
         """Return the settings of the card with those of a file in them; raises ImageError,
         which names what it does not have.
         """
-        card = CardContent.read(held)
+        card = CardContent.read(current)
         if system_of(file) != card.system:
             raise ImageError(
                 f"the figures of the file are {system_of(file)}, and the card was read as {card.system}: a"
@@ -144,8 +144,8 @@ class AcrContent(TakesAllOrRefuses):
                 " metric)"
             )
         wanted = _figures_in(file, card)
-        if absent := [name for name in wanted if name not in card.figures]:
-            raise ImageError(f"the card does not have {names_of(absent)}, which the file sets")
+        if missing := [name for name in wanted if name not in card.figures]:
+            raise ImageError(f"the card does not have {names_of(missing)}, which the file sets")
         for name, figures in wanted.items():
             if not same_figures(figures, card.figures[name]):
                 card.figures[name] = figures
@@ -157,14 +157,14 @@ class AcrContent(TakesAllOrRefuses):
         present = CardContent.read(content).figures
         return names_of([name for name in CardContent.read(earlier).figures if name not in present])
 
-    def refit(self, content: bytes, held: bytes) -> bytes:
+    def refit(self, content: bytes, current: bytes) -> bytes:
         """Return what the card contains once settings that were kept are put back; raises ImageError."""
         copy = CardContent.read(content)
-        if not held:
+        if not current:
             return content
-        card = CardContent.read(held)
-        if absent := [name for name in copy.figures if name not in card.figures]:
-            raise ImageError(f"the card does not have {names_of(absent)}, which the copy sets")
+        card = CardContent.read(current)
+        if missing := [name for name in copy.figures if name not in card.figures]:
+            raise ImageError(f"the card does not have {names_of(missing)}, which the copy sets")
         if short := [name for name in card.figures if name not in copy.figures]:
             raise ImageError(
                 f"the copy does not have {names_of(short)}, which the card has: it is short and cannot be put"

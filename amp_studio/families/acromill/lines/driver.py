@@ -156,7 +156,7 @@ class TerminalDriver(AcrContent, LineDriver):
     def _names_now(self, replacement: Replacement) -> dict[str, str]:
         """Return what the card shows, each figure as the content spells it that shows the same."""
         now = CardContent.read(self._fetched("verify")).names()
-        for content in (replacement.held, replacement.content):
+        for content in (replacement.current, replacement.content):
             known = CardContent.read(content).names()
             now.update(
                 (name, known[name]) for name in now if name in known and same_figures(now[name], known[name])
@@ -193,12 +193,12 @@ class TerminalDriver(AcrContent, LineDriver):
             self._waiting.notify(stage, n, len(asked))
         for what in early if self._terminal.faults else ():
             self._read_into(found, what)
-        absent = [setting for setting in settings() if setting.name not in found.figures]
-        for setting in absent:
+        missing = [setting for setting in settings() if setting.name not in found.figures]
+        for setting in missing:
             self._read_into(found, setting)
         self._answered |= found.figures.keys()
-        if any(setting.name in self._answered for setting in absent):
-            names = names_of([setting.name for setting in absent if setting.name in self._answered])
+        if any(setting.name in self._answered for setting in missing):
+            names = names_of([setting.name for setting in missing if setting.name in self._answered])
             raise ImageDamagedError(f"the card answers for {names} in one reading and not in another")
         return found.written()
 
@@ -370,7 +370,7 @@ class _Sending:
         self.lines = self.content.lines()
         self.numbers = {name: number for number, name in enumerate(self.lines, 3)}
         self.wanted = self.content.names()
-        self.names = changed(replacement.content, replacement.held)
+        self.names = changed(replacement.content, replacement.current)
         self.sent = sent
         sent.total = len(self.names)
 

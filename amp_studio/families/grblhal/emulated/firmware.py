@@ -156,7 +156,7 @@ class Firmware:
                 self.state = "Idle"
         elif sign in "?!~" and not self._line.startswith("$"):
             if sign == "!" and self._motion.state in ("Run", "Jog"):
-                self._motion.hold()
+                self._motion.pause()
                 self.state = "Hold:0"
             if sign == "~" and self.state == "Hold:0":
                 self._motion.resume()

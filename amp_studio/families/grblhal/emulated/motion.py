@@ -38,7 +38,7 @@ class GrblMotion:
         self._settings, self._axes = settings, axes
         self._machine = SimulatedMachine()
         self._blocks: deque[MotionBlock] = deque()
-        self._held: MotionBlock | None = None
+        self._paused: MotionBlock | None = None
         self._moving: MotionBlock | None = None
         self._cycles: list[tuple[str, ...]] | None = None
         """Axes that are still homed, together in each; None while nothing is homed."""
@@ -54,7 +54,7 @@ class GrblMotion:
         """Idle, Run, Jog, Home or Hold:0."""
         if self._cycles is not None:
             return "Home"
-        if self._held is not None:
+        if self._paused is not None:
             return "Hold:0"
         block = self._moving
         return "Idle" if block is None else "Jog" if block.is_jog else "Run"
@@ -104,24 +104,24 @@ class GrblMotion:
         self._cycles = wanted
         self._home_next()
 
-    def hold(self) -> None:
+    def pause(self) -> None:
         """Stop along the ramp; the block can be taken up again."""
         if self._moving is not None and self._cycles is None:
-            self._held, self._moving = self._moving, None
+            self._paused, self._moving = self._moving, None
             self._stop()
 
     def resume(self) -> None:
         """Take the block up again that was stopped."""
-        if self._held is not None:
-            self._blocks.appendleft(self._held)
-            self._held = None
+        if self._paused is not None:
+            self._blocks.appendleft(self._paused)
+            self._paused = None
             self._next()
 
     def cancel(self) -> bool:
         """Stop, and forget all blocks; returns whether anything was under way."""
         was = self.state != "Idle"
         self._blocks.clear()
-        self._moving = self._held = self._cycles = None
+        self._moving = self._paused = self._cycles = None
         self._stop()
         self._keep_place()
         return was
@@ -130,7 +130,7 @@ class GrblMotion:
         """Lose the power: the machine does not move, and its place is no longer known."""
         self._blocks.clear()
         self._machine.axes.clear()
-        self._moving = self._held = self._cycles = None
+        self._moving = self._paused = self._cycles = None
         self.planned = dict.fromkeys(self._axes, 0.0)
 
     # -- time ------------------------------------------------------------------------------
@@ -157,14 +157,14 @@ class GrblMotion:
         if self._moving is not None:
             self._moving = None
             self._next()
-        elif self._held is None:
+        elif self._paused is None:
             self._keep_place()  # a jog that was cancelled has come to rest
         return None
 
     # -- small parts -----------------------------------------------------------------------
 
     def _next(self) -> None:
-        if self._moving is None and self._held is None and self._blocks:
+        if self._moving is None and self._paused is None and self._blocks:
             self._moving = self._blocks.popleft()
             self._machine.line(self._moving.targets, self._moving.feedrate)
 

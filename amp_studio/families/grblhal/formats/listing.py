@@ -58,7 +58,7 @@ def _read(text: str, schema: Schema, options: ReadOptions) -> TextRead:
     found.unknown_lines = {f"${number}": listing.lines[number] for number in kept}
     if log.facts or log.greeting:
         found.extra[_IDENTITY] = ([log.greeting] if log.greeting else []) + [
-            f"[{tag}:{told}]" for tag, texts in log.facts.items() for told in texts
+            f"[{tag}:{fact}]" for tag, texts in log.facts.items() for fact in texts
         ]
     found.notes += _notes(schema, log, listing, fit, options)
     return found
@@ -223,11 +223,11 @@ def _axes(schema: Schema, log: Log, settings: Iterable[int], machine: str) -> di
     declared, letters = schema.family.declared_axes, schema.family.scopes["axis"].instances
     if not declared or not declared.letters:
         return {}
-    told = re.fullmatch(r"\d:([A-Z]{1,9})", (log.facts.get("AXS") or [""])[-1])
+    fact = re.fullmatch(r"\d:([A-Z]{1,9})", (log.facts.get("AXS") or [""])[-1])
     most = declared.most.get(machine, len(letters))
     have = [n % 10 for n in settings if n // 10 * 10 in range(_STEPS, _STEPS + 40, 10) and n % 10 < _OF_AXES]
-    count = len(told[1]) if told else max(have, default=-1) + 1
-    is_known = not told or "".join(letters).startswith(told[1])
+    count = len(fact[1]) if fact else max(have, default=-1) + 1
+    is_known = not fact or "".join(letters).startswith(fact[1])
     if not is_known or not declared.least <= count <= most:
         return {}
     return {(declared.letters, ""): Value("".join(letters[:count]))}
@@ -332,8 +332,8 @@ def _write(file: ParameterFile) -> str:
     for key, value in (lines | startup).items():
         if re.search(r"[\r\n]", value):
             raise FormatError(f"{key} is a text of several lines, which no setting can be")
-    told = file.header.extra.get(_IDENTITY)
-    identity = [one for one in told if isinstance(one, str)] if isinstance(told, list) else []
+    fact = file.header.extra.get(_IDENTITY)
+    identity = [one for one in fact if isinstance(one, str)] if isinstance(fact, list) else []
     remarks = [f"; {' '.join(one.split())}" for one in identity]
     others = [
         f"{key} {text}" for key, text in file.unknown.items() if not re.match(r"\$(N[0-9]|[0-9]{1,5})$", key)

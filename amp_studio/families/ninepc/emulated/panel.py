@@ -19,7 +19,7 @@ from amp_studio.transfer.house import Flags
 
 from .machine_keys import MachineKeys
 from .online_amp import OnlineAmp
-from .power_up import CORRECTED, MOST_AXES, corrected_limits, held_in_estop
+from .power_up import CORRECTED, MOST_AXES, corrected_limits, estop_reasons
 
 MODIFIED = "AMP HAS BEEN MODIFIED BY PATCH AMP"
 NOT_FOUND = "PARAMETER NUMBER NOT FOUND"
@@ -67,15 +67,15 @@ class NinePcPanel:
             return Start()
         if control.flags & Flags.CHANGED_AT_CONTROL:
             self._messages.append(MODIFIED)  # page 37-3: at every power-up, until AMP is downloaded again
-        held: list[str] = []
+        reasons: list[str] = []
         try:
             file = _amp_of(control)
         except ImageError:
-            held = ["its AMP cannot be read"] if control.image else []
+            reasons = ["its AMP cannot be read"] if control.image else []
         else:
             self._messages += _corrections(file)
-            held = list(held_in_estop(file, self._axes))
-        return Start(tuple(self._messages), "; ".join(held))
+            reasons = list(estop_reasons(file, self._axes))
+        return Start(tuple(self._messages), "; ".join(reasons))
 
     def advance(self, control: Control, duration: float) -> None:
         """Let time pass, s: the axes move."""

@@ -35,7 +35,7 @@ def fitted(file: ParameterFile) -> list[str]:
     return [axis for axis in AXES if _choice(file, ("axis.type", axis)) not in ("", "unfitted")]
 
 
-def held_in_estop(file: ParameterFile, axes: int) -> Iterator[str]:
+def estop_reasons(file: ParameterFile, axes: int) -> Iterator[str]:
     """Yield each reason why a control that supports so many axes does not come out of E-Stop with this
     AMP.
     """

@@ -40,12 +40,12 @@ class NumTableContent(TakesAllOrRefuses):
         except FormatError as error:
             raise ImageError(f"the parameter table of the control: {error}") from None
 
-    def encode(self, file: ParameterFile, held: bytes) -> bytes:
+    def encode(self, file: ParameterFile, current: bytes) -> bytes:
         """Return the table of the control with the values of a file in it; raises ImageError."""
-        present = self.decode(held)
+        present = self.decode(current)
         try:
             before = FORMAT.write(present)
-            if before != table_text(held):
+            if before != table_text(current):
                 raise ImageError(
                     "this program would write the table of this control otherwise than the control does"
                 )
@@ -55,7 +55,7 @@ class NumTableContent(TakesAllOrRefuses):
         except FormatError as error:
             raise ImageError(f"the parameter table of the control: {error}") from None
         content = _START + after.encode("ascii")
-        added = words_of_table(content).keys() - words_of_table(held).keys()
+        added = words_of_table(content).keys() - words_of_table(current).keys()
         if added:
             raise ImageError(f"the control does not have {_names(sorted(added))}, which the file sets")
         return content
@@ -69,12 +69,12 @@ class NumTableContent(TakesAllOrRefuses):
         present = words_of_table(content)
         return _names([word for word in words_of_table(earlier) if word not in present])
 
-    def refit(self, content: bytes, held: bytes) -> bytes:
-        """Return a table that was kept, if it is of the CNC that contains ``held``; raises ImageError."""
-        there, here = reference_of(content), reference_of(held)
-        if held and there != here:
+    def refit(self, content: bytes, current: bytes) -> bytes:
+        """Return a table that was kept, if it is of the CNC that contains ``current``; raises ImageError."""
+        there, here = reference_of(content), reference_of(current)
+        if current and there != here:
             raise _other_reference("the copy", there, here)
-        if held and (other := words_of_table(content).keys() ^ words_of_table(held).keys()):
+        if current and (other := words_of_table(content).keys() ^ words_of_table(current).keys()):
             raise ImageError(f"the copy and the control do not have the same words: {_names(sorted(other))}")
         return content
 

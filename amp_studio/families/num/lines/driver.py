@@ -34,15 +34,17 @@ from .content import FAMILY, NumTableContent, content_of_table, reference_of, ta
 from .table_reader import XOFF, XON, TableReader, with_parity
 
 USUAL = SerialSettings(baud=9_600)
-PERSON_WAIT = 300.0  # seconds a person may take to start an unload
+OPERATOR_WAIT = 300.0  # seconds a person may take to start an unload
 RECOVERY_WAIT = 120.0  # seconds he may take to do so after a break
 READY_WAIT = 60.0  # seconds after which a load is sent to a control that does not ask for it with Xon
-HELD_WAIT = 300.0  # seconds the control may stop a load: its operator corrects the job reference (page 13-10)
+STOPPED_WAIT = (
+    300.0  # seconds the control may stop a load: its operator corrects the job reference (page 13-10)
+)
 GAP_WAIT = 20.0  # seconds between two characters of a table
 TABLE_WAIT = 900.0  # seconds a table may take to come; the largest takes 420 s at 300 bit/s
 LOAD_WAIT = 3_600.0  # seconds a load may take with all its stops
 CHECK_WAIT = 15.0  # seconds after which a check that is stopped has found a difference
-HELD_TOLD = 2.0  # seconds a load is stopped until the person reads why
+STOPPED_NOTICE = 2.0  # seconds a load is stopped until the person reads why
 LISTEN = 0.01  # seconds between two looks whether the control stops the table
 SETTLE = 0.5  # seconds in which the control may still refuse the end of a load
 RATE = 11_520.0  # bytes a second on a line that states no rate: Xoff must not come too late
@@ -61,7 +63,7 @@ CHECK_TEXT = (
     "At the control: MACHINE SETUP DATA, 4 CHECK, Enter at READY? (page 13-13). It compares the table with"
     f" its memory. The table is sent as soon as the control asks for it, or in {READY_WAIT:g} s"
 )
-HELD_TEXT = (
+STOPPED_TEXT = (
     "The control has stopped the table. Where it shows a number with %, replace it by the job reference (page"
     " 13-10); where it shows FILE ERROR, stop here"
 )
@@ -93,7 +95,7 @@ class PeripheralDriver(NumTableContent, LineDriver):
         self._seen: bytes | None = None
         """The table of the last unload, until it was asked for."""
         self._is_within_line = False
-        self._is_held = False
+        self._is_stopped = False
 
     @classmethod
     def at(cls, endpoint: Endpoint, family: str = "") -> Self:
@@ -117,7 +119,7 @@ class PeripheralDriver(NumTableContent, LineDriver):
 
     def _identity(self) -> ControlIdentity:
         """Return the job reference of the CNC, which its table begins with."""
-        self._seen = self._unloaded("upload", PERSON_WAIT)
+        self._seen = self._unloaded("upload", OPERATOR_WAIT)
         return ControlIdentity(
             family=FAMILY,
             protocol=self.protocol,
@@ -130,7 +132,7 @@ class PeripheralDriver(NumTableContent, LineDriver):
     def _fetched(self, stage: str) -> bytes:
         """Return the table; the one that ``identify`` has just read need not be unloaded again."""
         seen, self._seen = self._seen, None
-        return self._unloaded(stage, PERSON_WAIT) if seen is None else seen
+        return self._unloaded(stage, OPERATOR_WAIT) if seen is None else seen
 
     def _names(self, content: bytes) -> dict[str, str]:
         return words_of_table(content)
@@ -141,7 +143,7 @@ class PeripheralDriver(NumTableContent, LineDriver):
         lines = table_text(replacement.content).splitlines(keepends=True)
         sent.when_stopped = "end the load at the control too"
         try:
-            self._push(_Load(lines, LOAD_TEXT, "download", HELD_WAIT, sent))
+            self._push(_Load(lines, LOAD_TEXT, "download", STOPPED_WAIT, sent))
         except LinkError as error:
             raise ConnectionCutError(f"the line broke: {error.what}") from None
         return Receipt(
@@ -258,14 +260,14 @@ class PeripheralDriver(NumTableContent, LineDriver):
         drained = 0
         while drained < LARGEST_DRAIN and (data := link.read(0)):
             drained += len(data)
-        self._is_held = False
+        self._is_stopped = False
         waiting.ask(load.sentence)
         self._await_ready(link)
         rate = link.bytes_per_second or RATE
         due = began = waiting.now()
         for number, line in enumerate(load.lines, 1):
             waiting.look()
-            self._await_go_on(link, load.held_wait)
+            self._await_go_on(link, load.stopped_wait)
             if waiting.now() > began + LOAD_WAIT:
                 raise ImageRejectedError(f"the control has not taken the table within {LOAD_WAIT:g} s")
             if line.startswith("#"):  # one that changes the control
@@ -276,7 +278,7 @@ class PeripheralDriver(NumTableContent, LineDriver):
             waiting.heard()
             waiting.notify(load.stage, number, len(load.lines))
         self._listen(link, SETTLE)
-        self._await_go_on(link, load.held_wait)
+        self._await_go_on(link, load.stopped_wait)
 
     def _write(self, link: Link, line: str) -> None:
         self._is_within_line = True
@@ -301,7 +303,7 @@ class PeripheralDriver(NumTableContent, LineDriver):
         while True:
             waiting.look()
             for byte in link.read(0):
-                self._is_held = {XOFF: True, XON: False}.get(byte & 0x7F, self._is_held)
+                self._is_stopped = {XOFF: True, XON: False}.get(byte & 0x7F, self._is_stopped)
             left = end - waiting.now()
             if left <= 0:
                 return
@@ -309,13 +311,13 @@ class PeripheralDriver(NumTableContent, LineDriver):
 
     def _await_go_on(self, link: Link, seconds: float) -> None:
         """Wait while the control has stopped the table; raises ImageRejectedError where it does not go on."""
-        began, is_told = self._waiting.now(), False
-        while self._is_held:
+        began, is_reported = self._waiting.now(), False
+        while self._is_stopped:
             self._listen(link, 0.1)
             waited = self._waiting.now() - began
-            if waited >= HELD_TOLD and not is_told:
-                is_told = True
-                self._waiting.ask(HELD_TEXT)
+            if waited >= STOPPED_NOTICE and not is_reported:
+                is_reported = True
+                self._waiting.ask(STOPPED_TEXT)
             if waited >= seconds:
                 raise ImageRejectedError(f"the control has stopped the table for {seconds:g} s")
 
@@ -327,7 +329,7 @@ class _Load:
     lines: list[str]
     sentence: str
     stage: str
-    held_wait: float
+    stopped_wait: float
     sent: SentValues
 
 

@@ -94,9 +94,9 @@ class RegisterContent(TakesAllOrRefuses):
             raise ImageError(f"the registers of the module: {error.what}") from None
         return file_of(load_schema(FAMILY), TextRead(found.values), "module")
 
-    def encode(self, file: ParameterFile, held: bytes) -> bytes:
+    def encode(self, file: ParameterFile, current: bytes) -> bytes:
         """Return the registers with the values of a file in them; raises ImageError."""
-        words = words_of_content(held)
+        words = words_of_content(current)
         try:
             contents = contents_of(file, known_registers())
         except FormatError as error:
@@ -109,7 +109,7 @@ class RegisterContent(TakesAllOrRefuses):
                     words[register] = word
         return written_content(words)
 
-    def refit(self, content: bytes, held: bytes) -> bytes:  # noqa: ARG002  # every module has the same registers
+    def refit(self, content: bytes, current: bytes) -> bytes:  # noqa: ARG002  # every module has the same registers
         """Return registers that were kept; raises ImageError."""
         return written_content(words_of_content(content))
 

@@ -120,7 +120,7 @@ class RegisterDriver(RegisterContent, LineDriver):
         Raises NotInEmergencyStopError while a control loop is on:
         what is written then becomes active in a motion.
         """
-        before, wanted = words_of_content(replacement.held), words_of_content(replacement.content)
+        before, wanted = words_of_content(replacement.current), words_of_content(replacement.content)
         changed = [register for register in settings() if before[register] != wanted[register]]
         sent.total = len(changed)
         self._need_loops_off()

@@ -181,9 +181,9 @@ def test_more_digits_than_the_card_shows_are_no_difference(bench: CardBench) -> 
 
 
 def test_the_unit_of_the_figures_is_the_persons_word(bench: CardBench, tmp_path: Path) -> None:
-    held = upload(bench.driver)
+    current = upload(bench.driver)
     with pytest.raises(ImageError, match="the figures of the file are metric, and the card was read as inch"):
-        bench.driver.encode(small_file(units="metric", ppu="100"), held)
+        bench.driver.encode(small_file(units="metric", ppu="100"), current)
     metric = CardBench(tmp_path / "metric", "metric")
     assert send(metric, small_file(units="metric", ppu="100 counts/mm"), []).verified
     assert metric.card.settings.values["PPU X"] == "100"
@@ -243,11 +243,11 @@ def test_a_card_without_some_settings_is_read_and_what_it_does_not_have_is_named
 
     bench.card.settings.values.update({f"PGAIN {axis}": "0" for axis in "ZABCUV"})
     bench.card.settings.obey = missing
-    held = upload(bench.driver)
-    assert b"PGAIN X" not in held
-    assert b"PGAIN Y0.00244" in held
+    current = upload(bench.driver)
+    assert b"PGAIN X" not in current
+    assert b"PGAIN Y0.00244" in current
     with pytest.raises(ImageError, match="the card does not have PGAIN X, which the file sets"):
-        bench.driver.encode(small_file(pgain="0.08"), held)
+        bench.driver.encode(small_file(pgain="0.08"), current)
 
 
 class Repeating(FaultyLink):
@@ -342,11 +342,11 @@ def test_a_short_reading_of_another_card_goes_to_another_folder(bench: CardBench
 
 
 def test_a_short_copy_is_not_put_back_as_if_it_were_whole(bench: CardBench) -> None:
-    held = upload(bench.driver)
-    short = held.replace(b"PGAIN Y0.00244\n", b"").replace(b"end 128", b"end 127")
-    assert short != held
+    current = upload(bench.driver)
+    short = current.replace(b"PGAIN Y0.00244\n", b"").replace(b"end 128", b"end 127")
+    assert short != current
     with pytest.raises(ImageError, match="the copy does not have PGAIN Y, which the card has"):
-        bench.driver.refit(short, held)
+        bench.driver.refit(short, current)
 
 
 @pytest.mark.parametrize("program", [0, 3])
@@ -500,28 +500,28 @@ def test_silence_is_told_each_second_and_ends(bench: CardBench) -> None:
 
 
 def test_a_content_that_was_cut_off_or_is_no_script_is_refused(bench: CardBench) -> None:
-    held = upload(bench.driver)
+    current = upload(bench.driver)
     for damaged in (
         b"",
         b"ACR script 1\n",
-        held[:-1],
-        held[:-9],
-        held.replace(b"PPU X10000\n", b""),
-        held.replace(b"PPU X10000", b"PPU X10000 Y5"),
-        held.replace(b"PPU Y", b"PPU X"),
-        held + b"\n",
-        held.replace(b"inch", b"ells"),
-        held.replace(b"PPU X10000", b"X4\nPPU X10000"),
+        current[:-1],
+        current[:-9],
+        current.replace(b"PPU X10000\n", b""),
+        current.replace(b"PPU X10000", b"PPU X10000 Y5"),
+        current.replace(b"PPU Y", b"PPU X"),
+        current + b"\n",
+        current.replace(b"inch", b"ells"),
+        current.replace(b"PPU X10000", b"X4\nPPU X10000"),
     ):
         with pytest.raises(ImageError):
             bench.driver.decode(damaged)
 
 
 def test_a_long_line_of_a_copy_is_refused_at_once(bench: CardBench) -> None:
-    held = upload(bench.driver)
+    current = upload(bench.driver)
     for digits in (b"1" * 200_000 + b"x", b"1" * 200_000, b"(" * 200_000):
         with pytest.raises(ImageError, match="line 3 of the script of the card sets nothing that is known"):
-            bench.driver.decode(held.replace(b"PPU X10000", b"PPU X" + digits))
+            bench.driver.decode(current.replace(b"PPU X10000", b"PPU X" + digits))
 
 
 def test_a_prompt_may_have_a_blank_and_lines_may_end_with_a_line_feed_alone(bench: CardBench) -> None:

@@ -57,12 +57,12 @@ def small_file() -> ParameterFile:
     ],
 )
 def test_only_the_words_of_the_file_change(table: str) -> None:
-    kind, held = NumTableContent(), content_of_table(table)
-    content = kind.encode(small_file(), held)
-    assert kind.difference(held, content) == "in P9N0, P13N2"
-    assert content.count(b"\n") == held.count(b"\n")
+    kind, current = NumTableContent(), content_of_table(table)
+    content = kind.encode(small_file(), current)
+    assert kind.difference(current, content) == "in P9N0, P13N2"
+    assert content.count(b"\n") == current.count(b"\n")
     assert kind.encode(small_file(), content) == content
-    assert kind.refit(held, content) == held
+    assert kind.refit(current, content) == current
 
 
 def test_a_line_end_before_xoff_and_a_remark_make_no_other_content() -> None:

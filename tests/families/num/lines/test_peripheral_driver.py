@@ -334,26 +334,26 @@ def test_a_control_that_holds_a_load_for_ever_is_left(bench: NumBench) -> None:
 
 
 def test_what_the_control_does_not_have_is_named(bench: NumBench) -> None:
-    held = upload(bench.driver, Exchange(bench.progress))
-    shorter = held.replace(b"P9N30:t0n32;0B\n#0 0;04\n", b"")
+    current = upload(bench.driver, Exchange(bench.progress))
+    shorter = current.replace(b"P9N30:t0n32;0B\n#0 0;04\n", b"")
     assert b"P9N30" not in shorter
     with pytest.raises(ImageError, match="the control does not have P9N31, which the file sets"):
         bench.driver.encode(small_file("P9N31=08"), shorter)
 
 
 def test_a_file_of_another_cnc_is_refused_as_the_control_would(bench: NumBench) -> None:
-    held = upload(bench.driver, Exchange(bench.progress))
-    other = held.replace(b"%00000000", b"%00000002")
+    current = upload(bench.driver, Exchange(bench.progress))
+    other = current.replace(b"%00000000", b"%00000002")
     file = bench.driver.decode(other)
     with pytest.raises(ImageError, match="job reference 00000002, and this one has 00000000"):
-        bench.driver.encode(file, held)
+        bench.driver.encode(file, current)
     with pytest.raises(ImageError, match="the copy is of a CNC with the job reference 00000002"):
-        bench.driver.refit(other, held)
+        bench.driver.refit(other, current)
 
 
 def test_a_new_file_is_loaded_under_the_job_reference_of_the_control(bench: NumBench) -> None:
-    held = upload(bench.driver, Exchange(bench.progress)).replace(b"%00000000", b"%00000003")
-    assert bench.driver.encode(new_file("num"), held).startswith(b"NUM table 1\n%00000003;09\n")
+    current = upload(bench.driver, Exchange(bench.progress)).replace(b"%00000000", b"%00000003")
+    assert bench.driver.encode(new_file("num"), current).startswith(b"NUM table 1\n%00000003;09\n")
 
 
 def test_the_driver_is_for_num_controls_and_sees_parity_itself() -> None:

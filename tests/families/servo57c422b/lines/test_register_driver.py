@@ -56,7 +56,7 @@ def gains(x: int = 17595, y: int = 4000) -> ParameterFile:
 def loaded(bench: RackBench, file: ParameterFile, **how: Any) -> Outcome:
     return download(
         bench.driver,
-        WantedContent(lambda held: bench.driver.encode(file, held), file.schema.signature),
+        WantedContent(lambda current: bench.driver.encode(file, current), file.schema.signature),
         lambda _: "kept",
         Exchange(**how),
     )
@@ -161,7 +161,7 @@ def test_who_stops_in_the_handshake_leaves_no_command_behind(bench: RackBench) -
 
 
 def test_a_line_that_is_cut_is_made_again_and_one_that_stays_cut_is_unknown(bench: RackBench) -> None:
-    held = bench.driver.fetch()
+    current = bench.driver.fetch()
     write = bench.rack.module.write
 
     def cut(register: int, word: int) -> None:
@@ -175,7 +175,7 @@ def test_a_line_that_is_cut_is_made_again_and_one_that_stays_cut_is_unknown(benc
         loaded(bench, gains())
     assert caught.value.at_control == "unknown"
     bench.is_up = True
-    assert words_of_content(bench.driver.fetch()) == {**words_of_content(held), 3: 17595}
+    assert words_of_content(bench.driver.fetch()) == {**words_of_content(current), 3: 17595}
 
 
 def test_a_copy_is_recognised_decoded_and_put_back(bench: RackBench) -> None:
@@ -187,7 +187,7 @@ def test_a_copy_is_recognised_decoded_and_put_back(bench: RackBench) -> None:
     bench.rack.command("power")
     outcome = download(
         bench.driver,
-        WantedContent(lambda held: bench.driver.refit(content, held), gains().schema.signature),
+        WantedContent(lambda current: bench.driver.refit(content, current), gains().schema.signature),
         lambda _: "kept",
     )
     assert (outcome.verified, bench.driver.fetch()) == (True, content)
