@@ -8,7 +8,7 @@ import pytest
 
 from amp_studio.transfer.errors import CancelledError
 from amp_studio.transfer.exchange import Exchange
-from amp_studio.transfer.waiting import PERSON, Waiting
+from amp_studio.transfer.waiting import OPERATOR, Waiting
 
 from .null_modem import VirtualClock
 
@@ -60,4 +60,4 @@ def test_a_sentence_for_a_person_is_marked_as_one_and_whoever_fails_to_show_it_e
     waiting = Waiting(VirtualClock())
     waiting.begin(Exchange(show))
     waiting.ask("At the control: start")
-    assert shown == [("At the control: start", 0, PERSON)]
+    assert shown == [("At the control: start", 0, OPERATOR)]

@@ -14,7 +14,7 @@ from amp_studio.files.storage import save_file
 from amp_studio.schema import Value
 from amp_studio.transfer.emulated.line_device import DeviceSetup
 from amp_studio.transfer.emulated.memory import Memory
-from amp_studio.transfer.waiting import PERSON
+from amp_studio.transfer.waiting import OPERATOR
 from amp_studio.ui.base.task import ProgressDialog
 from amp_studio.ui.main_window import MainWindow
 from tests.transfer.device_line import served
@@ -52,7 +52,7 @@ def test_what_a_person_is_to_do_at_the_control_is_shown_until_it_is_done(window:
     texts: list[str] = []
 
     def work(progress, cancel):
-        progress("At the control: 3 UNLOAD", 0, PERSON)
+        progress("At the control: 3 UNLOAD", 0, OPERATOR)
         progress("silent", 5, 0)
         progress("upload", 1, 2)
 

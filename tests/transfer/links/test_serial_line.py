@@ -16,7 +16,7 @@ import pytest
 from amp_studio.transfer.links.endpoint import Endpoint, parse_endpoint
 from amp_studio.transfer.links.link import LinkError
 from amp_studio.transfer.links.opening import connect
-from amp_studio.transfer.links.serial_line import HELD_LIMIT, SerialLink, open_port
+from amp_studio.transfer.links.serial_line import FLOW_LIMIT, SerialLink, open_port
 
 from .ports import read_all, socat_pair
 
@@ -187,7 +187,7 @@ def test_what_a_port_has_not_sent_yet_is_waited_for(monkeypatch: pytest.MonkeyPa
     with pytest.raises(LinkError, match=r"has taken nothing for 0\.1 s"):
         link.drain()
     waiting[:] = [9, 9, 9, 5, 5, 0]
-    monkeypatch.setattr(link, "_held_limit", HELD_LIMIT)
+    monkeypatch.setattr(link, "_held_limit", FLOW_LIMIT)
     link.close()
     assert (waiting, flushed) == ([0], [])
     held = SerialLink(parse_endpoint("COM3?flow=rtscts"), Slow())

@@ -12,7 +12,7 @@ from amp_studio.families.num.lines.driver import CheckingPeripheralDriver, Perip
 from amp_studio.transfer.emulated.line_device import DeviceSetup
 from amp_studio.transfer.emulated.memory import Memory
 from amp_studio.transfer.links.link import Link
-from amp_studio.transfer.waiting import PERSON
+from amp_studio.transfer.waiting import OPERATOR
 from tests.transfer.device_line import DeviceLine
 from tests.transfer.null_modem import VirtualClock
 
@@ -47,7 +47,7 @@ class NumBench:
             self.screen.append(self.control.command(key))
 
     def progress(self, stage: str, done: int, total: int) -> None:
-        if total != PERSON:
+        if total != OPERATOR:
             return
         self.told.append(stage)
         for operation, menu in (("unload", "3 UNLOAD"), ("load", "2 LOAD"), ("verify", "4 CHECK")):

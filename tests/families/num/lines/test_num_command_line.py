@@ -79,7 +79,7 @@ def test_stop_bits_of_the_address_reach_the_line(
     address, device = control
     if address.startswith("tcp"):
         pytest.skip("a TCP connection has no stop bits")
-    monkeypatch.setattr("amp_studio.families.num.lines.driver.HELD_WAIT", 0.3)
+    monkeypatch.setattr("amp_studio.families.num.lines.driver.STOPPED_WAIT", 0.3)
     path = tmp_path / "mill.amp"
     assert run(["upload", "--from", address, "-o", str(path), "--on-fault", "keep"]) == 0
     assert run(["set", str(path), "P9N0=7", "--force"]) == 0

@@ -13,7 +13,7 @@ import pytest
 
 from amp_studio.families.num.lines.driver import (
     CHECK_TEXT,
-    HELD_TEXT,
+    STOPPED_TEXT,
     LOAD_TEXT,
     UNLOAD_TEXT,
     PeripheralDriver,
@@ -145,7 +145,7 @@ def test_a_load_that_another_job_reference_holds_goes_on_when_the_operator_has_c
     told: Callable[[str, int, int], None] = bench.progress
 
     def progress(stage: str, done: int, total: int) -> None:
-        if stage == HELD_TEXT:
+        if stage == STOPPED_TEXT:
             assert bench.screen[-1] == "dialogue line: %00000001"
             bench.press("reference 00000000")
         told(stage, done, total)
@@ -174,7 +174,7 @@ def test_a_load_that_the_control_stops_for_good_is_told_and_what_it_contains_is_
         " of the rest (what it contained before is kept in kept)"
     )
     assert bench.told[-3:-1] == [
-        HELD_TEXT,
+        STOPPED_TEXT,
         "the control has stopped the table for 300 s. End the load at the control",
     ]
     (shown,) = [line for line in bench.screen if "FILE ERROR" in line]
