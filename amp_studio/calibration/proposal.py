@@ -13,7 +13,17 @@ from dataclasses import dataclass
 from fractions import Fraction
 
 from amp_studio.files import ParameterFile
-from amp_studio.schema import UNITS, Address, Value, canonical, dimension, fault, real_value, shown, size_of
+from amp_studio.schema import (
+    UNITS,
+    Address,
+    Value,
+    canonical,
+    dimension,
+    fault,
+    real_value,
+    size_of,
+    unit_text,
+)
 
 from .ballbar import lost_motions
 from .compensation import CalibrationTable, Compensation, compensation_of
@@ -328,7 +338,7 @@ def rounded(file: ParameterFile, address: Address, amount: Fraction) -> tuple[Va
     size = size_of(file.evaluation, address, unit)
     if size is None and dimension(unit) not in ("length", "angle", "") and unit != "counts":
         raise CalibrationError(
-            f"the size of {shown(unit)} is not set, so no value of {parameter.name} can be worked out"
+            f"the size of {unit_text(unit)} is not set, so no value of {parameter.name} can be worked out"
         )
     factor = size.number * UNITS[size.unit][1] if size is not None else UNITS[unit][1]
     decimals = parameter.decimals

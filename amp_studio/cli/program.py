@@ -58,7 +58,7 @@ def run_verb(arguments: Sequence[str]) -> int:
         if (
             arguments[0] == "emulate"
         ):  # an emulated control that has not begun yet: there is no other way to end it
-            return _leave()
+            return _quit()
         return _refuse("stopped", replaced)
 
 
@@ -140,7 +140,7 @@ def _sentence(error: BaseException) -> str:
     return keep_details(error)
 
 
-def _leave() -> int:
+def _quit() -> int:
     print("bye")
     end_results()
     return 0

@@ -93,7 +93,7 @@ class Label:
 class Labels:
     """All texts of a scene on a sheet."""
 
-    shown: tuple[Label, ...]
+    placed: tuple[Label, ...]
     left_out: tuple[tuple[Point, str], ...]
     """Where there was no room, and the text: for tips."""
 
@@ -105,7 +105,7 @@ def labels_of(frame: Placement, width: float, height: float, measure: Measure, l
     placing.levels()
     placing.marks()
     placing.texts()
-    return Labels(tuple(placing.shown), tuple(placing.left_out))
+    return Labels(tuple(placing.placed), tuple(placing.left_out))
 
 
 def axis_text(scene: Scene, axis: str) -> str:
@@ -156,7 +156,7 @@ class _Placing:
     def __init__(self, frame: Placement, width: float, height: float, measure: Measure, line: float) -> None:
         self._frame, self._measure, self._line = frame, measure, line
         self._width, self._height = width, height
-        self.shown: list[Label] = []
+        self.placed: list[Label] = []
         self.left_out: list[tuple[Point, str]] = []
         signs = [*(h.at for h in frame.scene.handles), *(d.at for d in frame.scene.dots)]
         self._signs = [
@@ -178,7 +178,7 @@ class _Placing:
     def _is_free(self, box: Box, *, signs: bool = False) -> bool:
         if box.left + box.width > self._width or box.top + box.height > self._height:
             return False
-        if any(label.box.overlaps(box) for label in self.shown):
+        if any(label.box.overlaps(box) for label in self.placed):
             return False
         return not (signs and any(sign.overlaps(box) for sign in self._signs))
 
@@ -205,7 +205,7 @@ class _Placing:
     def _figure(self, x: float, base: float, text: str, align: _Align) -> None:
         box = self._kept_inside(self._box(x, base, Text((x, base), text), "", align))
         if text and self._is_free(box):
-            self.shown.append(Label(box, text))
+            self.placed.append(Label(box, text))
 
     # -- lines across ------------------------------------------------------------------
 
@@ -222,7 +222,7 @@ class _Placing:
             found.append((y, name))
         for y, name in found:
             base = y + 0.9 * self._line if y - frame.top < self._line + 4.0 else y - 4.0
-            self.shown.append(Label(self._box(x, base, Text((x, y), name), "", "end"), name, over=True))
+            self.placed.append(Label(self._box(x, base, Text((x, y), name), "", "end"), name, over=True))
 
     def marks(self) -> None:
         """Name marks beside their lines, near the bottom, in turns of two heights."""
@@ -239,7 +239,7 @@ class _Placing:
                     "",
                     "end" if at_left else "start",
                 )
-                self.shown.append(Label(box, mark.name, over=True))
+                self.placed.append(Label(box, mark.name, over=True))
 
     # -- texts at points -------------------------------------------------------------
 
@@ -255,7 +255,7 @@ class _Placing:
             if label is None:
                 self.left_out.append((point, f"{text.text} {text.value}".strip()))
             else:
-                self.shown.append(label)
+                self.placed.append(label)
 
     def _placed(self, text: Text, point: Point) -> Label | None:
         """Return a text where it is free; None without room.

@@ -65,7 +65,7 @@ class Curve:
     dashed: bool = False
     dots: bool = False
     """Single measured values, each a ring."""
-    held: bool = False
+    is_stepped: bool = False
     """Whether a value is constant between two samples of the control."""
     dense: bool = False
     """Whether it ripples between samples: where it is too dense it is drawn as its mean in the band it

@@ -26,9 +26,9 @@ def strokes_of(frame: Placement, curve: Curve) -> tuple[Series, Series | None]:
     """
     x, y = _inside(frame, curve)
     columns = max(int(frame.width), 2)
-    if curve.held:
+    if curve.is_stepped:
         x, y = unheld(x, y)
-    if (curve.held or curve.dense) and len(x) > 2 * columns:
+    if (curve.is_stepped or curve.dense) and len(x) > 2 * columns:
         x, y, least, most = banded(x, y, columns)
         return _placed(frame, x, y), _placed(
             frame, np.concatenate([x, x[::-1]]), np.concatenate([most, least[::-1]])
@@ -109,9 +109,9 @@ def unheld(x: Series, y: Series) -> tuple[Series, Series]:
     changes = np.flatnonzero(np.diff(y)) + 1
     if len(changes) < 2:
         return x, y
-    hold = float(np.median(np.diff(changes)))
+    period = float(np.median(np.diff(changes)))
     gaps = np.diff(np.concatenate([[0], changes]))
-    ends = changes[gaps > 1.5 * hold] - 1
+    ends = changes[gaps > 1.5 * period] - 1
     index = np.unique(np.concatenate([[0], ends, changes, [len(x) - 1]]))
     return x[index], y[index]
 

@@ -15,7 +15,7 @@ from .ticks import figure_text
 WIDTH, HEIGHT = 720.0, 480.0
 HEAD, NOTE = 34.0, 15.0
 """Height of the title and of a line of notes, in points."""
-INKS: dict[ShapeSort, str] = {
+COLOURS: dict[ShapeSort, str] = {
     "ink": "#1a1e23",
     "dim": "#58606b",
     "limit": "#58606b",
@@ -87,7 +87,7 @@ def scene_svg(scene: Scene, width: float = WIDTH, drawn: float = HEIGHT, *, note
         "</g>",
         *(
             f'<text x="16" y="{HEAD + drawn + NOTE * (n + 0.7):g}"'
-            f' fill="{INKS["error"] if line.startswith("! ") else DIM}">'
+            f' fill="{COLOURS["error"] if line.startswith("! ") else DIM}">'
             f"{escape(line.removeprefix('! '))}</text>"
             for n, line in enumerate(lines)
         ),
@@ -126,7 +126,7 @@ def picture_svg(
             f' font-weight="600">{escape(picture.title)}</text>'
         ),
     ]
-    colour = INKS["error"] if picture.has_alarm else DIM
+    colour = COLOURS["error"] if picture.has_alarm else DIM
     for n, line in enumerate(facts):
         head.append(
             f'<text x="{PLOT_LEFT:g}" y="{48 + FACT * n:g}" fill="{colour}"'
@@ -173,11 +173,11 @@ def _heading(pieces: Sequence[Heading], top: float) -> Iterator[str]:
 
 
 def _sample(curve: Curve, x: float, y: float) -> str:
-    ink = INKS[curve.sort]
+    stroke = COLOURS[curve.sort]
     if curve.dots:
-        return _ring(x + 0.5 * SAMPLE, y, ink)
+        return _ring(x + 0.5 * SAMPLE, y, stroke)
     return (
-        f'<path d="M{x:.1f} {y:.1f}h{SAMPLE:g}" stroke="{ink}"'
+        f'<path d="M{x:.1f} {y:.1f}h{SAMPLE:g}" stroke="{stroke}"'
         f' stroke-width="2"{_DASH if curve.dashed else ""}/>'
     )
 
@@ -205,12 +205,13 @@ def _across(frame: Placement) -> Iterator[str]:
     for level in frame.scene.levels:
         y = frame.at((0.0, level.at))[1]
         yield (
-            f'<path d="M{frame.left:.1f} {y:.1f}H{right:.1f}" stroke="{INKS[level.sort]}" stroke-dasharray="2'
+            f'<path d="M{frame.left:.1f} {y:.1f}H{right:.1f}" stroke="{COLOURS[level.sort]}"'
+            f' stroke-dasharray="2'
             ' 3"/>'
         )
     for mark in frame.scene.marks:
         x, dash = frame.at((mark.at, 0.0))[0], "" if mark.sort == "error" else ' stroke-dasharray="5 3"'
-        yield f'<path d="M{x:.1f} {frame.top:.1f}V{bottom:.1f}" stroke="{INKS[mark.sort]}"{dash}/>'
+        yield f'<path d="M{x:.1f} {frame.top:.1f}V{bottom:.1f}" stroke="{COLOURS[mark.sort]}"{dash}/>'
 
 
 def _cells(frame: Placement, cells: CellMap) -> Iterator[str]:
@@ -254,19 +255,19 @@ def _shade(share: float) -> str:
 def _curve(frame: Placement, curve: Curve) -> Iterator[str]:
     from .strokes import strokes_of  # numpy, which a picture without curves does not need
 
-    ink = INKS[curve.sort]
+    stroke = COLOURS[curve.sort]
     line, band = strokes_of(frame, curve)
     if curve.dots:
-        yield from (_ring(x, y, ink) for x, y in line.tolist())
+        yield from (_ring(x, y, stroke) for x, y in line.tolist())
         return
     if band is not None:
         yield (
-            f'<polygon fill="{ink}" fill-opacity="0.25" stroke="{ink}" stroke-opacity="0.4"'
+            f'<polygon fill="{stroke}" fill-opacity="0.25" stroke="{stroke}" stroke-opacity="0.4"'
             f' stroke-width="0.6" points="{_joined(band.tolist())}"/>'
         )
     dash = _DASH if curve.dashed else ""
     yield (
-        f'<polyline fill="none" stroke="{ink}" stroke-width="1.5" stroke-linejoin="round"{dash}'
+        f'<polyline fill="none" stroke="{stroke}" stroke-width="1.5" stroke-linejoin="round"{dash}'
         f' points="{_joined(line.tolist())}"/>'
     )
 
@@ -280,9 +281,10 @@ def _short(value: float) -> str:
     return f"{value:.1f}".removesuffix(".0")
 
 
-def _ring(x: float, y: float, ink: str) -> str:
+def _ring(x: float, y: float, stroke: str) -> str:
     return (
-        f'<circle cx="{_short(x)}" cy="{_short(y)}" r="2.6" fill="{BASE}" stroke="{ink}" stroke-width="1.4"/>'
+        f'<circle cx="{_short(x)}" cy="{_short(y)}" r="2.6" fill="{BASE}"'
+        f' stroke="{stroke}" stroke-width="1.4"/>'
     )
 
 
@@ -311,12 +313,12 @@ def _wrapped(text: str) -> Iterator[str]:
 
 
 def _patterns() -> str:
-    hatches = (("hatch", INKS["forbidden"]), ("either", INKS["either"]), ("wrong", INKS["error"]))
+    hatches = (("hatch", COLOURS["forbidden"]), ("either", COLOURS["either"]), ("wrong", COLOURS["error"]))
     made = "".join(
         f'<pattern id="{name}" width="7" height="7" patternUnits="userSpaceOnUse"'
-        f' patternTransform="rotate(45)"><line x1="0" y1="0" x2="0" y2="7" stroke="{ink}"'
+        f' patternTransform="rotate(45)"><line x1="0" y1="0" x2="0" y2="7" stroke="{stroke}"'
         ' stroke-opacity="0.45"/></pattern>'
-        for name, ink in hatches
+        for name, stroke in hatches
     )
     return f"<defs>{made}</defs>"
 
@@ -332,17 +334,17 @@ def _grid(frame: Placement) -> Iterator[str]:
     if frame.scene.look == "panel":
         if frame.scene.y.low < 0.0 < frame.scene.y.high:
             zero = frame.at((0.0, 0.0))[1]
-            yield f'<path d="M{frame.left:.1f} {zero:.1f}H{right:.1f}" stroke="{INKS["overlap"]}"/>'
+            yield f'<path d="M{frame.left:.1f} {zero:.1f}H{right:.1f}" stroke="{COLOURS["overlap"]}"/>'
         yield (
             f'<rect x="{frame.left:.1f}" y="{frame.top:.1f}" width="{frame.width:.1f}"'
-            f' height="{frame.height:.1f}" fill="none" stroke="{INKS["overlap"]}"/>'
+            f' height="{frame.height:.1f}" fill="none" stroke="{COLOURS["overlap"]}"/>'
         )
 
 
 def _area(frame: Placement, area: FilledArea) -> str:
     left, top = frame.at((area.left, area.top))
     right, bottom = frame.at((area.right, area.bottom))
-    stroke = "none" if area.sort == "overlap" else INKS[area.sort]
+    stroke = "none" if area.sort == "overlap" else COLOURS[area.sort]
     return (
         f'<rect x="{left:.1f}" y="{top:.1f}" width="{right - left:.1f}" height="{bottom - top:.1f}"'
         f' fill="{FILLS.get(area.sort, "none")}" stroke="{stroke}"/>'
@@ -354,34 +356,34 @@ def _line(frame: Placement, line: Polyline) -> str:
     dash = ' stroke-dasharray="5 4"' if line.dashed else ""
     width = 6.0 if line.sort == "rail" else 2.0 if line.sort in ("now", "error") else 1.2
     return (
-        f'<polyline points="{points}" fill="none" stroke="{INKS[line.sort]}" stroke-width="{width:g}"'
+        f'<polyline points="{points}" fill="none" stroke="{COLOURS[line.sort]}" stroke-width="{width:g}"'
         f' stroke-opacity="{0.5 if line.sort == "rail" else 1:g}"{dash}/>'
     )
 
 
 def _handle_dot(at: Point) -> str:
-    return f'<circle cx="{at[0]:.1f}" cy="{at[1]:.1f}" r="3" fill="{BASE}" stroke="{INKS["ink"]}"/>'
+    return f'<circle cx="{at[0]:.1f}" cy="{at[1]:.1f}" r="3" fill="{BASE}" stroke="{COLOURS["ink"]}"/>'
 
 
 def _dot(frame: Placement, dot: Dot) -> str:
     x, y = frame.at(dot.at)
-    ink = INKS[dot.sort]
+    stroke = COLOURS[dot.sort]
     if dot.kind == "home":
         return (
-            f'<path d="M{x - 10:.1f} {y:.1f}h20M{x:.1f} {y - 10:.1f}v20" stroke="{ink}"'
-            f' stroke-width="1.5"/><circle cx="{x:.1f}" cy="{y:.1f}" r="6" fill="none" stroke="{ink}"'
+            f'<path d="M{x - 10:.1f} {y:.1f}h20M{x:.1f} {y - 10:.1f}v20" stroke="{stroke}"'
+            f' stroke-width="1.5"/><circle cx="{x:.1f}" cy="{y:.1f}" r="6" fill="none" stroke="{stroke}"'
             ' stroke-width="1.5"/>'
         )
     if dot.kind == "switch":
-        return f'<rect x="{x - 6:.1f}" y="{y - 6:.1f}" width="12" height="12" rx="2" fill="{ink}"/>'
+        return f'<rect x="{x - 6:.1f}" y="{y - 6:.1f}" width="12" height="12" rx="2" fill="{stroke}"/>'
     if dot.kind in ARROWS:
-        return f'<path d="{_arrow(x, y, dot.kind)}" fill="none" stroke="{ink}" stroke-width="1.5"/>'
+        return f'<path d="{_arrow(x, y, dot.kind)}" fill="none" stroke="{stroke}" stroke-width="1.5"/>'
     if dot.kind in ("marker", "end"):
         return (
-            f'<path d="M{x:.1f} {y - 8:.1f}v16" stroke="{INKS["now"] if dot.kind == "marker" else ink}"'
+            f'<path d="M{x:.1f} {y - 8:.1f}v16" stroke="{COLOURS["now"] if dot.kind == "marker" else stroke}"'
             ' stroke-width="2"/>'
         )
-    return f'<circle cx="{x:.1f}" cy="{y:.1f}" r="3.5" fill="{BASE}" stroke="{ink}" stroke-width="1.5"/>'
+    return f'<circle cx="{x:.1f}" cy="{y:.1f}" r="3.5" fill="{BASE}" stroke="{stroke}" stroke-width="1.5"/>'
 
 
 ARROWS = {"right": (1, 0), "left": (-1, 0), "up": (0, -1), "down": (0, 1)}
@@ -412,14 +414,14 @@ def _texts(frame: Placement, width: float, height: float) -> Iterator[str]:
             f'<circle cx="{at[0]:.1f}" cy="{at[1]:.1f}" r="9" fill="{BASE}"'
             f' fill-opacity="0"><title>{escape(text)}</title></circle>'
         )
-    for label in found.shown:
+    for label in found.placed:
         if label.leader:
             (x1, y1), (x2, y2) = label.leader
             yield (
-                f'<path d="M{x1:.1f} {y1:.1f}L{x2:.1f} {y2:.1f}" stroke="{INKS["second"]}"'
+                f'<path d="M{x1:.1f} {y1:.1f}L{x2:.1f} {y2:.1f}" stroke="{COLOURS["second"]}"'
                 ' stroke-width="0.75"/>'
             )
-    for label in found.shown:
+    for label in found.placed:
         if label.strong or label.over:
             box = label.box
             yield (
@@ -436,6 +438,6 @@ def _label(label: Label) -> str:
     weight = ' font-weight="600"' if label.strong else ""
     x = box.left + 0.5 * box.width  # an estimated width is wrong by as much on both sides
     return (
-        f'<text x="{x:.1f}" y="{box.top + 0.8 * box.height:.1f}" fill="{INKS[label.sort]}"'
+        f'<text x="{x:.1f}" y="{box.top + 0.8 * box.height:.1f}" fill="{COLOURS[label.sort]}"'
         f' text-anchor="middle"{weight}>{escape(label.text)}{value}</text>'
     )

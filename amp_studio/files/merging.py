@@ -84,15 +84,15 @@ class Merge:
     """Sources A and B, and what both come from, if that is known;
     by default the result takes what one side changed.
 
-    Without a base the result is A (``ground``) until something is taken from B. The sources are not touched.
+    Without a base the result is A (``initial``) until something is taken from B. The sources are not touched.
     Raises ValueError when they are not of one family.
     """
 
     def __init__(
-        self, a: ParameterFile, b: ParameterFile, base: ParameterFile | None = None, *, ground: Side = "a"
+        self, a: ParameterFile, b: ParameterFile, base: ParameterFile | None = None, *, initial: Side = "a"
     ) -> None:
         _demand_one_family(a, b, base)
-        self.ground: Side = ground
+        self.initial: Side = initial
         """The side that the result has where nothing else is taken: that of the file into which it goes."""
         self.a, self.b = a, by_schema(b, a.schema)
         self.base = None if base is None else by_schema(base, a.schema)
@@ -198,13 +198,13 @@ class Merge:
             return None
         if self.base is not None and row.kind in ("a", "b"):
             return "a" if row.kind == "a" else "b"
-        return self.ground
+        return self.initial
 
     def result_of(self, row: Row) -> Value | None:
         """Return the value in the result; a conflict that is not settled keeps what the file has into which
         it goes.
         """
-        choice = self.choice(row) or self.ground
+        choice = self.choice(row) or self.initial
         return choice.value if isinstance(choice, Typed) else row.of(choice)
 
     @property
@@ -227,7 +227,7 @@ class Merge:
 
     def result(self) -> ParameterFile:
         """Return the file into which the result goes, with what it takes from elsewhere."""
-        file = self._sources()[self.ground].copy()
+        file = self._sources()[self.initial].copy()
         self.apply_to(file)
         return file
 
@@ -259,7 +259,7 @@ class Merge:
 
     def _put_value(self, file: ParameterFile, row: Row) -> Iterator[Change]:
         address, value = row.address, self.result_of(row)
-        choice = self.choice(row) or self.ground
+        choice = self.choice(row) or self.initial
         if not same_value(file.get(address), value):
             change = file.set(address, value)
             if change is not None:
@@ -282,7 +282,7 @@ class Merge:
         """Put an entry of the header: a text, one entry of a list of texts,
         or a key that this program does not know.
         """
-        (name, inner), value, choice = row.address, self.result_of(row), self.choice(row) or self.ground
+        (name, inner), value, choice = row.address, self.result_of(row), self.choice(row) or self.initial
         text = "" if value is None else str(value.value)
         if name == MACHINE:
             file.set_machine(text)
@@ -292,7 +292,7 @@ class Merge:
         else:
             entries = {key: entry for key, entry in getattr(file.header, name).items() if key != inner}
             if name == EXTRA:  # as it is, whatever kind it is of
-                source = self._sources()[self.ground if isinstance(choice, Typed) else choice]
+                source = self._sources()[self.initial if isinstance(choice, Typed) else choice]
                 if inner in source.header.extra:
                     entries[inner] = source.header.extra[inner]
             elif value is not None:

@@ -12,7 +12,7 @@ from .parameter_file import ParameterFile, RangeError
 RangeDecision = Literal["keep", "edit", "quit"]
 
 
-class Person(Protocol):
+class RangePrompt(Protocol):
     """Who decides about a value out of range: at a terminal, in dialogs, or an option of the command line."""
 
     def decide(self, problem: str) -> RangeDecision:
@@ -41,23 +41,23 @@ def out_of_range(file: ParameterFile) -> list[tuple[Address, str]]:
     return found
 
 
-def settle(file: ParameterFile, by: str, person: Person) -> bool:
+def settle(file: ParameterFile, by: str, prompt: RangePrompt) -> bool:
     """Go through the values out of range; each is kept and marked as forced, edited, or ends the walk.
 
     ``by`` is what brought them (``an upload``). Returns False when the person quits.
     """
-    return all(_settled(file, address, problem, by, person) for address, problem in out_of_range(file))
+    return all(_settled(file, address, problem, by, prompt) for address, problem in out_of_range(file))
 
 
-def _settled(file: ParameterFile, address: Address, problem: str, by: str, person: Person) -> bool:
-    while (decision := person.decide(problem)) == "edit":
-        text = person.new_value(file, address, problem)
+def _settled(file: ParameterFile, address: Address, problem: str, by: str, prompt: RangePrompt) -> bool:
+    while (decision := prompt.decide(problem)) == "edit":
+        text = prompt.new_value(file, address, problem)
         if text is None:
             continue
         try:
             file.set_many({address: file.read(address, text)})
         except (InvalidValueError, RangeError) as error:
-            person.refused(str(error))
+            prompt.refused(str(error))
         else:
             return True
     if decision == "keep":

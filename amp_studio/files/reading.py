@@ -36,11 +36,11 @@ from amp_studio.schema import (
     read_value,
     read_yaml,
     short,
-    shown,
     spelled_scalar,
     text_of,
     text_scalar,
     unit_named,
+    unit_text,
     written,
 )
 
@@ -299,7 +299,7 @@ def read_stored(schema: Schema, parameter: Parameter, text: str) -> Value:
     units = schema.units_of(parameter)
     named = "" if text.startswith(("0x", "0X", "$")) else read_number(text)[1]
     if not named and "" not in units:
-        raise InvalidValueError(f"{quoted(text)} has no unit: write {short(text)} {shown(units[0])}")
+        raise InvalidValueError(f"{quoted(text)} has no unit: write {short(text)} {unit_text(units[0])}")
     unit = named if named in units else units[0]
     return read_value(parameter, text, _alike(units, named, unit))
 

@@ -189,7 +189,7 @@ class Finder:
         index, hits = index_of(self.schema, self.machine), []
         for meaning in meanings(query):
             worth = _SYNONYM_WORTH * _LESS_LIKELY**meaning.place
-            why = f"'{meaning.said}' as '{meaning.means}'"
+            why = f"'{meaning.typed}' as '{meaning.means}'"
             all_words = len(index.asked(meaning.means))
             hits += [
                 replace(self._hit(match), score=match.score * worth, why=why)

@@ -71,9 +71,9 @@ def message_page(
     """
     here = schema.on(machine)
     rules = {rule.id: rule for rule in schema.rules}
-    told: dict[str, list[Finding]] = {}
+    by_rule: dict[str, list[Finding]] = {}
     for finding in findings:
-        told.setdefault(finding.rule, []).append(finding)
+        by_rule.setdefault(finding.rule, []).append(finding)
     linked = []
     for name in message.params:
         parameter = schema.parameters.get(name)
@@ -90,5 +90,5 @@ def message_page(
         linked.append(
             LinkedParameter(name, parameter.name, here.number((name, instances[0])) or "", tuple(values))
         )
-    found = (LinkedRule(rules[name], tuple(told.get(name, ()))) for name in message.rules if name in rules)
+    found = (LinkedRule(rules[name], tuple(by_rule.get(name, ()))) for name in message.rules if name in rules)
     return MessagePage(message, tuple(linked), tuple(found))

@@ -27,7 +27,7 @@ class Meaning:
     """Another question that a question may mean."""
 
     query: str
-    said: str
+    typed: str
     """The words that were taken to mean something else."""
     means: str
     place: int
@@ -43,36 +43,36 @@ def meanings(query: str) -> Iterator[Meaning]:
     words = [word.translate(_UMLAUTS) for word in words_of(query)]
     for length in range(len(words), 0, -1):
         for start in range(len(words) - length + 1):
-            said = tuple(words[start : start + length])
-            known = _known(said, is_last=start + length == len(words))
+            typed = tuple(words[start : start + length])
+            known = _known(typed, is_last=start + length == len(words))
             if known is None:
                 continue
             for place, mean in enumerate(_table()[known]):
                 asked = " ".join((*words[:start], mean, *words[start + length :]))
-                yield Meaning(asked, " ".join(said), mean, place)
+                yield Meaning(asked, " ".join(typed), mean, place)
             return
 
 
-def _known(said: tuple[str, ...], *, is_last: bool) -> tuple[str, ...] | None:
+def _known(typed: tuple[str, ...], *, is_last: bool) -> tuple[str, ...] | None:
     """Return the words of the table that are meant: equal, with an ending, only begun, or with one slip."""
-    if said in _table():
-        return said
-    if not any(len(word) >= _BEGUN for word in said):
+    if typed in _table():
+        return typed
+    if not any(len(word) >= _BEGUN for word in typed):
         return None
-    same_length = [words for words in _table() if len(words) == len(said)]
+    same_length = [words for words in _table() if len(words) == len(typed)]
     if is_last:
-        begun = [w for w in same_length if w[:-1] == said[:-1] and w[-1].startswith(said[-1])]
-        if begun and len(said[-1]) >= _BEGUN:
+        begun = [w for w in same_length if w[:-1] == typed[:-1] and w[-1].startswith(typed[-1])]
+        if begun and len(typed[-1]) >= _BEGUN:
             return min(begun, key=lambda words: len(words[-1]))
-    return next((w for w in same_length if all(map(_is_like, said, w))), None)
+    return next((w for w in same_length if all(map(_is_like, typed, w))), None)
 
 
-def _is_like(said: str, word: str) -> bool:
-    if said == word:
+def _is_like(typed: str, word: str) -> bool:
+    if typed == word:
         return True
-    if len(word) < _SLIP or len(said) < _SLIP:
+    if len(word) < _SLIP or len(typed) < _SLIP:
         return False
-    return said.removeprefix(word) in _ENDINGS or distance(said, word, 1) <= 1
+    return typed.removeprefix(word) in _ENDINGS or distance(typed, word, 1) <= 1
 
 
 @cache
@@ -88,10 +88,10 @@ def _table() -> dict[tuple[str, ...], tuple[str, ...]]:
 
 def nearest_synonym(query: str) -> str:
     """Return the known word that is most alike a question; empty where none is near."""
-    said = " ".join(word.translate(_UMLAUTS) for word in words_of(query))
-    most = max(2, len(said) // 4)
-    near = min((distance(said, " ".join(words), most), " ".join(words)) for words in _table())
-    return near[1] if said and near[0] <= most else ""
+    typed = " ".join(word.translate(_UMLAUTS) for word in words_of(query))
+    most = max(2, len(typed) // 4)
+    near = min((distance(typed, " ".join(words), most), " ".join(words)) for words in _table())
+    return near[1] if typed and near[0] <= most else ""
 
 
 def prepare_synonyms() -> None:

@@ -84,12 +84,12 @@ def marked(text: str) -> str | None:
 
 
 def plain(text: str) -> str:
-    """Return text so that it is not taken for a mark; ``shown`` gives it back."""
+    """Return text so that it is not taken for a mark; ``without_marks`` gives it back."""
     at = len(text) - len(text.lstrip())
     return text[:at] + "{" + text[at:] if text[at:].startswith("{") else text
 
 
-def shown(text: str) -> str:
+def without_marks(text: str) -> str:
     """Return the text that ``plain`` made safe."""
     at = len(text) - len(text.lstrip())
     return text[:at] + text[at + 1 :] if text[at:].startswith("{{") else text

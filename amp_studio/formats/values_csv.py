@@ -65,13 +65,13 @@ def _read(text: str, schema: Schema, options: ReadOptions) -> TextRead:
                 raise FormatError(f"there is no column '{needed}'", 1)
         for cells in table:
             if any(cell.strip() for cell in cells):
-                _take(found, schema, heads, cells, table.line_num, options.keep_unknown)
+                _read_row(found, schema, heads, cells, table.line_num, options.keep_unknown)
     except csv.Error as error:
         raise FormatError(f"this is no line of a table: {error}", table.line_num) from None
     return found
 
 
-def _take(
+def _read_row(
     found: TextRead, schema: Schema, heads: list[str], cells: list[str], line: int, keep_unknown: bool
 ) -> None:
     if len(cells) != len(heads):

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 
 from amp_studio.files import ParameterFile
 
-from .description import OF_AXIS, OF_MACHINE, Meant
+from .description import OF_AXIS, OF_MACHINE, ConceptValue
 from .reading import read_meaning
 
 _SAME = 1e-6
@@ -41,7 +41,7 @@ class MeaningRow:
 
     concept: str
     axis: str
-    values: tuple[Meant, ...]
+    values: tuple[ConceptValue, ...]
     unit: str
 
     @property
@@ -78,7 +78,7 @@ def compare_meanings(files: Sequence[ParameterFile]) -> list[MeaningRow]:
     return rows
 
 
-def _whole(concept: str, value: object) -> Meant:
+def _whole(concept: str, value: object) -> ConceptValue:
     """Return one figure of a list: the speeds of the gears together."""
     if not isinstance(value, list):
         return value if isinstance(value, (float, str, bool)) else None
@@ -90,13 +90,13 @@ def _unit(concept: str, *, turns: bool) -> str:
     return f"{'deg' if turns else 'mm'}{_UNITS[concept]}" if concept in _UNITS else ""
 
 
-def _is_same(first: Meant, other: Meant) -> bool:
+def _is_same(first: ConceptValue, other: ConceptValue) -> bool:
     if isinstance(first, float) and isinstance(other, float):
         return math.isclose(first, other, rel_tol=_SAME, abs_tol=_SAME)
     return first == other
 
 
-def _text(value: Meant, unit: str) -> str:
+def _text(value: ConceptValue, unit: str) -> str:
     if value is None:
         return "-"
     return f"{value:.9g} {unit}".strip() if isinstance(value, float) else str(value)

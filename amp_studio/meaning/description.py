@@ -12,7 +12,7 @@ from dataclasses import dataclass, field
 
 from amp_studio.schema import Address
 
-Meant = float | str | bool | list[float | None] | None
+ConceptValue = float | str | bool | list[float | None] | None
 """A number, the key of a closed choice, a number for each gear, or None: the control has such a thing,
 and here it is none."""
 
@@ -65,11 +65,11 @@ class ParameterSource:
 
 
 @dataclass(frozen=True)
-class MeantFigure:
+class ConceptFigure:
     """What is known of one concept, with the formula in the names of its parameters and the page."""
 
     concept: str
-    value: Meant
+    value: ConceptValue
     sources: tuple[ParameterSource, ...]
     formula: str
     page: str
@@ -82,7 +82,7 @@ class AxisMeaning:
     letter: str
     instance: str
     turns: bool
-    figures: Mapping[str, MeantFigure]
+    figures: Mapping[str, ConceptFigure]
 
     def number(self, concept: str) -> float | None:
         """Return a number, None where there is none."""
@@ -111,7 +111,7 @@ class MachineMeaning:
     family: str
     name: str
     axes: tuple[AxisMeaning, ...]
-    figures: Mapping[str, MeantFigure] = field(default_factory=dict)
+    figures: Mapping[str, ConceptFigure] = field(default_factory=dict)
     questions: tuple[MigrationQuestion, ...] = ()
 
     def number(self, concept: str) -> float | None:

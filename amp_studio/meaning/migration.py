@@ -19,7 +19,7 @@ from amp_studio.schema import (
     unknown_name,
 )
 
-from .description import MachineMeaning, MeantFigure, MigrationQuestion
+from .description import ConceptFigure, MachineMeaning, MigrationQuestion
 from .facts import RestFact, meanings_of
 from .reading import read_meaning
 from .writing import Graded, TargetError, WrittenMachine
@@ -105,9 +105,9 @@ def _entries(
             yield _other(file, address, param, raw)
 
 
-def _used(machine: MachineMeaning) -> dict[Address, list[tuple[str, MeantFigure]]]:
+def _used(machine: MachineMeaning) -> dict[Address, list[tuple[str, ConceptFigure]]]:
     """Return parameter -> the figures that come from it, with the letter of their axis."""
-    found: dict[Address, list[tuple[str, MeantFigure]]] = {}
+    found: dict[Address, list[tuple[str, ConceptFigure]]] = {}
     places = [(axis.letter, figure) for axis in machine.axes for figure in axis.figures.values()]
     for letter, figure in (*places, *(("", figure) for figure in machine.figures.values())):
         for source in figure.sources:
@@ -119,7 +119,7 @@ _WORST = ("not_possible", "approximate", "exact")
 
 
 def _graded(
-    address: Address, param: str, raw: str, found: list[tuple[tuple[str, MeantFigure], Graded]]
+    address: Address, param: str, raw: str, found: list[tuple[tuple[str, ConceptFigure], Graded]]
 ) -> MigratedParameter:
     """Return a parameter with the worst grade of what comes from it; all keys that it went to are named."""
     (_, figure), worst = min(found, key=lambda pair: _WORST.index(pair[1].outcome))

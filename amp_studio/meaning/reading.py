@@ -26,9 +26,9 @@ from amp_studio.validate import rule_functions
 from .description import (
     CHOICES,
     AxisMeaning,
+    ConceptFigure,
+    ConceptValue,
     MachineMeaning,
-    Meant,
-    MeantFigure,
     MigrationQuestion,
     ParameterSource,
 )
@@ -64,7 +64,7 @@ class _Reader:
     file: ParameterFile
     facts: Meanings
 
-    def figures(self, concepts: tuple[ConceptFact, ...], instance: str) -> Iterator[MeantFigure]:
+    def figures(self, concepts: tuple[ConceptFact, ...], instance: str) -> Iterator[ConceptFigure]:
         derived = (
             {
                 name: self.value(fact.reads, fact.value, instance, {})
@@ -80,7 +80,7 @@ class _Reader:
             value = self.value(fact.reads, fact.value, instance, derived)
             if value is _NOTHING or (fact.concept in CHOICES and value not in CHOICES[fact.concept]):
                 continue
-            yield MeantFigure(fact.concept, value, sources, fact.value, fact.page)
+            yield ConceptFigure(fact.concept, value, sources, fact.value, fact.page)
 
     def sources(self, reads: Named, instance: str) -> Iterator[ParameterSource]:
         """Yield the active values of these parameters."""
@@ -107,7 +107,7 @@ class _Reader:
         ]
         context = context_of(functions, always, names, names.values(), circumstances)
         try:
-            found: Meant = compiled.execute(context)
+            found: ConceptValue = compiled.execute(context)
         except EVALUATION_ERRORS:
             return _NOTHING
         return float(found) if isinstance(found, int) and not isinstance(found, bool) else found

@@ -42,7 +42,7 @@ class DrawnValue:
     number: float | None
     """In the unit of the picture; None where it cannot be drawn."""
     unit: str
-    shown: str
+    text: str
     problem: str = ""
     """Why there is no number, or why it is not allowed."""
     wrong: bool = False
@@ -98,7 +98,7 @@ class ValueReader:
     def _figure(self, address: Address, unit: str) -> DrawnValue:
         definition, value = self.file.schema.parameters[address[0]], self.file.get(address)
         unit, label = unit or self.unit(address), self.label(address)
-        shown = self._shown(address, value)
+        shown = self._value_text(address, value)
         if value is None:
             return DrawnValue(address, label, None, unit, shown, "not set")
         state = self.evaluation.state(address)
@@ -138,7 +138,7 @@ class ValueReader:
             return value
         return Value(float(write_figure(convert(float(value.value), value.unit, unit))), unit)
 
-    def _shown(self, address: Address, value: Value | None) -> str:
+    def _value_text(self, address: Address, value: Value | None) -> str:
         """Return a value as a person reads it, with what it is in mm or degrees where its unit has a size."""
         definition = self.file.schema.parameters[address[0]]
         text = show_value(definition, self._in_file(address, value))
@@ -239,4 +239,4 @@ class ValueReader:
 
     def handle(self, figure: DrawnValue, at: Point, *drags: Drag, second: bool = False) -> Handle:
         """Return the handle of a figure."""
-        return Handle(at, drags, figure.label, figure.shown, second)
+        return Handle(at, drags, figure.label, figure.text, second)

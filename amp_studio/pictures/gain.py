@@ -39,7 +39,7 @@ def draw_gain(file: ParameterFile, roles: ErrorRoles, axis: str, like: Scene | N
             Text(
                 (x.low, gain.number),
                 gain.label,
-                gain.shown,
+                gain.text,
                 "left",
                 gain.address,
                 "error" if gain.wrong else "now",
@@ -55,7 +55,7 @@ def draw_gain(file: ParameterFile, roles: ErrorRoles, axis: str, like: Scene | N
             Text(
                 (place, level),
                 each.label,
-                each.shown,
+                each.text,
                 "right" if place * place > x.low * x.high else "left",
                 each.address,
                 "dim",
@@ -87,7 +87,7 @@ def _on_scale(figures: ValueReader, each: DrawnValue) -> bool:
     if each.number is None:
         return False
     if each.number <= 0.0:
-        figures.note(f"{each.label}: {each.shown} has no place on this scale", each.address, wrong=each.wrong)
+        figures.note(f"{each.label}: {each.text} has no place on this scale", each.address, wrong=each.wrong)
         return False
     return True
 
@@ -127,7 +127,7 @@ def _say_order(figures: ValueReader, at: DrawnValue, drawn: list[DrawnValue]) ->
     last = drawn[-1]
     if last is not at and (last.number or 0.0) < number:
         figures.note(
-            f"{at.label}: {at.shown} is above {last.label}, {last.shown}: the break is never reached",
+            f"{at.label}: {at.text} is above {last.label}, {last.text}: the break is never reached",
             at.address,
             wrong=True,
         )

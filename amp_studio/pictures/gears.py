@@ -163,7 +163,7 @@ def _scaled(figures: ValueReader, roles: GearRoles) -> _Gear | None:
     if found is None or found.number is None or roles.full is None:
         return None
     if found.number <= 0.0:
-        figures.note(f"{found.label}: {found.shown} puts nothing out at any speed", found.address)
+        figures.note(f"{found.label}: {found.text} puts nothing out at any speed", found.address)
         return None
     return _Gear(
         "full output", 0.0, roles.full / found.number, roles.full, 0.0, (None, found, None, None, None)

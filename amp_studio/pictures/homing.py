@@ -70,7 +70,7 @@ def read_home(figures: ValueReader, roles: TravelRoles, axis: str, file: Paramet
     if way and speed is not None and speed.number is not None:
         sign = "plus" if way > 0.0 else "minus"
         figures.note(
-            f"{figures.axis(axis)} leaves its switch in {sign} direction at {speed.shown}",
+            f"{figures.axis(axis)} leaves its switch in {sign} direction at {speed.text}",
             speed.address,
             is_remark=True,
         )
@@ -135,7 +135,7 @@ def draw_rail(
             Text(
                 at(switch),
                 "switch",
-                home.switch.shown,
+                home.switch.text,
                 "below" if n == 0 else "right",
                 home.switch.address,
                 "dim",
@@ -199,7 +199,7 @@ def draw_home(
         Text(
             (x, y),
             "Home",
-            ", ".join(f.shown for f in named if f),
+            ", ".join(f.text for f in named if f),
             "corner" if x > 0.5 * sum(views[0]) else "inside",
             named[0].address if named[0] else None,
         )

@@ -6,7 +6,7 @@ from typing import Literal
 
 from amp_studio.drawing import Dot, Handle, PictureNote, Polyline, Scale, Scene, Text
 from amp_studio.files import ParameterFile
-from amp_studio.schema import JogRoles, ParameterId, shown
+from amp_studio.schema import JogRoles, ParameterId, unit_text
 
 from .figures import DrawnValue, ValueReader
 from .parts import axes_with
@@ -58,7 +58,7 @@ def draw_jog(
             beyond = highest is not None and number > highest
             if beyond:
                 figures.note(
-                    f"{each.label}: {each.shown} is above {bound[0].label}, {bound[0].shown}",
+                    f"{each.label}: {each.text} is above {bound[0].label}, {bound[0].text}",
                     each.address,
                     wrong=True,
                 )
@@ -106,7 +106,7 @@ def _drawable(figures: ValueReader, each: DrawnValue) -> bool:
     if each.number <= 0.0:
         figures.notes.setdefault(
             each.label,
-            PictureNote(f"{each.label}: {each.shown} has no place on this scale", each.address, each.wrong),
+            PictureNote(f"{each.label}: {each.text} has no place on this scale", each.address, each.wrong),
         )
         return False
     return True
@@ -114,7 +114,7 @@ def _drawable(figures: ValueReader, each: DrawnValue) -> bool:
 
 def _plain(each: DrawnValue) -> str:
     """Return the number without its unit."""
-    return each.shown.removesuffix(shown(each.unit)).strip() if each.unit else each.shown
+    return each.text.removesuffix(unit_text(each.unit)).strip() if each.unit else each.text
 
 
 def _decades(numbers: list[float]) -> Scale:

@@ -8,12 +8,12 @@ from dataclasses import dataclass
 
 from amp_studio.drawing import Handle, Point, Polyline, Scale, Scene, Text, figure_text, round_step
 from amp_studio.files import ParameterFile
-from amp_studio.schema import RampKind, RampRoles, TimeOf, UnitError, convert, shown
+from amp_studio.schema import RampKind, RampRoles, TimeOf, UnitError, convert, unit_text
 from amp_studio.sim import Piece, Ramp, SimulationError, change, exponential_pieces, leg, length
 
 from .figures import DrawnValue, ValueReader
 
-HOLD = 1.8
+RAMP_MULTIPLE = 1.8
 """A move is about so many times as long as its ramps."""
 SAMPLES = 24
 """Points of a curved piece."""
@@ -54,7 +54,7 @@ def draw_ramps(file: ParameterFile, roles: RampRoles, axis: str, like: Scene | N
     base, scale = feed.unit.split("/")[0], feed.number / speed
     kinds = [found for role in roles.kinds if (found := _drawn(figures, role, axis, speed, base))]
     ways = [way for each in kinds if (way := _way(each.ramp, speed)) > 0.0]
-    distance = like.fixed if like and like.fixed else round_step(HOLD * max(ways, default=speed))
+    distance = like.fixed if like and like.fixed else round_step(RAMP_MULTIPLE * max(ways, default=speed))
     used = _mode(figures, roles, axis)
     lines: list[Polyline] = []
     handles: list[Handle] = []
@@ -74,7 +74,7 @@ def draw_ramps(file: ParameterFile, roles: RampRoles, axis: str, like: Scene | N
         of = next((f.address for f in (each.rise, each.acceleration, each.time) if f is not None), None)
         at = (0.45 * curve[-1][0], (0.25 + 0.12 * n) * feed.number)
         texts.append(
-            Text(at, each.role.name, _told(each, pieces), "left", of, "now" if is_used else "second")
+            Text(at, each.role.name, _described(each, pieces), "left", of, "now" if is_used else "second")
         )
         if each.role.note:
             figures.note(each.role.note, is_remark=True)
@@ -85,7 +85,7 @@ def draw_ramps(file: ParameterFile, roles: RampRoles, axis: str, like: Scene | N
         level = bound.number or 0.0
         ends = ((x.low, level), (x.high, level))
         lines.append(Polyline(ends, "error" if bound.wrong else "limit", dashed=True))
-        texts.append(Text(ends[1], bound.label, bound.shown, "right", bound.address, "dim"))
+        texts.append(Text(ends[1], bound.label, bound.text, "right", bound.address, "dim"))
     handles.append(
         figures.handle(feed, (0.97 * x.high, feed.number), figures.drag(feed, "y", y.high), second=True)
     )
@@ -102,7 +102,7 @@ def _speed(figures: ValueReader, feed: DrawnValue | None) -> float | None:
         speed = 0.0
     if speed > 0.0:
         return speed
-    figures.note(f"{feed.label}: {feed.shown} is no speed to ramp to", feed.address, wrong=True)
+    figures.note(f"{feed.label}: {feed.text} is no speed to ramp to", feed.address, wrong=True)
     return None
 
 
@@ -183,10 +183,10 @@ def _drawn(figures: ValueReader, role: RampKind, axis: str, speed: float, base: 
     if up is None or up.number is None or (role.jerk and (jerk is None or not jerk.number)):
         return None
     if up.number <= 0.0:
-        figures.note(f"{up.label}: {up.shown} is no ramp", up.address, wrong=up.wrong)
+        figures.note(f"{up.label}: {up.text} is no ramp", up.address, wrong=up.wrong)
         return None
     if jerk is not None and jerk.number is not None and jerk.number < 0.0:
-        figures.note(f"{jerk.label}: {jerk.shown} is no ramp", jerk.address, wrong=True)
+        figures.note(f"{jerk.label}: {jerk.text} is no ramp", jerk.address, wrong=True)
         return None
     used = jerk.number if jerk and jerk.number else 0.0
     if role.jerk_scans and jerk and used:
@@ -215,7 +215,7 @@ def _by_rise(figures: ValueReader, role: RampKind, axis: str, speed: float) -> _
         named = found or own[0]
         if named is not None:
             figures.note(
-                f"{named.label}: {named.problem or f'{named.shown} is no time'}",
+                f"{named.label}: {named.problem or f'{named.text} is no time'}",
                 named.address,
                 wrong=found is not None,
             )
@@ -254,8 +254,8 @@ def _within_scans(
     used = min(max(given, up / (role.jerk_scans.most * scan)), up / (role.jerk_scans.least * scan))
     if used != given:
         figures.note(
-            f"{jerk.label}: {jerk.shown} is outside {role.jerk_scans.least:g} to {role.jerk_scans.most:g}"
-            f" scans, drawn with {used:.6g} {shown(jerk.unit)}",
+            f"{jerk.label}: {jerk.text} is outside {role.jerk_scans.least:g} to {role.jerk_scans.most:g}"
+            f" scans, drawn with {used:.6g} {unit_text(jerk.unit)}",
             jerk.address,
             wrong=True,
         )
@@ -293,9 +293,9 @@ def sampled(pieces: Sequence[Piece]) -> list[Point]:
 # -- the handles ---------------------------------------------------------------------
 
 
-def _told(each: _Drawn, pieces: Sequence[Piece]) -> str:
+def _described(each: _Drawn, pieces: Sequence[Piece]) -> str:
     figures = [f for f in (each.rise, each.acceleration, each.jerk, each.time) if f is not None and f.number]
-    return f"{', '.join(f.shown for f in figures[:2])}; {_rise_time(each, pieces):.3g} s"
+    return f"{', '.join(f.text for f in figures[:2])}; {_rise_time(each, pieces):.3g} s"
 
 
 def _rise_time(each: _Drawn, pieces: Sequence[Piece]) -> float:

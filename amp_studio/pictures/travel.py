@@ -16,7 +16,7 @@ from .parts import part_name
 
 TALL = 1.5
 """How many times as long as the travel along x that along y is at most."""
-SAYS = {
+FORBIDDEN_SIDE = {
     "inside": "entry not allowed",
     "either": "no entry from outside, no exit from inside",
     "outside": "exit not allowed",
@@ -126,7 +126,7 @@ def _span(figures: ValueReader, span: SpanRole, axis: str) -> _Ends:
         none = (-math.inf, math.inf)[n]
         value = figures.file.get(figure.address) if figure else None
         if figure is not None and value is not None and span.none is not None and value.value == span.none[n]:
-            figures.note(f"{figure.label}: {figure.shown} is no limit", figure.address, is_remark=True)
+            figures.note(f"{figure.label}: {figure.text} is no limit", figure.address, is_remark=True)
             found[n] = None
             ends.append(none)
         else:
@@ -169,7 +169,7 @@ def _boxes(
         figures.note(f"{zone.name}: no axis of this picture belongs to a group")
     boxes = []
     for members in groups.values():
-        if all(_is_unset(figures, zone, axis) for axis in members):
+        if all(_is_not_set(figures, zone, axis) for axis in members):
             figures.note(f"{zone.name} is not set", figures.address(zone.low, members[0]))
             continue
         box = [
@@ -182,7 +182,7 @@ def _boxes(
     return boxes
 
 
-def _is_unset(figures: ValueReader, zone: ZoneRole, axis: str) -> bool:
+def _is_not_set(figures: ValueReader, zone: ZoneRole, axis: str) -> bool:
     found = [figures.figure(parameter, axis, quiet=True) for parameter in (zone.low, zone.high)]
     return all(each is None or each.problem == "not set" for each in found)
 
@@ -245,7 +245,7 @@ def _draw_box(
             if (0, k) in drags and (1, m) in drags:
                 (x, along_x), (y, along_y) = drags[0, k], drags[1, m]
                 pair = [row[0].figures[k], row[1].figures[m]]
-                label, shown = (", ".join(getattr(f, name) for f in pair if f) for name in ("label", "shown"))
+                label, shown = (", ".join(getattr(f, name) for f in pair if f) for name in ("label", "text"))
                 drawing.handles.append(Handle((x, y), (along_x, along_y), label, shown, second=True))
 
 
@@ -280,7 +280,7 @@ def _draw_zone(
         Text(
             (left, top),
             zone.name,
-            SAYS.get(side, "which side is forbidden is not set"),
+            FORBIDDEN_SIDE.get(side, "which side is forbidden is not set"),
             "inside",
             box[0].figures[0].address if box[0].figures[0] else None,
         )
@@ -315,7 +315,7 @@ def _name_travel(
 ) -> None:
     parts = []
     for ends, axis in zip(row, axes, strict=True):
-        shown = [figure.shown for figure in ends.figures if figure is not None and figure.number is not None]
+        shown = [figure.text for figure in ends.figures if figure is not None and figure.number is not None]
         if shown:
             parts.append(f"{figures.axis(axis)} {' to '.join(shown)}")
     if not parts:

@@ -39,8 +39,10 @@ def _grouped(schema: Schema, values: Iterable[tuple[str, str, str, str]]) -> tup
             about = found.setdefault((" ".join(danger.says.split()), danger.page), {})
             about.setdefault(parameter, (anchor, name, []))[2].append(place)
     return tuple(
-        Danger(says, page, tuple((anchor, _label(name, places)) for anchor, name, places in about.values()))
-        for (says, page), about in found.items()
+        Danger(
+            statement, page, tuple((anchor, _label(name, places)) for anchor, name, places in about.values())
+        )
+        for (statement, page), about in found.items()
     )
 
 

@@ -15,7 +15,7 @@ from amp_studio.schema import (
     convert,
     dimension,
     field_value,
-    shown,
+    unit_text,
     write_value,
 )
 
@@ -115,7 +115,7 @@ def row_of(
         value=MASKED if parameter.secret and value is not None else _bare(parameter, value),
         unit=unit,
         figure=figure,
-        shown_unit=shown(printed_unit),
+        shown_unit=unit_text(printed_unit),
         also=also,
         entered=_with_unit(_bare(parameter, value), unit) if is_rounded else "",
         detail=_bits(parameter, value),
@@ -155,7 +155,7 @@ def _figure(parameter: Parameter, value: Value | None, unit: str) -> str:
 
 
 def _with_unit(figure: str, unit: str) -> str:
-    return f"{figure}{'' if shown(unit) == '°' else ' '}{shown(unit)}".rstrip()
+    return f"{figure}{'' if unit_text(unit) == '°' else ' '}{unit_text(unit)}".rstrip()
 
 
 def _default(parameter: Parameter, default: Value | None, unit: str) -> str:

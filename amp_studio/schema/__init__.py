@@ -147,8 +147,8 @@ if TYPE_CHECKING:
         canonical_unit,
         convert,
         dimension,
-        shown,
         unit_named,
+        unit_text,
     )
     from .value import InvalidValueError, Value
     from .values import (

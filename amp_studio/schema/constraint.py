@@ -15,7 +15,7 @@ from .bit_fields import field_value
 from .evaluation import Evaluation
 from .model import Bound, BoundRef, Parameter, Range
 from .storage import exact, stored_range, stored_unit
-from .units import UNITS, angular, canonical_unit, convert, dimension, shown
+from .units import UNITS, angular, canonical_unit, convert, dimension, unit_text
 from .value import Value
 from .values import MASKED, digits_of, show_value, write_number
 
@@ -34,7 +34,7 @@ class Limits(NamedTuple):
 
     def text(self) -> str:
         """Return ``0 to 214.1 mm`` for a person."""
-        unit = f" {shown(self.unit)}" if self.unit else ""
+        unit = f" {unit_text(self.unit)}" if self.unit else ""
         if self.low is None and self.high is None:
             return "no printed range"
         if self.low is None:
@@ -143,7 +143,7 @@ def fault(evaluation: Evaluation, address: Address, value: Value) -> str | None:
     if allowed is None:
         return None
     if _beyond(found, allowed):
-        figure = MASKED if parameter.secret else _shown(value)
+        figure = MASKED if parameter.secret else _value_text(value)
         return f"{parameter.name} {figure} is outside {_named(evaluation, allowed)}"
     return None
 
@@ -210,9 +210,9 @@ def _named(evaluation: Evaluation, allowed: Limits) -> str:
     return text
 
 
-def _shown(value: Value) -> str:
+def _value_text(value: Value) -> str:
     number = write_number(value.value) if not isinstance(value.value, str) else value.value
-    return f"{number} {shown(value.unit)}".rstrip()
+    return f"{number} {unit_text(value.unit)}".rstrip()
 
 
 def clip(evaluation: Evaluation, address: Address, value: Value) -> Value:

@@ -35,7 +35,7 @@ from .model import (
 )
 from .model.compiled_json import record_text
 
-ABSENT = "not_here"
+NOT_AT_CONTROL = "not_here"
 """The condition by which a known parameter is hidden that the control does not list."""
 _QUANTITIES = {
     "mm": "length",
@@ -154,7 +154,7 @@ class DescribedSchema:
         for parameter in self._of_this.values():
             if parameter.id not in self._ids:
                 group = self._known.group_of[parameter.id]
-                self._add(DescribedGroup(group.key, group.name), self._absent(parameter))
+                self._add(DescribedGroup(group.key, group.name), self._not_at_control(parameter))
         made = tuple(
             Group(
                 key=key,
@@ -172,8 +172,8 @@ class DescribedSchema:
             commissioning=known.commissioning,
             pictures=known.pictures,
         )
-        absent = Condition(when="true", why="this control does not have the setting")
-        conditions = family.conditions | {ABSENT: absent}
+        not_at_control = Condition(when="true", why="this control does not have the setting")
+        conditions = family.conditions | {NOT_AT_CONTROL: not_at_control}
         compiled = Compiled(
             family=family.model_copy(update={"groups": tuple(self._groups), "conditions": conditions}),
             groups=made,
@@ -240,7 +240,7 @@ class DescribedSchema:
         listed = {each.axis: str(each.number) for each in alike}
         return Layout(scope="axis", instances=tuple(listed), numbers=Numbers(listed=listed, format=form))
 
-    def _absent(self, parameter: Parameter) -> Parameter:
+    def _not_at_control(self, parameter: Parameter) -> Parameter:
         """Return a known parameter that the control does not list: hidden and without a number,
         so that rules find nothing.
 
@@ -252,7 +252,7 @@ class DescribedSchema:
         if layout is None:
             return parameter.model_copy(update={"layouts": (), "default": None, "page": page})
         if layout.numbers is None or not self._described.stays(parameter, frozenset(self._ids)):
-            state = StateRule(state="hidden", when=ABSENT, page=page)
+            state = StateRule(state="hidden", when=NOT_AT_CONTROL, page=page)
             bare = layout.model_copy(update={"instances": None, "numbers": None})
             return parameter.model_copy(
                 update={"layouts": (bare,), "states": (state,), "default": None, "page": page}

@@ -15,7 +15,7 @@ from .address import Address, UnknownParameterError
 from .evaluation import Evaluation
 from .model import Parameter, UnitSize
 from .storage import exact
-from .units import UNITS, UnitError, dimension, shown, unit_named
+from .units import UNITS, UnitError, dimension, unit_named, unit_text
 from .value import InvalidValueError, Value
 from .values import EXACT, checked, choice_key, read_exact, write_number
 
@@ -30,7 +30,7 @@ class Size(NamedTuple):
 
     def text(self) -> str:
         """Return ``0.001 mm``."""
-        return f"{write_number(float(self.number))} {shown(self.unit)}"
+        return f"{write_number(float(self.number))} {unit_text(self.unit)}"
 
 
 def size_of(evaluation: Evaluation, address: Address, unit: str) -> Size | None:
@@ -110,6 +110,6 @@ def _counted(parameter: Parameter, text: str, count: Fraction, size: Size, unit:
     if abs(count) > EXACT or (parameter.type == "integer" and not whole):
         what = "too many" if whole else "no whole number of"
         raise InvalidValueError(
-            f"{text.strip()} is {what} {shown(unit)}, each {size.text()}: {parameter.name}"
+            f"{text.strip()} is {what} {unit_text(unit)}, each {size.text()}: {parameter.name}"
         )
     return checked(parameter, Value(int(count) if parameter.type == "integer" else float(count), unit))

@@ -16,7 +16,7 @@ from functools import lru_cache
 
 from .model import Parameter, Storage
 from .quoting import short
-from .units import UNITS, angular, dimension, shown
+from .units import UNITS, angular, dimension, unit_text
 from .value import InvalidValueError, Value
 from .values import choice_key, choice_value, label_of, write_number
 
@@ -254,4 +254,4 @@ def _storage(parameter: Parameter) -> Storage:
 
 
 def _named(unit: str) -> str:
-    return shown(unit) or "a bare number"
+    return unit_text(unit) or "a bare number"

@@ -36,7 +36,7 @@ class UnitError(AmpStudioError, ValueError):
 
 
 def define_unit(
-    unit: str, measures: str, factor: Fraction, shown: str = "", also: Iterable[str] = ()
+    unit: str, measures: str, factor: Fraction, display: str = "", also: Iterable[str] = ()
 ) -> None:
     """Make a unit known: what it measures, the factor to the canonical unit of that, and how people write it.
 
@@ -55,14 +55,14 @@ def define_unit(
         raise UnitError(f"the factor of {quoted(unit)} is {factor}: it must be above 0")
     if factor != 1 and (measures, _ONE) not in UNITS.values():
         raise UnitError(f"no unit of {measures} has the factor 1, which {quoted(unit)} could be converted to")
-    for text in (*also, shown):
+    for text in (*also, display):
         if text and (UNITS.keys() & {text} - {unit} or _alias(text) not in (None, unit)):
             raise UnitError(f"{quoted(text)} is how people write {_alias(text) or text} already")
     UNITS[unit] = meaning
     ALIASES.update(dict.fromkeys(also, unit))
-    if shown:
-        SHOWN[unit] = shown
-        ALIASES.setdefault(shown, unit)
+    if display:
+        SHOWN[unit] = display
+        ALIASES.setdefault(display, unit)
 
 
 def _alias(text: str) -> str | None:
@@ -147,6 +147,6 @@ def angular(unit: str) -> str:
     return f"{head}/deg" if tail in ("mm", "in") and f"{head}/deg" in UNITS else unit
 
 
-def shown(unit: str) -> str:
+def unit_text(unit: str) -> str:
     """Return the unit as it is shown to a person."""
     return SHOWN.get(unit, unit)

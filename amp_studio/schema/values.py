@@ -10,7 +10,7 @@ from fractions import Fraction
 from .bit_fields import no_label, word_of_labels
 from .model import Choice, Parameter
 from .quoting import quoted, short
-from .units import UNITS, UnitError, dimension, shown, unit_named
+from .units import UNITS, UnitError, dimension, unit_named, unit_text
 from .value import LONGEST_NUMBER, InvalidValueError, Value, plain
 from .visible_text import visible
 
@@ -218,11 +218,12 @@ def _read(parameter: Parameter, text: str, unit: str) -> Value:
             named = unit_named(rest)
         except UnitError as error:
             raise InvalidValueError(
-                f"{error}; {parameter.name} is given in {shown(unit) or 'a bare number'}"
+                f"{error}; {parameter.name} is given in {unit_text(unit) or 'a bare number'}"
             ) from None
         if dimension(named) != dimension(unit):
             raise InvalidValueError(
-                f"{parameter.name} is given in {shown(unit) or 'a bare number'}, not in {shown(named)}"
+                f"{parameter.name} is given in {unit_text(unit) or 'a bare number'}, not in "
+                f"{unit_text(named)}"
             )
         unit = named
     if parameter.type in ("integer", "bits") and (exact := Decimal(_digits(text)[0])) != number:
@@ -381,7 +382,7 @@ def show_value(parameter: Parameter, value: Value | None, *, secrets: bool = Fal
     if isinstance(value.value, (str, bool)):
         return visible(write_value(parameter, value))
     number = _number_text(parameter, value)
-    unit = shown(value.unit)
+    unit = unit_text(value.unit)
     return f"{number}{unit}" if unit == "°" else f"{number} {unit}" if unit else number
 
 

@@ -52,8 +52,12 @@ def make_sheet(
     found = compare(wanted.schema, wanted.values, present.values)
     lines, left_out, same = [], [], found.same
     for difference in found.differences:
-        absent = difference.address[0] in wanted.schema.parameters.keys() - there.parameters.keys()
-        made = _absent(wanted, difference) if absent else _line(keying, wanted, present, difference, secrets)
+        is_missing = difference.address[0] in wanted.schema.parameters.keys() - there.parameters.keys()
+        made = (
+            _missing(wanted, difference)
+            if is_missing
+            else _line(keying, wanted, present, difference, secrets)
+        )
         if isinstance(made, _Line):
             lines.append(made)
         elif made is not None:
@@ -96,7 +100,7 @@ def _check_sides(wanted: ParameterFile, present: ParameterFile) -> None:
         )
 
 
-def _absent(wanted: ParameterFile, difference: Difference) -> LeftOut:
+def _missing(wanted: ParameterFile, difference: Difference) -> LeftOut:
     return LeftOut(*_number_and_name(wanted, difference.address), "this control does not have it")
 
 
@@ -273,5 +277,5 @@ def _number_and_name(file: ParameterFile, address: Address) -> tuple[str, str]:
     schema, parameter = file.machine_schema, file.schema.parameters[address[0]]
     number = schema.number(address)
     label = schema.instance_label(address)
-    shown = number if number and not schema.is_disputed(address[0]) else schema.short(address)
-    return shown, f"{parameter.name} {label}".rstrip()
+    screen_text = number if number and not schema.is_disputed(address[0]) else schema.short(address)
+    return screen_text, f"{parameter.name} {label}".rstrip()

@@ -20,11 +20,11 @@ from amp_studio.schema import (
     label_of,
     load_part,
     registration_of,
-    shown,
     shown_number,
     stored_number,
     stored_unit,
     to_stored,
+    unit_text,
     write_number,
 )
 
@@ -47,10 +47,10 @@ class Keyed:
         """Return the number that a text on the screen is, where this value is shown as one;
         None for a text that is none.
         """
-        shown = text.strip()
+        unit_text = text.strip()
         if self.base == 16:
-            return Fraction(int(shown, 16)) if re.fullmatch("[0-9A-Fa-f]{1,16}", shown) else None
-        plain = shown.replace(",", ".", 1) if "." not in shown else shown
+            return Fraction(int(unit_text, 16)) if re.fullmatch("[0-9A-Fa-f]{1,16}", unit_text) else None
+        plain = unit_text.replace(",", ".", 1) if "." not in unit_text else unit_text
         return (
             Fraction(plain)
             if re.fullmatch(r"[+-]?([0-9]{1,30}(\.[0-9]{0,30})?|\.[0-9]{1,30})", plain)
@@ -91,16 +91,18 @@ def plain_text(file: ParameterFile, address: Address, value: Value) -> Keyed | N
     if stored is not None:
         unit = stored_unit(parameter, turns=turns)
         is_rounded = exact(stored) != to_stored(parameter, value, unit)
-        return Keyed(plain_digits(stored), shown(unit), is_rounded=is_rounded)
+        return Keyed(plain_digits(stored), unit_text(unit), is_rounded=is_rounded)
     if parameter.choices:
         return Keyed(label_of(parameter, choice_key(value)))
     if isinstance(value.value, str):
         return Keyed(value.value)
     unit = file.evaluation.unit(address, file.header.units)
     try:
-        return Keyed(plain_digits(shown_number(parameter, to_stored(parameter, value, unit))), shown(unit))
+        return Keyed(
+            plain_digits(shown_number(parameter, to_stored(parameter, value, unit))), unit_text(unit)
+        )
     except StorageError:
-        return Keyed(plain_digits(value.value), shown(value.unit))
+        return Keyed(plain_digits(value.value), unit_text(value.unit))
 
 
 def plain_digits(number: float) -> str:

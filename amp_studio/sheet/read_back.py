@@ -41,7 +41,7 @@ class ReadBackError(AmpStudioError, ValueError):
 
 
 @dataclass(frozen=True)
-class Shown:
+class ScreenReading:
     """What somebody has read on the screen for a number, and the line he wrote it on."""
 
     number: str
@@ -51,14 +51,14 @@ class Shown:
 
 @dataclass(frozen=True)
 class ReadBack:
-    """One entry and what the screen shows for it: ``shown`` is None where nobody has read it."""
+    """One entry and what the screen shows for it: ``screen_text`` is None where nobody has read it."""
 
     entry: SheetEntry
-    shown: str | None
+    screen_text: str | None
     state: ReadBackState
 
 
-def read_shown(text: str) -> list[Shown]:
+def read_screen_readings(text: str) -> list[ScreenReading]:
     """Return what somebody has read on the screen, of lines ``1750 203.20000``; raises ReadBackError.
 
     Number and value are parted by blanks, a tab, or one of ``= ; : ,``; what begins with ``#`` is for the
@@ -73,7 +73,7 @@ def read_shown(text: str) -> list[Shown]:
         and _NUMBER_HEAD in cells
     ):
         return _of_table(lines, _delimiter(first))
-    found: list[Shown] = []
+    found: list[ScreenReading] = []
     for n, line in enumerate(lines, 1):
         if line.strip() and not line.lstrip().startswith("#"):
             parts = _LINE.fullmatch(line.strip())
@@ -81,7 +81,7 @@ def read_shown(text: str) -> list[Shown]:
                 raise ReadBackError(
                     f"{quoted(line.strip())} is not a number and the value that the screen shows", n
                 )
-            found.append(Shown(parts[1], parts[2].strip(), n))
+            found.append(ScreenReading(parts[1], parts[2].strip(), n))
     return found
 
 
@@ -89,8 +89,8 @@ def _delimiter(line: str) -> str:
     return ";" if line.count(";") > line.count(",") else ","
 
 
-def _of_table(lines: list[str], delimiter: str) -> list[Shown]:
-    found: list[Shown] = []
+def _of_table(lines: list[str], delimiter: str) -> list[ScreenReading]:
+    found: list[ScreenReading] = []
     reader = csv.reader(io.StringIO("\n".join(lines)), delimiter=delimiter)
     head: list[str] | None = None
     for row in _rows(reader):
@@ -98,9 +98,9 @@ def _of_table(lines: list[str], delimiter: str) -> list[Shown]:
             head = row
             continue
         cells = dict(zip(head, row, strict=False))
-        if shown := cells.get(_SHOWN_HEAD, "").strip().removeprefix("'"):
+        if screen_text := cells.get(_SHOWN_HEAD, "").strip().removeprefix("'"):
             number = cells.get(_NUMBER_HEAD, "").strip().removeprefix("'")
-            found.append(Shown(number, shown, reader.line_num))
+            found.append(ScreenReading(number, screen_text, reader.line_num))
     return found
 
 
@@ -111,14 +111,14 @@ def _rows(reader: Iterator[list[str]]) -> Iterator[list[str]]:
         raise ReadBackError(f"the table cannot be read ({error})", getattr(reader, "line_num", 1)) from None
 
 
-def compare_shown(sheet: Sheet, file: ParameterFile, shown: Iterable[Shown]) -> list[ReadBack]:
+def compare_screen(sheet: Sheet, file: ParameterFile, screen_text: Iterable[ScreenReading]) -> list[ReadBack]:
     """Compare every entry of a file's sheet with what the screen shows.
 
     Raises ReadBackError for a number that is not on the sheet, or that is there twice.
     """
     entries = {entry.address: entry for entry in sheet.entries}
     given: dict[Address, str] = {}
-    for each in shown:
+    for each in screen_text:
         try:
             address = file.find(each.number)
         except UnknownParameterError as error:
@@ -131,11 +131,11 @@ def compare_shown(sheet: Sheet, file: ParameterFile, shown: Iterable[Shown]) -> 
     return [judged(entry, given.get(address)) for address, entry in entries.items()]
 
 
-def judged(entry: SheetEntry, shown: str | None) -> ReadBack:
+def judged(entry: SheetEntry, screen_text: str | None) -> ReadBack:
     """Compare one entry with what the screen shows; blank is not read."""
-    if shown is None or not shown.strip():
+    if screen_text is None or not screen_text.strip():
         return ReadBack(entry, None, "not read")
-    if entry.keyed.shows(shown):
-        return ReadBack(entry, shown, "same")
-    is_old = entry.was is not None and entry.was.shows(shown)
-    return ReadBack(entry, shown, "old" if is_old else "other")
+    if entry.keyed.shows(screen_text):
+        return ReadBack(entry, screen_text, "same")
+    is_old = entry.was is not None and entry.was.shows(screen_text)
+    return ReadBack(entry, screen_text, "old" if is_old else "other")

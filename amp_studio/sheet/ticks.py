@@ -40,12 +40,12 @@ class Ticks:
     def __init__(self, path: Path, sheet: Sheet) -> None:
         self.path = path
         self._entries = {entry.number: entry for entry in sheet.entries}
-        self.shown: dict[str, str] = {}
+        self.screen_text: dict[str, str] = {}
         """Number -> what the screen shows."""
         self._ticked: set[str] = set()
         self.forgotten = 0
         """Ticks of values that have changed since."""
-        for number, old, new, shown, ticked in _read(path):
+        for number, old, new, screen_text, ticked in _read(path):
             entry = self._entries.get(number)
             if entry is None:  # the control contains it now
                 continue
@@ -54,8 +54,8 @@ class Ticks:
                 continue
             if ticked:
                 self._ticked.add(number)
-            if shown:
-                self.shown[number] = shown
+            if screen_text:
+                self.screen_text[number] = screen_text
 
     def __contains__(self, entry: object) -> bool:
         return isinstance(entry, SheetEntry) and entry.number in self._ticked
@@ -71,11 +71,11 @@ class Ticks:
         self._ticked = self._ticked | numbers if on else self._ticked - numbers
         self._save()
 
-    def read_back(self, entry: SheetEntry, shown: str) -> None:
+    def read_back(self, entry: SheetEntry, screen_text: str) -> None:
         """Remember what the screen shows for an entry; "" for nothing."""
-        self.shown.pop(entry.number, None)
-        if shown.strip():
-            self.shown[entry.number] = shown.strip()
+        self.screen_text.pop(entry.number, None)
+        if screen_text.strip():
+            self.screen_text[entry.number] = screen_text.strip()
         self._save()
 
     def _save(self) -> None:
@@ -84,11 +84,11 @@ class Ticks:
                 "number": e.number,
                 "old": e.old,
                 "new": e.new,
-                "shown": self.shown.get(e.number, ""),
+                "shown": self.screen_text.get(e.number, ""),
                 "ticked": e.number in self._ticked,
             }
             for e in self._entries.values()
-            if e.number in self._ticked or e.number in self.shown
+            if e.number in self._ticked or e.number in self.screen_text
         ]
         write_atomic(self.path, (json.dumps({"ticks": kept}, indent=1) + "\n").encode(), keep_backup=False)
 

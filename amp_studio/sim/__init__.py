@@ -65,7 +65,7 @@ if TYPE_CHECKING:
     from .motion_check import MotionCheck, check_motion
     from .picture import picture_of, plot_svg, settling_span
     from .probing import Probing
-    from .rounding import rounded_down, rounded_up, shown
+    from .rounding import rounded_down, rounded_up, value_text
     from .run import machine_tests, simulate, simulated_axes, sweep
     from .scenario import Scenario, Settings, above_zero, number, refuse_unknown
     from .scenarios.columns import alarms_of, column_units, per_minute

@@ -28,31 +28,31 @@ def doubts(file: ParameterFile, read: Iterable[Address], overridden: Iterable[st
     validator = Validator(file)
     errors = [finding for finding in validator.run() if finding.severity == "error"]
     own = [finding for finding in errors if not addresses.keys().isdisjoint(finding.addresses)]
-    said = [finding.message for finding in own[:MOST]]
+    doubts_of_findings = [finding.message for finding in own[:MOST]]
     others = len(own[MOST:]) + sum(
         f.severity == "error" and f not in own for f in present(validator, validator.findings()).findings
     )
     if others:
-        said.append(
+        doubts_of_findings.append(
             f"The file has {others} other error{'s' if others > 1 else ''}: validate it before this result is"
             " trusted"
         )
-    return (*said, *_states(file, addresses))
+    return (*doubts_of_findings, *_states(file, addresses))
 
 
 def _states(file: ParameterFile, addresses: Iterable[Address]) -> Iterator[str]:
-    unset = []
+    not_set = []
     for address in addresses:
         name = _named(file, address)
         state = file.evaluation.state(address)
         if address not in file.values:
             if state.is_active and not file.schema.parameters[address[0]].optional:
-                unset.append(name)
+                not_set.append(name)
         elif not state.is_active:
             why = f": {state.why}" if state.why else ""
             yield f"{name} is inactive, and the simulation used it{why}"
-    if unset:
-        yield f"Not set, and simulated as if there were none: {', '.join(unset)}"
+    if not_set:
+        yield f"Not set, and simulated as if there were none: {', '.join(not_set)}"
 
 
 def _named(file: ParameterFile, address: Address) -> str:

@@ -177,7 +177,7 @@ class AxisLaw:
     """The ``p`` of the linear model (without quantisation, deadband, stiction terms); None for the same."""
 
 
-def _no_advice(_law: AxisLaw, _trace: Trace) -> Sequence[Recommendation]:
+def _no_recommendation(_law: AxisLaw, _trace: Trace) -> Sequence[Recommendation]:
     return ()
 
 
@@ -207,7 +207,7 @@ class Law:
     without_axes: str = "No axis is fitted. Set the type of an axis first"
     settings: Mapping[str, str] = field(default_factory=dict)
     scenarios: Sequence[str] = USUAL_SCENARIOS
-    advise: Callable[[AxisLaw, Trace], Sequence[Recommendation]] = _no_advice
+    advise: Callable[[AxisLaw, Trace], Sequence[Recommendation]] = _no_recommendation
     own: Mapping[str, Scenario] = field(default_factory=dict)
     spindle: Callable[[AxisParameters, str], Spindle] | None = None
     tapping: Callable[[BoundMachine, Spindle, Gear, AxisLaw, float], Tapping] | None = None

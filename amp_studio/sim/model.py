@@ -8,7 +8,7 @@ from .axis_parameters import AxisParameters
 from .engine.machine import Machine
 from .errors import SimulationError
 from .law import AxisLaw
-from .rounding import shown
+from .rounding import value_text
 
 AT_SPEED = 60.0 / 1000.0
 """1 unit of torque at 1000 u/min as torque for 1 u/s."""
@@ -150,6 +150,6 @@ def _assumption(axis: AxisLaw, figure: str, why: str) -> str:
     for name, (own, factor, unit, _) in _FIGURES.items():
         if own == figure:
             given = unit.format(u=axis.unit, torque=torque)
-            value = shown(getattr(axis.machine, figure) / factor, given, 6)
+            value = value_text(getattr(axis.machine, figure) / factor, given, 6)
             return f"ASSUMED: {name} = {value}. {why}"
     return f"ASSUMED: {why}"

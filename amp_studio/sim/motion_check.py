@@ -25,7 +25,7 @@ LEAST_PHASE, LEAST_GAIN = 30.0, 6.0
 """deg and dB: margins below which a loop is doubtful (as the solver of the gains asks at least)."""
 NEAR_GRID = (20.0, 80.0)
 """% of a turn between switch and marker that is sure (Syntec 2.2)."""
-SHOWN = {
+FIGURES = {
     "step": ("steady_following_error", "peak_following_error", "settle_time", "overshoot", "peak_output"),
     "velocity": ("settle_time", "overshoot", "peak_torque"),
     "frequency": ("bandwidth", "phase_margin", "gain_margin"),
@@ -82,7 +82,7 @@ def _spindle_checked(file: ParameterFile) -> MotionCheck | None:
         read = (error.parameter,) if error.parameter in file.schema.parameters else ()
         return MotionCheck("spindle", "", "", "not possible", why=error.what, params=read) if read else None
     verdict, why = _verdict(trace)
-    figures = {name: trace.result[name] for name in SHOWN["spindle"] if name in trace.result}
+    figures = {name: trace.result[name] for name in FIGURES["spindle"] if name in trace.result}
     if trace.result.get("deviation_at_end", (0.0, ""))[0]:
         verdict, why = "doubtful", "The speed stays outside of the tolerance of its watch"
     return MotionCheck("spindle", "", "", verdict, figures, trace.alarms, why, (), trace.assumptions)
@@ -96,9 +96,9 @@ def _checked(file: ParameterFile, law: Law, scenario: str, axis: str) -> MotionC
         read = (error.parameter,) if error.parameter in file.schema.parameters else ()
         return MotionCheck(scenario, axis, letter, "not possible", why=error.what, params=read)
     verdict, why = _verdict(trace)
-    shown = {name: trace.result[name] for name in SHOWN[scenario] if name in trace.result}
+    figures = {name: trace.result[name] for name in FIGURES[scenario] if name in trace.result}
     params = _parameters(file, law, trace) if verdict != "good" else ()
-    return MotionCheck(scenario, axis, letter, verdict, shown, trace.alarms, why, params, trace.assumptions)
+    return MotionCheck(scenario, axis, letter, verdict, figures, trace.alarms, why, params, trace.assumptions)
 
 
 def _verdict(trace: Trace) -> tuple[Verdict, str]:

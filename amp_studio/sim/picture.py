@@ -25,7 +25,7 @@ from amp_studio.drawing import (
     ring_scene,
 )
 
-from .rounding import shown
+from .rounding import value_text
 from .series import Series
 from .sweep_picture import sweep_picture
 from .trace import Trace
@@ -68,7 +68,7 @@ def _title(trace: Trace) -> str:
     return f"{trace.scenario.capitalize()}{axis}" + (f": {' at '.join(figures)}" if figures else "")
 
 
-_TOLD = {
+_NAMED = {
     "steady_following_error": "following error {}",
     "overshoot": "overshoot {}",
     "settle_time": "settled {} after the command",
@@ -91,8 +91,8 @@ _TOLD = {
 
 
 def _facts(trace: Trace) -> tuple[str, ...]:
-    found = [words.format(_shown(trace, name)) for name, words in _TOLD.items() if _has(trace, name)]
-    return (*(f"{a.code} at {shown(a.time_s, 's')}" for a in trace.alarms), *found)
+    found = [words.format(_shown(trace, name)) for name, words in _NAMED.items() if _has(trace, name)]
+    return (*(f"{a.code} at {value_text(a.time_s, 's')}" for a in trace.alarms), *found)
 
 
 def _has(trace: Trace, name: str) -> bool:
@@ -101,7 +101,7 @@ def _has(trace: Trace, name: str) -> bool:
 
 def _shown(trace: Trace, name: str) -> str:
     value, unit = trace.result[name]
-    return "–" if value is None else shown(value, unit)
+    return "–" if value is None else value_text(value, unit)
 
 
 # -- over time ---------------------------------------------------------------
@@ -175,7 +175,7 @@ def _curve(trace: Trace, name: str) -> Curve:
         trace.columns[name],
         sort,
         dashed=sort == "dim",
-        held=name == "command_velocity",
+        is_stepped=name == "command_velocity",
         dense=sort == "output" or name == "following_error",
     )
 
@@ -196,7 +196,7 @@ def _error(trace: Trace, before: Trace | None, alarms: Sequence[NamedPlace]) -> 
     low, high = float(error.min(initial=0.0)), float(error.max(initial=0.0))
     peak, sign, unit = max(-low, high), (-1.0 if -low > high else 1.0), trace.units.get("following_error", "")
     near = [
-        NamedPlace(f"{name} {shown(level, unit)}", sign * level)
+        NamedPlace(f"{name} {value_text(level, unit)}", sign * level)
         for name, (level, _) in trace.limits.items()
         if level is not None and level <= FAR * peak
     ]
@@ -261,7 +261,9 @@ def _settling(trace: Trace, before: Trace | None) -> Scene | None:
             curves.append(Curve(name, each.columns["time_s"][inside], off, sort))
     band = trace.limits.get("inposition band", (None, ""))[0]
     levels = (
-        () if band is None else (NamedPlace(f"inposition band ±{shown(band)}", band), NamedPlace("", -band))
+        ()
+        if band is None
+        else (NamedPlace(f"inposition band ±{value_text(band)}", band), NamedPlace("", -band))
     )
     along = ("time, the end of the move", "s")
     return (
@@ -377,7 +379,7 @@ _MARKS = {"bandwidth": "bandwidth", "phase_margin_frequency": "gain 1", "gain_ma
 def _frequency_marks(trace: Trace, names: Iterable[str]) -> tuple[NamedPlace, ...]:
     found = ((name, trace.result.get(name, (None, ""))[0]) for name in names)
     return tuple(
-        NamedPlace(f"{_MARKS[name]} {shown(at, 'Hz', 3)}", at) for name, at in found if at is not None
+        NamedPlace(f"{_MARKS[name]} {value_text(at, 'Hz', 3)}", at) for name, at in found if at is not None
     )
 
 
@@ -401,7 +403,7 @@ def _ballbar(trace: Trace, before: Trace | None) -> Picture:
     # A radius error above 0 is a circle that is too small, a deviation below 0.
     predicted = trace.result.get("predicted_radius_error", (None, ""))[0]
     if predicted is not None and math.isfinite(predicted):
-        levels.append(NamedPlace(f"predicted {shown(-predicted, unit)}".replace("-", "−"), -predicted))
+        levels.append(NamedPlace(f"predicted {value_text(-predicted, unit)}".replace("-", "−"), -predicted))
     marks = tuple(NamedPlace("", float(turn)) for turn in (90, 180, 270))
     panel = panel_of(
         "radius deviation",
@@ -423,7 +425,7 @@ def limits_outside(trace: Trace) -> Mapping[str, str]:
         return {}
     peak = float(np.max(np.abs(error)))
     return {
-        name: shown(level, unit)
+        name: value_text(level, unit)
         for name, (level, unit) in trace.limits.items()
         if level is not None and level > FAR * peak
     }

@@ -28,7 +28,7 @@ def rounded(value: float, digits: int) -> float:
     return _rounded(value, digits, ROUND_HALF_EVEN)
 
 
-def shown(value: float, unit: str = "", digits: int = 4) -> str:
+def value_text(value: float, unit: str = "", digits: int = 4) -> str:
     """Return a value with this number of digits and its unit, without trailing zeros and without an
     exponent.
     """

@@ -81,9 +81,9 @@ def simulate(
     letter = axis_name(file.evaluation, bound.axis)
     if scenario in law.own:
         trace = law.own[scenario].run(bound, own)
-        advice = (*trace.recommendations, *law.advise(bound, trace))
+        recommended = (*trace.recommendations, *law.advise(bound, trace))
         doubtful = doubts(file, read, model)
-        return in_unit(_named(replace(trace, recommendations=advice, doubts=doubtful), letter), length)
+        return in_unit(_named(replace(trace, recommendations=recommended, doubts=doubtful), letter), length)
     chosen = SCENARIOS[scenario]
     if chosen.tried:
         others = _alike(file, law, bound, model)

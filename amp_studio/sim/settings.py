@@ -21,8 +21,8 @@ _ANGULAR = {"mm": "deg", "mm/min": "deg/min", "mm/s2": "deg/s2"}
 
 def units_of(description: str) -> tuple[str, ...]:
     """Return the units that a description names."""
-    said = [part for found in _BRACKETS.findall(description) for part in found.split(" or ")]
-    return tuple(unit for part in said if (unit := part.removesuffix(" per torque")) in UNITS)
+    units = [part for found in _BRACKETS.findall(description) for part in found.split(" or ")]
+    return tuple(unit for part in units if (unit := part.removesuffix(" per torque")) in UNITS)
 
 
 def read_settings(

@@ -109,14 +109,14 @@ class Spindle:
         The manuals do not print which gear is taken where ranges overlap.
         """
         fitting = [gear for gear in self.gears if gear.low <= abs(speed) <= gear.high]
-        held = next((gear for gear in self.gears if gear.name == present), None)
-        if present is not None and held is None:
+        engaged = next((gear for gear in self.gears if gear.name == present), None)
+        if present is not None and engaged is None:
             known = ", ".join(gear.name for gear in self.gears)
             raise SimulationError(
                 f"Gear {present} of spindle {self.name} is not used. Used are: {known}", "move.gear"
             )
         if programmed:
-            return (held if held in fitting else None), ""
+            return (engaged if engaged in fitting else None), ""
         if not fitting:
             return None, ""
         if len(fitting) > 1:
@@ -125,7 +125,7 @@ class Spindle:
                 f"ASSUMED: of the gears {names}, which all have this speed, the present one stays, else the"
                 " lowest is taken; it is not printed."
             )
-            return (held if held in fitting else fitting[0]), note
+            return (engaged if engaged in fitting else fitting[0]), note
         return fitting[0], ""
 
 

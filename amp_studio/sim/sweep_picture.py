@@ -9,7 +9,7 @@ import math
 import numpy as np
 
 from amp_studio.drawing import Curve, NamedPlace, Picture, Point, Scene, ShapeSort, map_scene, panel_of
-from amp_studio.sim.rounding import shown
+from amp_studio.sim.rounding import value_text
 from amp_studio.sim.series import Series
 from amp_studio.sim.trace import Trace
 from amp_studio.sim.variations.text import best_row
@@ -55,7 +55,7 @@ def _map(trace: Trace, x: Series, y: Series) -> Picture:
         points,
     )
     nearest = int(np.argmin(np.abs(y - (y[len(y) // 2] if at[1] is None else at[1]))))
-    cut = f"{_words(trace.figure)} at {_words(two)} {shown(float(y[nearest]), trace.units[two])}"
+    cut = f"{_words(trace.figure)} at {_words(two)} {value_text(float(y[nearest]), trace.units[two])}"
     panel = _panel(trace, cut, one, x, values[nearest], safe[nearest], at[0])
     return Picture("", (), (panel,), above)
 

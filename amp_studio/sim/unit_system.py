@@ -14,7 +14,7 @@ from amp_studio.files import ParameterFile
 from amp_studio.schema import UNITS, canonical
 
 from .errors import SimulationError
-from .rounding import rounded, shown
+from .rounding import rounded, value_text
 from .trace import Figure, Recommendation, Trace
 
 MM_PER_INCH = 25.4
@@ -58,7 +58,7 @@ def in_text(text: str, length: str) -> str:
     if length == "mm":
         return text
     return _IN_TEXT.sub(
-        lambda found: shown(float(found[1]) / MM_PER_INCH, own_unit(found[2], length), DIGITS), text
+        lambda found: value_text(float(found[1]) / MM_PER_INCH, own_unit(found[2], length), DIGITS), text
     )
 
 

@@ -12,7 +12,7 @@ from amp_studio.schema import write_number
 
 from .errors import SimulationError
 from .picture import plot_svg
-from .rounding import shown
+from .rounding import value_text
 from .trace import Trace
 from .variations.text import parted, spread_lines, variation_lines, variations_summary
 
@@ -64,20 +64,22 @@ def trace_text(trace: Trace) -> str:
     """Return the result as text for the terminal: alarms, figures, recommendations, assumptions."""
     lines = [f"{trace.scenario}{', axis ' + trace.axis_title if trace.axis else ''}: {trace.model}"]
     lines += [f"DOUBTFUL: {doubt}" for doubt in trace.doubts]
-    lines += [f"ALARM {alarm.code} at {shown(alarm.time_s, 's')}: {alarm.message}" for alarm in trace.alarms]
+    lines += [
+        f"ALARM {alarm.code} at {value_text(alarm.time_s, 's')}: {alarm.message}" for alarm in trace.alarms
+    ]
     result, spread = parted(trace)
     width = max(len(name) for name in (*result, *spread))
     for name, (value, unit) in result.items():
         words = name.replace("_", " ").ljust(width)
         none = "not steady" if name.startswith("steady") else "not reached"
-        lines.append(f"  {words}  {none if value is None else shown(value, unit, 6)}")
+        lines.append(f"  {words}  {none if value is None else value_text(value, unit, 6)}")
     lines += spread_lines(spread, width)
     lines += [f"  {line}" for line in variation_lines(trace)]
     for heading, entries in (
         (
             "Recommendations",
             [
-                f"{a.parameter} = {shown(a.value, a.unit, 9)}:"
+                f"{a.parameter} = {value_text(a.value, a.unit, 9)}:"
                 f" {a.why}{f' Price: {a.price}' if a.price else ''}"
                 for a in trace.recommendations
             ],

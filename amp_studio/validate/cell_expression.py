@@ -33,8 +33,8 @@ from amp_studio.schema import (
     read_value,
     resolve_address,
     resolve_axis,
-    shown,
     unit_named,
+    unit_text,
     write_number,
 )
 
@@ -135,8 +135,8 @@ def _result(file: ParameterFile, address: Address, text: str, unit_of: UnitOf) -
     if found.unit:
         if dimension(found.unit) != dimension(unit):
             raise InvalidValueError(
-                f"the result is in {shown(found.unit)}, and {parameter.name} is given in"
-                f" {shown(unit) or 'a bare number'}; figure(…) takes a number without its unit"
+                f"the result is in {unit_text(found.unit)}, and {parameter.name} is given in"
+                f" {unit_text(unit) or 'a bare number'}; figure(…) takes a number without its unit"
             )
         found = _in_unit(found, unit)
     figure = _figure(found.number)
@@ -389,7 +389,7 @@ def _alike(a: _Quantity, b: _Quantity) -> tuple[_Quantity, _Quantity]:
     if a.unit == "":
         return _Quantity(a.number, b.unit), b
     if a.unit is None or b.unit is None or dimension(a.unit) != dimension(b.unit):
-        names = [shown(q.unit) if q.unit else "a product of units" for q in (a, b)]
+        names = [unit_text(q.unit) if q.unit else "a product of units" for q in (a, b)]
         raise InvalidValueError(f"{names[0]} and {names[1]} cannot be added or compared")
     return a, _in_unit(b, a.unit)
 

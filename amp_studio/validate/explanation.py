@@ -15,7 +15,7 @@ from amp_studio.schema import (
     canonical_unit,
     program,
     show_value,
-    shown,
+    unit_text,
     write_number,
 )
 
@@ -149,8 +149,8 @@ def _with_values(validator: Validator, check: RuleCheck, rule: Rule) -> str:
     file = validator.file
     texts = {single.name: _value(validator, single.address) for single in check.singles}
     for name, listed in check.lists:
-        shown = [_value(validator, a) for a in listed.addresses if not _is_hidden(validator, a)]
-        texts[name] = f"[{', '.join(shown[:_LONG_LIST])}{', …' if len(shown) > _LONG_LIST else ''}]"
+        unit_text = [_value(validator, a) for a in listed.addresses if not _is_hidden(validator, a)]
+        texts[name] = f"[{', '.join(unit_text[:_LONG_LIST])}{', …' if len(unit_text) > _LONG_LIST else ''}]"
     texts |= {"machine": file.machine, "application": file.header.application, "instance": check.instance}
     return _NAME.sub(lambda m: texts.get(m[0], m[0]), _plain(rule.check))
 
@@ -169,7 +169,7 @@ def _value(validator: Validator, address: Address) -> str:
         return f"'{found}'"
     value = validator.file.values.get(address)
     unit = canonical_unit(value.unit) if value else ""
-    return f"{write_number(float(f'{found:.9g}'))} {shown(unit)}".rstrip()
+    return f"{write_number(float(f'{found:.9g}'))} {unit_text(unit)}".rstrip()
 
 
 def _sides(rule: Rule, context: Context) -> list[tuple[str, str]]:

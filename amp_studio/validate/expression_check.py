@@ -15,7 +15,7 @@ from dataclasses import replace
 
 from amp_studio.schema import did_you_mean
 
-from .expression_tree import Node, shown
+from .expression_tree import Node, quoted
 from .expression_worth import (
     ANY,
     DECIMAL,
@@ -119,7 +119,7 @@ class ExpressionCheck:
         found = self._names.get(name)
         if found is None:
             near = did_you_mean(name, self._names)
-            self._slip(f"{shown(name)} is not read: add it under reads{near.replace('did', 'or did', 1)}")
+            self._slip(f"{quoted(name)} is not read: add it under reads{near.replace('did', 'or did', 1)}")
             return ANY
         return found
 
@@ -131,11 +131,11 @@ class ExpressionCheck:
     def _indexed(self, node: Node, of: Worth, index: Worth) -> Worth:
         if of.kind not in ("list", "table", "any"):
             self._slip(
-                f"{shown(node.parts[0].text)} is {_CALLED[of.kind]} and has no items: take the brackets away"
+                f"{quoted(node.parts[0].text)} is {_CALLED[of.kind]} and has no items: take the brackets away"
             )
         elif of.kind == "list" and index.kind in ("decimal", "text", "yes/no"):
             self._slip(
-                f"{shown(node.parts[1].text)} is {_CALLED[index.kind]}, and items are counted by whole"
+                f"{quoted(node.parts[1].text)} is {_CALLED[index.kind]}, and items are counted by whole"
                 " numbers" + (f": write int({node.parts[1].text})" if index.kind == "decimal" else "")
             )
         elif of.kind == "table":
@@ -147,7 +147,7 @@ class ExpressionCheck:
         signature = self._functions.get(name)
         cost = _CALL + 2 * sum(worth.size for worth in given)
         if signature is None:
-            self._slip(f"{shown(name)} is no function{did_you_mean(name, self._functions)}")
+            self._slip(f"{quoted(name)} is no function{did_you_mean(name, self._functions)}")
             return ANY, cost
         if not signature.fewest <= len(given) <= signature.most:
             count = f"{signature.fewest}" + (
@@ -158,7 +158,7 @@ class ExpressionCheck:
         for place in sorted(signature.numbers):
             if place < len(given) and given[place].kind in ("text", "list", "table", "yes/no"):
                 self._slip(
-                    f"{name} takes a number, not {shown(node.parts[place].text)},"
+                    f"{name} takes a number, not {quoted(node.parts[place].text)},"
                     f" {_CALLED[given[place].kind]}"
                 )
         if name == "matches":
@@ -182,7 +182,7 @@ class ExpressionCheck:
         for text in given[1].literals:
             if not any(_PIECES[name](key, text) for key in (*of.choices.keys, *of.literals)):
                 self._slip(
-                    f"no key of {shown(node.parts[0].text)} has {shown(text)} there: {_keys(of.choices)}"
+                    f"no key of {quoted(node.parts[0].text)} has {quoted(text)} there: {_keys(of.choices)}"
                 )
 
     def _matched_choice(self, node: Node, of: Worth) -> None:
@@ -191,14 +191,14 @@ class ExpressionCheck:
         """
         if of.choices:
             self._slip(
-                f"{shown(node.parts[0].text)} is a choice, which has a key and is shown by its label: "
+                f"{quoted(node.parts[0].text)} is a choice, which has a key and is shown by its label: "
                 f"compare it with == or in; {_keys(of.choices)}"
             )
 
     def _pattern(self, node: Node, given: list[Worth]) -> int:
         """Return what a pattern costs; one that is worked out could be any."""
         if node.kind != "value" or not isinstance(node.value, str):
-            self._slip(f"the pattern of matches must be written out, not {shown(node.text)}")
+            self._slip(f"the pattern of matches must be written out, not {quoted(node.text)}")
             return 0
         if re.search(r"\(\?(?!:|i\))", node.value):
             self._slip("a pattern may begin groups with '(?:' and '(?i)' and no other '(?'")
@@ -212,7 +212,7 @@ class ExpressionCheck:
         of, cost = self._worth(node.parts[0])
         macro, name = str(node.value), node.bound
         if of.kind not in ("list", "any"):
-            self._slip(f"'{macro}' goes over a list, and {shown(node.parts[0].text)} is {_CALLED[of.kind]}")
+            self._slip(f"'{macro}' goes over a list, and {quoted(node.parts[0].text)} is {_CALLED[of.kind]}")
         hidden, self._names[name] = self._names.get(name), of.item or ANY
         bodies = [self._worth(part) for part in node.parts[1:]]
         if hidden is None:
@@ -233,7 +233,7 @@ class ExpressionCheck:
 
     def _demand_yes_no(self, node: Node, worth: Worth) -> None:
         if worth.kind not in ("yes/no", "any"):
-            self._slip(f"{shown(node.text)} is {_CALLED[worth.kind]}, where true or false is wanted")
+            self._slip(f"{quoted(node.text)} is {_CALLED[worth.kind]}, where true or false is wanted")
 
     def _arithmetic(self, node: Node, parts: list[Worth]) -> Worth:
         kinds = {part.kind for part in parts} - {"any", "null"}
@@ -243,7 +243,7 @@ class ExpressionCheck:
         if sign == "+" and kinds == {"text"}:
             return text_worth(sum(p.length for p in parts))
         if kinds == {"decimal", "whole"}:
-            self._slip(f"{shown(node.text)} {_mixed(node, parts)}")
+            self._slip(f"{quoted(node.text)} {_mixed(node, parts)}")
         elif sign == "%" and "decimal" in kinds:
             self._slip(f"'%' takes whole numbers only: write mod({', '.join(p.text for p in node.parts)})")
         elif len(kinds) > 1 or not kinds <= {"decimal", "whole"}:
@@ -258,7 +258,7 @@ class ExpressionCheck:
                 else ""
             )
             self._slip(
-                f"{shown(odd[0].text)} is {_CALLED[odd[1].kind]}, and '{sign}' cannot use it here{hint}"
+                f"{quoted(odd[0].text)} is {_CALLED[odd[1].kind]}, and '{sign}' cannot use it here{hint}"
             )
         if kinds == {"whole"}:
             return WHOLE
@@ -273,7 +273,7 @@ class ExpressionCheck:
         one, other = node.parts
         if node.kind == "in":
             if right.kind not in ("list", "table", "any"):
-                self._slip(f"'in' needs a list, and {shown(other.text)} is {_CALLED[right.kind]}")
+                self._slip(f"'in' needs a list, and {quoted(other.text)} is {_CALLED[right.kind]}")
                 return
             if right.kind == "table":
                 self._compare_choice(one, left, right.literals)
@@ -297,7 +297,7 @@ class ExpressionCheck:
         if choice and hint:
             hint = f": {nearest_choice(one.text if left.kind == 'yes/no' else other.text, choice)}"
         self._slip(
-            f"{shown(one.text)} is {_CALLED[left.kind]} and {how} {there}{shown(other.text)},"
+            f"{quoted(one.text)} is {_CALLED[left.kind]} and {how} {there}{quoted(other.text)},"
             f" {_CALLED[right.kind]}{hint}"
         )
 
@@ -306,7 +306,7 @@ class ExpressionCheck:
         for text in literals if worth.choices and worth.is_closed else ():
             if worth.choices and not worth.choices.contains(text) and text not in worth.literals:
                 self._slip(
-                    f"{shown(node.text)} is never {shown(text)}: {nearest_choice(text, worth.choices)}"
+                    f"{quoted(node.text)} is never {quoted(text)}: {nearest_choice(text, worth.choices)}"
                 )
 
     def _compare_choices(self, node: Node, left: Worth, right: Worth) -> None:
@@ -317,7 +317,7 @@ class ExpressionCheck:
             return
         if not any(right.choices.contains(key) for key in left.choices.keys):
             one, other = node.parts
-            self._slip(f"{shown(one.text)} and {shown(other.text)} have no choice in common")
+            self._slip(f"{quoted(one.text)} and {quoted(other.text)} have no choice in common")
 
 
 def nearest_choice(text: str, choices: KnownChoices) -> str:

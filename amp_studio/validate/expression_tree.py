@@ -122,13 +122,13 @@ def _unreadable(text: str, at: int) -> str:
         return f"'{sign}' is no operator: write {_OPERATORS[sign]}"
     if sign in "'\"":
         return (
-            f"the text that begins with {shown(text[at : at + 20])} has no end in its line, or a \\ that"
+            f"the text that begins with {quoted(text[at : at + 20])} has no end in its line, or a \\ that"
             " means nothing"
         )
-    return f"{shown(sign)} has no place in an expression"
+    return f"{quoted(sign)} has no place in an expression"
 
 
-def shown(text: str) -> str:
+def quoted(text: str) -> str:
     """Return a piece of an expression as messages show it: short, in one line, and readable."""
     plain = "".join(c if c.isprintable() else f"\\u{ord(c):04x}" for c in " ".join(text.split()) or text)
     short = plain if len(plain) <= 60 else plain[:57] + "..."
@@ -146,7 +146,7 @@ class _ExpressionParser:
     def _next(self) -> _Token:
         return self._tokens[self._at]
 
-    def _take(self, *signs: str) -> str:
+    def _accept(self, *signs: str) -> str:
         """Take one of these signs, if it is the next one; return it, or nothing."""
         token = self._next
         if token.text in signs and token.kind in ("sign", "name"):
@@ -155,12 +155,12 @@ class _ExpressionParser:
         return ""
 
     def _need(self, sign: str, where: str) -> None:
-        if not self._take(sign):
+        if not self._accept(sign):
             raise ExpressionError(f"'{sign}' is missing{where}{self._place()}")
 
     def _place(self) -> str:
         token = self._next
-        return f" before {shown(token.text)}" if token.kind != "end" else " at the end"
+        return f" before {quoted(token.text)}" if token.kind != "end" else " at the end"
 
     def _node(
         self, kind: str, start: int, parts: tuple[Node, ...], value: str | None = None, bound: str = ""
@@ -179,9 +179,9 @@ class _ExpressionParser:
         if token.kind != "end":
             operator = _OPERATORS.get(token.text)
             raise ExpressionError(
-                f"{shown(token.text)} is no operator: write {operator}"
+                f"{quoted(token.text)} is no operator: write {operator}"
                 if operator
-                else f"{shown(token.text)} behind {shown(node.text)} makes no sense"
+                else f"{quoted(token.text)} behind {quoted(node.text)} makes no sense"
             )
         return node
 
@@ -191,7 +191,7 @@ class _ExpressionParser:
             raise ExpressionError(f"has more than {DEEPEST_BRACKETS} brackets or alternatives in each other")
         start = self._next.start
         node = self._either()
-        if self._take("?"):
+        if self._accept("?"):
             one = self._either()
             self._need(":", " behind '?'")
             node = self._node("?:", start, (node, one, self._expression()))
@@ -207,7 +207,7 @@ class _ExpressionParser:
     def _chain(self, sign: str, operand: Callable[[], Node]) -> Node:
         start = self._next.start
         parts = [operand()]
-        while self._take(sign):
+        while self._accept(sign):
             parts.append(operand())
         return parts[0] if len(parts) == 1 else self._node(sign, start, tuple(parts))
 
@@ -223,14 +223,14 @@ class _ExpressionParser:
     def _binary(self, signs: tuple[str, ...], operand: Callable[[], Node]) -> Node:
         start = self._next.start
         node = operand()
-        while sign := self._take(*signs):
+        while sign := self._accept(*signs):
             node = self._node(sign, start, (node, operand()))
         return node
 
     def _unary(self) -> Node:
         start, count = self._next.start, 0
         sign = self._next.text
-        while sign in ("!", "-") and self._take(sign):
+        while sign in ("!", "-") and self._accept(sign):
             count += 1
         node = self._member()
         for _ in range(count):
@@ -241,11 +241,11 @@ class _ExpressionParser:
         start = self._next.start
         node = self._primary()
         while True:
-            if self._take("["):
+            if self._accept("["):
                 index = self._expression()
                 self._need("]", "")
                 node = self._node("index", start, (node, index))
-            elif self._take("."):
+            elif self._accept("."):
                 node = self._method(start, node)
             else:
                 return node
@@ -253,13 +253,15 @@ class _ExpressionParser:
     def _method(self, start: int, of: Node) -> Node:
         name = self._next
         if name.kind != "name" or self._tokens[self._at + 1].text != "(":
-            raise ExpressionError(f"{shown(of.text + '.' + name.text)}: a value has no parts")
+            raise ExpressionError(f"{quoted(of.text + '.' + name.text)}: a value has no parts")
         self._at += 1
         arguments = self._arguments()
         if name.text not in MACROS:
             return self._node("call", start, (of, *arguments), name.text)
         if len(arguments) not in MACROS[name.text] or arguments[0].kind != "name":
-            raise ExpressionError(f"{shown(name.text)} takes a name for the items, a comma and an expression")
+            raise ExpressionError(
+                f"{quoted(name.text)} takes a name for the items, a comma and an expression"
+            )
         bound = str(arguments[0].value)
         return self._node("over", start, (of, *arguments[1:]), name.text, bound)
 
@@ -270,9 +272,9 @@ class _ExpressionParser:
     def _listed(self, closing: str) -> tuple[Node, ...]:
         """Read expressions with commas between them, up to a closing bracket."""
         found: list[Node] = []
-        while not self._take(closing):
+        while not self._accept(closing):
             found.append(self._expression())
-            if not self._take(","):
+            if not self._accept(","):
                 self._need(closing, "")
                 break
         return tuple(found)
@@ -284,19 +286,19 @@ class _ExpressionParser:
             return Node("value", token.text, (), _literal(token))
         if token.kind == "name":
             return self._named(token)
-        if self._take("("):
+        if self._accept("("):
             node = self._expression()
             self._need(")", "")
             return node
-        if self._take("["):
+        if self._accept("["):
             return self._node("list", token.start, self._listed("]"))
-        if self._take("{"):
+        if self._accept("{"):
             return self._table(token.start)
         before = self._tokens[self._at - 1].text if self._at else ""
         if token.kind == "end" and not before:
             raise ExpressionError("is empty")
         raise ExpressionError(
-            f"a value is missing{f' behind {shown(before)}' if before else ''}{self._place()}"
+            f"a value is missing{f' behind {quoted(before)}' if before else ''}{self._place()}"
         )
 
     def _named(self, token: _Token) -> Node:
@@ -305,7 +307,7 @@ class _ExpressionParser:
             value = None if token.text == "null" else token.text == "true"
             return Node("value", token.text, (), value)
         if token.text in RESERVED:
-            raise ExpressionError(f"{shown(token.text)} is a word of the language and can be no name")
+            raise ExpressionError(f"{quoted(token.text)} is a word of the language and can be no name")
         if token.text == "not" and self._next.kind == "name":
             raise ExpressionError("'not' is no operator: write '!'")
         if self._next.text == "(":
@@ -315,11 +317,11 @@ class _ExpressionParser:
     def _table(self, start: int) -> Node:
         """Read ``{key: value, ...}``."""
         parts: list[Node] = []
-        while not self._take("}"):
+        while not self._accept("}"):
             parts.append(self._expression())
             self._need(":", " behind a key")
             parts.append(self._expression())
-            if not self._take(","):
+            if not self._accept(","):
                 self._need("}", "")
                 break
         return self._node("table", start, tuple(parts))
@@ -329,14 +331,14 @@ def _literal(token: _Token) -> float | int | str:
     if token.kind == "text":
         text = re.sub(r"\\(.)", lambda m: _ESCAPED.get(m[1], m[1]), token.text[1:-1])
         if not text.isascii() and any("\ud800" <= c <= "\udfff" for c in text):
-            raise ExpressionError(f"{shown(token.text)} is no text")
+            raise ExpressionError(f"{quoted(token.text)} is no text")
         return text
     if token.kind == "decimal":
         number = float(token.text)
         if not math.isfinite(number):
-            raise ExpressionError(f"{shown(token.text)} is too large a number")
+            raise ExpressionError(f"{quoted(token.text)} is too large a number")
         return number
     number = int(token.text, 16 if token.text.startswith("0x") else 10) if len(token.text) <= 20 else math.inf
     if number > LARGEST_WHOLE:
-        raise ExpressionError(f"{shown(token.text)} is too large a whole number; write it with a point")
+        raise ExpressionError(f"{quoted(token.text)} is too large a whole number; write it with a point")
     return number

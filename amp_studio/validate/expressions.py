@@ -72,7 +72,7 @@ class FindingExpressions(NamedTuple):
     """Name of what that is compared with, and whether it is."""
     functions: tuple[str, ...]
     """Functions offered to rules that the rule calls anywhere."""
-    shown: frozenset[str]
+    check_names: frozenset[str]
     """Names in the message."""
 
 

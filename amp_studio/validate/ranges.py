@@ -23,7 +23,7 @@ from amp_studio.schema import (
     fault,
     limits,
     show_value,
-    shown,
+    unit_text,
 )
 
 from .finding import Finding, Setting
@@ -103,7 +103,7 @@ class ValueChecks:
             unit = self._file.evaluation.unit(address, self._file.header.units)
             written = show_value(facts.parameter, value)
             other_unit = (
-                f"{facts.parameter.name} {written} should be in {shown(unit) or 'a bare number'} here"
+                f"{facts.parameter.name} {written} should be in {unit_text(unit) or 'a bare number'} here"
             )
             # The control knows the figure only.
             return self._finding(address, value, other_unit, Value(value.value, unit))

@@ -34,7 +34,7 @@ from amp_studio.schema import (
 )
 
 from .builder_rules import BuilderRules
-from .expression_tree import shown
+from .expression_tree import quoted
 from .expressions import RuleError
 from .finding import OWN_FAULT, Finding
 from .plan import checks_of
@@ -107,7 +107,7 @@ class _RuleFileReader:
         )
 
     def _fault(self, entry: FactEntry, place: KeyPath, what: str) -> None:
-        steps = " ".join(str(step + 1) if isinstance(step, int) else shown(step)[1:-1] for step in place)
+        steps = " ".join(str(step + 1) if isinstance(step, int) else quoted(step)[1:-1] for step in place)
         words = [word for word in (_named(entry.data), steps) if word]
         self._faults.append(DatabaseError(self._path, entry.line(place), ": ".join([*words, what])))
 
@@ -124,7 +124,9 @@ class _RuleFileReader:
         rule, slips = entry_model(self._by_number(entry.data), BuilderRule)
         family = rule.family if rule else ""
         if family and family not in self._families:
-            slips.append((("family",), f"{shown(family)} is no family{did_you_mean(family, self._families)}"))
+            slips.append(
+                (("family",), f"{quoted(family)} is no family{did_you_mean(family, self._families)}")
+            )
         if rule and entry.data.get("id") == rule.id:
             slips += self._same_id(entry, rule)
         if rule and family in ("", self._schema.family.family):
@@ -196,7 +198,7 @@ class _RuleFileReader:
                 return None
             else:
                 near = did_you_mean(found.rule, [*self._lines, *_ids(self._schema), *GENERAL_RULES])
-                slips.append((("rule",), f"{shown(found.rule)} is no rule{near}"))
+                slips.append((("rule",), f"{quoted(found.rule)} is no rule{near}"))
         for place, what in slips:
             self._fault(entry, place, what)
         return None if slips else found
@@ -205,7 +207,7 @@ class _RuleFileReader:
         for n, text in enumerate(suppression.params):
             if not _is_known(text, self._schema) and not _is_elsewhere(text, self._schema):
                 near = did_you_mean(text.partition("@")[0], self._schema.parameters)
-                yield ("params", n), f"{shown(text)} is no parameter of {self._schema.family.family}{near}"
+                yield ("params", n), f"{quoted(text)} is no parameter of {self._schema.family.family}{near}"
 
 
 def _further(found: list[Slip], before: list[Slip]) -> list[Slip]:
@@ -217,7 +219,7 @@ def _further(found: list[Slip], before: list[Slip]) -> list[Slip]:
 def _named(data: object) -> str:
     """Return the id of a rule, as messages show it."""
     name = data.get("id") if isinstance(data, dict) else None
-    return shown(name)[1:-1] if isinstance(name, str) and name else ""
+    return quoted(name)[1:-1] if isinstance(name, str) and name else ""
 
 
 @cache

@@ -21,7 +21,7 @@ from amp_studio.schema import (
 )
 
 from .expression_check import ExpressionCheck, nearest_choice
-from .expression_tree import RESERVED, ExpressionError, read_expression, shown
+from .expression_tree import RESERVED, ExpressionError, quoted, read_expression
 from .expression_worth import (
     ANY,
     DECIMAL,
@@ -107,7 +107,7 @@ def _reads_slips(rule: Rule, schema: Schema) -> Iterator[tuple[KeyPath, str]]:
         if which not in ("", *_LISTS, *offered):
             there = ", ".join(i for i in offered[:8] if i) or "none: it is one for the whole control"
             more = ", ..." if len(offered) > 8 else ""
-            yield place, f"{parameter.name} has no instance {shown(which)}; it has {there}{more}"
+            yield place, f"{parameter.name} has no instance {quoted(which)}; it has {there}{more}"
 
 
 def _unknown(parameter_id: str, schema: Schema) -> str:
@@ -116,10 +116,10 @@ def _unknown(parameter_id: str, schema: Schema) -> str:
     ]
     if others:
         return (
-            f"{shown(parameter_id)} is a parameter of {' and '.join(others)}, not of {schema.family.family}"
+            f"{quoted(parameter_id)} is a parameter of {' and '.join(others)}, not of {schema.family.family}"
         )
     near = did_you_mean(parameter_id, schema.parameters)
-    return f"{shown(parameter_id)} is no parameter of {schema.family.family}{near}"
+    return f"{quoted(parameter_id)} is no parameter of {schema.family.family}{near}"
 
 
 def _instances(schema: Schema, parameter: Parameter) -> list[str]:
@@ -134,32 +134,32 @@ def _name_slips(rule: Rule) -> Iterator[tuple[KeyPath, str]]:
     for key, names in (("optional", rule.optional), ("any_state", rule.any_state)):
         for n, name in enumerate(names):
             if name not in rule.reads:
-                yield (key, n), f"{shown(name)} is not read{did_you_mean(name, rule.reads)}"
+                yield (key, n), f"{quoted(name)} is not read{did_you_mean(name, rule.reads)}"
     for key, conditions in (("blames", rule.blames), ("compares", rule.compares)):
         for name in conditions:
             if name not in rule.reads:
-                yield (key, name), f"{shown(name)} is not read{did_you_mean(name, rule.reads)}"
+                yield (key, name), f"{quoted(name)} is not read{did_you_mean(name, rule.reads)}"
     singles = [name for name, (_, which) in _read(rule).items() if which not in _LISTS]
     for key, assignments in (("fix", rule.fix), ("effective", rule.effective)):
         for n, assignment in enumerate(assignments):
             if assignment.set in rule.reads and assignment.set not in singles:
                 yield (
                     (key, n, "set"),
-                    f"{shown(assignment.set)} is a list, and only a single value can be set",
+                    f"{quoted(assignment.set)} is a list, and only a single value can be set",
                 )
             elif assignment.set not in rule.reads:
                 yield (
                     (key, n, "set"),
-                    f"{shown(assignment.set)} is not read{did_you_mean(assignment.set, singles)}",
+                    f"{quoted(assignment.set)} is not read{did_you_mean(assignment.set, singles)}",
                 )
     for name in rule.values:
         if name in rule.reads or name in ALWAYS_THERE:
-            yield ("values", name), f"{shown(name)} is the name of something else already"
+            yield ("values", name), f"{quoted(name)} is the name of something else already"
     for name, unit in rule.units.items():
         if name not in rule.values:
-            yield ("units", name), f"{shown(name)} is not one of its values{did_you_mean(name, rule.values)}"
+            yield ("units", name), f"{quoted(name)} is not one of its values{did_you_mean(name, rule.values)}"
         if unit not in UNITS:
-            yield ("units", name), f"{shown(unit)} is no unit{did_you_mean(unit, UNITS)}"
+            yield ("units", name), f"{quoted(unit)} is no unit{did_you_mean(unit, UNITS)}"
 
 
 def _message_slips(rule: Rule) -> Iterator[tuple[KeyPath, str]]:
@@ -253,7 +253,7 @@ def _unfit(worth: Worth, wanted: Parameter | bool | None) -> str:
         choices = choice_worth(wanted).choices
         for text in worth.literals:
             if choices and not choices.contains(text):
-                return f"{wanted.name} is never {shown(text)}: {nearest_choice(text, choices)}"
+                return f"{wanted.name} is never {quoted(text)}: {nearest_choice(text, choices)}"
     return ""
 
 

@@ -26,7 +26,7 @@ from amp_studio.schema import (
     convert,
     key_of,
     show_value,
-    shown,
+    unit_text,
     value_of,
     write_figure,
 )
@@ -194,7 +194,7 @@ class RuleChecks:
     def _unusable(self, check: RuleCheck) -> Finding:
         """Return the finding about a rule that ends in an error with the values of a file."""
         rule, is_secret = check.rule, self._reads_secret(check)
-        given = [f"{s.name} = {MASKED if is_secret else self._shown(s.address)}" for s in check.singles]
+        given = [f"{s.name} = {MASKED if is_secret else self._value_text(s.address)}" for s in check.singles]
         message = (
             f"{self._places.get(rule.id, 'A rule')}: {rule.id}: it cannot be"
             f" calculated{f' with {_listed(given)}' if given else ''}: a number is too large, divided by zero"
@@ -235,15 +235,15 @@ class RuleChecks:
         """Return the texts of the names in the message."""
         entries = check.expressions.finding
         texts = {}
-        if not entries.shown.isdisjoint(ALWAYS_THERE):
+        if not entries.check_names.isdisjoint(ALWAYS_THERE):
             circumstances = self._circumstances(check)
             texts = {name: str(getattr(circumstances, name)) for name in ALWAYS_THERE}
         for single in check.singles:
-            if single.name in entries.shown:
-                texts[single.name] = self._shown(single.address)
+            if single.name in entries.check_names:
+                texts[single.name] = self._value_text(single.address)
         for name, listed in check.lists:
-            if name in entries.shown:
-                texts[name] = ", ".join(map(self._shown, listed.addresses))
+            if name in entries.check_names:
+                texts[name] = ", ".join(map(self._value_text, listed.addresses))
         if entries.values:
             texts |= self._worked_out_texts(check, given)
         return texts
@@ -268,7 +268,7 @@ class RuleChecks:
         parameters = self._file.schema.parameters
         return any(parameters[address[0]].secret for address in check.addresses)
 
-    def _shown(self, address: Address) -> str:
+    def _value_text(self, address: Address) -> str:
         return show_value(self._file.schema.parameters[address[0]], self._file.values.get(address))
 
     def _result(self, check: RuleCheck, given: _Given, expression: Expression) -> Any:
@@ -288,7 +288,7 @@ class RuleChecks:
             inch = unit.replace("mm", "in", 1)
             if inch != unit and (self._file.header.units == "inch" or inch in entered):
                 found, unit = convert(float(found), unit, inch), inch
-        number, sign = write_figure(found), shown(unit)
+        number, sign = write_figure(found), unit_text(unit)
         return f"{number}{sign}" if sign == "°" else f"{number} {sign}".rstrip()
 
     def _fix(self, check: RuleCheck, given: _Given) -> tuple[Setting, ...]:

@@ -247,11 +247,11 @@ class Validator:
         """Return the findings that are about the file as a whole."""
         found = []
         if self._not_set_findings is None:
-            self._not_set_findings = [(self._order(advice), advice) for advice in self._missing_values()]
+            self._not_set_findings = [(self._order(finding), finding) for finding in self._missing_values()]
         found += self._not_set_findings
         # A value that is wrong by itself needs no question besides.
         asked = [f for f in self._experience.findings() if self._filed.keys().isdisjoint(f.causes)]
-        found += [(self._order(advice), advice) for advice in asked]
+        found += [(self._order(finding), finding) for finding in asked]
         if unknown := list(self.file.unknown):
             message = (
                 f"{unknown[0]} is no parameter of this schema; it is kept as it is."

@@ -21,7 +21,7 @@ SIZES = ((240.0, 110.0), (424.0, 190.0), (720.0, 480.0))
 
 
 def overlapping(found):
-    return [(a.text, b.text) for a, b in combinations(found.shown, 2) if a.box.overlaps(b.box)]
+    return [(a.text, b.text) for a, b in combinations(found.placed, 2) if a.box.overlaps(b.box)]
 
 
 @pytest.mark.parametrize("example", EXAMPLES, ids=lambda path: path.stem)
@@ -33,12 +33,12 @@ def test_no_two_texts_of_a_picture_overlap_in_any_size_and_none_is_lost(example:
                 frame = Placement.within(scene, width, height)
                 found = labels_of(frame, width, height, measured, LINE)
                 assert overlapping(found) == [], (picture.name, part, width)
-                for label in found.shown:
+                for label in found.placed:
                     box = label.box
                     assert box.left >= 0.0, (picture.name, part, width, label.text)
                     assert box.left + box.width <= width, (picture.name, part, width, label.text)
                     assert 0.0 <= box.top <= height - LINE, (picture.name, part, width, label.text)
-                named = [label.text for label in found.shown] + [text for _, text in found.left_out]
+                named = [label.text for label in found.placed] + [text for _, text in found.left_out]
                 for text in scene.texts:
                     assert any(each.startswith(text.text) for each in named), (picture.name, part, text.text)
 
@@ -52,7 +52,7 @@ def crowd(count: int) -> Scene:
 def test_names_at_one_point_go_away_from_it_with_a_line_to_each():
     scene = crowd(8)
     found = labels_of(Placement.within(scene, 424.0, 260.0), 424.0, 260.0, measured, LINE)
-    names = [label for label in found.shown if label.text.startswith("Limit")]
+    names = [label for label in found.placed if label.text.startswith("Limit")]
     assert (len(names), overlapping(found), found.left_out) == (8, [], ())
     assert names[0].leader is None
     assert sum(label.leader is not None for label in names) >= 3
@@ -65,10 +65,10 @@ def test_a_crowd_loses_its_values_then_texts_and_the_tips_have_them_all():
     scene = crowd(60)
     found = labels_of(Placement.within(scene, 240.0, 110.0), 240.0, 110.0, measured, LINE)
     assert overlapping(found) == []
-    shown = {label.text for label in found.shown}
+    placed = {label.text for label in found.placed}
     assert {text.partition(" mm")[0].rpartition(" ")[0] for _, text in found.left_out} == {
         f"Limit {n}" for n in range(60)
-    } - shown
+    } - placed
     svg = scene_svg(scene, 240.0, 110.0)
     assert len(re.findall("<title>Limit", svg)) == len(found.left_out) > 0
 

@@ -21,18 +21,18 @@ def test_one_row_of_an_extreme_is_drawn_however_long_the_trace_is() -> None:
 
 def test_a_held_command_is_drawn_through_its_samples_not_as_stairs() -> None:
     x = np.arange(400.0)
-    held = np.floor(x / 4) * 4
-    corners, values = unheld(x, held)
+    is_stepped = np.floor(x / 4) * 4
+    corners, values = unheld(x, is_stepped)
     slopes = np.diff(values[:-1]) / np.diff(corners[:-1])
     assert slopes == pytest.approx(np.ones(len(slopes)))
     assert len(x) == 400 > 3 * len(corners)
 
 
 def test_a_held_command_that_pauses_stays_level_until_it_goes_on() -> None:
-    held = np.concatenate(
+    is_stepped = np.concatenate(
         [np.repeat(np.arange(10.0), 4), np.full(400, 9.0), np.repeat(np.arange(10.0, 20.0), 4)]
     )
-    x, y = unheld(np.arange(480.0), held)
+    x, y = unheld(np.arange(480.0), is_stepped)
     assert np.interp(300.0, x, y) == 9.0
 
 

@@ -9,7 +9,15 @@ from functools import cache
 from pathlib import Path
 
 from amp_studio.files import ParameterFile, new_file
-from amp_studio.sheet import ReadBackError, Sheet, Ticks, TicksError, compare_shown, make_sheet, read_shown
+from amp_studio.sheet import (
+    ReadBackError,
+    Sheet,
+    Ticks,
+    TicksError,
+    compare_screen,
+    make_sheet,
+    read_screen_readings,
+)
 
 from .texts import mutants, violations
 
@@ -38,7 +46,7 @@ def fuzz_screens(seed: int, count: int) -> list[str]:
     sheet, wanted = _sheet()
 
     def look(text: str) -> None:
-        found = compare_shown(sheet, wanted, read_shown(text))
+        found = compare_screen(sheet, wanted, read_screen_readings(text))
         assert [each.entry for each in found] == list(sheet.entries)
 
     return violations(mutants(SCREENS, seed, count), look, (ReadBackError,))

@@ -172,8 +172,8 @@ def test_choices_stay_when_a_source_is_read_again_and_follow_their_side_when_sid
 def test_the_result_keeps_the_side_of_the_file_into_which_it_goes_whatever_it_is_called() -> None:
     file, other = mm(1.0), mm(2.0)
     file.header.extra, other.header.extra = {"bay": 1}, {"bay": 2}
-    assert content(Merge(other, file, ground="b").result()) == content(file)
-    open_conflict = Merge(other, file, mm(0.0), ground="b")
+    assert content(Merge(other, file, initial="b").result()) == content(file)
+    open_conflict = Merge(other, file, mm(0.0), initial="b")
     assert open_conflict.result().get(CALIBRATION) == Value(1.0, "mm")
     open_conflict.take("a")
     assert content(open_conflict.result()) == content(other)

@@ -21,8 +21,8 @@ from amp_studio.schema import (
     dimension,
     load_schema,
     same_value,
-    shown,
     unit_named,
+    unit_text,
     write_number,
 )
 from amp_studio.schema.load import compile_family, load_compiled
@@ -31,7 +31,7 @@ from amp_studio.schema.units import ALIASES, UNITS
 
 @pytest.mark.parametrize("unit", [unit for unit in UNITS if unit])
 def test_every_unit_is_understood_as_written_as_shown_and_in_capitals(unit: str) -> None:
-    assert unit == unit_named(unit) == unit_named(shown(unit)) == unit_named(f" {unit} ")
+    assert unit == unit_named(unit) == unit_named(unit_text(unit)) == unit_named(f" {unit} ")
     assert dimension(unit) == dimension(unit_named(unit.upper()))
 
 
@@ -167,7 +167,7 @@ def test_a_unit_of_a_family_is_written_and_shown_in_its_own_ways(facts, head: st
     facts.write("groups/all.yaml", 'key: all\nname: All\nchapter: "1"\nparameters: []\n')
     compile_family(facts.folder)
     assert {unit_named(text) for text in ("league", "leagues", "lea.", "Leagues")} == {"league"}
-    assert (convert(2.0, "league", "mm"), shown("league")) == (402336.0, "lea.")
+    assert (convert(2.0, "league", "mm"), unit_text("league")) == (402336.0, "lea.")
 
 
 def test_the_units_of_a_family_are_known_when_its_facts_come_out_of_the_cache(

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from amp_studio.sheet import ReadBackError, compare_shown, make_sheet, read_shown
+from amp_studio.sheet import ReadBackError, compare_screen, make_sheet, read_screen_readings
 
 
 @pytest.fixture
@@ -15,7 +15,7 @@ def wanted(changed):
 
 def states(text: str, wanted, present) -> dict[str, str]:
     """Return number -> how it compares."""
-    found = compare_shown(make_sheet(wanted, present), wanted, read_shown(text))
+    found = compare_screen(make_sheet(wanted, present), wanted, read_screen_readings(text))
     return {each.entry.number: each.state for each in found}
 
 
@@ -30,10 +30,10 @@ def test_the_same_number_in_other_digits_is_the_same(wanted, present) -> None:
 
 
 @pytest.mark.parametrize(
-    "shown", ["40.00001", "39.99999", "400", "-40", "4 0", "4e1", "40 mm", "0x28", "nan", "٤٠"]
+    "screen_text", ["40.00001", "39.99999", "400", "-40", "4 0", "4e1", "40 mm", "0x28", "nan", "٤٠"]
 )
-def test_whatever_else_the_screen_shows_is_another_value(wanted, present, shown) -> None:
-    assert states(f"1750 {shown}", wanted, present)["1750"] == "other"
+def test_whatever_else_the_screen_shows_is_another_value(wanted, present, screen_text) -> None:
+    assert states(f"1750 {screen_text}", wanted, present)["1750"] == "other"
 
 
 def test_a_comma_behind_a_blank_is_that_of_a_decimal_fraction(changed, present) -> None:
@@ -74,7 +74,7 @@ def test_the_table_of_the_sheet_itself_comes_back_with_its_column_filled_in(want
     for sign in ",;":
         table = "\ufeff" + sign.join(("step", "number", "read back")) + "\r\n"
         table += "".join(
-            f"{n}{sign}{number}{sign}{shown}\r\n"
-            for n, (number, shown) in enumerate((("1750", "40.0"), ("399", "")))
+            f"{n}{sign}{number}{sign}{screen_text}\r\n"
+            for n, (number, screen_text) in enumerate((("1750", "40.0"), ("399", "")))
         )
         assert states(table, wanted, present) == {"1750": "same", "1740": "not read", "399": "not read"}

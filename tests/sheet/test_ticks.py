@@ -24,7 +24,7 @@ def test_who_is_interrupted_finds_every_tick_again(tmp_path: Path, sheet) -> Non
     assert (path.name, again.done) == ("mill.amp.ticks.json", 1)
     assert sheet.entries[0] in again
     assert sheet.entries[1] not in again
-    assert again.shown == {sheet.entries[0].number: "40.0"}
+    assert again.screen_text == {sheet.entries[0].number: "40.0"}
     again.tick(sheet.entries, on=False)
     assert Ticks(path, sheet).done == 0
 

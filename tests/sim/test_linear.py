@@ -13,7 +13,7 @@ import scipy.signal
 from amp_studio.sim import SimulationError
 from amp_studio.sim.tuning import sampled as matrices
 from amp_studio.sim.tuning.linear import LinearModel
-from amp_studio.sim.tuning.sampled import Places, Plant, exponential, held, jacobian
+from amp_studio.sim.tuning.sampled import Places, Plant, exponential, jacobian, zero_order_hold
 
 COMMAND, COMMAND_VELOCITY, COMMAND_ACCELERATION, POSITION, MOTOR, OUTPUT = range(6)
 PLACES = Places(
@@ -111,7 +111,7 @@ def test_the_matrix_exponential_is_that_of_scipy() -> None:
 def test_a_held_input_moves_the_machine_as_scipy_discretises_it() -> None:
     plant = rigid(40.0, 3.0)
     a, b, *_ = scipy.signal.cont2discrete((plant.a, plant.b, plant.load, np.zeros((1, 1))), PERIOD)
-    for found, wanted in zip(held(plant.a, plant.b, PERIOD), (a, b), strict=True):
+    for found, wanted in zip(zero_order_hold(plant.a, plant.b, PERIOD), (a, b), strict=True):
         assert found == pytest.approx(wanted, rel=1e-9, abs=1e-15)
 
 
@@ -163,7 +163,7 @@ def test_a_faster_velocity_loop_is_joined_as_it_runs() -> None:
             z[6] = x[0, 0]
             z = velocity(z)
             for time, output in ((fine, waiting), (velocity_period - fine, z[7])):
-                phi, gamma = held(plant.a, plant.b, time)
+                phi, gamma = zero_order_hold(plant.a, plant.b, time)
                 x = phi @ x + gamma * output
             waiting = z[7]
     assert found == pytest.approx(wanted, rel=1e-9, abs=1e-12)

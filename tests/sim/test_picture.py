@@ -8,7 +8,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from amp_studio.drawing.svg import INKS
+from amp_studio.drawing.svg import COLOURS
 from amp_studio.sim import Trace
 from amp_studio.sim.picture import picture_of, plot_svg, settling_span
 from amp_studio.sim.scenarios import SCENARIOS
@@ -45,8 +45,8 @@ def test_the_trace_before_a_change_lies_under_the_one_after_it(trace: Trace) -> 
     for panel in picture_of(trace, before).panels:
         assert panel.curves[0].is_before
         assert not panel.curves[-1].is_before
-    assert plot_svg(trace, before).count(f'stroke="{INKS["before"]}"') > plot_svg(trace).count(
-        f'stroke="{INKS["before"]}"'
+    assert plot_svg(trace, before).count(f'stroke="{COLOURS["before"]}"') > plot_svg(trace).count(
+        f'stroke="{COLOURS["before"]}"'
     )
 
 

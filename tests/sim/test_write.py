@@ -20,7 +20,7 @@ from amp_studio.sim import (
     trace_text,
     write_trace,
 )
-from amp_studio.sim.rounding import rounded_down, rounded_up, shown
+from amp_studio.sim.rounding import rounded_down, rounded_up, value_text
 from amp_studio.sim.scenarios.step import run_step
 from amp_studio.sim.write import trace_csv
 
@@ -129,7 +129,7 @@ def test_numbers_are_rounded_to_the_safe_side_and_written_short() -> None:
         0.0,
     )
     assert rounded_up(0.1 + 0.2, 3) == 0.301
-    assert (shown(10160.0, "mm"), shown(0.0254), shown(1e-7), shown(1e7)) == (
+    assert (value_text(10160.0, "mm"), value_text(0.0254), value_text(1e-7), value_text(1e7)) == (
         "10160 mm",
         "0.0254",
         "0.0000001",

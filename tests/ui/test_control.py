@@ -418,6 +418,6 @@ def test_a_control_that_stays_in_estop_stays_so_in_the_menu_and_its_reason_is_sh
     estop = window.menus["control.estop"]
     estop.setChecked(False)
     reason = "the control stays in E-stop: 5 axes are configured and the control supports 3 (page 3-1)"
-    window.control.emulated.shown.emit(f"refused: {reason}")
+    window.control.emulated.line_shown.emit(f"refused: {reason}")
     assert estop.isChecked()
     assert window.statusBar().currentMessage() == f"Emulated control: refused: {reason}"

@@ -23,7 +23,7 @@ def test_no_two_texts_of_any_picture_overlap_in_any_size(qapp):
             scene = picture.scene()
             for size in SIZES:
                 found = painted_labels(Placement.within(scene, *size), QSizeF(*size))
-                over = [(a.text, b.text) for a, b in combinations(found.shown, 2) if a.box.overlaps(b.box)]
+                over = [(a.text, b.text) for a, b in combinations(found.placed, 2) if a.box.overlaps(b.box)]
                 assert over == [], (example.stem, picture.name, size)
 
 

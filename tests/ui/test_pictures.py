@@ -319,7 +319,11 @@ def test_pictures_open_at_the_handle_of_the_selected_value_and_the_parameter_pan
     page = window.page.pictures
     qtbot.waitUntil(lambda: page.chosen_card.canvas.handle is not None, timeout=WAIT_MS)
     card = page.chosen_card
-    assert (page.shown, card.part, card.canvas.handle.label) == ("error", "3", "3730 Gain Break Point, Z")
+    assert (page.filter_name, card.part, card.canvas.handle.label) == (
+        "error",
+        "3",
+        "3730 Gain Break Point, Z",
+    )
     card.canvas.choose(0)
     wanted = card.canvas.handle.drags[0].address
     qtbot.waitUntil(lambda: window.page.detail._address == wanted, timeout=WAIT_MS)
@@ -337,4 +341,4 @@ def test_a_family_without_pictures_says_so(qtbot, workspace, monkeypatch):
 def test_a_value_without_a_handle_opens_all_pictures(window):
     window.go_to(("control.type", ""))
     action(window, "Pictures").trigger()
-    assert window.page.pictures.shown == "all"
+    assert window.page.pictures.filter_name == "all"

@@ -29,7 +29,7 @@ def named(file: ParameterFile, row: Row) -> str:
     return file.machine_schema.named(row.address) if row.id.part == "value" else row.id.key
 
 
-def shown(file: ParameterFile, row: Row, value: Value | None, secrets: bool) -> str:
+def value_text(file: ParameterFile, row: Row, value: Value | None, secrets: bool) -> str:
     """Return a value of a row for a person."""
     from amp_studio.schema import show_value
 

@@ -102,7 +102,7 @@ class CheckFormat:
         """Return what is printed of a file."""
         return "\n".join(self._lines(checked))
 
-    def shown(self, one: CheckResult) -> str:
+    def line_of(self, one: CheckResult) -> str:
         """Return what is printed as soon as a file is checked; that one cannot be is reported in any case."""
         return one.printed
 
@@ -273,7 +273,7 @@ class GithubFormat(CheckFormat):
 
     from_here = True
 
-    def shown(self, one: CheckResult) -> str:
+    def line_of(self, one: CheckResult) -> str:
         if not one.fault:
             return one.printed
         return _github_command("error", one.path, one.line or 1, "not readable", one.fault)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from amp_studio.calibration import Proposal
 from amp_studio.drawing import Polyline, Scale, Scene, ShapeSort, Text
-from amp_studio.schema import shown
+from amp_studio.schema import unit_text
 
 MICRO = 1000.0
 """Errors are drawn in µm where positions are in mm."""
@@ -18,7 +18,7 @@ _SORTS: dict[tuple[str, bool], ShapeSort] = {
 
 def proposal_scene(proposal: Proposal, title: str) -> Scene:
     """Return the mean errors of both directions over the position, before and after."""
-    times, unit = (MICRO, "µm") if proposal.unit == "mm" else (1.0, shown(proposal.unit))
+    times, unit = (MICRO, "µm") if proposal.unit == "mm" else (1.0, unit_text(proposal.unit))
     lines, texts = [], []
     for when, sides in (("measured", proposal.before), ("expected", proposal.after)):
         for side, curve in sides.items():
@@ -44,7 +44,7 @@ def proposal_scene(proposal: Proposal, title: str) -> Scene:
         title,
         f"error {float(proposal.span_before) * times:.4g} {unit} measured,"
         f" {float(proposal.span_after) * times:.4g} {unit} expected",
-        Scale("position", shown(proposal.unit), min(xs) - margin, max(xs) + 6 * margin),
+        Scale("position", unit_text(proposal.unit), min(xs) - margin, max(xs) + 6 * margin),
         Scale("error", unit, min(*ys, 0.0) - room, max(*ys, 0.0) + room),
         lines=tuple(lines),
         texts=tuple(texts),

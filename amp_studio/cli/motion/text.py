@@ -64,7 +64,7 @@ def text(checks: Sequence[MotionCheck]) -> str:
 
 
 def figure_text(name: str, value: float | None, unit: str) -> str:
-    from amp_studio.sim import shown
+    from amp_studio.sim import value_text
 
     words = name.replace("_", " ")
-    return f"{words} –" if value is None else f"{words} {shown(float(value), unit)}"
+    return f"{words} –" if value is None else f"{words} {value_text(float(value), unit)}"

@@ -198,7 +198,7 @@ class GrblLine:
         while self._clock() - quiet_since < QUIET:
             self.look()
             if data := self._link.read(SLICE):
-                self._take(data)
+                self._split_lines(data)
                 quiet_since = self._clock()
             while self._lines:
                 refused += self._is_refusal(self._lines.popleft())
@@ -217,7 +217,7 @@ class GrblLine:
             self.look()
             if self._clock() - since >= seconds:
                 return None
-            self._take(self._link.read(SLICE))
+            self._split_lines(self._link.read(SLICE))
         return self._lines.popleft()
 
     def _line(self, patience: float) -> str:
@@ -226,13 +226,13 @@ class GrblLine:
         while not self._lines:
             self.look()
             if data := self._link.read(SLICE):
-                self._take(data)
+                self._split_lines(data)
                 heard_at = self._clock()
             elif self._clock() - heard_at >= patience:
                 raise ControlSilentError(f"the control has not answered for {patience:g} s")
         return self._lines.popleft()
 
-    def _take(self, data: bytes) -> None:
+    def _split_lines(self, data: bytes) -> None:
         """Part what has come into lines; empty ones mean nothing."""
         if data:
             self._waiting.heard()

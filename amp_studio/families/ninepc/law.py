@@ -20,7 +20,7 @@ from amp_studio.sim import (
     Ramp,
     SimulationError,
     Source,
-    shown,
+    value_text,
 )
 
 from . import law_dac as dac
@@ -264,7 +264,7 @@ def _limits(parameters: list[float], read: AxisParameters, loop: Loop) -> dict[s
 
 
 def _alarms(read: AxisParameters, kind: Kind, parameters: list[float]) -> dict[int, AlarmText]:
-    limit = shown(parameters[samples.EXCESS], kind.unit)
+    limit = value_text(parameters[samples.EXCESS], kind.unit)
     text = f"Following error above {limit} ({EXCESS}@{read.axis}): the control goes into E-STOP"
     return {int(samples.EXCESS_ERROR_ALARM): AlarmText("EXCESS FOLLOWING ERROR", text)}
 

@@ -10,7 +10,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from amp_studio.sim import AxisLaw, Recommendation, Source, Trace, rounded_down, rounded_up, shown
+from amp_studio.sim import AxisLaw, Recommendation, Source, Trace, rounded_down, rounded_up, value_text
 
 from . import law_samples as samples
 from .law_figures import Loop, following_error, printed_excess_error, response_time
@@ -41,10 +41,10 @@ class ServoFigures:
         return self.axis.feedrate or self.feedrate
 
     def speed(self, velocity: float) -> str:
-        return shown(velocity * 60.0, f"{self.axis.unit}/min")
+        return value_text(velocity * 60.0, f"{self.axis.unit}/min")
 
     def length(self, value: float) -> str:
-        return shown(value, self.axis.unit)
+        return value_text(value, self.axis.unit)
 
     def advise(
         self, name: str, value: float, unit: str, why: str, price: str, *, up: bool = True
@@ -56,7 +56,7 @@ class ServoFigures:
             value = float(math.ceil(value) if up else math.floor(value))
         if value > source.largest:
             value = source.largest
-            why = f"{why[:-1]}; the upper limit of {source.parameter} is {shown(value)}."
+            why = f"{why[:-1]}; the upper limit of {source.parameter} is {value_text(value)}."
         why = f"{why[:-1]} (page {source.page})." if source.page else why
         yield Recommendation(
             source.parameter, value, unit if source.unit is None else source.unit, why, price
@@ -117,7 +117,7 @@ def _excess_error(m: ServoFigures) -> Iterator[Recommendation]:
             " error."
         )
     else:
-        late = shown((now - wanted) / m.rapid, "s", 3)
+        late = value_text((now - wanted) / m.rapid, "s", 3)
         why = (
             f"{speed}; at {m.length(now)} a blocked axis is detected {late} later than with 110 % of the"
             " error."
@@ -150,7 +150,8 @@ def _suppression(m: SimulatedMove) -> Iterator[Recommendation]:
     if lost == 0.0 or limit <= point:
         return
     why = (
-        f"The feedrate was halved for {shown(lost, 's', 3)} of this move, because the following error was"
+        f"The feedrate was halved for {value_text(lost, 's', 3)} of this move, because the following "
+        "error was"
         f" above {m.length(point)}; {m.speed(m.feedrate)} alone needs"
         f" {m.length(following_error(m.loop, m.feedrate))}. A value equal to the excess error switches"
         " suppression off; a value between them keeps it as a warning."
@@ -180,15 +181,15 @@ def _ramp(m: SimulatedMove) -> Iterator[Recommendation]:
     limited = _time_at_limit(m)
     if limited > 0.0 and now > available > 0.0:
         why = (
-            f"The torque was at its limit for {shown(limited, 's', 3)} with {shown(now, unit)};"
-            f" {shown(available, unit)} is 80 % of what the torque allows at {m.speed(m.feedrate)}."
+            f"The torque was at its limit for {value_text(limited, 's', 3)} with {value_text(now, unit)};"
+            f" {value_text(available, unit)} is 80 % of what the torque allows at {m.speed(m.feedrate)}."
         )
         yield from m.advise(steeper, min(available, natural), unit, why, SLOWER, up=False)
     elif now > natural:
         why = (
-            f"A ramp of {shown(now, unit)} is steeper than the servo's response of"
-            f" {shown(1000.0 * response_time(m.loop), 'ms')} to {m.speed(speed)} and acts like a step in"
-            f" speed; the axis can follow up to {shown(natural, unit)}."
+            f"A ramp of {value_text(now, unit)} is steeper than the servo's response of"
+            f" {value_text(1000.0 * response_time(m.loop), 'ms')} to {m.speed(speed)} and acts like a step in"
+            f" speed; the axis can follow up to {value_text(natural, unit)}."
         )
         yield from m.advise(steeper, natural, unit, why, SLOWER, up=False)
 

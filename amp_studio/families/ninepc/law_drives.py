@@ -6,7 +6,7 @@ import math
 from dataclasses import dataclass
 from typing import Any
 
-from amp_studio.sim import AxisLaw, AxisParameters, Machine, SimulationError, shown
+from amp_studio.sim import AxisLaw, AxisParameters, Machine, SimulationError, value_text
 
 from . import law_notes as notes_of
 from . import law_samples as samples
@@ -189,8 +189,9 @@ def _gains(read: AxisParameters, motor: str, ratio: int, notes: list[str]) -> tu
         cells = standard_gains(read.tables, motor, ratio)
         if cells is not None:
             notes.append(
-                f"Standard Motor Table Values is Yes: {shown(cells[0], digits=6)} and"
-                f" {shown(cells[1], digits=6)} of Tables 7.B and 7.C replace the velocity loop gains of the"
+                f"Standard Motor Table Values is Yes: {value_text(cells[0], digits=6)} and"
+                f" {value_text(cells[1], digits=6)} of Tables 7.B and 7.C replace the velocity loop "
+                "gains of the"
                 " file (7-6)."
             )
             return cells
@@ -213,7 +214,7 @@ def _torque(read: AxisParameters, p: list[float], notes: list[str]) -> float:
     if offset:
         sign = 1.0 if read.value(OFFSET_DIRECTION) == "plus" else -1.0
         p[samples.OFFSET] = sign * offset * _peak(read) / 100.0
-        notes.append(notes_of.OFFSET.format(shown(p[samples.OFFSET])))
+        notes.append(notes_of.OFFSET.format(value_text(p[samples.OFFSET])))
     for name, place in FRICTION.items():
         p[place] = if_set(read, name)
     if any(p[place] for place in FRICTION.values()):
@@ -239,8 +240,8 @@ def _speed(read: AxisParameters, common: dict[str, Any], travel: float, notes: l
     if most == 0.0 or rapid is None or rapid * 60.0 / travel <= most:
         return
     notes.append(
-        f"The rapid feedrate needs {shown(rapid * 60.0 / travel, 'rpm')} of the motor, more than Maximum"
-        f" Motor Speed {shown(most, 'rpm')} (7-74); the simulation does not limit the speed."
+        f"The rapid feedrate needs {value_text(rapid * 60.0 / travel, 'rpm')} of the motor, more than Maximum"
+        f" Motor Speed {value_text(most, 'rpm')} (7-74); the simulation does not limit the speed."
     )
 
 
@@ -347,7 +348,7 @@ def third_party(read: AxisParameters, unit: str, common: dict[str, Any]) -> Axis
     p[samples.VOLTS_POSITIVE] = p[samples.VOLTS_NEGATIVE] = 1.0
     turn = 360.0 if unit == "deg" else USUAL_PITCH
     why = (
-        f"The position gain of the drive is taken as {shown(gain)}, that of most machines (7-25); set"
+        f"The position gain of the drive is taken as {value_text(gain)}, that of most machines (7-25); set"
         f" {OWN_GAIN}."
     )
     assumed = {

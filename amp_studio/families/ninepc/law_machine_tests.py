@@ -6,7 +6,7 @@ from __future__ import annotations
 
 import math
 
-from amp_studio.sim import AxisLaw, BoundMachine, MachineTest, MachineTestStep, shown
+from amp_studio.sim import AxisLaw, BoundMachine, MachineTest, MachineTestStep, value_text
 
 PRINTED = 127.0
 """mm: 5 inches (A-8)."""
@@ -35,8 +35,9 @@ def machine_tests(machine: BoundMachine, axis: AxisLaw) -> list[MachineTest]:
     way = min(max(PRINTED, needs), ROOM * room)
     if way < needs:
         why = (
-            f"Axis {letter} needs {shown(needs, axis.unit)} to reach {shown(feed, f'{axis.unit}/min')} and"
-            f" stop, and its travel gives {shown(ROOM * room, axis.unit)}."
+            f"Axis {letter} needs {value_text(needs, axis.unit)} to reach "
+            f"{value_text(feed, f'{axis.unit}/min')} and"
+            f" stop, and its travel gives {value_text(ROOM * room, axis.unit)}."
         )
         return [MachineTest("tuning", title, page, refusal=why)]
     lines = (
@@ -50,12 +51,12 @@ def machine_tests(machine: BoundMachine, axis: AxisLaw) -> list[MachineTest]:
         f"N00008 IF [#100 LT {REPEATS}] GOTO 3;",
         "N00009 M02;",
     )
-    start = f"Jog axis {letter} to where {shown(way, axis.unit)} in the plus direction are free"
+    start = f"Jog axis {letter} to where {value_text(way, axis.unit)} in the plus direction are free"
     steps = (
         MachineTestStep(start, f"{letter} is inside its overtravels with that way in front of it"),
         MachineTestStep(
             "Output velocity feedback on the DAC monitor, and run the program",
-            f"{REPEATS} moves each way at {shown(feed, f'{axis.unit}/min')}",
+            f"{REPEATS} moves each way at {value_text(feed, f'{axis.unit}/min')}",
         ),
         MachineTestStep(
             "Look at the velocity of one reversal",

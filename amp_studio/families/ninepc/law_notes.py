@@ -6,7 +6,7 @@ from __future__ import annotations
 
 import math
 
-from amp_studio.sim import shown
+from amp_studio.sim import value_text
 
 from .law_units import ODD_FRAMES, SEPARATE, gain_for_rate, highest_rate, loop_rate
 
@@ -99,9 +99,10 @@ def gain_notes(
     if rate > 0.0 and loop < SEPARATE * rate:
         needed = gain_for_rate(SEPARATE * rate, rotation)
         words = (
-            f"The velocity loop is only {shown(loop / rate, digits=2)} times as fast as the position loop:"
+            f"The velocity loop is only {value_text(loop / rate, digits=2)} times as fast as the "
+            "position loop:"
             " such an axis overshoots in any closed position loop. The lower bound of 7-54 is 3 times,"
-            f" Velocity Proportional Gain {shown(needed, digits=3)} on this axis."
+            f" Velocity Proportional Gain {value_text(needed, digits=3)} on this axis."
         )
         if needed > TUNING_START:
             words += (
@@ -115,12 +116,13 @@ def gain_notes(
         notes.append(
             "The velocity loop is not stable: "
             + (
-                f"its rate is {shown(loop, '1/s', 3)}, and with a lag of {shown(1000.0 * lag, 'ms', 2)} it"
-                f" oscillates from {shown(highest, '1/s', 3)} on (A-9)."
+                f"its rate is {value_text(loop, '1/s', 3)}, and with a lag of "
+                f"{value_text(1000.0 * lag, 'ms', 2)} it"
+                f" oscillates from {value_text(highest, '1/s', 3)} on (A-9)."
                 if highest > 0.0
                 else (
                     "the integral gain is too high for any proportional gain with a lag of"
-                    f" {shown(1000.0 * lag, 'ms', 2)} (A-10)."
+                    f" {value_text(1000.0 * lag, 'ms', 2)} (A-10)."
                 )
             )
         )

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from amp_studio.sim import AxisParameters, Ramp, SimulationError, shown
+from amp_studio.sim import AxisParameters, Ramp, SimulationError, value_text
 
 from .law_reading import LARGEST, SMALLEST, demand, if_set, not_negative
 
@@ -79,8 +79,9 @@ def _curve(read: AxisParameters, unit: str, scan: float | None, step: float, not
         used = min(max(jerk, low), high)
         if used != jerk:
             notes.append(
-                f"Axis Jerk {shown(jerk)} {unit}/s3 gives an S-curve of {shown(up / jerk, 's', 3)}, outside"
-                f" of 2 to 60 scans (10-19): the S-curve is simulated with {shown(used)} {unit}/s3."
+                f"Axis Jerk {value_text(jerk)} {unit}/s3 gives an S-curve of "
+                f"{value_text(up / jerk, 's', 3)}, outside"
+                f" of 2 to 60 scans (10-19): the S-curve is simulated with {value_text(used)} {unit}/s3."
             )
             jerk = used
     return Ramp("s-curve", up, down or up, jerk=jerk, velocity_step=step)

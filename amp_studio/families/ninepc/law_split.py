@@ -10,7 +10,7 @@ from functools import partial
 import numpy as np
 import numpy.typing as npt
 
-from amp_studio.sim import AlarmText, AxisLaw, AxisParameters, Leader, SimulationError, shown
+from amp_studio.sim import AlarmText, AxisLaw, AxisParameters, Leader, SimulationError, value_text
 
 from . import law_samples as samples
 
@@ -99,7 +99,7 @@ def leading(law: AxisLaw, slave: AxisLaw, own: Slave, stiffness: float) -> AxisL
 def _deskewed(law: AxisLaw, slave: Slave) -> AxisLaw:
     p = list(law.parameters)
     p[samples.DESKEW], p[samples.SKEW_LIMIT] = slave.gain, slave.limit
-    text = f"Skew above {shown(slave.limit, law.unit)} ({LIMIT}): the control goes into E-STOP"
+    text = f"Skew above {value_text(slave.limit, law.unit)} ({LIMIT}): the control goes into E-STOP"
     alarms = {**law.alarms, int(samples.EXCESS_SKEW_ALARM): AlarmText("EXCESS SKEW", text)}
     return replace(law, parameters=p, alarms=alarms)
 

@@ -33,7 +33,7 @@ from amp_studio.sim import (
     refuse_unknown,
     rounded_down,
     run_axis,
-    shown,
+    value_text,
 )
 
 from . import law_samples as samples
@@ -114,7 +114,7 @@ def chart(axis: AxisLaw, feedrate: float, proportional: float, integral: float) 
     end = end_of(profile)
     if end > LONGEST:
         raise SimulationError(
-            f"The tuning move of axis {axis.axis} takes {shown(end, 's', 3)}; at most {LONGEST:g} s are"
+            f"The tuning move of axis {axis.axis} takes {value_text(end, 's', 3)}; at most {LONGEST:g} s are"
             " simulated. Raise its position gain or torque limits"
         )
     motion = run_axis(axis, profile, Until(end + 13.0 * lag), engine="compiled", thin=True)

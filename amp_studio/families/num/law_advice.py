@@ -9,7 +9,7 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from amp_studio.sim import AxisLaw, Recommendation, Source, Trace, rounded_down, shown
+from amp_studio.sim import AxisLaw, Recommendation, Source, Trace, rounded_down, value_text
 
 from . import law_sample as sample
 from .formulas.servo import FOLLOWING_ERROR_MARGIN
@@ -50,8 +50,9 @@ def _constant(axis: AxisLaw, _trace: Trace | None = None) -> Iterator[Recommenda
         CONSTANT_OF_AXIS,
         float(max(1, round(gives))),
         "ms",
-        f"KVAR gives a time constant of {shown(gives, 'ms', 3)}, but P56 or P66 is"
-        f" {shown(constant * 1000.0, 'ms', 3)}, which anticipation and dynamic movement control use (pages"
+        f"KVAR gives a time constant of {value_text(gives, 'ms', 3)}, but P56 or P66 is"
+        f" {value_text(constant * 1000.0, 'ms', 3)}, which anticipation and dynamic movement control "
+        "use (pages"
         " 6-14, 6-18, 6-40).",
         "On paths with axes of another time constant the contour is wrong: give all of them the same one.",
     )
@@ -74,12 +75,12 @@ def _largest_error(axis: AxisLaw, trace: Trace | None = None) -> Iterator[Recomm
     if not low and limit <= LOOSE * wanted:
         return
     why = (
-        f"Maximum Following Error is {shown(limit, axis.unit)}; 1.1 x highest speed x time constant is"
-        f" {shown(wanted, axis.unit)}"
+        f"Maximum Following Error is {value_text(limit, axis.unit)}; 1.1 x highest speed x time constant is"
+        f" {value_text(wanted, axis.unit)}"
     )
     price = (
-        f"A blocked axis is noticed after {shown(wanted, axis.unit, 3)} instead of"
-        f" {shown(limit, axis.unit, 3)}."
+        f"A blocked axis is noticed after {value_text(wanted, axis.unit, 3)} instead of"
+        f" {value_text(limit, axis.unit, 3)}."
         if low
         else "Less room for a drive that lags behind."
     )
@@ -103,9 +104,10 @@ def _acceleration(axis: AxisLaw, trace: Trace) -> Iterator[Recommendation]:
             source.parameter,
             value,
             f"{axis.unit}/s2",
-            f"The torque was at its limit; 80 % of it accelerate by {shown(available, f'{axis.unit}/s2', 4)}"
+            "The torque was at its limit; 80 % of it accelerate by "
+            f"{value_text(available, f'{axis.unit}/s2', 4)}"
             f" (page {source.page}).",
-            f"A change to the highest speed takes {shown(now / value, digits=3)} times as long.",
+            f"A change to the highest speed takes {value_text(now / value, digits=3)} times as long.",
         )
 
 
@@ -119,11 +121,12 @@ def _window(axis: AxisLaw, trace: Trace) -> Iterator[Recommendation]:
     if trace.alarms or (arrived and band > count) or left > 0.01 * abs(trace.result["distance"][0] or 0.0):
         return
     why = (
-        f"The window of {shown(band, axis.unit)} must be above one increment, {shown(count, axis.unit)}"
+        f"The window of {value_text(band, axis.unit)} must be above one increment, "
+        f"{value_text(count, axis.unit)}"
         if arrived
         else (
-            f"The axis rests {shown(left, axis.unit, 3)} from its end, outside the window of"
-            f" {shown(band, axis.unit)}"
+            f"The axis rests {value_text(left, axis.unit, 3)} from its end, outside the window of"
+            f" {value_text(band, axis.unit)}"
         )
     )
     wanted = max(2.0 * left, 2.0 * count)
@@ -153,7 +156,7 @@ def _tolerance(axis: AxisLaw, trace: Trace) -> Iterator[Recommendation]:
         wanted,
         "Dynamic movement control is off, so that a broken encoder or drive is noticed at the maximum"
         " following error only; 3 in-position windows, and this move is"
-        f" {shown(outside * 1000.0, 'um/sample', 2)} outside the band (pages 6-24, 11-8).",
+        f" {value_text(outside * 1000.0, 'um/sample', 2)} outside the band (pages 6-24, 11-8).",
         "Errors 40 to 71 on a sound axis whose time constant in P56 or P66 does not fit.",
     )
 

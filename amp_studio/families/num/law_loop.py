@@ -6,7 +6,7 @@ from __future__ import annotations
 
 import math
 
-from amp_studio.sim import AlarmText, AxisParameters, SimulationError, shown
+from amp_studio.sim import AlarmText, AxisParameters, SimulationError, value_text
 
 from . import law_sample as sample
 from .law_words import Words
@@ -25,7 +25,7 @@ def loop(
     p[sample.EMAX] = read.number("servo.max_following_error") * words.length
     p[sample.TOLERANCE] = _tolerance(read, words, notes)
     p[sample.SYNC_LIMIT], p[sample.BACKLASH] = math.inf, _backlash(read, words, notes)
-    limit = shown(p[sample.EMAX], words.unit)
+    limit = value_text(p[sample.EMAX], words.unit)
     alarms = {
         int(sample.EXCESS_ERROR): AlarmText(
             "40 to 71",

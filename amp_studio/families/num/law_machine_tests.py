@@ -6,7 +6,7 @@ from __future__ import annotations
 
 import math
 
-from amp_studio.sim import AxisLaw, BoundMachine, MachineTest, MachineTestStep, shown
+from amp_studio.sim import AxisLaw, BoundMachine, MachineTest, MachineTestStep, value_text
 
 SPEED = "servo.max_speed"
 CHECKS = 10
@@ -55,7 +55,7 @@ def _homing(axis: AxisLaw, letter: str) -> MachineTest:
     )
     steps = (
         MachineTestStep(
-            f"Put a dial comparator at {letter} {shown(check, axis.unit)}",
+            f"Put a dial comparator at {letter} {value_text(check, axis.unit)}",
             "it can be reached without a collision",
         ),
         MachineTestStep(
@@ -63,7 +63,8 @@ def _homing(axis: AxisLaw, letter: str) -> MachineTest:
             f"{CHECKS} readings that differ by no more than a measuring unit",
         ),
         MachineTestStep(
-            "Compare with P16", f"the first encoder zero after the switch is called {shown(home, axis.unit)}"
+            "Compare with P16",
+            f"the first encoder zero after the switch is called {value_text(home, axis.unit)}",
         ),
     )
     return MachineTest(
@@ -101,10 +102,12 @@ def _speeds(machine: BoundMachine, axis: AxisLaw, letter: str) -> MachineTest:
     steps = (
         MachineTestStep(
             "Run N2 and N3",
-            f"the axis goes at {shown(feed, f'{axis.unit}/min')} without a hum, and stops without overshoot",
+            f"the axis goes at {value_text(feed, f'{axis.unit}/min')} without a hum, and stops "
+            "without overshoot",
         ),
         MachineTestStep(
-            "Run N4 and N5", f"at {shown(feed * SLOW, f'{axis.unit}/min')} the following error is a tenth"
+            "Run N4 and N5",
+            f"at {value_text(feed * SLOW, f'{axis.unit}/min')} the following error is a tenth",
         ),
     )
     return MachineTest("speeds", title, "11-3", lines, steps)

@@ -4,7 +4,7 @@ with this file's figures.
 
 from __future__ import annotations
 
-from amp_studio.sim import AxisLaw, BoundMachine, MachineTest, MachineTestStep, SimulationError, shown
+from amp_studio.sim import AxisLaw, BoundMachine, MachineTest, MachineTestStep, SimulationError, value_text
 
 COUNTS = 65536
 MOVE_WORDS = (
@@ -44,7 +44,8 @@ def _home(axis: AxisLaw) -> MachineTest:
     steps = (
         MachineTestStep(
             "Jog the axis away from the switch, and home it",
-            f"register {base + 74} shows {shown(homing.coordinate, axis.unit)} at the place of the marker or"
+            f"register {base + 74} shows {value_text(homing.coordinate, axis.unit)} at the place of "
+            "the marker or"
             " switch",
         ),
         MachineTestStep(

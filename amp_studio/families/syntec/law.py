@@ -24,7 +24,7 @@ from amp_studio.sim import (
     Ramp,
     SimulationError,
     Source,
-    shown,
+    value_text,
 )
 
 from . import law_events as events
@@ -308,7 +308,7 @@ def _machine(axis: _Axis, acceleration: float) -> Machine:
 
 
 def _alarms(axis: _Axis) -> dict[int, AlarmText]:
-    first, fatal = (shown(limit, axis.unit) for limit in axis.limits)
+    first, fatal = (value_text(limit, axis.unit) for limit in axis.limits)
     fastest = "the greater of rapid feedrate and first homing speed / loop gain"
     return {
         int(sample.DDA_OVERFLOW): AlarmText(

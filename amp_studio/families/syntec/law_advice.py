@@ -7,7 +7,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 
-from amp_studio.sim import AxisLaw, Recommendation, Trace, shown
+from amp_studio.sim import AxisLaw, Recommendation, Trace, value_text
 
 from . import law_sample as sample
 
@@ -37,7 +37,8 @@ def _grid(trace: Trace) -> Iterator[Recommendation]:
         "home.grid",
         1.0,
         "",
-        f"The home grid is {shown(grid, '%', 3)}: below {LEAST_GRID:g} or above {MOST_GRID:g} % the index"
+        f"The home grid is {value_text(grid, '%', 3)}: below {LEAST_GRID:g} or above {MOST_GRID:g} % "
+        "the index"
         " lies so near to the dog that it may be missed once and found the next time (page 2.2).",
         "An index within half a turn of the dog is passed, and home moves by a turn.",
     )
@@ -55,7 +56,7 @@ def _pulses(axis: AxisLaw, trace: Trace) -> Iterator[Recommendation]:
         return
     time, rapid = axis.sources["servo_period"], axis.sources["feedrate"]
     setting = math.floor(axis.servo_period * time.scale * most / pulses)
-    why = f"{shown(math.ceil(pulses))} pulses in one interpolation time, and {most:g} are allowed"
+    why = f"{value_text(math.ceil(pulses))} pulses in one interpolation time, and {most:g} are allowed"
     if setting >= RECOMMENDED:
         yield Recommendation(
             time.parameter,
@@ -72,7 +73,7 @@ def _pulses(axis: AxisLaw, trace: Trace) -> Iterator[Recommendation]:
             float(highest),
             f"{axis.unit}/min",
             f"{why}; this is the highest feedrate (page 1.4.2).",
-            f"Rapid moves are {shown(axis.feedrate * 60.0 / highest, digits=3)} times as slow.",
+            f"Rapid moves are {value_text(axis.feedrate * 60.0 / highest, digits=3)} times as slow.",
         )
 
 
@@ -90,7 +91,7 @@ def _ramp(axis: AxisLaw, trace: Trace) -> Iterator[Recommendation]:
         source.parameter,
         float(math.ceil(1000.0 * (axis.feedrate or 0.0) / available)),
         "",
-        f"The torque was at its limit; 80 % of it accelerate by {shown(available, f'{axis.unit}/s2', 4)}"
+        f"The torque was at its limit; 80 % of it accelerate by {value_text(available, f'{axis.unit}/s2', 4)}"
         f" (page {source.page}).",
-        f"Rapid moves reach their feedrate {shown(now / available, digits=3)} times as late.",
+        f"Rapid moves reach their feedrate {value_text(now / available, digits=3)} times as late.",
     )

@@ -6,7 +6,7 @@ from __future__ import annotations
 
 import math
 
-from amp_studio.sim import AxisLaw, BoundMachine, MachineTest, MachineTestStep, SimulationError, shown
+from amp_studio.sim import AxisLaw, BoundMachine, MachineTest, MachineTestStep, SimulationError, value_text
 
 
 def machine_tests(machine: BoundMachine, axis: AxisLaw) -> list[MachineTest]:
@@ -24,7 +24,7 @@ def _homing(axis: AxisLaw, letter: str) -> MachineTest:
     if homing is None:
         return MachineTest("homing", title, "2.2", refusal=f"Axis {letter} is not homed by a search.")
     speeds = [
-        f"{shown(abs(speed) * 60.0, f'{axis.unit}/min')} {where}"
+        f"{value_text(abs(speed) * 60.0, f'{axis.unit}/min')} {where}"
         for speed, where in ((homing.approach, "onto the dog"), (homing.leave, "off it"))
         if speed
     ]
@@ -53,7 +53,7 @@ def _limits(axis: AxisLaw, letter: str) -> MachineTest:
         return MachineTest("limits", title, "3.2", refusal=f"No first stroke limit of axis {letter} is set.")
     steps = tuple(
         MachineTestStep(
-            f"Home axis {letter}, and jog it towards {shown(place, axis.unit)}",
+            f"Home axis {letter}, and jog it towards {value_text(place, axis.unit)}",
             f"{'MOT-018' if place == min(places) else 'MOT-017'} comes, and the axis stops before its hard"
             " stop",
         )

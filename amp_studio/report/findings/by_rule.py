@@ -85,7 +85,7 @@ def fix_text(file: ParameterFile, findings: Sequence[Finding]) -> str:
     if len(parameters) > 1:
         return f"Set {len(settings)} Values"
     name = file.schema.parameters[settings[0].address[0]].name
-    values = {_shown(file, setting) for setting in settings}
+    values = {_value_text(file, setting) for setting in settings}
     if len(values) == 1:
         return f"Set {name} to {values.pop()}"
     axes = [axis_letter(file, s.address[1]) for s in settings if scope_of(file, s.address) == "axis"]
@@ -96,7 +96,8 @@ def fix_lines(file: ParameterFile, finding: Finding) -> tuple[str, ...]:
     """Return each value that a fix sets, before and after: ``1750 Excess Error (X): 11 mm → 13.2 mm``."""
     here = file.machine_schema
     return tuple(
-        f"{here.label(s.address)}{_on(file, s)}: {_value(file, s, file.get(s.address))} → {_shown(file, s)}"
+        f"{here.label(s.address)}{_on(file, s)}: {_value(file, s, file.get(s.address))} → "
+        f"{_value_text(file, s)}"
         for s in finding.fix
     )
 
@@ -106,7 +107,7 @@ def _on(file: ParameterFile, setting: Setting) -> str:
     return f" ({axis_letter(file, axis) or axis})" if scope_of(file, setting.address) == "axis" else ""
 
 
-def _shown(file: ParameterFile, setting: Setting) -> str:
+def _value_text(file: ParameterFile, setting: Setting) -> str:
     return _value(file, setting, setting.value)
 
 

@@ -130,8 +130,10 @@ def _values(rows: Sequence[ReportRow], words: Language) -> Iterator[str]:
 def _not_set(report: Report, words: Language) -> Iterator[str]:
     if report.not_set:
         yield from _heading(words.text("Not set").upper())
-        said = "These parameters are active but have no value in the file: the control keeps its own value."
-        yield from _wrapped(words.text(said), "")
+        sentence = (
+            "These parameters are active but have no value in the file: the control keeps its own value."
+        )
+        yield from _wrapped(words.text(sentence), "")
         for number, name, places in report.not_set:
             yield from _beside((number or "–", name, words.text(places)), (13, 36, WIDTH - 13 - 36 - 2))
         yield ""

@@ -66,7 +66,7 @@ def _by_group(file: ParameterFile, differences: Sequence[Difference], language: 
     for title, members in groupby(differences, key=group_name):
         rows = []
         for each in members:
-            sides = (_shown(file, each.address, value) for value in each.in_one_unit())
+            sides = (_value_text(file, each.address, value) for value in each.in_one_unit())
             rows.append((*_named(file, each.address, language), *sides))
         yield PaperTable(title, ("Number", "Parameter", "Belongs to", "A", "B"), tuple(rows), _SHARES)
 
@@ -111,7 +111,7 @@ def machines_paper(
 
 def _side_by_side(lines: Sequence[MachineLine], names: Sequence[str]) -> tuple[PaperTable, ...]:
     heads = ("Number", "Parameter", "Belongs to", *names)
-    cells = [(*line.named, *line.shown) for line in lines]
+    cells = [(*line.named, *line.texts) for line in lines]
     strong = {(at, 3 + n) for at, line in enumerate(lines) for n in line.departing}
     shares = (2.0, 4.0, 1.6, *(2.4 for _ in names))
     return (PaperTable("", heads, tuple(cells), shares, frozenset(strong)),)
@@ -139,7 +139,7 @@ def _grouped(lines: Sequence[MachineLine], names: Sequence[str], language: str) 
         for n, (machine, numbers) in enumerate(groups_by_value(line.alike, groups)):
             if n:
                 strong.add((len(rows), 3))
-            rows.append((*line.named, line.shown[machine], ", ".join(map(str, numbers))))
+            rows.append((*line.named, line.texts[machine], ", ".join(map(str, numbers))))
     yield PaperTable(
         text("Values"),
         ("Number", "Parameter", "Belongs to", "Value", "Groups"),
@@ -156,7 +156,7 @@ class MachineLine:
     address: Address
     named: tuple[str, str, str]
     """Its number, its name and where it belongs to."""
-    shown: tuple[str, ...]
+    texts: tuple[str, ...]
     """Its value on each machine; secrets are masked."""
     departing: frozenset[int]
     """The machines that do not have what most have."""
@@ -181,7 +181,7 @@ def machine_lines(
         MachineLine(
             address,
             _named(first, address, language),
-            tuple(_shown(first, address, value) for value in values),
+            tuple(_value_text(first, address, value) for value in values),
             frozenset(_departing(values)),
             alike_of(values),
         )
@@ -279,5 +279,5 @@ def _named(file: ParameterFile, address: Address, language: str) -> tuple[str, s
     return number, file.schema.parameters[address[0]].name, place
 
 
-def _shown(file: ParameterFile, address: Address, value: Value | None) -> str:
+def _value_text(file: ParameterFile, address: Address, value: Value | None) -> str:
     return show_value(file.schema.parameters[address[0]], value)

@@ -9,7 +9,7 @@ from amp_studio.files import ParameterFile
 from amp_studio.report.axes import place_of, printed_axes, scope_of
 from amp_studio.report.language import Language, language_of
 from amp_studio.report.parameter.manual_page import range_text
-from amp_studio.schema import Bit, Parameter, shown
+from amp_studio.schema import Bit, Parameter, unit_text
 
 from .paper import Paper, PaperTable
 
@@ -59,7 +59,7 @@ def _tables(file: ParameterFile, everything: bool, language: Language) -> Iterat
                     continue
                 here = file.machine_schema
                 number = "" if here.is_disputed(parameter.id) else here.number(address) or ""
-                blank = f"____________ {shown(file.evaluation.unit(address, file.header.units))}".rstrip()
+                blank = f"____________ {unit_text(file.evaluation.unit(address, file.header.units))}".rstrip()
                 rows.append(
                     (
                         number,

@@ -32,7 +32,7 @@ class Step:
     at: int
     entry: SheetEntry
     is_ticked: bool
-    shown: str
+    screen_text: str
 
     @property
     def notes(self) -> tuple[str, ...]:
@@ -47,7 +47,7 @@ class PrintedSheet:
     sheet: Sheet
     ticked: Collection[str] = ()
     """The numbers of the entries that are keyed in already."""
-    shown: tuple[tuple[str, str], ...] = ()
+    screen_text: tuple[tuple[str, str], ...] = ()
     date: datetime | None = None
     language: str = "en"
     """Code of the language of the page's own words."""
@@ -81,13 +81,13 @@ class PrintedSheet:
 
     def parts(self) -> Iterator[tuple[Stage, tuple[Step, ...]]]:
         """Yield the steps in order, in runs of one stage."""
-        shown = dict(self.shown)
+        screen_text = dict(self.screen_text)
         run: list[Step] = []
         for at, entry in enumerate(self.sheet.entries, 1):
             if run and run[-1].entry.stage != entry.stage:
                 yield self.sheet.stages[run[-1].entry.stage], tuple(run)
                 run = []
-            run.append(Step(at, entry, entry.number in self.ticked, shown.get(entry.number, "")))
+            run.append(Step(at, entry, entry.number in self.ticked, screen_text.get(entry.number, "")))
         if run:
             yield self.sheet.stages[run[-1].entry.stage], tuple(run)
 
@@ -140,8 +140,8 @@ def _step_lines(step: Step) -> Iterator[str]:
         f" {entry.unit:<8}{entry.old or '?':>14}  "
     )
     about = f"{entry.name}" + (f" = {entry.meaning}" if entry.meaning else "") + f" (page {entry.page})"
-    if step.shown:
-        about += f"; read back {step.shown}"
+    if step.screen_text:
+        about += f"; read back {step.screen_text}"
     yield from _wrapped(about, head)
     for note in step.notes:
         yield from _wrapped(note, " " * 12 + "- ")
@@ -181,7 +181,7 @@ def render_sheet_csv(printed: PrintedSheet) -> bytes:
                 e.unit,
                 e.meaning,
                 e.page,
-                step.shown,
+                step.screen_text,
                 " ".join(step.notes),
             )
             table.writerow(map(text_cell, row))

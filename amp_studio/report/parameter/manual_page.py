@@ -25,7 +25,7 @@ from amp_studio.schema import (
     label_of,
     labelled,
     read_address,
-    shown,
+    unit_text,
     unknown,
     write_number,
 )
@@ -224,7 +224,7 @@ def _ranges(schema: Schema, parameter: Parameter) -> Iterator[str]:
 
 def _printed_ranges(schema: Schema, parameter: Parameter) -> list[str]:
     """Return the printed ranges, or the unit alone where there is none."""
-    units = " or ".join(map(shown, entry_units(schema, parameter)))
+    units = " or ".join(map(unit_text, entry_units(schema, parameter)))
     if parameter.ranges or not units:
         return range_text(parameter.ranges, schema)
     return [f"no bounds printed, in {units}"]
@@ -235,10 +235,10 @@ def range_text(ranges: dict[str, Range] | None, schema: Schema) -> list[str]:
     lines = []
     for unit, (low, high) in (ranges or {}).items():
         if low is None and high is None:
-            lines.append(f"no bounds printed{f', in {shown(unit)}' if unit else ''}")
+            lines.append(f"no bounds printed{f', in {unit_text(unit)}' if unit else ''}")
             continue
         ends = [_end(schema, bound) for bound in (low, high)]
-        lines.append(f"{ends[0]} to {ends[1]} {shown(unit)}".rstrip())
+        lines.append(f"{ends[0]} to {ends[1]} {unit_text(unit)}".rstrip())
     return lines
 
 
@@ -291,7 +291,7 @@ def _default(parameter: Parameter) -> str:
         value = label_of(parameter, str(default.value))
     else:
         number = write_number(default.value) if isinstance(default.value, (int, float)) else default.value
-        value = f"{number} {shown(default.unit)}".rstrip()
+        value = f"{number} {unit_text(default.unit)}".rstrip()
     others = "".join(
         f", {_plain(parameter, v)} for {labelled(parameter.each or '{i}', i)}"
         for i, v in (default.instances or {}).items()
@@ -324,7 +324,7 @@ def _at_the_control(parameter: Parameter) -> Iterator[str]:
         yield "can be changed while the machine runs"
     if parameter.patchable:
         storage = parameter.storage
-        unit = f", in {shown(storage.unit)}" if storage and storage.unit else ""
+        unit = f", in {unit_text(storage.unit)}" if storage and storage.unit else ""
         places = f" with {storage.decimals} decimals" if storage and storage.decimals else ""
         yield f"can be entered by its number{unit}{places}"
 

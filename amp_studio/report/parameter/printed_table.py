@@ -5,7 +5,7 @@ from __future__ import annotations
 import textwrap
 from itertools import zip_longest
 
-from amp_studio.schema import Parameter, Schema, Table, shown, write_number
+from amp_studio.schema import Parameter, Schema, Table, unit_text, write_number
 
 _WIDTH = 100
 _INDENT = "  "
@@ -19,7 +19,9 @@ def tables_of(schema: Schema, parameter: Parameter) -> list[Table]:
 def cells_of(table: Table) -> list[list[str]]:
     """Return the cells of a table as texts, the head with its units first."""
     units = table.units or ("",) * len(table.head)
-    head = [f"{name} ({shown(unit)})" if unit else name for name, unit in zip(table.head, units, strict=True)]
+    head = [
+        f"{name} ({unit_text(unit)})" if unit else name for name, unit in zip(table.head, units, strict=True)
+    ]
     return [head, *([c if isinstance(c, str) else write_number(c) for c in row] for row in table.rows)]
 
 

@@ -13,7 +13,7 @@ from amp_studio.schema import axis_name
 from amp_studio.sim.command.events import Jogging, Ramp, Travel
 from amp_studio.sim.errors import SimulationError
 from amp_studio.sim.law import AxisLaw, Law
-from amp_studio.sim.rounding import shown
+from amp_studio.sim.rounding import value_text
 
 from .simulated_machine import SimulatedAxis, SimulatedMachine
 
@@ -81,7 +81,7 @@ class FileMachine:
             moving.go(sign * rate, ramp)
         return (
             f"{self._letter(name)}{'+' if sign > 0.0 else '-'} at"
-            f" {shown(rate * 60.0, f'{moving.law.unit}/min')}"
+            f" {value_text(rate * 60.0, f'{moving.law.unit}/min')}"
         )
 
     def move(

@@ -9,7 +9,7 @@ from collections.abc import Generator
 from dataclasses import dataclass
 
 from amp_studio.sim.command.events import Around, CodedScale, Failure, Homing, Ramp
-from amp_studio.sim.rounding import shown
+from amp_studio.sim.rounding import value_text
 
 from .moving_axis import GoOrder, MoveOrder, MovingAxis, Order, Orders, PauseOrder, Seen, StopOrder, Watch
 
@@ -102,7 +102,8 @@ def _onto(axis: MovingAxis, homing: Homing, ramp: Ramp, around: Around, found: H
         return edge
     if found.overrun > around.length:
         text = (
-            f"The axis passed the whole switch of {shown(around.length, axis.axis.unit)} before it stopped:"
+            f"The axis passed the whole switch of {value_text(around.length, axis.axis.unit)} before "
+            "it stopped:"
             f" it is too fast for it (page {homing.page})"
         )
         yield from _failed(homing, "fast", ramp, found, text)
@@ -115,7 +116,7 @@ def _again(axis: MovingAxis, homing: Homing, ramp: Ramp, around: Around, found: 
     for _ in range(homing.passes):
         yield MoveOrder(axis.position - sign * back, abs(homing.approach), ramp)
         if around.is_stuck or sign * (axis.load - edge) >= 0.0:
-            off = f"The switch does not go off within {shown(back, axis.axis.unit)}"
+            off = f"The switch does not go off within {value_text(back, axis.axis.unit)}"
             yield from _failed(homing, "stuck", ramp, found, off)
             return
         found.left = yield GoOrder(sign * abs(homing.again), ramp, Watch(edge, sign), LOCATE * back)

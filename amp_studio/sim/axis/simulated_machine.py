@@ -162,7 +162,7 @@ class SimulatedAxis:
                 return
             left -= step
             self._left = AWAKE if self._moving.is_busy else self._left - step
-            self._look()
+            self._check_stops()
         self._settle()
 
     def _run_away(self, text: str) -> None:
@@ -172,7 +172,7 @@ class SimulatedAxis:
         self._offset, self._left, self._homed = at, 0.0, None
         self.alarm, self.is_enabled = AlarmText(RUNAWAY, text), False
 
-    def _look(self) -> None:
+    def _check_stops(self) -> None:
         """Stop at a limit, and note what the law stopped for."""
         if self._moving.stop_number > 0 and self.alarm is None:
             self.alarm, self.is_enabled = self.law.alarms.get(self._moving.stop_number), False

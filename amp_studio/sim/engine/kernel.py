@@ -285,11 +285,11 @@ def run(
                     brake(before)
                     brake(after)
                 since += 1
-                held, machine, span = output, m, h
+                applied, machine, span = output, m, h
                 if late:
-                    older, held = delayed(line, slot, delay, output)
+                    older, applied = delayed(line, slot, delay, output)
                     slot = slot + 1 if slot + 1 < len(line) else 0
-                    if part > 0.0 and older != held:  # it arrives inside of the step, which is cut there
+                    if part > 0.0 and older != applied:  # it arrives inside of the step, which is cut there
                         motor_position, motor, load_position, load, torque, error_sum, against = advance(
                             before,
                             motor_position,
@@ -312,7 +312,7 @@ def run(
                     torque,
                     error_sum,
                     against,
-                    held,
+                    applied,
                     span,
                 )
         if not abs(motor_position) < BOUNDLESS:

@@ -13,7 +13,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from amp_studio.sim.rounding import shown
+from amp_studio.sim.rounding import value_text
 from amp_studio.sim.series import Series
 
 from .friction import FrictionFit
@@ -144,7 +144,9 @@ def residual_doubts(fit: FrictionFit, unit: str) -> Iterator[str]:
         if explained > DEPENDS and largest > WORTH * size:
             at = float(edges[int(np.argmax(np.abs(means)))])
             yield (
-                f"What inertia and friction leave depends on the {name}: up to {shown(largest, unit, 2)},"
-                f" most near {shown(at * (60.0 if name == 'speed' else 1.0), '', 3)}; the friction of this"
+                f"What inertia and friction leave depends on the {name}: up to "
+                f"{value_text(largest, unit, 2)},"
+                f" most near {value_text(at * (60.0 if name == 'speed' else 1.0), '', 3)}; the "
+                "friction of this"
                 " axis is not the same everywhere"
             )

@@ -14,7 +14,7 @@ from amp_studio.sim.binding import bind_axis
 from amp_studio.sim.errors import SimulationError
 from amp_studio.sim.law import AxisLaw, law_of
 from amp_studio.sim.model import AT_SPEED, torque_unit
-from amp_studio.sim.rounding import rounded, shown
+from amp_studio.sim.rounding import rounded, value_text
 from amp_studio.sim.series import Series
 from amp_studio.sim.trace import Figure, Trace
 from amp_studio.sim.unit_system import in_unit, length_unit
@@ -63,7 +63,8 @@ def identify(
         later = np.interp(record.time - shift.value, record.time, torque)
         fit = _fit(record, bound, record.time, later, factor)
         notes.append(
-            f"The motion is {shown(1e3 * shift.value, 'ms', 3)} later than the torque in this record, and was"
+            f"The motion is {value_text(1e3 * shift.value, 'ms', 3)} later than the torque in this "
+            "record, and was"
             " shifted so. Whether the axis or the recording delays it, one record does not show."
         )
     result = _figures(fit, bound)
@@ -87,7 +88,7 @@ def identify(
             letter=axis_name(file.evaluation, bound.axis),
             model=(
                 f"{path.name}: {fit.used} of {fit.rows} rows, by {', '.join(record.columns)}; "
-                f"a filter of {shown(1e3 * fit.window, 'ms', 3)}"
+                f"a filter of {value_text(1e3 * fit.window, 'ms', 3)}"
             ),
             columns=_columns(fit),
             units=_units(bound),
@@ -177,7 +178,8 @@ def _doubts(result: dict[str, Figure]) -> list[str]:
     fit = result["r_squared"][0] or 0.0
     if fit < DOUBTFUL_FIT:
         doubts.append(
-            f"Inertia and friction explain {shown(100.0 * fit, '%', 3)} of the torque; look at the picture of"
+            f"Inertia and friction explain {value_text(100.0 * fit, '%', 3)} of the torque; look at "
+            "the picture of"
             " the fit"
         )
     for name in FIGURES[:3]:
@@ -227,7 +229,7 @@ def figure_text(result: dict[str, Figure], name: str) -> str:
         if error == 0.0
         else min(DIGITS, max(2, 2 + math.floor(math.log10(largest)) - math.floor(math.log10(error))))
     )
-    return f"{shown(value, '', digits)} ± {shown(error, '', 2)} {unit}".rstrip()
+    return f"{value_text(value, '', digits)} ± {value_text(error, '', 2)} {unit}".rstrip()
 
 
 _WORDS = {
@@ -265,7 +267,7 @@ def identified_text(trace: Trace) -> str:
         if name in result
     ]
     rows += [
-        (words, shown(value, unit, 5))
+        (words, value_text(value, unit, 5))
         for name, (value, unit) in result.items()
         if name not in _WORDS
         and not name.endswith("_standard_error")
@@ -274,8 +276,8 @@ def identified_text(trace: Trace) -> str:
         for words in [_FITS.get(name, name.replace("_", " "))]
     ]
     width = max(len(name) for name, _ in rows)
-    advice = [
-        f"{each.parameter} at {shown(each.value, each.unit)}: {each.why} {each.price}"
+    recommended = [
+        f"{each.parameter} at {value_text(each.value, each.unit)}: {each.why} {each.price}"
         for each in trace.recommendations
     ]
     return "\n".join(
@@ -283,8 +285,8 @@ def identified_text(trace: Trace) -> str:
             f"identify, axis {trace.axis_title}: {trace.model}",
             *(f"DOUBTFUL: {doubt}" for doubt in trace.doubts),
             *(f"  {name.ljust(width)}  {text}" for name, text in rows),
-            *(["Recommendations"] if advice else []),
-            *(f"  {text}" for text in advice),
+            *(["Recommendations"] if recommended else []),
+            *(f"  {text}" for text in recommended),
             "Assumptions",
             *(f"  {text}" for text in trace.assumptions),
         ]
@@ -302,7 +304,7 @@ def machine_settings(trace: Trace) -> dict[str, str]:
         value, unit = trace.result.get(name, (None, ""))
         if value is not None:
             named = unit if name in _WITH_UNIT and unit != "counts/s2" else ""
-            found[f"model.{name}"] = shown(rounded(value, DIGITS), named, DIGITS)
+            found[f"model.{name}"] = value_text(rounded(value, DIGITS), named, DIGITS)
     return found
 
 

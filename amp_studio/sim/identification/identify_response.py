@@ -16,7 +16,7 @@ from amp_studio.sim.binding import bind_axis
 from amp_studio.sim.errors import SimulationError
 from amp_studio.sim.law import AxisLaw, law_of
 from amp_studio.sim.model import AT_SPEED, torque_unit
-from amp_studio.sim.rounding import shown
+from amp_studio.sim.rounding import value_text
 from amp_studio.sim.series import Response
 from amp_studio.sim.trace import Figure, Recommendation, Trace
 from amp_studio.sim.unit_system import in_unit, length_unit
@@ -104,7 +104,8 @@ def _trace(found: FrequencyResponse, fitted: PlantFit, bound: AxisLaw, path: Pat
         letter=letter,
         model=(
             f"{path.name}: {len(found.frequency)} frequencies from"
-            f" {shown(float(found.frequency[0]), 'Hz', 3)} to {shown(float(found.frequency[-1]), 'Hz', 3)},"
+            f" {value_text(float(found.frequency[0]), 'Hz', 3)} to "
+            f"{value_text(float(found.frequency[-1]), 'Hz', 3)},"
             f" the {fitted.quantity} of {side}"
         ),
         columns=columns,
@@ -162,9 +163,10 @@ def _notches(pairs: tuple[Pair, ...]) -> tuple[Recommendation, ...]:
             "notch",
             round(pair.resonance, 1),
             "Hz",
-            f"a resonance with a damping ratio of {shown(pair.damping, digits=2)}: zeros with this damping,"
+            f"a resonance with a damping ratio of {value_text(pair.damping, digits=2)}: zeros with "
+            "this damping,"
             f" poles with {NOTCH_DAMPING:g}, where the control or its drive has a notch.",
-            f"Phase is lost below it: {shown(_lost(pair), 'deg', 2)} at half of its frequency.",
+            f"Phase is lost below it: {value_text(_lost(pair), 'deg', 2)} at half of its frequency.",
         )
         for pair in pairs
         if pair.damping < NOTCH_DAMPING
@@ -210,13 +212,14 @@ def _doubts(found: FrequencyResponse, fitted: PlantFit) -> list[str]:
         doubts.append(f"{found.left_out} frequencies were left out, their coherence is below 0.8")
     if fitted.misfit > DOUBTFUL_MISFIT:
         doubts.append(
-            f"{shown(100.0 * fitted.misfit, '%', 2)} of the response are left on average; look at the picture"
+            f"{value_text(100.0 * fitted.misfit, '%', 2)} of the response are left on average; look "
+            "at the picture"
             " of the fit"
         )
     for name, (value, error) in fitted.figures.items():
         if name != "viscous_friction" and error > DOUBTFUL_ERROR * abs(value):
             doubts.append(
                 f"{name.replace('_', ' ').capitalize()} is known to"
-                f" {shown(100.0 * error / abs(value) if value else 100.0, '%', 2)} only"
+                f" {value_text(100.0 * error / abs(value) if value else 100.0, '%', 2)} only"
             )
     return doubts

@@ -23,7 +23,7 @@ from amp_studio.sim.binding import bind_axis
 from amp_studio.sim.errors import SimulationError
 from amp_studio.sim.law import law_of
 from amp_studio.sim.model import torque_unit
-from amp_studio.sim.rounding import shown
+from amp_studio.sim.rounding import value_text
 from amp_studio.sim.trace import Trace
 
 from .identify import figure_text, machine_settings
@@ -106,7 +106,7 @@ def machine_text(trace: Trace, family: str) -> str:
         ("record", trace.model),
         *((name, figure_text(result, name)) for name in result if f"{name}_standard_error" in result),
         *(
-            (name, shown(result[name][0] or 0.0, digits=5))
+            (name, value_text(result[name][0] or 0.0, digits=5))
             for name in ("r_squared", "misfit")
             if name in result
         ),

@@ -29,7 +29,7 @@ SEGMENTS = 12
 LEAST_ROWS = 1000
 HIGHEST = 0.25
 """Share of the sampling frequency up to which a record is used."""
-STANDS_OUT = 1e-4
+LEAST_EXCITATION = 1e-4
 """Share of the strongest torque in a frequency from which it is excited."""
 _HEADS = {
     "frequency": r"(frequency|freq|f|frequenz)([ _(\[]*hz[)\]]?)?",
@@ -157,7 +157,7 @@ def response_of_record(period: float, torque: Series, motion: Series, difference
         cross += np.conj(x) * y
         given, answered = given + np.abs(x) ** 2, answered + np.abs(y) ** 2
     frequency = np.asarray(np.fft.rfftfreq(length, period), dtype=np.float64)
-    excited = (given > STANDS_OUT * np.max(given)) & (frequency > 1.5 / (length * period))
+    excited = (given > LEAST_EXCITATION * np.max(given)) & (frequency > 1.5 / (length * period))
     excited &= frequency < HIGHEST / period
     frequency, cross, given, answered = frequency[excited], cross[excited], given[excited], answered[excited]
     ahead = (np.exp(2j * np.pi * frequency * period) - 1.0) ** differences

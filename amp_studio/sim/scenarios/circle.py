@@ -17,7 +17,7 @@ from amp_studio.sim.engine.profiles import SINE
 from amp_studio.sim.errors import SimulationError
 from amp_studio.sim.law import AxisLaw
 from amp_studio.sim.model import assumptions
-from amp_studio.sim.rounding import shown
+from amp_studio.sim.rounding import value_text
 from amp_studio.sim.scenario import Scenario, Settings, above_zero, refuse_unknown
 from amp_studio.sim.series import Series
 from amp_studio.sim.trace import Alarm, Figure, Trace
@@ -239,7 +239,7 @@ def _unstable(axis: AxisLaw, other: AxisLaw, models: tuple[LinearModel, LinearMo
     for each, model in zip((axis, other), models, strict=True):
         if not model.is_stable():
             gain = model.margins().gain
-            by = f": the gain is {shown(-gain, 'dB', 3)} too high" if gain and gain < 0.0 else ""
+            by = f": the gain is {value_text(-gain, 'dB', 3)} too high" if gain and gain < 0.0 else ""
             return (
                 Alarm(
                     "UNSTABLE",

@@ -10,7 +10,7 @@ import numpy.typing as npt
 from amp_studio.sim.axis.motion import Motion
 from amp_studio.sim.engine.signals import DIVERGED, EMERGENCY_STOP
 from amp_studio.sim.law import AxisLaw
-from amp_studio.sim.rounding import shown
+from amp_studio.sim.rounding import value_text
 from amp_studio.sim.trace import Alarm
 from amp_studio.sim.tuning.linear import Margins
 
@@ -74,12 +74,13 @@ def _standstill(axis: AxisLaw, motion: Motion) -> Iterator[Alarm]:
     if way <= max(axis.inposition_band, axis.rest_band, machine.position_count):
         return
     unit, peak = column_units(axis)["torque"], float(np.abs(columns["torque"]).max())
-    weight = f" and its weight {shown(abs(machine.gravity), unit, 3)}" if machine.gravity else ""
+    weight = f" and its weight {value_text(abs(machine.gravity), unit, 3)}" if machine.gravity else ""
     yield Alarm(
         "NO MOTION",
         float(time[moved[0]]),
-        f"Axis {axis.axis} does not move: its friction at rest is {shown(friction, unit, 3)}{weight}, and the"
-        f" torque was at most {shown(peak, unit, 3)}",
+        f"Axis {axis.axis} does not move: its friction at rest is "
+        f"{value_text(friction, unit, 3)}{weight}, and the"
+        f" torque was at most {value_text(peak, unit, 3)}",
     )
 
 
@@ -87,5 +88,5 @@ def _margins(margins: Margins | None) -> str:
     if margins is None:
         return ""
     known = (("gain margin", margins.gain, "dB"), ("phase margin", margins.phase, "deg"))
-    said = [f"{shown(value, unit, 3)} {name}" for name, value, unit in known if value is not None]
-    return f": {' and '.join(said)}" if said else ", whatever its gain is"
+    parts = [f"{value_text(value, unit, 3)} {name}" for name, value, unit in known if value is not None]
+    return f": {' and '.join(parts)}" if parts else ", whatever its gain is"

@@ -16,7 +16,7 @@ import numpy.typing as npt
 from amp_studio.sim.errors import SimulationError
 from amp_studio.sim.law import AxisLaw
 from amp_studio.sim.model import assumptions
-from amp_studio.sim.rounding import shown
+from amp_studio.sim.rounding import value_text
 from amp_studio.sim.scenario import Scenario, Settings, above_zero, refuse_unknown
 from amp_studio.sim.series import Response, Series
 from amp_studio.sim.trace import Alarm, Figure, Trace
@@ -123,18 +123,18 @@ def _span(loop: _Loop, settings: Settings) -> tuple[float, float, int]:
     high = above_zero(settings, "move.highest") or min(far, 0.9 * model.nyquist)
     if high > model.nyquist:
         raise SimulationError(
-            f"move.highest is {shown(high)} Hz; the control samples the position often enough for"
-            f" {shown(model.nyquist)} Hz at most",
+            f"move.highest is {value_text(high)} Hz; the control samples the position often enough for"
+            f" {value_text(model.nyquist)} Hz at most",
             "move.highest",
         )
     if not low < high:
         raise SimulationError(
-            f"move.lowest is {shown(low)} Hz; it must be below {shown(high)} Hz", "move.lowest"
+            f"move.lowest is {value_text(low)} Hz; it must be below {value_text(high)} Hz", "move.lowest"
         )
     points = above_zero(settings, "move.points") or float(POINTS)
     if not (points.is_integer() and 2 <= points <= MOST_POINTS):
         raise SimulationError(
-            f"move.points is {shown(points)}; it must be a whole number from 2 to {MOST_POINTS}",
+            f"move.points is {value_text(points)}; it must be a whole number from 2 to {MOST_POINTS}",
             "move.points",
         )
     return low, high, int(points)
@@ -273,7 +273,8 @@ def _difference(axis: AxisLaw, result: Mapping[str, Figure]) -> str:
     }
     present = [name for name, amount in parts.items() if amount]
     return (
-        f"The sweep has another bandwidth than the linear model ({shown(swept)} and {shown(model)} Hz): it"
+        f"The sweep has another bandwidth than the linear model ({value_text(swept)} and "
+        f"{value_text(model)} Hz): it"
         f" contains {', '.join([*present, 'limits'])} and what the control itself does not do in proportion."
     )
 
@@ -285,10 +286,12 @@ def _unstable(loop: _Loop) -> str:
     pole = complex(loop.model.poles()[0])
     rate = math.log(abs(pole)) / loop.model.period
     swing = abs(np.angle(pole).item()) / (2.0 * math.pi * loop.model.period)
-    grows = f"an oscillation of {shown(swing, 'Hz', 3)}" if swing > 1e-6 else "a motion without oscillation"
-    double = f"doubles every {shown(math.log(2.0) / rate, 's', 3)}" if rate > 1e-9 else "never dies away"
+    grows = (
+        f"an oscillation of {value_text(swing, 'Hz', 3)}" if swing > 1e-6 else "a motion without oscillation"
+    )
+    double = f"doubles every {value_text(math.log(2.0) / rate, 's', 3)}" if rate > 1e-9 else "never dies away"
     by = (
-        f"; the gain is {shown(-margins.gain, 'dB', 3)} too high"
+        f"; the gain is {value_text(-margins.gain, 'dB', 3)} too high"
         if margins.gain and margins.gain < 0.0
         else ""
     )

@@ -18,7 +18,7 @@ from amp_studio.sim.command.events import Around, Homing
 from amp_studio.sim.errors import SimulationError
 from amp_studio.sim.law import AxisLaw, Ramp
 from amp_studio.sim.model import assumptions
-from amp_studio.sim.rounding import shown
+from amp_studio.sim.rounding import value_text
 from amp_studio.sim.scenario import Scenario, Settings, above_zero, number, refuse_unknown
 from amp_studio.sim.trace import Alarm, Figure, Trace
 
@@ -161,7 +161,7 @@ def _marker(axis: AxisLaw, homing: Homing, settings: Settings) -> tuple[float | 
     if given is not None and abs(given) > MOST_TURNS * homing.turn:
         raise SimulationError(
             f"move.marker is {given:g}; give the distance to a marker near the switch, a turn is"
-            f" {shown(homing.turn, axis.unit)}",
+            f" {value_text(homing.turn, axis.unit)}",
             "move.marker",
         )
     return given, True
@@ -219,13 +219,15 @@ def _doubts(axis: AxisLaw, homing: Homing, around: Around, found: Homed) -> list
         away = abs(found.marker - found.left.measured) / homing.turn
         if away > DOUBTFUL:
             notes.append(
-                f"The marker is {shown(away, digits=2)} turns from where the switch goes off: half a turn"
+                f"The marker is {value_text(away, digits=2)} turns from where the switch goes off: "
+                "half a turn"
                 f" away it may be another one each time (page {homing.page}). Move the switch or the encoder."
             )
     if found.overrun is not None and found.overrun > around.length and not found.alarm:
         notes.append(
-            f"ASSUMED: the axis runs {shown(found.overrun, axis.unit)} over a switch of"
-            f" {shown(around.length, axis.unit)}, stops behind it and comes back over it; the control waits"
+            f"ASSUMED: the axis runs {value_text(found.overrun, axis.unit)} over a switch of"
+            f" {value_text(around.length, axis.unit)}, stops behind it and comes back over it; the "
+            "control waits"
             " until it goes off again."
         )
     return notes

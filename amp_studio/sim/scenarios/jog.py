@@ -21,7 +21,7 @@ SETTINGS = {
     "move.hold": "how long the button of a continuous jog is pressed (s); default: 1",
     "move.direction": "plus or minus; default: plus",
 }
-HOLD = 1.0
+PRESS_TIME = 1.0
 """s"""
 
 
@@ -51,7 +51,7 @@ def run_jog(axis: AxisLaw, settings: Settings) -> Trace:
         distance = _chosen("increment", increment, jogging.increments)
     else:
         # A ramp up during the hold and one down after it are as long as the hold at full speed.
-        distance = speed * (above_zero(settings, "move.hold") or HOLD)
+        distance = speed * (above_zero(settings, "move.hold") or PRESS_TIME)
         if ramp.acceleration:
             distance = _pressed(
                 speed, distance / speed, ramp.acceleration, ramp.deceleration or ramp.acceleration
@@ -67,12 +67,12 @@ def run_jog(axis: AxisLaw, settings: Settings) -> Trace:
     )
 
 
-def _pressed(speed: float, hold: float, up: float, down: float) -> float:
-    """Return how far a straight ramp takes an axis whose button is pressed for ``hold`` s;
+def _pressed(speed: float, time: float, up: float, down: float) -> float:
+    """Return how far a straight ramp takes an axis whose button is pressed for ``time`` s;
     lower than ``speed`` for a short one.
     """
-    reached = min(speed, up * hold)
-    return reached * hold - 0.5 * reached * reached / up + 0.5 * reached * reached / down
+    reached = min(speed, up * time)
+    return reached * time - 0.5 * reached * reached / up + 0.5 * reached * reached / down
 
 
 def _chosen(what: str, name: ParameterValue, known: Mapping[str, float]) -> float:

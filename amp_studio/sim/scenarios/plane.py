@@ -13,7 +13,7 @@ from amp_studio.sim.command.events import Ramp
 from amp_studio.sim.errors import SimulationError
 from amp_studio.sim.law import AxisLaw, BoundMachine
 from amp_studio.sim.model import assumptions
-from amp_studio.sim.rounding import shown
+from amp_studio.sim.rounding import value_text
 from amp_studio.sim.scenario import Settings, above_zero, refuse_unknown
 from amp_studio.sim.series import Series
 from amp_studio.sim.trace import Alarm, Figure, PlaneArea, Trace
@@ -175,7 +175,8 @@ def _travelled(
     if first is not None and refused:
         code = first[1].reads_ahead or first[1].code
         text = (
-            f"The way would break {first[1].name} after {shown(first[0] * far, _unit(axes))}: the block is"
+            f"The way would break {first[1].name} after {value_text(first[0] * far, _unit(axes))}: "
+            "the block is"
             f" not begun (page {first[1].page})"
         )
         alarms.append(Alarm(code, 0.0, text))

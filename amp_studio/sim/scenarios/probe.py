@@ -11,7 +11,7 @@ from amp_studio.sim.errors import SimulationError
 from amp_studio.sim.law import AxisLaw, BoundMachine
 from amp_studio.sim.model import assumptions
 from amp_studio.sim.probing import Probing
-from amp_studio.sim.rounding import shown
+from amp_studio.sim.rounding import value_text
 from amp_studio.sim.scenario import Scenario, Settings, above_zero, number, refuse_unknown
 from amp_studio.sim.trace import Alarm, Figure, Trace
 
@@ -104,14 +104,20 @@ def _probed(
         what = (
             "No signal comes"
             if captured is None
-            else f"The signal comes {shown(abs(captured - expected), axis.unit)} from where it is expected"
+            else f"The signal comes {value_text(abs(captured - expected), axis.unit)} from where it "
+            "is expected"
         )
-        text = f"{what}; the band is {shown(probing.band, axis.unit)} on both sides (page {probing.page})"
+        text = (
+            f"{what}; the band is {value_text(probing.band, axis.unit)} on both sides (page {probing.page})"
+        )
         moment = float(motion.columns["time_s"][-1]) if seen is None else seen.time
         alarms = (*alarms, Alarm(probing.outside, moment, text))
     room = above_zero(settings, "move.overtravel")
     if room is not None and beyond is not None and beyond > room:
-        text = f"The probe is pushed {shown(beyond, axis.unit)} over, more than {shown(room, axis.unit)}"
+        text = (
+            f"The probe is pushed {value_text(beyond, axis.unit)} over, more than "
+            f"{value_text(room, axis.unit)}"
+        )
         alarms = (*alarms, Alarm("PROBE OVERTRAVEL", seen.time if seen else 0.0, text))
     result: dict[str, Figure] = {
         "speed": (speed * 60.0, f"{axis.unit}/min"),
@@ -128,7 +134,8 @@ def _probed(
     for page, other in probing.alternatives.items():
         result[f"probe_error_{page.replace('-', '_').lower()}"] = (speed * other, axis.unit)
         notes.append(
-            f"Page {page} prints {shown(other * 1e6, 'µs')}: {shown(speed * other, axis.unit)} at this speed."
+            f"Page {page} prints {value_text(other * 1e6, 'µs')}: "
+            f"{value_text(speed * other, axis.unit)} at this speed."
         )
     return Trace(
         scenario="probe",

@@ -11,7 +11,7 @@ import numpy as np
 
 from amp_studio.sim.errors import SimulationError
 from amp_studio.sim.law import BoundMachine
-from amp_studio.sim.rounding import shown
+from amp_studio.sim.rounding import value_text
 from amp_studio.sim.scenario import Scenario, Settings, above_zero, number, refuse_unknown
 from amp_studio.sim.series import Series
 from amp_studio.sim.spindle import Gear, Orient, SpeedWatch, Spindle
@@ -101,7 +101,7 @@ def run_spindle(machine: BoundMachine, settings: Settings) -> Trace:
         result=result,
         alarms=tuple(alarms),
         recommendations=(),
-        assumptions=(*notes, *spindle.notes, LAG.format(shown(lag, "s"))),
+        assumptions=(*notes, *spindle.notes, LAG.format(value_text(lag, "s"))),
         limits={},
     )
 
@@ -128,8 +128,8 @@ def _geared(spindle: Spindle, settings: Settings, speed: float) -> tuple[Gear | 
         gear = spindle.gears[0]
         if not gear.low <= abs(speed) <= gear.high and speed != 0.0:
             notes.append(
-                f"{shown(abs(speed), 'rpm')} is outside of {shown(gear.low, 'rpm')} to"
-                f" {shown(gear.high, 'rpm')}: the nearest end is used (page {spindle.page})."
+                f"{value_text(abs(speed), 'rpm')} is outside of {value_text(gear.low, 'rpm')} to"
+                f" {value_text(gear.high, 'rpm')}: the nearest end is used (page {spindle.page})."
             )
         return gear, notes, []
     found: Gear | None
@@ -144,7 +144,7 @@ def _geared(spindle: Spindle, settings: Settings, speed: float) -> tuple[Gear | 
     if found is None:
         ranges = ", ".join(f"{gear.name}: {gear.low:g} to {gear.high:g}" for gear in spindle.gears)
         where = f"Range {present} does not have" if present else "No gear has"
-        text = f"{where} {shown(abs(speed), 'rpm')} ({ranges} rpm; page {spindle.page})"
+        text = f"{where} {value_text(abs(speed), 'rpm')} ({ranges} rpm; page {spindle.page})"
         return None, notes, [Alarm(spindle.no_gear, 0.0, text)]
     return found, notes, []
 
@@ -311,8 +311,8 @@ def _approach(
     goes = math.copysign(1.0, way) if way else sign
     even = max(abs(way) - loop, 0.0) / rate
     fades = min(abs(way), loop)
-    stand = orient.standstill * 6.0 / gear.gain if math.isfinite(orient.standstill) else math.inf
-    band = min(max(orient.band, 1e-6), stand)
+    standstill_band = orient.standstill * 6.0 / gear.gain if math.isfinite(orient.standstill) else math.inf
+    band = min(max(orient.band, 1e-6), standstill_band)
     settles = math.log(fades / band) / gear.gain if fades > band else 0.0
     done = lasts + even + settles
     time = np.arange(0.0, done + 3.0 / gear.gain + STEP, STEP)

@@ -16,7 +16,7 @@ from amp_studio.sim.engine.profiles import WIDTH
 from amp_studio.sim.errors import SimulationError
 from amp_studio.sim.law import AxisLaw, BoundMachine
 from amp_studio.sim.model import assumptions
-from amp_studio.sim.rounding import shown
+from amp_studio.sim.rounding import value_text
 from amp_studio.sim.scenario import Scenario, Settings, above_zero, refuse_unknown
 from amp_studio.sim.series import Series
 from amp_studio.sim.spindle import Gear, Spindle, Tapping
@@ -71,7 +71,8 @@ def run_tap(machine: BoundMachine, settings: Settings) -> Trace:
     gear, note = spindle.gear_for(speed, present)
     if gear is None:
         raise SimulationError(
-            f"No gear of spindle {spindle.name} has {shown(speed, 'rpm')} (page {spindle.page})", "move.speed"
+            f"No gear of spindle {spindle.name} has {value_text(speed, 'rpm')} (page {spindle.page})",
+            "move.speed",
         )
     name = machine.one_chosen("tap") or _tapping_axis(machine)
     axis = machine.bind(name, {})
@@ -127,8 +128,8 @@ def _tapped(
     alarms = alarms_of(axis, motion)
     if asked > tapping.speed:
         text = (
-            f"{shown(asked, 'rpm')} is above the highest tapping speed of gear {gear.name},"
-            f" {shown(tapping.speed, 'rpm')} (page {tapping.page})"
+            f"{value_text(asked, 'rpm')} is above the highest tapping speed of gear {gear.name},"
+            f" {value_text(tapping.speed, 'rpm')} (page {tapping.page})"
         )
         alarms = (Alarm("TAPPING SPEED", 0.0, text), *alarms)
     result: dict[str, Figure] = {
@@ -143,7 +144,7 @@ def _tapped(
         "time": (motion.command_end, "s"),
         **(tapping.figures or {}),
     }
-    driven = LED if tapping.leads else DRIVEN.format(shown(tapping.gain, "1/s"), shown(lag, "s"))
+    driven = LED if tapping.leads else DRIVEN.format(value_text(tapping.gain, "1/s"), value_text(lag, "s"))
     notes = (note,) if note else ()
     return Trace(
         scenario="tap",

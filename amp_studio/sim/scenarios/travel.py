@@ -14,7 +14,7 @@ from amp_studio.sim.engine.kernel import STANDSTILL
 from amp_studio.sim.errors import SimulationError
 from amp_studio.sim.law import AxisLaw, Ramp
 from amp_studio.sim.model import assumptions
-from amp_studio.sim.rounding import shown
+from amp_studio.sim.rounding import value_text
 from amp_studio.sim.scenario import Scenario, Settings, above_zero, number, refuse_unknown
 from amp_studio.sim.series import Series
 from amp_studio.sim.trace import Alarm, Figure, Trace
@@ -93,7 +93,7 @@ def run_travel(axis: AxisLaw, settings: Settings) -> Trace:
     if sign < 0.0 and travel.alarm_negative:
         code = travel.alarm_negative
     if travel.refuses:
-        text = f"A move beyond {name}, {shown(edge, axis.unit)}, is not begun (page {travel.page})"
+        text = f"A move beyond {name}, {value_text(edge, axis.unit)}, is not begun (page {travel.page})"
         alarms = (*alarms, Alarm(code, 0.0, text))
     hard = number(settings, "move.hard_stop")
     alarms = (*alarms, *_hit(axis, hard, sign, columns))
@@ -107,7 +107,7 @@ def run_travel(axis: AxisLaw, settings: Settings) -> Trace:
             if travel.stop
             else "the command stops at once"
         )
-        text = f"The axis has passed {name}, {shown(edge, axis.unit)} (page {travel.page}): {how}"
+        text = f"The axis has passed {name}, {value_text(edge, axis.unit)} (page {travel.page}): {how}"
         alarms = (*alarms, Alarm(code, seen.time, text))
     end = float(columns["position"][-1])
     at_rest = (
@@ -174,9 +174,10 @@ def _hit(axis: AxisLaw, hard: float | None, sign: float, columns: dict[str, Seri
     if not beyond.size:
         return ()
     at = int(beyond[0])
-    speed = shown(abs(float(columns["velocity"][at])), f"{axis.unit}/min")
+    speed = value_text(abs(float(columns["velocity"][at])), f"{axis.unit}/min")
     text = (
-        f"The axis meets its hard stop at {shown(hard, axis.unit)} with {speed}: move the limit away from it,"
+        f"The axis meets its hard stop at {value_text(hard, axis.unit)} with {speed}: move the limit "
+        "away from it,"
         " or slow down before it"
     )
     return (Alarm("HARD STOP", float(columns["time_s"][at]), text),)

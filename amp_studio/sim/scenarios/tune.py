@@ -119,22 +119,22 @@ def _loop_figures(loops: Loops) -> dict[str, Figure]:
 
 
 def _notes(solved: Solved, slowest: float, others: Sequence[Trial]) -> list[str]:
-    said = [solved.aim.text()]
+    sentences = [solved.aim.text()]
     levels = levels_of(solved.aim)
     if 0 < solved.level < len(levels):
-        said.append(f"No gains keep all of it: {'; '.join(LATER[: solved.level])}.")
+        sentences.append(f"No gains keep all of it: {'; '.join(LATER[: solved.level])}.")
     if solved.level == len(levels):
-        said.append(f"{why_not_sound(solved.after.loops)}. {NONE_SOUND}")
+        sentences.append(f"{why_not_sound(solved.after.loops)}. {NONE_SOUND}")
     elif not solved.changed:
-        said.append(NOTHING)
+        sentences.append(NOTHING)
     if math.isfinite(slowest):
         names = ", ".join(other.axis.axis for other in others)
-        said.append(f"The position gain is the one that all axes of the contour can have ({names}).")
-    said.append(
+        sentences.append(f"The position gain is the one that all axes of the contour can have ({names}).")
+    sentences.append(
         "Stiffness is the largest way of the load for one unit of torque that comes at once; a smaller figure"
         " is a stiffer axis."
     )
-    return said
+    return sentences
 
 
 def _picture(solved: Solved) -> tuple[dict[str, Series], dict[str, str]]:

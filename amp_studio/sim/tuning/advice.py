@@ -11,7 +11,7 @@ from collections.abc import Sequence
 from dataclasses import replace
 
 from amp_studio.sim.law import AxisLaw
-from amp_studio.sim.rounding import shown
+from amp_studio.sim.rounding import value_text
 from amp_studio.sim.trace import Recommendation
 
 from .aims import NORMAL
@@ -81,9 +81,9 @@ def gain_recommendations(trial: Tried, solved: Solved, why: str = "") -> tuple[R
         if number is None or old is None:
             continue
         page = trial.axis.sources[gain.name].page
-        said = f"{why}{gives}" if not found else f"together with {found[0].parameter}"
-        said = f"{said} ({f'page {page}, ' if page else ''}aim {solved.aim.name})."
-        found.append(Recommendation(gain.parameter, number, old.unit, said, _price(trial, solved, gain)))
+        reason = f"{why}{gives}" if not found else f"together with {found[0].parameter}"
+        reason = f"{reason} ({f'page {page}, ' if page else ''}aim {solved.aim.name})."
+        found.append(Recommendation(gain.parameter, number, old.unit, reason, _price(trial, solved, gain)))
     return tuple(found)
 
 
@@ -108,7 +108,7 @@ def _price(trial: Tried, solved: Solved, gain: Gain) -> str:
 
 
 def _times(share: float) -> str:
-    return f"{shown(share, digits=2)} times"
+    return f"{value_text(share, digits=2)} times"
 
 
 def _following_errors(solved: Solved) -> str:
@@ -122,7 +122,7 @@ def _following_errors(solved: Solved) -> str:
     ]
     if values[0] is None or values[1] is None or values[1] <= 1.01 * values[0]:
         return ""
-    worse = " to ".join(shown(each, axes[0].unit, 3) for each in values if each is not None)
+    worse = " to ".join(value_text(each, axes[0].unit, 3) for each in values if each is not None)
     return f"The following error at the rapid feedrate grows from {worse}."
 
 
@@ -132,7 +132,9 @@ def why_not_sound(loops: Loops) -> str:
         if not loops.inner_stable:
             return f"The velocity loop is not stable: {margins_text(loops.inner.margins)}"
         ratio = loops.axis.machine.inertia_ratio
-        load = f" with a load of {shown(ratio, digits=3)} times the inertia of the motor" if ratio else ""
+        load = (
+            f" with a load of {value_text(ratio, digits=3)} times the inertia of the motor" if ratio else ""
+        )
         return (
             f"The velocity loop has too little margin{load}:"
             f" {_with_ms(loops.inner.margins, loops.inner.sensitivity)}"
@@ -156,13 +158,13 @@ def figures_text(loops: Loops) -> str:
 
 
 def _with_ms(margins: Margins, sensitivity: float) -> str:
-    return f"Ms {shown(sensitivity, digits=3)}, {margins_text(margins)}"
+    return f"Ms {value_text(sensitivity, digits=3)}, {margins_text(margins)}"
 
 
 def margins_text(margins: Margins) -> str:
     """Return margins in words."""
     parts = [
-        f"{shown(value, unit, 3)} {name} margin"
+        f"{value_text(value, unit, 3)} {name} margin"
         for value, unit, name in ((margins.phase, "deg", "phase"), (margins.gain, "dB", "gain"))
         if value is not None
     ]

@@ -200,7 +200,7 @@ def exponential(matrix: Matrix) -> Matrix:
     return total
 
 
-def held(a: Matrix, b: Matrix, time: float) -> tuple[Matrix, Matrix]:
+def zero_order_hold(a: Matrix, b: Matrix, time: float) -> tuple[Matrix, Matrix]:
     """Return (phi, gamma) of dx/dt = a x + b u over a time in s with a constant u."""
     n, m = b.shape
     joined = np.zeros((n + m, n + m))
@@ -229,12 +229,14 @@ class _Move:
     def of(cls, plant: Plant, step: float, rest: float, waiting: int, output: int, size: int) -> _Move:
         """Return the move over ``step`` s; ``rest`` is the share of a period in the delay."""
         places = [*range(size - waiting, size), output]
-        phi, gamma = held(plant.a, plant.b, step)
-        push = np.zeros((len(phi), 1)) if plant.push is None else held(plant.a, plant.push, step)[1]
+        phi, gamma = zero_order_hold(plant.a, plant.b, step)
+        push = (
+            np.zeros((len(phi), 1)) if plant.push is None else zero_order_hold(plant.a, plant.push, step)[1]
+        )
         if rest <= 1e-9:
             return cls(phi, gamma, None, push, places)
-        phi_early, gamma_early = held(plant.a, plant.b, (1.0 - rest) * step)
-        _, gamma_late = held(plant.a, plant.b, rest * step)
+        phi_early, gamma_early = zero_order_hold(plant.a, plant.b, (1.0 - rest) * step)
+        _, gamma_late = zero_order_hold(plant.a, plant.b, rest * step)
         return cls(phi, phi_early @ gamma_late, gamma_early, push, places)
 
     def apply(self, rows: Matrix) -> None:

@@ -21,7 +21,7 @@ from amp_studio.sim.axis.moves import move_of
 from amp_studio.sim.errors import SimulationError
 from amp_studio.sim.law import AxisLaw
 from amp_studio.sim.model import assumptions, model_settings, present_setting, torque_unit
-from amp_studio.sim.rounding import shown
+from amp_studio.sim.rounding import value_text
 from amp_studio.sim.scenario import Scenario, Settings, number, refuse_unknown
 from amp_studio.sim.series import Series
 from amp_studio.sim.trace import Figure, Trace
@@ -102,8 +102,12 @@ def _gain_map(trial: Trial, move: Settings, figure: str, way: Way) -> Trace:
     points = points_of(varied, None, 1)
     job = _job(trial, varied, move, motion=motion, loops=True, others=others)
     trace = _trace(job, trial, points, _run(job, points, way), figure)
-    said = ", ".join(f"{name} is {shown(number)}" for name, number in others.items())
-    note = f"With the other gains as they are none is safe: here {said}, as tune recommends." if said else ""
+    others_as_text = ", ".join(f"{name} is {value_text(number)}" for name, number in others.items())
+    note = (
+        f"With the other gains as they are none is safe: here {others_as_text}, as tune recommends."
+        if others_as_text
+        else ""
+    )
     return replace(trace, assumptions=(*([note] if note else []), *trace.assumptions))
 
 
@@ -152,7 +156,7 @@ def _run(job: SweepJob, points: Matrix, way: Way) -> Matrix:
 def _whole(settings: Settings, name: str) -> int | None:
     given = number(settings, name)
     if given is not None and not (given.is_integer() and given >= 0.0):
-        raise SimulationError(f"{name} is {shown(given)}; it must be a whole number", name)
+        raise SimulationError(f"{name} is {value_text(given)}; it must be a whole number", name)
     return None if given is None else int(given)
 
 

@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 
-from amp_studio.sim.rounding import shown
+from amp_studio.sim.rounding import value_text
 from amp_studio.sim.trace import Figure, Trace
 
 PERCENTILE = re.compile(r"(.+)_p([0-9]+)")
@@ -41,7 +41,7 @@ def spread_lines(spread: Spread, width: int) -> Iterator[str]:
         yield f"  {'percentiles'.ljust(width)}  {''.join(f'{part} %'.rjust(11) for part in parts)}"
     for name, parts in spread.items():
         unit = next(iter(parts.values()))[1]
-        texts = ["–" if value is None else shown(value, "", 4) for value, _ in parts.values()]
+        texts = ["–" if value is None else value_text(value, "", 4) for value, _ in parts.values()]
         columns = "".join(text.rjust(11) for text in texts)
         yield f"  {name.replace('_', ' ').ljust(width)}  {columns} {unit}".rstrip()
 
@@ -74,12 +74,12 @@ def variation_lines(trace: Trace) -> Iterator[str]:
     row = best_row(trace)
     if row is not None:
         there = ", ".join(
-            f"{name} {shown(float(trace.columns[name][row]), trace.units[name])}" for name in trace.over
+            f"{name} {value_text(float(trace.columns[name][row]), trace.units[name])}" for name in trace.over
         )
         yield f"best {trace.figure.replace('_', ' ')} of the safe ones: {there}"
     for name, (low, high) in safe_ranges(trace).items():
-        yield f"safe: {name} {shown(low)} to {shown(high, trace.units[name])}"
-    present = [f"{name} {shown(*figure)}" for name, figure in _present(trace).items()]
+        yield f"safe: {name} {value_text(low)} to {value_text(high, trace.units[name])}"
+    present = [f"{name} {value_text(*figure)}" for name, figure in _present(trace).items()]
     if present:
         yield f"at present: {', '.join(present)}"
 

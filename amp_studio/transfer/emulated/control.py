@@ -136,7 +136,7 @@ class Control:
         self._need_estop("change its image")
         changed = change(self._active)
         self.memory.replace(ACTIVE, changed)
-        self._take(changed)
+        self._activate(changed)
         self._record.remember(self._digest)
         self._remember(restart_needed=True, changed_at_control=True)
 
@@ -148,7 +148,7 @@ class Control:
             self._need_estop("change it on line")
         changed = change(self._active)
         self.memory.replace(ACTIVE, changed)
-        self._take(changed)
+        self._activate(changed)
         self._record.remember(self._digest)
         self._remember()
 
@@ -243,7 +243,7 @@ class Control:
         except OSError as error:
             fault = error.strerror or str(error)
         # Whatever went wrong above: what is now in active.img is what the control contains.
-        self._take(self.memory.read(ACTIVE) or b"")
+        self._activate(self.memory.read(ACTIVE) or b"")
         if self._digest != pending.sha256:
             self._forget_intent()
             raise RefusalError(Code.STORAGE, f"the control cannot store the image ({fault})")
@@ -281,7 +281,7 @@ class Control:
         if active is None:
             self.memory.replace(ACTIVE, initial)
             active = initial
-        self._take(active)
+        self._activate(active)
         self._record.remember(self._digest)
         if intent is not None and intent["to"] == self._digest.hex():
             self._finish(intent)
@@ -295,7 +295,7 @@ class Control:
         self._record.autostart = self._record.autostart if autostart is None else autostart
         self.restart()
 
-    def _take(self, image: bytes) -> None:
+    def _activate(self, image: bytes) -> None:
         self._active = image
         self._digest = hashlib.sha256(image).digest()
 

@@ -105,9 +105,9 @@ class Connection:
         talk = self._talk
         if talk is None:
             first = int.from_bytes(self.random(2), "little")
-            link = self._open_link(self._look)
+            link = self._open_link(self._poll)
             try:
-                talk = Transaction(link, self.now, self._policy, first=first, look=self._look)
+                talk = Transaction(link, self.now, self._policy, first=first, look=self._poll)
             except BaseException:
                 link.close()
                 raise
@@ -221,10 +221,10 @@ class Connection:
         """Wait; raises CancelledError, OutOfTimeError."""
         end = self.now() + seconds
         while (left := end - self.now()) > 0:
-            self._look()
+            self._poll()
             self._sleep(min(left, SLICE))
 
-    def _look(self) -> None:
+    def _poll(self) -> None:
         """Be called by everything that waits, at least every 0.1 s."""
         now = self.now()
         if self.cancel is not None and self.cancel.is_set():

@@ -41,7 +41,7 @@ class Transaction:
         self.link = link
         self.pace = RetryTimer(policy)
         self._clock = clock
-        self._look = look
+        self._poll = look
         self._numbers = (1 + (first + n) % 65_535 for n in count())
         self._decoder = FrameDecoder()
         self._received: deque[tuple[int, Message]] = deque()
@@ -61,7 +61,7 @@ class Transaction:
         """Return the next message and its number, or None after ``timeout`` seconds; raises LinkError."""
         end = self._clock() + timeout
         while True:
-            self._look()
+            self._poll()
             if self._received:
                 return self._received.popleft()
             left = end - self._clock()

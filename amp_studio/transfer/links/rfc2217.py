@@ -58,7 +58,7 @@ class Rfc2217Link:
     def __init__(self, endpoint: Endpoint, line: TcpLink, look: Callable[[], None] = keep_waiting) -> None:
         self._settings: SerialSettings = endpoint.serial_settings()
         self.bytes_per_second: float | None = self._settings.bytes_per_second
-        self._endpoint, self._line, self._look = endpoint, line, look
+        self._endpoint, self._line, self._poll = endpoint, line, look
         line.write_limit = WRITE_LIMIT if self._settings.flow == "none" else FLOW_LIMIT
         self._telnet = TelnetReader()
         self._sent: set[tuple[int, int]] = set()
@@ -122,7 +122,7 @@ class Rfc2217Link:
     def _await(self, is_there: Callable[[], bool], end: float, why_not: Callable[[], str]) -> None:
         """Read until something is there; data that comes before it is of an earlier use of the port."""
         while not is_there():
-            self._look()
+            self._poll()
             left = end - time.monotonic()
             if left <= 0:
                 raise LinkError(self._endpoint, why_not())
@@ -144,7 +144,7 @@ class Rfc2217Link:
             elif isinstance(each, Negotiation):
                 self._answer(each)
             else:
-                self._take(each)
+                self._remember(each)
 
     def _answer(self, asked: Negotiation) -> None:
         """Agree to what is needed, refuse anything else; what was sent once is not sent again."""
@@ -158,7 +158,7 @@ class Rfc2217Link:
         elif asked.command == DO:
             self._negotiate(WILL if asked.option in WANTED else WONT, asked.option)
 
-    def _take(self, option: Option) -> None:
+    def _remember(self, option: Option) -> None:
         """Remember what the server answers to a setting."""
         kind, command, value = option.content[:1], option.content[1:2], option.content[2:]
         if kind == bytes([COM_PORT]) and command and command[0] >= ANSWER:

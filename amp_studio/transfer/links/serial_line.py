@@ -41,7 +41,7 @@ class SerialLink:
         settings = endpoint.serial_settings()
         self._endpoint = endpoint
         self._port = port
-        self._look = look
+        self._poll = look
         self._flow_limit = WRITE_LIMIT if settings.flow == "none" else FLOW_LIMIT
         self._piece = max(1, min(settings.baud // 100, PIECE))
         self.bytes_per_second: float | None = settings.bytes_per_second
@@ -69,7 +69,7 @@ class SerialLink:
                 self._port.write(data[start : start + self._piece])
             except (OSError, TypeError, AttributeError) as error:
                 raise self._lost(error) from None
-            self._look()
+            self._poll()
 
     def drain(self) -> None:
         """Wait until everything that was written has left;
@@ -77,7 +77,7 @@ class SerialLink:
         """
         waiting, end = -1, 0.0
         while (left := self._leaving()) > 0:
-            self._look()
+            self._poll()
             if left != waiting:
                 waiting, end = left, time.monotonic() + self._flow_limit
             if time.monotonic() >= end:
@@ -112,7 +112,7 @@ class SerialLink:
         """Wait until the port takes a piece; pyserial's own waiting cannot be broken off."""
         end = time.monotonic() + self._flow_limit
         while not self._has_room():
-            self._look()
+            self._poll()
             if time.monotonic() >= end:
                 raise LinkError(self._endpoint, f"the other end has taken nothing for {self._flow_limit:g} s")
 

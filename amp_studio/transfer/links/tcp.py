@@ -46,7 +46,7 @@ class TcpLink:
     ) -> None:
         self._endpoint = endpoint
         self._socket = connection
-        self._look = look
+        self._poll = look
         connection.setblocking(False)
         with contextlib.suppress(OSError):  # a connection that is gone already is met at the first read
             connection.setsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY, 1)
@@ -85,7 +85,7 @@ class TcpLink:
                 continue
             except (OSError, ValueError) as error:
                 raise LinkError(self._endpoint, tcp_message(error)) from None
-            self._look()
+            self._poll()
             if time.monotonic() >= end:
                 raise LinkError(self._endpoint, "the other end takes nothing more")
 

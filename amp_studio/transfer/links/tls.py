@@ -51,7 +51,7 @@ class TlsLink(TcpLink):
                     continue
             except (OSError, ValueError) as error:
                 raise LinkError(self._endpoint, tls_message(error)) from None
-            self._look()
+            self._poll()
             if time.monotonic() >= end:
                 raise LinkError(self._endpoint, "the other end takes nothing more")
 

@@ -54,7 +54,7 @@ class ControlDesk(Translated):
         self.exchanges.show_page = lambda: self.show("compare")
         files.comparing.address_of = self.exchanges.chosen_address
         self.emulated.ready.connect(self._ready)
-        self.emulated.shown.connect(self._shown)
+        self.emulated.line_shown.connect(self._shown)
         self.emulated.ended.connect(self._ended)
 
     def show_state(self, action: QAction) -> None:
@@ -373,7 +373,7 @@ def state_in_words(session: ControlSession | None) -> tuple[str, bool]:
     """Return the state of a control in words, and whether it needs something."""
     if session is None:
         return tr("not connected"), False
-    if session.wants_password and session.seen is None:
+    if session.needs_password and session.seen is None:
         return tr("needs a password"), True
     if session.phase == "ready" and session.in_estop is False:
         return tr("not in E-stop"), True

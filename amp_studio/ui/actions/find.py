@@ -44,7 +44,7 @@ class FindSearch(Translated):
         self.window = window
         self.box = FindBox(self.rows, window)
         self.box.chosen.connect(self._go)
-        self.box.left.connect(self._leave)
+        self.box.left.connect(self._focus_table)
         self._finders: dict[FilePage, Finder] = {}
         self._indexed: set[tuple[int, str]] = set()
         self._indexing: set[tuple[int, str]] = set()
@@ -242,7 +242,7 @@ class FindSearch(Translated):
             return
         if row.action is not None:
             self.box.clear()
-            self._leave()
+            self._focus_table()
             row.action.trigger()
         elif row.family and row.hit is not None:
             self._show_fact(row.family, row.hit)
@@ -284,7 +284,7 @@ class FindSearch(Translated):
     def _show_message(self, page: FilePage, message: str) -> None:
         MessageWindow(self.window, page.workspace.file.schema, message, page).show()
 
-    def _leave(self) -> None:
+    def _focus_table(self) -> None:
         if self.window.table_view is not None:
             self.window.table_view.setFocus()
         else:

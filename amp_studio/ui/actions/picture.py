@@ -44,9 +44,9 @@ class Pictures(QObject):
         if page is None:
             return
         load_beside("amp_studio.sim", RAMPS)  # the simulator's pieces take a fifth of a second
-        wants = layout.is_shown and page.pictures is None
+        is_needed = layout.is_shown and page.pictures is None
         page.middle.arrange(layout)
-        if wants and page.middle.arrangement != "instead":
+        if is_needed and page.middle.arrangement != "instead":
             if RAMPS in sys.modules:
                 self.show(page, True)
             else:
@@ -58,9 +58,9 @@ class Pictures(QObject):
             load("amp_studio.sim", RAMPS)
             pictures = PicturesPage(page.workspace)
             pictures.parameter_wanted.connect(lambda address: self._to_parameter(page, address))
-            pictures.left.connect(lambda: self._leave(page))
+            pictures.left.connect(lambda: self._focus_table(page))
             pictures.closed.connect(lambda: self._close(page))
-            pictures.told.connect(page.noted)
+            pictures.notified.connect(page.noted)
             pictures.parameter_chosen.connect(lambda address: _select(page, address))
             pictures.head.place_wanted.connect(lambda place: self._place(page, place))
             page.table_view.selected.connect(pictures.show_selected)
@@ -106,7 +106,7 @@ class Pictures(QObject):
         self._keep(replace(self.window.settings.pictures(), is_shown=False))
         self.show(page, False)
 
-    def _leave(self, page: FilePage) -> None:
+    def _focus_table(self, page: FilePage) -> None:
         """Go back to the table, which is seen already where the pictures are beside it."""
         if page.middle.covers:
             self._close(page)

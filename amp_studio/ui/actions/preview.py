@@ -21,9 +21,9 @@ class ReportPreview(QObject):
         super().__init__(window)
         self.window = window
         self.panel: PreviewPanel | None = None
-        self._wants_focus = False
-        window.docks.preview.visibilityChanged.connect(lambda _: self._look())
-        window.tabs.current_changed.connect(lambda _: self._look())
+        self._takes_focus = False
+        window.docks.preview.visibilityChanged.connect(lambda _: self._follow_file())
+        window.tabs.current_changed.connect(lambda _: self._follow_file())
 
     def toggle(self) -> None:
         """Show the preview beside the table and go to it, or hide it."""
@@ -34,7 +34,7 @@ class ReportPreview(QObject):
             if had_focus and self.window.page is not None:
                 self.window.page.setFocus()
             return
-        self._wants_focus = True
+        self._takes_focus = True
         self.window.docks.show_preview(True)
 
     @property
@@ -42,7 +42,7 @@ class ReportPreview(QObject):
         """Whether the preview is to be seen."""
         return not self.window.docks.preview.isHidden()
 
-    def _look(self) -> None:
+    def _follow_file(self) -> None:
         """Follow the file in front while the preview is seen; it is made after the window has been
         painted.
         """
@@ -65,8 +65,8 @@ class ReportPreview(QObject):
             return
         panel = self._made()
         panel.show_page(self.window.page)
-        if self._wants_focus:
-            self._wants_focus = False
+        if self._takes_focus:
+            self._takes_focus = False
             panel.setFocus()
 
     def _made(self) -> PreviewPanel:

@@ -118,7 +118,7 @@ class RangeEdits:
         doubtful = two_ways(rows)
         entry = self._planned(texts, doubtful)
         if len(entry.cells) == 1 and not left_out:
-            self._take(entry)
+            self._apply(entry)
         elif run_dialog(BlockPreview(self.window.page_in_front.workspace, entry, left_out, self.window)):
             self.window.page_in_front.workspace.take(entry)
 
@@ -228,9 +228,9 @@ class RangeEdits:
             if parameter.secret and source[0] != target[0]:
                 raise ValueError(tr("{name} is secret.").format(name=describe(file, source)))
             texts[target] = write_value(parameter, file.get(source)) or "not set"
-        self._take(self._planned(texts, set()))
+        self._apply(self._planned(texts, set()))
 
-    def _take(self, entry: BlockEntry) -> None:
+    def _apply(self, entry: BlockEntry) -> None:
         """Make a planned change where nothing of it is refused; else list what is."""
         page = self.window.page_in_front
         if not entry.refused:
@@ -252,14 +252,14 @@ class RangeEdits:
             raise ValueError(
                 tr("No default is printed for {name}. Press Delete to clear the value.").format(name=name)
             )
-        self._take(plan_values(workspace.file, wanted))
+        self._apply(plan_values(workspace.file, wanted))
         if missing := len(chosen) - len(wanted):
             self.window.show_status(tr("%n values have no printed default and are as before.", "", missing))
 
     def clear(self) -> None:
         """Clear the selected values: they are not set, and the control keeps its own."""
         workspace = self.window.page_in_front.workspace
-        self._take(plan_values(workspace.file, dict.fromkeys(self._selected())))
+        self._apply(plan_values(workspace.file, dict.fromkeys(self._selected())))
 
     def to_all_axes(self) -> None:
         """Copy the selected value to every fitted axis of the same type."""

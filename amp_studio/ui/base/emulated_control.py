@@ -15,7 +15,7 @@ class EmulatedControl(QObject):
 
     ready = Signal(str)
     """The address it listens on."""
-    shown = Signal(str)
+    line_shown = Signal(str)
     """A line of its screen: a message, or its answer to a command."""
     ended = Signal(str)
     """Its last output when it ended by itself; empty when it was stopped."""
@@ -78,7 +78,7 @@ class EmulatedControl(QObject):
                 self.address = line.removeprefix("listening on ").strip()
                 self.ready.emit(self.address)
             elif line:
-                self.shown.emit(line)
+                self.line_shown.emit(line)
 
     def _failed(self, error: QProcess.ProcessError) -> None:
         if error == QProcess.ProcessError.FailedToStart:

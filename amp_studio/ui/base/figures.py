@@ -29,8 +29,8 @@ def sentence(text: str) -> str:
     The sentences of the program are in the language of the window; a rule has the words of its facts.
     """
     sign = tr(".", "decimal sign")
-    said = message_in_words(text)
-    return said if sign == "." else _NUMBER.sub(lambda found: found[0].replace(".", sign), said)
+    sentence = message_in_words(text)
+    return sentence if sign == "." else _NUMBER.sub(lambda found: found[0].replace(".", sign), sentence)
 
 
 def show_value(parameter: Parameter, value: Value | None, *, secrets: bool = False) -> str:

@@ -191,8 +191,8 @@ class Plot(QWidget):
             low, high = self.span
             if not low <= place <= high:
                 continue
-            is_held = self._grip == "AB".index(name)
-            painter.setPen(QPen(colour("sel" if is_held else "dim"), 2 if is_held else 1))
+            is_gripped = self._grip == "AB".index(name)
+            painter.setPen(QPen(colour("sel" if is_gripped else "dim"), 2 if is_gripped else 1))
             for frame in self._frames:
                 x = frame.at((place, 0.0))[0]
                 painter.drawLine(QPointF(x, frame.top), QPointF(x, frame.top + frame.height))

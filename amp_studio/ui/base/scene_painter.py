@@ -36,7 +36,7 @@ from .theme import Token, colour, font
 if TYPE_CHECKING:
     from amp_studio.drawing import Series
 
-INKS: dict[ShapeSort, Token] = {
+TOKENS: dict[ShapeSort, Token] = {
     "ink": "text",
     "dim": "dim",
     "limit": "edge",
@@ -52,7 +52,7 @@ INKS: dict[ShapeSort, Token] = {
     "output": "warn",
     "before": "edge",
 }
-TEXT_INKS: dict[ShapeSort, Token] = {
+TEXT_TOKENS: dict[ShapeSort, Token] = {
     "now": "sel",
     "error": "error",
     "dim": "dim",
@@ -90,10 +90,10 @@ class ScenePainter:
         for dot in self._scene.dots:
             self._dot(dot)
         painter.setPen(QPen(colour("edge"), 1))
-        for label in self.labels.shown:
+        for label in self.labels.placed:
             if label.leader is not None:
                 painter.drawLine(QPointF(*label.leader[0]), QPointF(*label.leader[1]))
-        for label in self.labels.shown:
+        for label in self.labels.placed:
             self._label(label)
 
     def _at(self, point: tuple[float, float]) -> QPointF:
@@ -126,28 +126,28 @@ class ScenePainter:
         for level in scene.levels:
             if scene.y.low <= level.at <= scene.y.high:
                 y = self._place.at((0.0, level.at))[1]
-                painter.setPen(QPen(colour(INKS[level.sort]), 1, Qt.PenStyle.DotLine))
+                painter.setPen(QPen(colour(TOKENS[level.sort]), 1, Qt.PenStyle.DotLine))
                 painter.drawLine(QPointF(inner.left(), y), QPointF(inner.right(), y))
         for mark in scene.marks:
             if scene.x.low <= mark.at <= scene.x.high:
                 x = self._place.at((mark.at, 0.0))[0]
                 style = Qt.PenStyle.SolidLine if mark.sort == "error" else Qt.PenStyle.DashLine
-                painter.setPen(QPen(colour(INKS[mark.sort]), 1, style))
+                painter.setPen(QPen(colour(TOKENS[mark.sort]), 1, style))
                 painter.drawLine(QPointF(x, inner.top()), QPointF(x, inner.bottom()))
 
     def _curve(self, curve: Curve) -> None:
         from amp_studio.drawing import strokes_of  # numpy, which a picture without curves does not need
 
-        painter, ink = self._painter, colour(INKS[curve.sort])
+        painter, shade = self._painter, colour(TOKENS[curve.sort])
         line, band = strokes_of(self._place, curve)
         painter.save()
         painter.setClipRect(self._inner().adjusted(-1, -1, 1, 1))
         if curve.dots:
             for x, y in line.tolist():
-                paint_ring(painter, QPointF(x, y), ink)
+                paint_ring(painter, QPointF(x, y), shade)
         else:
             if band is not None:
-                light = QColor(ink)
+                light = QColor(shade)
                 light.setAlphaF(0.25)
                 painter.setPen(Qt.PenStyle.NoPen)
                 painter.setBrush(light)
@@ -162,9 +162,9 @@ class ScenePainter:
         painter, place = self._painter, self._place
         painter.setRenderHint(QPainter.RenderHint.Antialiasing, False)
         for left, top, width, height, share, is_safe in cell_boxes(place, cells):
-            ink = _mixed(share)
-            ink.setAlphaF(1.0 if is_safe else PALE)
-            painter.fillRect(QRectF(left, top, width, height), ink)
+            shade = _mixed(share)
+            shade.setAlphaF(1.0 if is_safe else PALE)
+            painter.fillRect(QRectF(left, top, width, height), shade)
         left, step = place.left + place.width + 22.0, place.height / BAR_STEPS
         for n in range(BAR_STEPS):
             box = QRectF(left, place.top + place.height - (n + 1) * step, BAR, step + 0.5)
@@ -176,24 +176,24 @@ class ScenePainter:
 
     def _area(self, area: FilledArea) -> None:
         box = QRectF(self._at((area.left, area.top)), self._at((area.right, area.bottom))).normalized()
-        ink = colour(INKS[area.sort])
+        shade = colour(TOKENS[area.sort])
         if area.sort == "overlap":
-            self._painter.fillRect(box, ink)
+            self._painter.fillRect(box, shade)
             return
         if area.sort != "outside":
-            hatch = QColor(ink)
+            hatch = QColor(shade)
             hatch.setAlphaF(0.35)
             self._painter.fillRect(box, QBrush(hatch, Qt.BrushStyle.BDiagPattern))
         self._painter.setBrush(Qt.BrushStyle.NoBrush)
-        self._painter.setPen(QPen(ink, 1))
+        self._painter.setPen(QPen(shade, 1))
         self._painter.drawRect(box)
 
     def _line(self, line: Polyline) -> None:
         width = 6.0 if line.sort == "rail" else 2.0 if line.sort in ("now", "error") else 1.25
-        ink = colour(INKS[line.sort])
+        shade = colour(TOKENS[line.sort])
         if line.sort == "rail":
-            ink.setAlphaF(0.5)
-        pen = QPen(ink, width)
+            shade.setAlphaF(0.5)
+        pen = QPen(shade, width)
         pen.setCapStyle(Qt.PenCapStyle.FlatCap)
         pen.setJoinStyle(Qt.PenJoinStyle.RoundJoin)
         if line.dashed:
@@ -203,8 +203,8 @@ class ScenePainter:
 
     def _dot(self, dot: Dot) -> None:
         painter, at = self._painter, self._at(dot.at)
-        ink = colour("error" if dot.sort == "error" else "text")
-        painter.setPen(QPen(ink, 1.5))
+        shade = colour("error" if dot.sort == "error" else "text")
+        painter.setPen(QPen(shade, 1.5))
         painter.setBrush(Qt.BrushStyle.NoBrush)
         x, y = at.x(), at.y()
         if dot.kind == "home":
@@ -213,12 +213,12 @@ class ScenePainter:
             painter.drawLine(QPointF(x, y - 10), QPointF(x, y + 10))
         elif dot.kind == "switch":
             painter.setPen(Qt.PenStyle.NoPen)
-            painter.setBrush(ink)
+            painter.setBrush(shade)
             painter.drawRoundedRect(QRectF(x - 6, y - 6, 12, 12), 2, 2)
         elif dot.kind in ARROWS:
             self._arrow(x, y, *ARROWS[dot.kind])
         elif dot.kind in ("marker", "end"):
-            painter.setPen(QPen(colour("sel") if dot.kind == "marker" else ink, 2))
+            painter.setPen(QPen(colour("sel") if dot.kind == "marker" else shade, 2))
             painter.drawLine(QPointF(x, y - 8), QPointF(x, y + 8))
         else:
             painter.setBrush(colour("base"))
@@ -238,14 +238,14 @@ class ScenePainter:
         if label.address is not None:
             self.named.append((box, label.address))
         if label.strong or label.over:
-            ground = colour("base")
-            ground.setAlphaF(0.8)
-            painter.fillRect(box, ground)
+            background = colour("base")
+            background.setAlphaF(0.8)
+            painter.fillRect(box, background)
         named = self._strong if label.strong else self._caption
         measure = QFontMetricsF(named)
         base = QPointF(box.left(), box.top() + measure.ascent())
         painter.setFont(named)
-        painter.setPen(colour(TEXT_INKS.get(label.sort, "text")))
+        painter.setPen(colour(TEXT_TOKENS.get(label.sort, "text")))
         painter.drawText(base, label.text)
         painter.setFont(self._caption)
         if label.value:
@@ -267,16 +267,16 @@ def _mixed(share: float) -> QColor:
 
 def curve_pen(curve: Curve) -> QPen:
     """Return how a curve is drawn: a dashed one with a pattern that is as long as in print."""
-    pen = QPen(colour(INKS[curve.sort]), 1.5)
+    pen = QPen(colour(TOKENS[curve.sort]), 1.5)
     pen.setJoinStyle(Qt.PenJoinStyle.RoundJoin)
     if curve.dashed:
         pen.setDashPattern([4.0, 2.7])
     return pen
 
 
-def paint_ring(painter: QPainter, at: QPointF, ink: QColor) -> None:
+def paint_ring(painter: QPainter, at: QPointF, shade: QColor) -> None:
     """Paint a single measured value."""
-    painter.setPen(QPen(ink, 1.4))
+    painter.setPen(QPen(shade, 1.4))
     painter.setBrush(colour("base"))
     painter.drawEllipse(at, 2.6, 2.6)
 
@@ -303,7 +303,7 @@ def paint_heading(painter: QPainter, pieces: Sequence[Heading], top: float) -> N
         x, base = piece.x, top - 5.0 - height * (last - piece.line)
         if piece.curve is not None:
             if piece.curve.dots:
-                paint_ring(painter, QPointF(x + 0.5 * SAMPLE, base - 4.0), colour(INKS[piece.curve.sort]))
+                paint_ring(painter, QPointF(x + 0.5 * SAMPLE, base - 4.0), colour(TOKENS[piece.curve.sort]))
             else:
                 painter.setPen(curve_pen(piece.curve))
                 painter.drawLine(QPointF(x, base - 4.0), QPointF(x + SAMPLE, base - 4.0))

@@ -52,10 +52,10 @@ class Task(QThread):
         Task.running.add(self)
         collect_by_timer()
         sys.setswitchinterval(TURN_S)
-        self.finished.connect(self._leave)
+        self.finished.connect(self._discard)
         self.start()
 
-    def _leave(self) -> None:
+    def _discard(self) -> None:
         self.wait()  # "finished" comes just before the end
         Task.running.discard(self)
 

@@ -174,26 +174,26 @@ def as_choice(kept: object) -> ThemeChoice:
 # -- colours -----------------------------------------------------------------------------------------
 
 
-def colour(token: Token) -> QColor:
+def colour(colour_name: Token) -> QColor:
     """Return a colour of the table as it is now."""
-    return QColor(COLOURS[token][is_dark()])
+    return QColor(COLOURS[colour_name][is_dark()])
 
 
-def severity_ink(severity: str) -> QColor:
+def severity_colour(severity: str) -> QColor:
     """Return the text colour of a severity."""
     return colour(_SEVERITY[severity][0])
 
 
 def severity_mark(severity: str) -> tuple[str, Token]:
     """Return the name of the icon of a severity and its ink. For delegates."""
-    ink, name = _SEVERITY.get(severity, _SEVERITY["information"])
-    return name, ink
+    colour_name, name = _SEVERITY.get(severity, _SEVERITY["information"])
+    return name, colour_name
 
 
 def severity_icon(severity: str) -> QIcon:
     """Return the icon of a severity, in its colour."""
-    ink, name = _SEVERITY.get(severity, _SEVERITY["information"])
-    return icon(name, ink)
+    colour_name, name = _SEVERITY.get(severity, _SEVERITY["information"])
+    return icon(name, colour_name)
 
 
 def state_colour() -> QColor:
@@ -228,8 +228,8 @@ def palette() -> QPalette:
         role.Dark: "edge",
         role.Shadow: "line2",
     }
-    for each, token in tokens.items():
-        made.setColor(each, colour(token))
+    for each, colour_name in tokens.items():
+        made.setColor(each, colour(colour_name))
     made.setColor(group.Inactive, role.Highlight, colour("selidle"))
     made.setColor(group.Disabled, role.Highlight, colour("selidle"))
     for each in (role.Text, role.WindowText, role.ButtonText, role.HighlightedText, role.PlaceholderText):
@@ -252,7 +252,7 @@ def apply_style(choice: ThemeChoice = "system") -> None:
 
 def _apply_colours() -> None:
     QApplication.setPalette(palette())
-    sheet = style_sheet({token: colour(token).name() for token in COLOURS}, is_dark())
+    sheet = style_sheet({colour_name: colour(colour_name).name() for colour_name in COLOURS}, is_dark())
     application = QApplication.instance()
     assert isinstance(application, QApplication)
     application.setStyleSheet(sheet)
@@ -286,14 +286,14 @@ def _system_font() -> QFont:
 # -- icons -------------------------------------------------------------------------------------------
 
 
-def icon(name: str, ink: Token = "text") -> QIcon:
+def icon(name: str, colour_name: Token = "text") -> QIcon:
     """Return an icon of the Phosphor set by its name, such as ``floppy-disk``;
     it follows light and dark by itself.
     """
-    return QIcon(_Glyph(name, ink))
+    return QIcon(_Glyph(name, colour_name))
 
 
-def paint_icon(painter: QPainter, place: QRect | QRectF, name: str, ink: QColor) -> None:
+def paint_icon(painter: QPainter, place: QRect | QRectF, name: str, shade: QColor) -> None:
     """Paint an icon in the middle of a rectangle, as large as its shorter side. For delegates."""
     side = min(place.width(), place.height())
     painter.save()
@@ -301,32 +301,34 @@ def paint_icon(painter: QPainter, place: QRect | QRectF, name: str, ink: QColor)
     letter = QFont(_icon_font())
     letter.setPixelSize(max(1, int(side)))
     painter.setFont(letter)
-    painter.setPen(ink)
+    painter.setPen(shade)
     painter.drawText(QRectF(place), Qt.AlignmentFlag.AlignCenter, _glyphs().get(name, ""))
     painter.restore()
 
 
-def icon_html(name: str, ink: Token) -> str:
+def icon_html(name: str, colour_name: Token) -> str:
     """Return an icon as a letter in a page of HTML."""
     letter = f"&#{ord(found)};" if (found := _glyphs().get(name)) else ""
-    return f'<span style="font-family:{_icon_font()}; color:{colour(ink).name()}">{letter}</span>'
+    return f'<span style="font-family:{_icon_font()}; color:{colour(colour_name).name()}">{letter}</span>'
 
 
 def severity_html(severity: str) -> str:
     """Return the icon of a severity in a page of HTML."""
-    ink, name = _SEVERITY.get(severity, _SEVERITY["information"])
-    return icon_html(name, ink)
+    colour_name, name = _SEVERITY.get(severity, _SEVERITY["information"])
+    return icon_html(name, colour_name)
 
 
 class _Glyph(QIconEngine):
     """A letter of the icon font, painted in the colours of the moment and sharp at every scale."""
 
-    def __init__(self, name: str, ink: Token) -> None:
+    def __init__(self, name: str, colour_name: Token) -> None:
         super().__init__()
-        self._name, self._ink = name, ink
+        self._name, self._colour_name = name, colour_name
 
     def paint(self, painter: QPainter, rect: QRect, mode: QIcon.Mode, state: QIcon.State) -> None:
-        paint_icon(painter, rect, self._name, colour("off" if mode == QIcon.Mode.Disabled else self._ink))
+        paint_icon(
+            painter, rect, self._name, colour("off" if mode == QIcon.Mode.Disabled else self._colour_name)
+        )
 
     def pixmap(self, size: QSize, mode: QIcon.Mode, state: QIcon.State) -> QPixmap:
         found = QPixmap(size)
@@ -339,7 +341,7 @@ class _Glyph(QIconEngine):
         return found
 
     def clone(self) -> QIconEngine:
-        return _Glyph(self._name, self._ink)
+        return _Glyph(self._name, self._colour_name)
 
 
 def _icon_files(pattern: str) -> Path | None:

@@ -31,7 +31,7 @@ def conditions_of(session: ControlSession | None, file: ParameterFile) -> list[C
     if session is None or seen is None:
         state = None if session is None or not session.error else False
         waits = [tr("Same machine"), tr("E-stop"), tr("Password")]
-        if session is not None and session.wants_password:
+        if session is not None and session.needs_password:
             return [
                 ControlCondition(tr("Connected"), None),
                 *(ControlCondition(text, None) for text in waits[:2]),
@@ -51,7 +51,7 @@ def conditions_of(session: ControlSession | None, file: ParameterFile) -> list[C
         found.append(ControlCondition(text, session.in_estop, age))
     found.append(
         ControlCondition(
-            tr("Password accepted") if session.wants_password else tr("No password needed"), True
+            tr("Password accepted") if session.needs_password else tr("No password needed"), True
         )
     )
     if seen.abilities.lasting_states:
@@ -120,10 +120,10 @@ def _show(mark: QLabel, text: QLabel, condition: ControlCondition) -> None:
         None: ("circle", "dim"),
         False: ("warning-fill", "warn"),
     }
-    name, ink = looks[condition.met]
-    mark.setPixmap(icon(name, ink).pixmap(SMALL_ICON, SMALL_ICON))
+    name, colour_name = looks[condition.met]
+    mark.setPixmap(icon(name, colour_name).pixmap(SMALL_ICON, SMALL_ICON))
     dim = colour("dim").name()
     text.setText(
-        f'<span style="color:{colour(ink).name()}">{condition.text}</span>'
+        f'<span style="color:{colour(colour_name).name()}">{condition.text}</span>'
         f' <span style="color:{dim}">{condition.rest}</span>'
     )

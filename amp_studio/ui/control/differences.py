@@ -84,10 +84,10 @@ class DifferenceTable(QTreeWidget):
             dangers = dangers_of_change(file, [difference])
             takes = not only and before.get(difference.address, True)
             self.rows[difference.address] = SideRow(difference, takes, dangers, only)
-        shown = set(shown_axes(file)) if schema.family.fits_axes else None
+        screen_text = set(shown_axes(file)) if schema.family.fits_axes else None
         blocks: dict[str, list[Address]] = {}
         for address in self.rows:
-            blocks.setdefault(self._block_of(address, shown), []).append(address)
+            blocks.setdefault(self._block_of(address, screen_text), []).append(address)
         for title, addresses in sorted(blocks.items(), key=lambda block: block[0].startswith("\0")):
             self._add_block(title, addresses)
         for column, width in ((NAME, 260), (CONTROL, 150), (FILE, 150)):
@@ -96,15 +96,15 @@ class DifferenceTable(QTreeWidget):
         if first is not None:
             self.setCurrentItem(first)
 
-    def _block_of(self, address: Address, shown: set[str] | None) -> str:
+    def _block_of(self, address: Address, screen_text: set[str] | None) -> str:
         """Return the title of the block of a value; those that begin with a NUL are folded, at the end."""
         assert self._file is not None
         if self.rows[address].is_fixed:
             return "\0" + self.tr("On one side only, kept as they are")
         if (
-            shown is not None
+            screen_text is not None
             and self._file.evaluation.scope(address) == "axis"
-            and address[1].partition(".")[0] not in shown
+            and address[1].partition(".")[0] not in screen_text
         ):
             return "\0" + self.tr("Axes that are not fitted")
         group = self._file.schema.group_of[address[0]]

@@ -36,7 +36,7 @@ _STEP, _NUMBER, _KEY_IN, _UNIT, _NOW, _NAME, _READ, _RESULT = range(8)
 _WIDTHS = (120, 90, 110, 60, 100, 270, 110, 130)
 _ENTRY = Qt.ItemDataRole.UserRole
 _FILTERS = "PDF (*.pdf);;Web page (*.html);;Text (*.txt);;Table with a column to fill in (*.csv)"
-_INKS: dict[str, Token] = {"same": "text", "old": "error", "other": "error"}
+_TOKENS: dict[str, Token] = {"same": "text", "old": "error", "other": "error"}
 
 
 class _ReadBackOnly(QStyledItemDelegate):
@@ -210,7 +210,7 @@ class HandSheet(QWidget):
                 entry.unit,
                 entry.old or "?",
                 entry.name + (f" = {entry.meaning}" if entry.meaning else ""),
-                self.ticks.shown.get(entry.number, ""),
+                self.ticks.screen_text.get(entry.number, ""),
                 "",
             ]
         )
@@ -228,8 +228,8 @@ class HandSheet(QWidget):
     def _judge(self, item: QTreeWidgetItem) -> None:
         found = judged(item.data(_STEP, _ENTRY), item.text(_READ))
         item.setText(_RESULT, "" if found.state == "not read" else STATES[found.state])
-        if found.state in _INKS:
-            item.setForeground(_RESULT, QBrush(colour(_INKS[found.state])))
+        if found.state in _TOKENS:
+            item.setForeground(_RESULT, QBrush(colour(_TOKENS[found.state])))
 
     def _count(self) -> None:
         assert self.sheet is not None
@@ -315,7 +315,7 @@ class HandSheet(QWidget):
         printed = PrintedSheet(
             self.sheet,
             {e.number for e in self.sheet.entries if e in self.ticks},
-            tuple(self.ticks.shown.items()),
+            tuple(self.ticks.screen_text.items()),
         )
         try:
             in_background(self, self.tr("Printing"), lambda: write_sheet(printed, Path(text)))

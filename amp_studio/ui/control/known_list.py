@@ -71,11 +71,11 @@ class _ControlDelegate(QStyledItemDelegate):
                 place.center().y() + 1,
             ),
         )
-        for letters, ink, first, second, top in lines:
+        for letters, colour_name, first, second, top in lines:
             metrics = QFontMetrics(letters)
             text = metrics.elidedText(first, Qt.TextElideMode.ElideRight, room)
             painter.setFont(letters)
-            painter.setPen(colour(ink))  # type: ignore[arg-type]  # one of the two above
+            painter.setPen(colour(colour_name))  # type: ignore[arg-type]  # one of the two above
             painter.drawText(QRect(left, top, room, metrics.height()), Qt.AlignmentFlag.AlignLeft, text)
             wide = metrics.horizontalAdvance(text) + GAP2
             small = font("small")

@@ -91,7 +91,7 @@ class ControlPage(QWidget):
         self.direction: ExchangeDirection = "compare"
         self.name = ""
         self._accepted_errors = False
-        self._wants_sheet = False
+        self._needs_sheet = False
         """Whether the control is being read to make the sheet of values against it."""
         self._build()
         self._asking = QTimer(self)
@@ -331,15 +331,15 @@ class ControlPage(QWidget):
 
     def read_for_sheet(self) -> None:
         """Read the control, and make the sheet of values against it."""
-        self._wants_sheet = True
+        self._needs_sheet = True
         self.hand.bar.say(self.tr("Reading what {name} contains …").format(name=self.name))
         self.connect_again()
 
     def _sheet_after_reading(self, session: ControlSession) -> None:
-        self._wants_sheet = False
+        self._needs_sheet = False
         if session.phase == "ready":
             self.hand.control_wanted.emit()
-        elif session.wants_password:
+        elif session.needs_password:
             self.turn("compare")  # which has the field for it
         else:
             again = (self.tr("Try Again"), self.read_for_sheet)
@@ -348,7 +348,7 @@ class ControlPage(QWidget):
     def _follow(self) -> None:
         session = self.session
         assert session is not None
-        if self._wants_sheet and not session.is_busy:
+        if self._needs_sheet and not session.is_busy:
             self._sheet_after_reading(session)
         if session.phase in ("ready", "done") and not session.is_busy:
             self._fill()
@@ -471,17 +471,17 @@ class ControlPage(QWidget):
 
     def _show_bar(self) -> None:
         session = self.session
-        wants = (
-            session is not None and session.wants_password and session.seen is None and not session.is_busy
+        is_needed = (
+            session is not None and session.needs_password and session.seen is None and not session.is_busy
         )
-        self.password.setVisible(wants)
-        if wants:
+        self.password.setVisible(is_needed)
+        if is_needed:
             self.password.setFocus()
-        said = self._message()
-        if said is None:
+        message = self._message()
+        if message is None:
             self.bar.hide()
             return
-        text, kind, answers = said
+        text, kind, answers = message
         if self.bar.isHidden() or self.bar.text.text() != text:
             self.bar.say(text, kind, *answers)
 
@@ -688,7 +688,7 @@ class ControlPage(QWidget):
         elif self.direction == "compare":
             self.turn("send")
         elif self.direction == "read":
-            self._take()
+            self._accept_values()
         else:
             self._send()
 
@@ -721,7 +721,7 @@ class ControlPage(QWidget):
         if row is not None and session is not None and workspace is not None:
             session.write_one(row.difference.address, workspace.file.copy(), workspace.path)
 
-    def _take(self) -> None:
+    def _accept_values(self) -> None:
         workspace, session = self.workspace, self.session
         assert session is not None
         rows = self.table.taken(file=False) if workspace is not None else []

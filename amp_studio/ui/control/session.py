@@ -65,7 +65,7 @@ class ControlSession(QObject):
         self.failure: TransferError | None = None
         """Why the last download or restore did not reach its end."""
         self.outcome: Outcome | None = None
-        self.wants_password = False
+        self.needs_password = False
         self.notes: list[str] = []
         self._task: Task | None = None
 
@@ -79,7 +79,7 @@ class ControlSession(QObject):
     def read(self) -> None:
         """Connect and read all that the control contains."""
         self.error, self.failure, self.outcome = "", None, None
-        self._begin("connecting", self._look, self._take_seen, self._not_reached)
+        self._begin("connecting", self._read_control, self._take_seen, self._not_reached)
 
     def ask(self) -> None:
         """Ask the control for its state again; nothing is read or changed."""
@@ -97,15 +97,15 @@ class ControlSession(QObject):
         from amp_studio.transfer.client import open_driver_at
         from amp_studio.transfer.links import ask_with
 
-        def nobody(_: str) -> str:
-            self.wants_password = True  # the page has a field for it
+        def no_terminal(_: str) -> str:
+            self.needs_password = True  # the page has a field for it
             return ""
 
-        self.wants_password = False
-        ask_with(nobody, forget=False)
+        self.needs_password = False
+        ask_with(no_terminal, forget=False)
         return open_driver_at(self.address, self.family, exchange)
 
-    def _look(self, exchange: Exchange) -> ReadControl:
+    def _read_control(self, exchange: Exchange) -> ReadControl:
         from amp_studio.transfer import ImageError, TakesLiveValues, decode_content
         from amp_studio.transfer.client import look_at
 
@@ -139,10 +139,10 @@ class ControlSession(QObject):
         """Return what the control contains in the schema of a file;
         None if it is not known or of another family.
         """
-        held = self.seen.file if self.seen else None
-        if held is None or held.schema.family.family != file.schema.family.family:
+        present = self.seen.file if self.seen else None
+        if present is None or present.schema.family.family != file.schema.family.family:
             return None
-        return by_schema(held, file.schema)
+        return by_schema(present, file.schema)
 
     def comparison(self, file: ParameterFile) -> ImageComparison | None:
         """Return the file compared with what the control contains; None before it was read."""

@@ -8,7 +8,7 @@ from collections.abc import Callable
 from PySide6.QtCore import Qt
 from PySide6.QtWidgets import QDialog, QPushButton, QVBoxLayout, QWidget
 
-from amp_studio.schema import Address, shown
+from amp_studio.schema import Address, unit_text
 from amp_studio.ui.base.workspace import Workspace
 from amp_studio.ui.forms.form import Field, FieldForm
 from amp_studio.validate import Calculator, calculate, calculators, shown_result
@@ -84,7 +84,7 @@ class CalculatorDialog(QDialog):
         self.form.set_answer("outcome", shown_result(result))
         if self._address and isinstance(result, (int, float)) and not isinstance(result, bool):
             label = self._workspace.file.machine_schema.label(self._address)
-            unit = shown(self._workspace.typed_unit(self._address))
+            unit = unit_text(self._workspace.typed_unit(self._address))
             self.use.setText(
                 self.tr("Use the result as the value of {label}{what}").format(
                     label=label, what=f", in {unit}" if unit else ""

@@ -165,9 +165,9 @@ class FindingsDelegate(QStyledItemDelegate):
         )
 
     @staticmethod
-    def _box(painter: QPainter, place: QRect, ground: Token, edge: Token | None) -> None:
+    def _box(painter: QPainter, place: QRect, background: Token, edge: Token | None) -> None:
         painter.setRenderHint(QPainter.RenderHint.Antialiasing)
-        painter.setBrush(colour(ground))
+        painter.setBrush(colour(background))
         painter.setPen(QPen(colour(edge)) if edge else QPen(QColor(Qt.GlobalColor.transparent)))
         painter.drawRoundedRect(place.adjusted(0, 0, -1, -1), RADIUS, RADIUS)
 

@@ -106,7 +106,7 @@ class FindingsPanel(QWidget):
         self._workspace = workspace
         self._shown_ids: frozenset[str] = frozenset()
         self._axis = ""
-        self._held_back: Callable[[Finding], bool] = lambda _: False
+        self._is_withheld: Callable[[Finding], bool] = lambda _: False
         self.shown_name = self.tr("Group")
         """What the table shows one of."""
         self.model = FindingsModel(workspace)
@@ -192,7 +192,7 @@ class FindingsPanel(QWidget):
     @property
     def has_findings(self) -> bool:
         """Whether the file has findings of steps that are reached, besides values that are not set."""
-        return any(f.rule != NOT_SET and not self._held_back(f) for f in self._workspace.findings)
+        return any(f.rule != NOT_SET and not self._is_withheld(f) for f in self._workspace.findings)
 
     def follow_fold(self, is_folded: bool) -> None:
         """Show in the head what there is, where it is all that is seen; the filters come with the list."""
@@ -240,11 +240,11 @@ class FindingsPanel(QWidget):
         if self.scope.choice != "file":
             self._refresh()
 
-    def hold_back(self, is_early: Callable[[Finding], bool]) -> None:
+    def withhold(self, is_early: Callable[[Finding], bool]) -> None:
         """Leave out the findings of which ``is_early`` is true, such as those of steps not yet reached;
         they are counted.
         """
-        self._held_back = is_early
+        self._is_withheld = is_early
         self._refresh()
 
     def _is_listed(self, finding: Finding) -> bool:
@@ -261,8 +261,8 @@ class FindingsPanel(QWidget):
         or the one that took its place.
         """
         workspace = self._workspace
-        waiting = [finding for finding in workspace.findings if self._held_back(finding)]
-        reached = [finding for finding in workspace.findings if not self._held_back(finding)]
+        waiting = [finding for finding in workspace.findings if self._is_withheld(finding)]
+        reached = [finding for finding in workspace.findings if not self._is_withheld(finding)]
         suppressed = workspace.validator.suppressed
         listed = [finding for finding in reached if self._is_listed(finding)]
         if self.suppressed.isChecked():
@@ -330,7 +330,7 @@ class FindingsPanel(QWidget):
         self.several.setEnabled(self._workspace.may_edit and any(finding.fix for finding in reached))
 
     def _say_why_empty(self, number: int) -> None:
-        ink, link = colour("dim").name(), colour("sel").name()
+        shade, link = colour("dim").name(), colour("sel").name()
         count = len(not_set(self._workspace.findings))
         if number > (1 if count else 0):
             text = self.tr("No findings with these filters.")
@@ -339,7 +339,7 @@ class FindingsPanel(QWidget):
             text = self.tr("No findings.")
             if count:
                 more = self.tr("{number} active parameters are not set.").format(number=count)
-                text += f' <span style="color:{ink}">{more}</span>'
+                text += f' <span style="color:{shade}">{more}</span>'
                 text += f' <a style="color:{link}" href="unset">{self.tr("Show them")}</a>'
         self.empty.setText(text)
 

@@ -9,7 +9,7 @@ from PySide6.QtCore import Qt, QTimer
 from PySide6.QtGui import QAccessible, QAccessibleEvent, QKeyEvent
 from PySide6.QtWidgets import QFrame, QHBoxLayout, QLabel, QPushButton, QToolButton, QWidget
 
-from amp_studio.ui.base.theme import GAP2, GAP3, ICON, MESSAGE, icon, scheme, severity_icon, severity_ink
+from amp_studio.ui.base.theme import GAP2, GAP3, ICON, MESSAGE, icon, scheme, severity_colour, severity_icon
 
 MessageKind = Literal["information", "advice", "warning", "error"]
 READING_MS = 8_000
@@ -42,9 +42,9 @@ class MessageBar(QFrame):
         self._layout.addWidget(self._icon)
         self._layout.addWidget(self.text, 1)
         self._layout.addWidget(self._close)
-        self._leave = QTimer(self)
-        self._leave.setSingleShot(True)
-        self._leave.timeout.connect(self.hide)
+        self._hide_timer = QTimer(self)
+        self._hide_timer.setSingleShot(True)
+        self._hide_timer.timeout.connect(self.hide)
         scheme().changed.connect(self._colour)
         self.hide()
 
@@ -70,15 +70,15 @@ class MessageBar(QFrame):
         self.show()
         QAccessible.updateAccessibility(QAccessibleEvent(self, QAccessible.Event.Alert))
         if kind == "information" and not answers:
-            self._leave.start(READING_MS)
+            self._hide_timer.start(READING_MS)
         else:
-            self._leave.stop()
+            self._hide_timer.stop()
 
     def _colour(self) -> None:
         """Show the severity by the left edge and by the shape of the icon."""
-        ink = severity_ink(self._kind).name()
+        shade = severity_colour(self._kind).name()
         self.setStyleSheet(
-            f"MessageBar {{ border: 0; border-left: 3px solid {ink}; border-bottom: 1px solid"
+            f"MessageBar {{ border: 0; border-left: 3px solid {shade}; border-bottom: 1px solid"
             " palette(midlight); }"
         )
         self._icon.setPixmap(severity_icon(self._kind).pixmap(ICON, ICON))

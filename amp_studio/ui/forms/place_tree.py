@@ -22,7 +22,7 @@ from amp_studio.ui.base.theme import (
 
 Index = QModelIndex | QPersistentModelIndex
 _USER = Qt.ItemDataRole.UserRole
-KEY, PICTURE, COUNTS, RIGHT, INK = (Qt.ItemDataRole(_USER + n) for n in range(5))
+KEY, PICTURE, COUNTS, RIGHT, TOKEN = (Qt.ItemDataRole(_USER + n) for n in range(5))
 """What an item is; its icon (name and ink); its findings (severity, how many); the text at its right;
 its ink."""
 _BAR = 2
@@ -48,7 +48,7 @@ class PlaceTree(QTreeWidget):
 
     def drawBranches(self, painter: QPainter, rect: QRect, index: Index) -> None:
         """Paint the ground as far as the left edge, and the caret of a place that has others below it."""
-        painter.fillRect(rect, colour(_ground(self, index, self._is_hovered(index))))
+        painter.fillRect(rect, colour(_background(self, index, self._is_hovered(index))))
         if self.selectionModel().isSelected(index):
             painter.fillRect(QRect(rect.left(), rect.top(), _BAR, rect.height()), colour("sel"))
         if self.model().hasChildren(index):
@@ -68,7 +68,7 @@ class PlaceTree(QTreeWidget):
             super().keyPressEvent(event)
 
 
-def _ground(tree: QTreeWidget, index: Index, is_hovered: bool) -> Token:
+def _background(tree: QTreeWidget, index: Index, is_hovered: bool) -> Token:
     if tree.selectionModel().isSelected(index):
         return "selbg" if tree.hasFocus() else "selidle"
     return "hover" if is_hovered else "panel"
@@ -88,7 +88,7 @@ class _PlaceDelegate(QStyledItemDelegate):
         painter.save()
         place: QRect = option.rect
         is_hovered = bool(option.state & QStyle.StateFlag.State_MouseOver)
-        painter.fillRect(place, colour(_ground(self._tree, index, is_hovered)))
+        painter.fillRect(place, colour(_background(self._tree, index, is_hovered)))
         left, right = place.left() + GAP, place.right() - GAP2
         picture = index.data(PICTURE)
         if picture:
@@ -96,9 +96,11 @@ class _PlaceDelegate(QStyledItemDelegate):
             left += SMALL_ICON + GAP2
         right = self._right_text(painter, place, right, index.data(RIGHT))
         right = self._counts(painter, place, right, index.data(COUNTS) or ())
-        ink: Token = index.data(INK) or "text"
-        painter.setFont(font("small") if ink == "dim" and not picture and index.data(KEY) is None else font())
-        painter.setPen(colour(ink))
+        colour_name: Token = index.data(TOKEN) or "text"
+        painter.setFont(
+            font("small") if colour_name == "dim" and not picture and index.data(KEY) is None else font()
+        )
+        painter.setPen(colour(colour_name))
         room = QRect(left, place.top(), max(0, right - left - GAP), place.height())
         text = painter.fontMetrics().elidedText(index.data() or "", Qt.TextElideMode.ElideRight, room.width())
         painter.drawText(room, Qt.AlignmentFlag.AlignVCenter | Qt.AlignmentFlag.AlignLeft, text)
@@ -122,22 +124,22 @@ class _PlaceDelegate(QStyledItemDelegate):
     ) -> int:
         painter.setFont(font("small"))
         for severity, count in reversed(counts):
-            name, ink = severity_mark(severity)
+            name, colour_name = severity_mark(severity)
             text = str(count)
             width = painter.fontMetrics().horizontalAdvance(text)
-            painter.setPen(colour(ink))
+            painter.setPen(colour(colour_name))
             painter.drawText(
                 QRect(right - width, place.top(), width, place.height()),
                 Qt.AlignmentFlag.AlignVCenter | Qt.AlignmentFlag.AlignRight,
                 text,
             )
             right -= width + 3
-            _icon_at(painter, right - SMALL_ICON, place, name, ink)
+            _icon_at(painter, right - SMALL_ICON, place, name, colour_name)
             painter.setFont(font("small"))
             right -= SMALL_ICON + GAP
         return right
 
 
-def _icon_at(painter: QPainter, left: int, place: QRect, name: str, ink: Token) -> None:
+def _icon_at(painter: QPainter, left: int, place: QRect, name: str, colour_name: Token) -> None:
     top = place.top() + (place.height() - SMALL_ICON) // 2
-    paint_icon(painter, QRect(left, top, SMALL_ICON, SMALL_ICON), name, colour(ink))
+    paint_icon(painter, QRect(left, top, SMALL_ICON, SMALL_ICON), name, colour(colour_name))

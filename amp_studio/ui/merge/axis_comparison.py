@@ -45,8 +45,8 @@ class AxisComparison(QDialog):
         self.list.itemActivated.connect(self._go)
         self.count = QLabel()
         self.take_first, self.take_second = (QPushButton() for _ in range(2))
-        self.take_first.clicked.connect(lambda: self._take(to_second=True))
-        self.take_second.clicked.connect(lambda: self._take(to_second=False))
+        self.take_first.clicked.connect(lambda: self._copy_selected(to_second=True))
+        self.take_second.clicked.connect(lambda: self._copy_selected(to_second=False))
         self._lay_out()
         self.first.currentIndexChanged.connect(self.refresh)
         self.second.currentIndexChanged.connect(self.refresh)
@@ -153,7 +153,7 @@ class AxisComparison(QDialog):
         difference = item.data(0, _DIFFERENCE)
         self._page.go_to(difference.second if column == 2 else difference.first)
 
-    def _take(self, *, to_second: bool) -> None:
+    def _copy_selected(self, *, to_second: bool) -> None:
         """Give one axis the selected values of the other, as one step."""
         file, axes = self._workspace.file, self.axes()
         source, target = axes if to_second else axes[::-1]

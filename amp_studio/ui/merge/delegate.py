@@ -66,8 +66,10 @@ class MergeDelegate(QStyledItemDelegate):
         row, group = self._model.row_at(index), self._model.group_at(index)
         is_selected = bool(option.state & QStyle.StateFlag.State_Selected)
         is_active = bool(option.state & QStyle.StateFlag.State_Active)
-        ground: Token = ("selbg" if is_active else "selidle") if is_selected else "panel" if group else "base"
-        painter.fillRect(place, colour(ground))
+        background: Token = (
+            ("selbg" if is_active else "selidle") if is_selected else "panel" if group else "base"
+        )
+        painter.fillRect(place, colour(background))
         painter.setPen(colour("grid"))
         painter.drawLine(place.bottomLeft(), place.bottomRight())
         if group is not None:
@@ -124,8 +126,8 @@ class MergeDelegate(QStyledItemDelegate):
         is_taken = row.kind != "same" and merge.choice(row) == side
         if row.kind != "same" and (column != BASE or is_taken):
             circle = QRect(place.left() + _LEFT, place.top(), SMALL_ICON, place.height())
-            name, ink = ("check-circle-fill", "sel") if is_taken else ("circle", "dim")
-            paint_icon(painter, _square(circle), name, colour("sel" if ink == "sel" else "dim"))
+            name, colour_name = ("check-circle-fill", "sel") if is_taken else ("circle", "dim")
+            paint_icon(painter, _square(circle), name, colour("sel" if colour_name == "sel" else "dim"))
             left += _MARK
         elif column != BASE:
             left += _MARK
@@ -164,26 +166,28 @@ class MergeDelegate(QStyledItemDelegate):
             note = self.tr("unit follows the axis")
         self._write(painter, room.adjusted(left + 10, 0, 0, 0), note, self._small, "dim")
 
-    def _value(self, painter: QPainter, room: QRect, text: str, unit: str, ink: Token, *, own: bool) -> int:
+    def _value(
+        self, painter: QPainter, room: QRect, text: str, unit: str, colour_name: Token, *, own: bool
+    ) -> int:
         """Paint a value with its unit in the second ink; returns how wide it is."""
         gap = 0 if unit == "°" else 4
         kept = gap + QFontMetrics(self._small).horizontalAdvance(unit) + 3 if unit else 0
         if kept > room.width() // 2:
             kept = 0
         used = self._write(
-            painter, room.adjusted(0, 0, -kept, 0), text, self._own if own else self._plain, ink
+            painter, room.adjusted(0, 0, -kept, 0), text, self._own if own else self._plain, colour_name
         )
         if kept:
             used += gap + self._write(painter, room.adjusted(used + gap, 0, 0, 0), unit, self._small, "dim")
         return used
 
-    def _write(self, painter: QPainter, room: QRect, text: str, face: QFont, ink: Token) -> int:
+    def _write(self, painter: QPainter, room: QRect, text: str, face: QFont, colour_name: Token) -> int:
         """Paint a text, elided where there is no room; returns how wide it is."""
         if not text or room.width() < 8:
             return 0
         text = self._elided(face, text, room.width())
         painter.setFont(face)
-        painter.setPen(colour(ink))
+        painter.setPen(colour(colour_name))
         painter.drawText(room, Qt.AlignmentFlag.AlignVCenter | Qt.AlignmentFlag.AlignLeft, text)
         return QFontMetrics(face).horizontalAdvance(text)
 

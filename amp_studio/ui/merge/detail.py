@@ -58,22 +58,22 @@ class Line(QLabel):
         super().__init__()
         self.setFont(face)
         self.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Preferred)
-        self._ink: Token = "dim"
+        self._colour_name: Token = "dim"
 
-    def say(self, text: str, ink: Token = "dim", more: str = "") -> None:
+    def say(self, text: str, colour_name: Token = "dim", more: str = "") -> None:
         """Show a text in an ink."""
-        self._ink = ink
+        self._colour_name = colour_name
         self.setToolTip(more or text)
         self.setText(text)
 
     def paintEvent(self, event: QPaintEvent) -> None:
         painter = QPainter(self)
-        painter.setPen(colour(self._ink))
+        painter.setPen(colour(self._colour_name))
         shown = QFontMetrics(self.font()).elidedText(self.text(), Qt.TextElideMode.ElideRight, self.width())
         painter.drawText(self.rect(), Qt.AlignmentFlag.AlignVCenter | Qt.AlignmentFlag.AlignLeft, shown)
 
 
-_INKS: dict[str, Token] = {"error": "error", "warning": "warn", "advice": "rec"}
+_TOKENS: dict[str, Token] = {"error": "error", "warning": "warn", "advice": "rec"}
 
 
 class MergeDetail(QFrame):
@@ -192,7 +192,7 @@ class MergeDetail(QFrame):
             label.say(self.tr("no finding"))
             return
         more = "\n".join(sentence(finding.message) for finding in worst)
-        label.say(sentence(worst[0].message), _INKS[worst[0].severity], more)
+        label.say(sentence(worst[0].message), _TOKENS[worst[0].severity], more)
 
     def _words(self, row: Row) -> str:
         """Return in a sentence who changed the value."""
@@ -221,9 +221,9 @@ class MergeDetail(QFrame):
             lines.append((self.tr("Here"), self.tr("not on this machine type")))
         elif not state.is_active:
             lines.append((self.tr("Inactive"), state.why))
-        ink = colour("dim").name()
+        shade = colour("dim").name()
         cells = "".join(
-            f'<tr><td style="color:{ink};padding-right:12px">{html.escape(name)}</td>'
+            f'<tr><td style="color:{shade};padding-right:12px">{html.escape(name)}</td>'
             f"<td>{html.escape(str(text))}</td></tr>"
             for name, text in lines
         )

@@ -259,7 +259,7 @@ class MachinesDialog(QDialog):
         self.empty.setText(self.tr("Nothing differs."))
         self.shown.setCurrentWidget(self.table if lines else self.empty)
         self.export_button.setEnabled(True)
-        self._tell()
+        self._show_summary()
 
     def _show_nothing(self, why: str) -> None:
         self.model.show_lines((), (), ())
@@ -272,9 +272,9 @@ class MachinesDialog(QDialog):
 
     def _look_for(self, text: str) -> None:
         self.rows.look_for(text)
-        self._tell()
+        self._show_summary()
 
-    def _tell(self) -> None:
+    def _show_summary(self) -> None:
         if not self.export_button.isEnabled():
             return
         differ = sum(line.differs for line in self.model.lines)

@@ -62,10 +62,10 @@ class MachinesModel(QAbstractTableModel):
         """Return a value; what most machines have is dim, what departs from it is loud."""
         line, column = self.lines[index.row()], index.column()
         if role in (_Role.DisplayRole, _Role.ToolTipRole):
-            return line.shown[column]
+            return line.texts[column]
         if role == _Role.AccessibleTextRole:
             departs = self.tr(", unlike most") if column in line.departing else ""
-            return f"{self._names[column]}: {line.shown[column]}{departs}"
+            return f"{self._names[column]}: {line.texts[column]}{departs}"
         if role == _Role.FontRole and column in line.departing:
             loud = font("text")
             loud.setBold(True)
@@ -96,5 +96,5 @@ class MachinesFilter(QSortFilterProxyModel):
         model = self.sourceModel()
         assert isinstance(model, MachinesModel)
         line = model.lines[source_row]
-        text = " ".join((*line.named, *line.shown)).casefold()
+        text = " ".join((*line.named, *line.texts)).casefold()
         return all(word in text for word in self._words)

@@ -228,8 +228,8 @@ class MergeWindow(QDialog):
         """
         base = chosen.get(BASE)
         try:
-            ground: Side = "b" if chosen[B].is_now and not chosen[A].is_now else "a"
-            merge = Merge(chosen[A].file, chosen[B].file, base.file if base else None, ground=ground)
+            initial: Side = "b" if chosen[B].is_now and not chosen[A].is_now else "a"
+            merge = Merge(chosen[A].file, chosen[B].file, base.file if base else None, initial=initial)
         except ValueError as error:
             self.message.say(str(error), "error")
             return

@@ -41,7 +41,7 @@ from amp_studio.calibration import (
     shown_unit,
 )
 from amp_studio.files import ParameterFile
-from amp_studio.schema import Address, Value, read_exact, shown
+from amp_studio.schema import Address, Value, read_exact, unit_text
 from amp_studio.ui.base.theme import GAP2, ROW, colour, font
 from amp_studio.ui.base.translated import worded
 from amp_studio.ui.forms.form import Field, FieldForm
@@ -254,7 +254,7 @@ class CalibrationPage(QWidget):
         form = self._offered(self.target.file).table if self.target else None
         assert form is not None
         unit, size = shown_unit(self._file(), table)
-        unit = shown(unit)
+        unit = unit_text(unit)
         figure = {"measurement": self.tr("Measured"), "deviation": self.tr("Deviation")}.get(
             table.input, self.tr("Correction")
         )

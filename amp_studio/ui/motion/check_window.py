@@ -23,7 +23,7 @@ from PySide6.QtWidgets import (
 )
 
 from amp_studio.files import ParameterFile
-from amp_studio.sim import MotionCheck, SimulationError, check_motion, shown
+from amp_studio.sim import MotionCheck, SimulationError, check_motion, value_text
 from amp_studio.ui.base.task import Task, TaskProgress
 from amp_studio.ui.base.theme import GAP2, GAP3, Token, font, icon
 
@@ -128,14 +128,14 @@ class CheckWindow(QDialog):
         row = self.table.rowCount()
         self.table.insertRow(row)
         figures = ", ".join(_figure(name, value, unit) for name, (value, unit) in check.figures.items())
-        mark, ink = MARKS[check.verdict]
+        mark, colour_name = MARKS[check.verdict]
         for column, text in enumerate(
             (self._word(check.verdict), check.scenario, check.letter, check.why, figures)
         ):
             item = QTableWidgetItem(text)
             item.setToolTip(text)
             if column == 0:
-                item.setIcon(icon(mark, ink))
+                item.setIcon(icon(mark, colour_name))
             self.table.setItem(row, column, item)
         self._sum_up()
 
@@ -169,4 +169,4 @@ class CheckWindow(QDialog):
 
 def _figure(name: str, value: float | None, unit: str) -> str:
     words = name.replace("_", " ")
-    return f"{words} –" if value is None else f"{words} {shown(float(value), unit)}"
+    return f"{words} –" if value is None else f"{words} {value_text(float(value), unit)}"

@@ -20,7 +20,15 @@ from PySide6.QtWidgets import (
 )
 
 from amp_studio.files import ParameterFile, SaveError
-from amp_studio.sim import SimulationError, Trace, figure_text, identify, picture_of, shown, write_machine
+from amp_studio.sim import (
+    SimulationError,
+    Trace,
+    figure_text,
+    identify,
+    picture_of,
+    value_text,
+    write_machine,
+)
 from amp_studio.ui.base.plot import Plot
 from amp_studio.ui.base.task import in_background
 from amp_studio.ui.base.theme import GAP2, GAP3
@@ -117,7 +125,7 @@ class IdentifyDialog(QDialog):
         }
         for name, words in names.items():
             self.figures.addRow(words, QLabel(figure_text(result, name)))
-        self.figures.addRow("r²", QLabel(shown(result["r_squared"][0] or 0.0, digits=5)))
+        self.figures.addRow("r²", QLabel(value_text(result["r_squared"][0] or 0.0, digits=5)))
         used = self.tr("{used} of {all}").format(
             used=int(result["rows_used"][0] or 0), all=int(result["rows"][0] or 0)
         )

@@ -74,7 +74,7 @@ class MachinePage(QWidget):
             return
         dialog = IdentifyDialog(file, axis, Path(text), self)
         if run_dialog(dialog) == QDialog.DialogCode.Accepted and dialog.trace is not None:
-            self._take(machine_settings(dialog.trace))
+            self._fill(machine_settings(dialog.trace))
 
     def take_file(self) -> None:
         """Ask for the file of a machine and take its figures."""
@@ -87,9 +87,9 @@ class MachinePage(QWidget):
         except (SimulationError, OSError) as error:
             self._fail(error)
         else:
-            self._take(settings)
+            self._fill(settings)
 
-    def _take(self, settings: Mapping[str, str]) -> None:
+    def _fill(self, settings: Mapping[str, str]) -> None:
         """Fill the fields of a machine and simulate with it."""
         self._taken = self._present()[1], dict(settings)
         for name, text in settings.items():

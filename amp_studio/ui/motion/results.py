@@ -18,10 +18,9 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
-from amp_studio.schema import Schema, shown
-from amp_studio.sim import Recommendation, Trace
-from amp_studio.sim import shown as shown_number
-from amp_studio.ui.base.theme import severity_ink, state_colour
+from amp_studio.schema import Schema, unit_text
+from amp_studio.sim import Recommendation, Trace, value_text
+from amp_studio.ui.base.theme import severity_colour, state_colour
 from amp_studio.ui.base.translated import worded
 from amp_studio.ui.forms.pages import LINK
 
@@ -45,13 +44,13 @@ class FiguresPage(QTextBrowser):
 
     def show_trace(self, trace: Trace, before: Trace | None) -> None:
         """Show the figures of a trace, with those of the trace before a change."""
-        ink = severity_ink("error").name()
+        shade = severity_colour("error").name()
         alarms = "".join(
-            f'<p style="color:{ink}"><b>{html.escape(a.code)}</b> at {a.time_s:.4g} s:'
+            f'<p style="color:{shade}"><b>{html.escape(a.code)}</b> at {a.time_s:.4g} s:'
             f" {html.escape(a.message)}</p>"
             for a in trace.alarms
         )
-        warn = severity_ink("warning").name()
+        warn = severity_colour("warning").name()
         doubts = "".join(f'<p style="color:{warn}">{html.escape(text)}</p>' for text in trace.doubts)
         self.setHtml(
             f"{alarms}{doubts}<table cellspacing=0 cellpadding=2"
@@ -81,13 +80,13 @@ def _rows(trace: Trace, before: Trace | None) -> list[str]:
         words = worded(name.replace("_", " "))
         rows.append(
             f"<tr><td>{words}</td><td"
-            f" align=right><b>{_number(value)}</b>&nbsp;{shown(unit)}</td>{beside}</tr>"
+            f" align=right><b>{_number(value)}</b>&nbsp;{unit_text(unit)}</td>{beside}</tr>"
         )
     return rows
 
 
 def _number(value: float | None) -> str:
-    return "–" if value is None else shown_number(value, digits=5).replace("-", "−")
+    return "–" if value is None else value_text(value, digits=5).replace("-", "−")
 
 
 class RecommendationsPage(QScrollArea):
@@ -129,10 +128,10 @@ class RecommendationsPage(QScrollArea):
         column = QVBoxLayout(frame)
         column.setContentsMargins(0, 0, 0, 0)
         column.setSpacing(2)
-        head, ink = QHBoxLayout(), severity_ink("advice").name()
+        head, shade = QHBoxLayout(), severity_colour("advice").name()
         name = html.escape(name_of(schema, each.parameter))
-        value = html.escape(shown_number(each.value, shown(each.unit), 9))
-        title = QLabel(f'<a href="{LINK}{each.parameter}" style="color:{ink}">{name}</a> = <b>{value}</b>')
+        value = html.escape(value_text(each.value, unit_text(each.unit), 9))
+        title = QLabel(f'<a href="{LINK}{each.parameter}" style="color:{shade}">{name}</a> = <b>{value}</b>')
         title.setWordWrap(True)
         title.linkActivated.connect(lambda url: self._follow(QUrl(url)))
         head.addWidget(title, 1)

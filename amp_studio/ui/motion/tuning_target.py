@@ -110,7 +110,7 @@ class ControlTarget(TuningTarget):
     ``send``.
     """
 
-    told = Signal(str)
+    notified = Signal(str)
     """What came of an exchange, in a sentence."""
 
     def __init__(self, live: LiveTuning, run: RunExchange) -> None:
@@ -219,7 +219,7 @@ class ControlTarget(TuningTarget):
         schema = self.file.schema
         effects = dict.fromkeys(effect_words(schema, address) for address in changed)
         takes = self.tr("Takes effect: {when}.").format(when=", ".join(effects))
-        self.told.emit(f"{outcome.text} {takes}")
+        self.notified.emit(f"{outcome.text} {takes}")
 
     def _show(self, addresses: list[Address]) -> None:
         self._shown = self._copy()

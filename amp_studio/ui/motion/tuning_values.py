@@ -23,7 +23,7 @@ from PySide6.QtWidgets import (
 
 from amp_studio.calibration import CalibrationError, TuningPage, stepped, steps_of
 from amp_studio.files import ParameterFile
-from amp_studio.schema import Address, Value, limits, read_exact, shown, write_number
+from amp_studio.schema import Address, Value, limits, read_exact, unit_text, write_number
 from amp_studio.ui.base.figures import show_value
 from amp_studio.ui.base.places import place_in_words
 from amp_studio.ui.base.theme import GAP2, ROW, colour
@@ -219,7 +219,7 @@ class ValuesPage(QWidget):
             return
         file = self.target.file
         steps, unit = steps_of(file, address), file.evaluation.unit(address, file.header.units)
-        texts = [f"{write_number(float(step))} {shown(unit)}".strip() for step in steps]
+        texts = [f"{write_number(float(step))} {unit_text(unit)}".strip() for step in steps]
         if texts != [self.step.itemText(n) for n in range(self.step.count())]:
             self.step.clear()
             for text, step in zip(texts, steps, strict=True):
@@ -258,7 +258,7 @@ class ValuesPage(QWidget):
         if address is None or self.target is None:
             return
         file = self.target.file
-        unit = shown(file.evaluation.unit(address, file.header.units))
+        unit = unit_text(file.evaluation.unit(address, file.header.units))
         question = self.tr("Add to {name}, now {value} ({unit}):").format(
             name=file.machine_schema.label(address),
             value=show_value(file.schema.parameters[address[0]], file.get(address)),

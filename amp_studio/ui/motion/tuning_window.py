@@ -73,9 +73,9 @@ class TuningWindow(QWidget):
         )
         self.switch.chosen.connect(lambda key: self.guarded(lambda: self._choose(key)))
         self.send = self._button(self.tr("Do&wnload Values"), self._send, "arrow-line-down")
-        self.look = self._button(self.tr("Read A&gain"), self._look, "arrow-line-up")
+        self.look = self._button(self.tr("Read A&gain"), self._read_again, "arrow-line-up")
         self.put_back = self._button(self.tr("Put Old Values &Back"), self._put_back, "arrow-u-up-left")
-        self.take = self._button(self.tr("Take Into Fil&e"), self._take, "floppy-disk")
+        self.take = self._button(self.tr("Take Into Fil&e"), self._copy_to_file, "floppy-disk")
         self.pages, self.stack = QListWidget(), QStackedWidget()
         self.pages.setAccessibleName(self.tr("Pages"))
         self.answer: StepAnswer | None = None
@@ -240,7 +240,7 @@ class TuningWindow(QWidget):
                 live.close()
                 raise
             self.control = ControlTarget(live, self.run_exchange)
-            self.control.told.connect(self._exchanged)
+            self.control.notified.connect(self._exchanged)
             self.control.changed.connect(self._update)
         self._show(self.control)
 
@@ -303,7 +303,7 @@ class TuningWindow(QWidget):
         assert self.control is not None
         self.control.send()
 
-    def _look(self) -> None:
+    def _read_again(self) -> None:
         assert self.control is not None
         self.control.look()
 
@@ -311,7 +311,7 @@ class TuningWindow(QWidget):
         assert self.control is not None
         self.control.put_back()
 
-    def _take(self) -> None:
+    def _copy_to_file(self) -> None:
         """Take what differs in the control from the first look into the file, as one step of its undo."""
         assert self.control is not None
         changes = self.control.live.changes().differences

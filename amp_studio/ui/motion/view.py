@@ -41,7 +41,7 @@ from amp_studio.sim import (
 )
 from amp_studio.ui.base.plot import Plot
 from amp_studio.ui.base.task import Task, TaskProgress
-from amp_studio.ui.base.theme import severity_ink
+from amp_studio.ui.base.theme import severity_colour
 from amp_studio.ui.base.translated import worded
 from amp_studio.ui.base.workspace import Workspace
 from amp_studio.ui.forms.form import Field, FieldForm, fill_choices
@@ -310,7 +310,7 @@ class MotionView(QWidget):
         schema = self._workspace.file.schema
         if parameter in schema.parameters:
             text += f' <a href="{LINK}{parameter}">Go to {html.escape(name_of(schema, parameter))}</a>'
-        self.summary.setText(f'<span style="color:{severity_ink("error").name()}">{text}</span>')
+        self.summary.setText(f'<span style="color:{severity_colour("error").name()}">{text}</span>')
 
     def _show_result(self, ran: _Ran) -> None:
         trace = ran.trace

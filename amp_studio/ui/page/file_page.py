@@ -12,7 +12,7 @@ from PySide6.QtGui import QAction
 from PySide6.QtWidgets import QVBoxLayout, QWidget
 
 from amp_studio.files import axis_letter, describe
-from amp_studio.schema import Address, Parameter, shown
+from amp_studio.schema import Address, Parameter, unit_text
 from amp_studio.ui.base.figures import write_figure
 from amp_studio.ui.base.modal import is_alive
 from amp_studio.ui.base.places import place_in_words
@@ -64,7 +64,7 @@ class FilePage(QWidget):
         self.groups = self.left.groups
         self.detail = DetailPanel(workspace, commit_here)
         self.findings = FindingsPanel(workspace)
-        self.findings.hold_back(workspace.is_deferred)
+        self.findings.withhold(workspace.is_deferred)
         self.bar = MessageBar()
         self._title = ""
         self.pictures: QWidget | None = None
@@ -99,15 +99,17 @@ class FilePage(QWidget):
             self._outline
         )  # a finding that is gone is no longer the current one
         self.findings.not_set_requested.connect(self.show_not_set)
-        self.table.modelReset.connect(self._tell_findings)
-        self.table_view.selected.connect(self._tell_findings)
-        workspace.changed.connect(self._tell)
-        workspace.saved.connect(self._tell)
-        workspace.undo_stack.indexChanged.connect(self._tell)  # a step is on the stack only after it was made
+        self.table.modelReset.connect(self._follow_table)
+        self.table_view.selected.connect(self._follow_table)
+        workspace.changed.connect(self._emit_state)
+        workspace.saved.connect(self._emit_state)
+        workspace.undo_stack.indexChanged.connect(
+            self._emit_state
+        )  # a step is on the stack only after it was made
         self.left.choose()
         QTimer.singleShot(_QUIET_MS, self, workspace.validator.prepare_edit)
 
-    def _tell(self, *_: object) -> None:
+    def _emit_state(self, *_: object) -> None:
         self.changed.emit(self)
 
     @property
@@ -154,7 +156,7 @@ class FilePage(QWidget):
         self._show_parameters(title, [self.workspace.file.schema.parameters[i] for i in ids])
         self.table_view.setFocus()
 
-    def _tell_findings(self, *_: object) -> None:
+    def _follow_table(self, *_: object) -> None:
         """Let the findings know what the table shows, and the axis of its current cell."""
         address, file = self.table_view.address(), self.workspace.file
         is_of_axis = address is not None and file.evaluation.scope(address) == "axis"
@@ -236,7 +238,7 @@ class FilePage(QWidget):
             of = ", ".join(filter(None, (name, span)))
             parts = [self.tr("%n cells of {name}", "", len(chosen)).format(name=of)]
         if numbers and len(numbers) == len(values) and len({v.unit for v in values}) == 1:
-            unit = f" {shown(values[0].unit)}" if values[0].unit else ""
+            unit = f" {unit_text(values[0].unit)}" if values[0].unit else ""
             parts.append(self.tr("min {number}").format(number=f"{write_figure(min(numbers))}{unit}"))
             parts.append(self.tr("max {number}").format(number=f"{write_figure(max(numbers))}{unit}"))
         return "   ".join(parts)

@@ -10,7 +10,7 @@ from PySide6.QtWidgets import QHeaderView, QTreeWidgetItem, QVBoxLayout, QWidget
 from amp_studio.schema import Group, Parameter
 from amp_studio.ui.base.translated import counted
 from amp_studio.ui.base.workspace import Workspace
-from amp_studio.ui.forms.place_tree import COUNTS, INK, RIGHT, PlaceTree
+from amp_studio.ui.forms.place_tree import COUNTS, RIGHT, TOKEN, PlaceTree
 from amp_studio.validate import NOT_SET, SEVERITIES
 
 _KEYS = Qt.ItemDataRole.UserRole
@@ -71,7 +71,7 @@ class GroupList(QWidget):
         """Add an area: a head over its groups, no page."""
         head = self._add(None, name, [])
         head.setFlags(Qt.ItemFlag.ItemIsEnabled)
-        head.setData(0, INK, "dim")
+        head.setData(0, TOKEN, "dim")
         return head
 
     def _add_groups(self, head: QTreeWidgetItem | None, groups: list[Group]) -> None:

@@ -79,9 +79,9 @@ class MessageWindow(QDialog):
         return "".join(parts)
 
     def _broken(self, rules: tuple[LinkedRule, ...]) -> list[str]:
-        ink = colour("error").name()
+        shade = colour("error").name()
         lines = [
-            f"<span style='color:{ink}'>✕</span>"
+            f"<span style='color:{shade}'>✕</span>"
             f" {self._link(finding.addresses[0], sentence(finding.message))}"
             for linked in rules
             for finding in linked.findings

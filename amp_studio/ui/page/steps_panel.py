@@ -25,7 +25,7 @@ from amp_studio.ui.base.places import short_place
 from amp_studio.ui.base.theme import FIGURE_SPACE, GAP, GAP2, GAP3, SMALL_CONTROL, Token, colour, font, icon
 from amp_studio.ui.base.translated import counted, worded
 from amp_studio.ui.base.workspace import Workspace
-from amp_studio.ui.forms.place_tree import COUNTS, INK, KEY, PICTURE, RIGHT, PlaceTree
+from amp_studio.ui.forms.place_tree import COUNTS, KEY, PICTURE, RIGHT, TOKEN, PlaceTree
 from amp_studio.validate import SEVERITIES
 
 _PICTURES: dict[StepState, tuple[str, Token]] = {
@@ -166,7 +166,7 @@ class StepsPanel(QWidget):
         if self.tree.topLevelItemCount() == len(self._items):
             head = QTreeWidgetItem([self.tr("Procedures")])
             head.setFlags(Qt.ItemFlag.ItemIsEnabled)
-            head.setData(0, INK, "dim")
+            head.setData(0, TOKEN, "dim")
             self.tree.addTopLevelItem(head)
         item = QTreeWidgetItem([worded(guide.title)])
         item.setData(0, KEY, guide)
@@ -216,7 +216,7 @@ class StepsPanel(QWidget):
         item.setData(0, RIGHT, str(len(each.open)) if each.open else "")
         is_near = now.current is None or each.step.number <= now.current.step.number
         item.setData(
-            0, INK, "off" if each.state == "not needed" else "text" if is_near or each.own else "dim"
+            0, TOKEN, "off" if each.state == "not needed" else "text" if is_near or each.own else "dim"
         )
         parts = [item.text(0), self._state_name(each.state)]
         parts += [counted(n, severity) for severity, n in counts]

@@ -81,7 +81,7 @@ class PageView(QAbstractScrollArea):
         self._preparing = QTimer(self)
         self._preparing.setSingleShot(True)
         self._preparing.timeout.connect(self._prepare)
-        self.verticalScrollBar().valueChanged.connect(self._tell_page)
+        self.verticalScrollBar().valueChanged.connect(self._emit_page)
 
     # -- what is shown ---------------------------------------------------------------------
 
@@ -93,7 +93,7 @@ class PageView(QAbstractScrollArea):
         for n in [n for n in self._drawn if n >= len(pages)]:
             del self._drawn[n]
         self._arrange(spot)
-        self._tell_page()
+        self._emit_page()
 
     def show_places(self, places: Mapping[Address, Place]) -> None:
         """Learn where the values of these pages are."""
@@ -295,7 +295,7 @@ class PageView(QAbstractScrollArea):
 
     # -- hands -----------------------------------------------------------------------------
 
-    def _tell_page(self, *_: object) -> None:
+    def _emit_page(self, *_: object) -> None:
         page = self.page
         if page != self._page:
             self._page = page

@@ -40,7 +40,7 @@ _NEAR = 1.7
 
 
 @dataclass
-class _Shown:
+class _PreviewState:
     """What is known of the report of one file."""
 
     pages: tuple[bytes, ...] = ()
@@ -69,7 +69,7 @@ class PreviewPanel(QWidget):
         self._page: FilePage | None = None
         self._links: list[QMetaObject.Connection] = []
         """To the signals of the page."""
-        self._known: WeakKeyDictionary[Workspace, _Shown] = WeakKeyDictionary()
+        self._known: WeakKeyDictionary[Workspace, _PreviewState] = WeakKeyDictionary()
         self._task: Task | None = None
         self._is_stale = False
         self.follows = True
@@ -118,7 +118,7 @@ class PreviewPanel(QWidget):
         if page is self._page:
             return
         if self._page is not None:
-            self._shown().spot = self.view.spot()
+            self._preview_state().spot = self.view.spot()
         for link in self._links:  # of a page that is closed nothing is left to disconnect
             QObject.disconnect(link)
         self._links = []
@@ -137,22 +137,22 @@ class PreviewPanel(QWidget):
             page.workspace.saved.connect(self.set_again),
         ]
         self._watch.watch(real_path(page.workspace.path).parent)
-        known = self._shown()
+        known = self._preview_state()
         self.view.show_pages(known.pages, known.ppi, known.spot)
         self.view.show_places(known.places)
         self.head.show_count(len(known.pages))
-        self._tell(known.notes)
+        self._show_notes(known.notes)
         self._follow(page.table_view.address())
         self.set_again()
 
-    def _shown(self) -> _Shown:
+    def _preview_state(self) -> _PreviewState:
         assert self._page is not None
-        return self._known.setdefault(self._page.workspace, _Shown())
+        return self._known.setdefault(self._page.workspace, _PreviewState())
 
     @property
     def source(self) -> str:
         """What Typst made the pages of; empty while there are none."""
-        return self._shown().source if self._page is not None else ""
+        return self._preview_state().source if self._page is not None else ""
 
     # -- what it contains ----------------------------------------------------------------------
 
@@ -164,7 +164,7 @@ class PreviewPanel(QWidget):
         self.set_again()
 
     def _look_from_near(self) -> None:
-        if self._page is not None and self._wanted_ppi() > self._shown().ppi:
+        if self._page is not None and self._wanted_ppi() > self._preview_state().ppi:
             self.set_again()
 
     def _wanted_ppi(self) -> int:
@@ -204,7 +204,7 @@ class PreviewPanel(QWidget):
         then again with new drawings.
         """
         file, contents, ppi = workspace.file.copy(), self._choice.contents, self._wanted_ppi()
-        own, source, known = workspace.validator.own, workspace.path, self._shown().motion
+        own, source, known = workspace.validator.own, workspace.path, self._preview_state().motion
 
         def pages(motion: tuple[PrintedFigure, ...]) -> None:
             load("amp_studio.dossier")
@@ -236,7 +236,7 @@ class PreviewPanel(QWidget):
         motion: tuple[PrintedFigure, ...],
         notes: tuple[str, ...],
     ) -> None:
-        (report, ppi), known = found, self._known.setdefault(workspace, _Shown())
+        (report, ppi), known = found, self._known.setdefault(workspace, _PreviewState())
         # An equal page stays the same object, by which the view knows that it need not be decoded again.
         before = dict.fromkeys(known.pages)
         kept = {page: page for page in before}
@@ -248,7 +248,7 @@ class PreviewPanel(QWidget):
             self.view.show_places(known.places)
             self.head.show_count(len(known.pages))
             self.head.show_page(self.view.page)
-            self._tell(notes)
+            self._show_notes(notes)
             if is_first:
                 self._follow(self._page.table_view.address())
 
@@ -261,7 +261,7 @@ class PreviewPanel(QWidget):
         if self._is_stale:
             self.set_again()
 
-    def _tell(self, notes: tuple[str, ...]) -> None:
+    def _show_notes(self, notes: tuple[str, ...]) -> None:
         """Show what the project's template has wrong, with a way to it; nothing where it is right."""
         if not notes:
             self.bar.hide()

@@ -32,7 +32,7 @@ class TemplateWatch(QObject):
         self._timer = QTimer(self)
         self._timer.setSingleShot(True)
         self._timer.setInterval(SETTLE_MS)
-        self._timer.timeout.connect(self._look)
+        self._timer.timeout.connect(self._compare)
         self._watcher.fileChanged.connect(lambda _: self._timer.start())
         self._watcher.directoryChanged.connect(lambda _: self._timer.start())
 
@@ -45,7 +45,7 @@ class TemplateWatch(QObject):
             self._watcher.removePaths(known)
         self._state = self._read()
 
-    def _look(self) -> None:
+    def _compare(self) -> None:
         before, self._state = self._state, self._read()
         if before != self._state:
             self.changed.emit()

@@ -39,7 +39,7 @@ class PictureCanvas(QWidget):
     """The handle that has the focus, or None."""
     typed = Signal(str)
     """The value of the chosen handle is to be typed, beginning so."""
-    told = Signal(str)
+    notified = Signal(str)
     """A short text for the status bar."""
     left = Signal()
     """Esc while nothing is dragged."""
@@ -54,7 +54,7 @@ class PictureCanvas(QWidget):
         self._active: int | None = None
         self._drag: ValueDrag | None = None
         self._start: Scene | None = None
-        self._held: Handle | None = None
+        self._dragged: Handle | None = None
         """The handle that is dragged, as it was when the drag began."""
         self._offset = QPointF(0, 0)
         self._again = self._moved = False
@@ -96,7 +96,7 @@ class PictureCanvas(QWidget):
 
     def draw_again(self) -> None:
         """Follow the file."""
-        chosen = self._held or self.handle
+        chosen = self._dragged or self.handle
         self.scene = self._drawn(self._start)
         if chosen is not None:
             self._active = self._place_of(chosen)
@@ -150,7 +150,7 @@ class PictureCanvas(QWidget):
         spot.stepped.connect(self._step)
         spot.typed.connect(self.typed)
         spot.removed.connect(self._take_out)
-        spot.left.connect(self._leave)
+        spot.left.connect(self._cancel)
         spot.focused.connect(lambda: self.choose(index))
         spot.setAccessibleDescription(
             self.tr("Handle of the picture: arrow keys change the value, Shift by ten steps")
@@ -189,8 +189,8 @@ class PictureCanvas(QWidget):
         and while it is dragged the old one and what is wrong.
         """
         finding, old = self._finding(handle, self._about), ""
-        if self._held is not None:
-            before = self._held.value
+        if self._dragged is not None:
+            before = self._dragged.value
             old = "" if before == handle.value else self.tr("was {value}").format(value=before)
         reason = self._refused or (finding.message if finding else "")
         severity = "error" if self._refused else finding.severity if finding else ""
@@ -257,9 +257,9 @@ class PictureCanvas(QWidget):
         if self.handle is not None and self.handle.without is not None:
             self.set_values(dict([self.handle.without]))
         elif self.scene.with_point is not None:
-            self.told.emit(self.tr("This point cannot be taken out: the table would have a gap"))
+            self.notified.emit(self.tr("This point cannot be taken out: the table would have a gap"))
 
-    def _leave(self) -> None:
+    def _cancel(self) -> None:
         if self._drag is not None:
             self.end_drag(cancel=True)
         else:
@@ -308,11 +308,11 @@ class PictureCanvas(QWidget):
             self._refused = self.tr("The file is read-only")
             self.update()
             return
-        self._start, self._held = self.scene, handle
+        self._start, self._dragged = self.scene, handle
         self._offset = QPointF(*self.place.at(handle.at)) - event.position()
         self._drag = ValueDrag(self._workspace, tuple(drag.address for drag in handle.drags))
         self.grabKeyboard()
-        self.told.emit(self.tr("Dragging {name}: one undo step").format(name=handle.label))
+        self.notified.emit(self.tr("Dragging {name}: one undo step").format(name=handle.label))
 
     def mouseMoveEvent(self, event: QMouseEvent) -> None:
         if self._drag is None:
@@ -326,11 +326,11 @@ class PictureCanvas(QWidget):
 
     def drag_to(self, at: QPointF) -> None:
         """Let the dragged handle follow to a place."""
-        if self._drag is None or self._held is None:
+        if self._drag is None or self._dragged is None:
             return
         # The functions of the scene in which the drag began: they know what stays the same.
         try:
-            wanted = dragged(self._held, self.place.world(at.x(), at.y()))
+            wanted = dragged(self._dragged, self.place.world(at.x(), at.y()))
         except ValueError as error:  # a table does not take the point
             self._refuse(str(error))
             return
@@ -359,30 +359,30 @@ class PictureCanvas(QWidget):
         try:
             point = self.scene.with_point(at)
         except ValueError as error:
-            self.told.emit(str(error))
+            self.notified.emit(str(error))
             return
         if point is not None and self._workspace.may_edit:
             self._workspace.edit(self.tr("Put in a point"), dict([point]))
 
     def end_drag(self, *, cancel: bool = False) -> None:
         """Drop the dragged values as one undo step, or give the old ones back."""
-        drag, held = self._drag, self._held
-        if drag is None or held is None:
+        drag, dragged = self._drag, self._dragged
+        if drag is None or dragged is None:
             return
-        self._drag = self._start = self._held = None
+        self._drag = self._start = self._dragged = None
         self.releaseKeyboard()
         if cancel:
             self._refused = ""
             drag.cancel()
         else:
-            drag.drop(self.tr("Drag {name}").format(name=held.label))
+            drag.drop(self.tr("Drag {name}").format(name=dragged.label))
         self.draw_again()
         self.handle_chosen.emit(self.handle)
 
     def keyPressEvent(self, event: QKeyEvent) -> None:
         """While a handle is dragged Esc gives the old value back, and no other key does anything."""
         if event.key() == Qt.Key.Key_Escape:
-            self._leave()
+            self._cancel()
         elif self._drag is None:
             super().keyPressEvent(event)
 

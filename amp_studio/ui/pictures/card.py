@@ -147,12 +147,12 @@ class PictureCard(QFrame):
         most = MOST_NOTES[is_brief]
         lines = []
         for note in notes[:most]:
-            ink = colour("error" if note.wrong else "dim").name()
+            shade = colour("error" if note.wrong else "dim").name()
             text = escape(self._room_for(note.text))
             if note.address is not None:
                 link = f"{note.address[0]}@{note.address[1]}"
-                text = f'<a href="{link}" style="color: {ink}; text-decoration: none">{text}</a>'
-            lines.append(f'<span style="color: {ink}">{text}</span>')
+                text = f'<a href="{link}" style="color: {shade}; text-decoration: none">{text}</a>'
+            lines.append(f'<span style="color: {shade}">{text}</span>')
         if len(notes) > most:
             more = self.tr("%n more", "", len(notes) - most)
             lines.append(f'<span style="color: {colour("dim").name()}">{escape(more)}</span>')

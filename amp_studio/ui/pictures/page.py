@@ -29,7 +29,7 @@ LEAST_CARD = 370, 230
 """Width and height from which a picture has its place in a row or in a column."""
 AROUND = 2 * HEAD + 24
 """Height of head and footer, about."""
-TELL_MS = 200
+SELECTION_MS = 200
 """Milliseconds until the other views show the parameter of a handle;
 passing by on the way to another one costs nothing."""
 MARK_MS = 60
@@ -45,7 +45,7 @@ class PicturesPage(QWidget):
     left = Signal()
     """Esc: back to the table."""
     closed = Signal()
-    told = Signal(str)
+    notified = Signal(str)
     parameter_chosen = Signal(object)
     """The address of a handle that has had the focus for a moment and is not dragged."""
 
@@ -60,10 +60,10 @@ class PicturesPage(QWidget):
         self._active: PictureCard | None = None
         self._placed = (0, False)
         self._stale = False
-        self._tell = QTimer(self)
-        self._tell.setSingleShot(True)
-        self._tell.setInterval(TELL_MS)
-        self._tell.timeout.connect(self._tell_parameter)
+        self._selection_timer = QTimer(self)
+        self._selection_timer.setSingleShot(True)
+        self._selection_timer.setInterval(SELECTION_MS)
+        self._selection_timer.timeout.connect(self._emit_parameter)
         self._seen: list[PictureCard] = []
         self._selected: Address | None = None
         """The value that is selected elsewhere."""
@@ -76,7 +76,7 @@ class PicturesPage(QWidget):
         self.head = PicturesHead()
         self.head.chosen.connect(self.show_picture)
         self.head.closed.connect(self.closed)
-        self._shown = ALL
+        self._filter = ALL
         self.grid = QGridLayout()
         self.grid.setContentsMargins(GAP2, 0, GAP2, GAP2)
         self.grid.setSpacing(GAP2)
@@ -101,7 +101,7 @@ class PicturesPage(QWidget):
         options = [(name, worded(picture.title), "") for name, picture in self._pictures.items()]
         self.head.offer([(ALL, self.tr("All"), ""), *options])
         self._nothing.setVisible(not self._pictures)
-        self.show_picture(self._shown if self._shown in self._pictures else ALL)
+        self.show_picture(self._filter if self._filter in self._pictures else ALL)
 
     def card(self, name: str) -> PictureCard:
         """Return the card of a picture, made when it is first seen."""
@@ -112,7 +112,7 @@ class PicturesPage(QWidget):
             card.canvas.handle_chosen.connect(partial(self._choose, card))
             card.canvas.typed.connect(self.footer.type)
             card.canvas.left.connect(self.left)
-            card.canvas.told.connect(self.told)
+            card.canvas.notified.connect(self.notified)
         return self.cards[name]
 
     @property
@@ -121,19 +121,19 @@ class PicturesPage(QWidget):
         return self._active if self._active in self._seen else next(iter(self._seen), None)
 
     @property
-    def shown(self) -> str:
+    def filter_name(self) -> str:
         """The name of the picture that is shown, or ``all``."""
-        return self._shown
+        return self._filter
 
     def show_picture(self, name: str) -> None:
         """Show one picture large, or all of them."""
-        self._shown = name
+        self._filter = name
         self.head.show_choice(name)
         self._arrange()
 
     def _shape(self) -> tuple[int, bool]:
         """Return how many pictures there is room for, and whether the first one is larger than the others."""
-        if self._shown != ALL:
+        if self._filter != ALL:
             return 1, False
         if self.width() >= TWO_COLUMNS and self.height() >= LOW:
             return 1 + SIDE, True
@@ -143,8 +143,8 @@ class PicturesPage(QWidget):
     def _wanted(self, count: int) -> list[str]:
         """Return the pictures for so many places, that of the selected value among them."""
         names = list(self._pictures)
-        if self._shown in names:
-            return [self._shown]
+        if self._filter in names:
+            return [self._filter]
         first = names[:count]
         return first if self._front in ("", *first) else [*first[:-1], self._front]
 
@@ -248,7 +248,7 @@ class PicturesPage(QWidget):
         name, part = found
         self._front = name
         if self.card(name) not in self._seen:
-            self._arrange() if self._shown == ALL and not focus else self.show_picture(name)
+            self._arrange() if self._filter == ALL and not focus else self.show_picture(name)
         card = self.card(name)
         if card.part != part:
             card.show_part(part)
@@ -260,7 +260,7 @@ class PicturesPage(QWidget):
             if focus:
                 card.canvas.focus_handle()
             else:
-                self._tell.stop()  # who selected the value knows it
+                self._selection_timer.stop()  # who selected the value knows it
 
     def _seen_names(self) -> set[str]:
         return {card.picture.name for card in self._seen}
@@ -284,11 +284,11 @@ class PicturesPage(QWidget):
         if self._selected is not None and self._selected not in known and not is_dragging:
             self.show_handle_of(self._selected, focus=False)
 
-    def _tell_parameter(self) -> None:
+    def _emit_parameter(self) -> None:
         handle = self._active.canvas.handle if self._active else None
         if handle is not None and self._active is not None:
             if self._active.canvas.is_dragging:
-                self._tell.start()
+                self._selection_timer.start()
             else:
                 self.parameter_chosen.emit(handle.drags[0].address)
 
@@ -298,7 +298,7 @@ class PicturesPage(QWidget):
             self.footer.show_handle(handle)
         if handle is not None and not card.canvas.is_dragging:
             self._mark.stop()  # what was selected before is of the past
-            self._tell.start()
+            self._selection_timer.start()
 
     def _enter(self, text: str) -> None:
         """Set the value that was typed for the chosen handle."""

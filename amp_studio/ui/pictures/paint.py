@@ -11,7 +11,7 @@ from PySide6.QtCore import QPointF, QRectF, Qt
 from PySide6.QtGui import QFontMetricsF, QPainter, QPen
 
 from amp_studio.drawing import Handle, Placement, Scene
-from amp_studio.ui.base.theme import GAP, GAP2, RADIUS, colour, font, severity_ink
+from amp_studio.ui.base.theme import GAP, GAP2, RADIUS, colour, font, severity_colour
 
 MOST_REASON = 380.0
 """Width of a reason in a tag, in logical pixels; the findings have the whole of it."""
@@ -28,11 +28,11 @@ def paint_handles(painter: QPainter, place: Placement, handles: Iterator[tuple[H
     half = 0.5 * HANDLE
     for handle, is_active, severity in handles:
         at = QPointF(*place.at(handle.at))
-        ink = severity_ink(severity) if severity else colour("sel" if is_active else "text")
-        painter.setPen(QPen(ink, 1.5))
-        painter.setBrush(ink if is_active else colour("base"))
+        shade = severity_colour(severity) if severity else colour("sel" if is_active else "text")
+        painter.setPen(QPen(shade, 1.5))
+        painter.setBrush(shade if is_active else colour("base"))
         if len(handle.drags) > 1:
-            painter.setPen(QPen(ink if is_active or severity else colour("edge"), 1))
+            painter.setPen(QPen(shade if is_active or severity else colour("edge"), 1))
             painter.drawRect(QRectF(at.x() - 3, at.y() - 3, 6, 6))
         elif handle.second:
             painter.drawEllipse(at, half - 0.5, half - 0.5)
@@ -68,8 +68,8 @@ def paint_tag(painter: QPainter, place: Placement, at: tuple[float, float], tag:
     left = x + 12.0 if x + 12.0 + width <= edge else max(x - 12.0 - width, 2.0)
     top = y - height - GAP2 if y - height - GAP2 > 2.0 else y + GAP2
     box = QRectF(left, top, width, height)
-    ink = severity_ink(tag.severity) if tag.severity else colour("sel")
-    painter.setPen(QPen(ink, 1))
+    shade = severity_colour(tag.severity) if tag.severity else colour("sel")
+    painter.setPen(QPen(shade, 1))
     painter.setBrush(colour("raised"))
     painter.drawRoundedRect(box, RADIUS, RADIUS)
     inner = box.left() + GAP2
@@ -79,7 +79,7 @@ def paint_tag(painter: QPainter, place: Placement, at: tuple[float, float], tag:
     painter.setPen(colour("dim"))
     painter.drawText(QPointF(inner, first), tag.name)
     painter.drawText(QPointF(inner + large.horizontalAdvance(tag.value) + GAP2, second), tag.old)
-    painter.setPen(ink)
+    painter.setPen(shade)
     painter.drawText(QPointF(inner, second + large.descent() + small.ascent()), reason)
     painter.setFont(strong)
     painter.setPen(colour("text"))

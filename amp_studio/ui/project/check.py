@@ -16,7 +16,7 @@ from amp_studio.guide import found_in
 from amp_studio.schema import Address
 from amp_studio.ui.base.figures import sentence
 from amp_studio.ui.base.task import TaskProgress
-from amp_studio.ui.base.theme import severity_icon, severity_ink
+from amp_studio.ui.base.theme import severity_colour, severity_icon
 from amp_studio.ui.base.translated import counted, worded
 from amp_studio.validate import SEVERITIES, Finding, Validator, rules_beside
 
@@ -117,7 +117,7 @@ def _branch(checked: CheckedFile) -> QTreeWidgetItem:
     for finding, label in zip(checked.findings, checked.labels, strict=True):
         leaf = QTreeWidgetItem([label, "", "", "", sentence(finding.message)])
         leaf.setIcon(0, severity_icon(finding.severity))
-        leaf.setForeground(0, QBrush(severity_ink(finding.severity)))
+        leaf.setForeground(0, QBrush(severity_colour(finding.severity)))
         leaf.setToolTip(4, sentence(finding.message))
         leaf.setData(0, _GOES_TO, (checked.path, finding.addresses[0] if finding.addresses else None))
         item.addChild(leaf)

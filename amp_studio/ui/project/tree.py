@@ -20,7 +20,7 @@ from amp_studio.ui.base.task import Task
 from amp_studio.ui.base.theme import GAP2
 from amp_studio.ui.base.time_words import in_words
 from amp_studio.ui.forms.folder_view import show_in_folder
-from amp_studio.ui.forms.place_tree import COUNTS, INK, KEY, PICTURE, RIGHT, PlaceTree
+from amp_studio.ui.forms.place_tree import COUNTS, KEY, PICTURE, RIGHT, TOKEN, PlaceTree
 from amp_studio.ui.page.file_page import FilePage
 
 from .files import ProjectFiles
@@ -136,7 +136,7 @@ class ProjectTree(QWidget):
         for path in content.deleted:
             gone = self._item(top, ("deleted", path), path.name.removesuffix(".bak"), "trash")
             gone.setData(0, RIGHT, self.tr("deleted"))
-            gone.setData(0, INK, "dim")
+            gone.setData(0, TOKEN, "dim")
         self._add_projects()
         top.setExpanded(True)
         for item in self._items():
@@ -212,7 +212,7 @@ class ProjectTree(QWidget):
         unsaved = page is not None and page.workspace.is_dirty
         item.setData(0, PICTURE, ("circle-fill", "chg") if unsaved else ("file", "text" if page else "dim"))
         item.setData(0, COUNTS, tuple((s, counts[s]) for s in _SEVERITIES if counts.get(s)))
-        item.setData(0, INK, "text" if page is not None else "dim")
+        item.setData(0, TOKEN, "text" if page is not None else "dim")
         words = [
             item.text(0),
             self.tr("open") if page else "",

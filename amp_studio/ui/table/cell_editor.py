@@ -52,9 +52,9 @@ class CellEditor(QLineEdit):
         and may still lose the focus."""
         self.bits: MaskList | None = None
         """The bits of a word, below its field."""
-        self.textEdited.connect(self._look)
+        self.textEdited.connect(self._show_preview)
 
-    def _look(self, text: str) -> None:
+    def _show_preview(self, text: str) -> None:
         found = self._preview(text)
         self._result = found.result
         left = QFontMetrics(font("small")).horizontalAdvance(found.result) + 10 if found.result else 0
@@ -99,7 +99,7 @@ class CellEditor(QLineEdit):
 
         def take(word: int) -> None:
             self.setText(text_of(word))
-            self._look(self.text())
+            self._show_preview(self.text())
 
         follow(self.text())
         self.textEdited.connect(follow)

@@ -14,7 +14,16 @@ from typing import Literal
 
 from amp_studio.files import unlike_axes, value_note, with_days_and_times
 from amp_studio.report import state_name
-from amp_studio.schema import Address, Schema, UnitError, Value, convert, labels_of_word, shown, write_value
+from amp_studio.schema import (
+    Address,
+    Schema,
+    UnitError,
+    Value,
+    convert,
+    labels_of_word,
+    unit_text,
+    write_value,
+)
 from amp_studio.ui.base.figures import sentence, show_value
 from amp_studio.ui.base.translated import Translated, tr, worded
 from amp_studio.ui.base.workspace import Workspace
@@ -264,12 +273,12 @@ class ShownValues(Translated):
         there = [a for a in addresses if self.exists(a)]
         active = [a for a in there if file.get(a) is not None and file.evaluation.state(a).is_active]
         unlike = unlike_axes(file, active) if len(active) > 1 else set()
-        absent = CellLook("absent")
-        looks = dict.fromkeys(addresses, absent)
-        looks |= {a: self._look(a, a in unlike) for a in there}
+        missing = CellLook("absent")
+        looks = dict.fromkeys(addresses, missing)
+        looks |= {a: self._look_of(a, a in unlike) for a in there}
         return looks
 
-    def _look(self, address: Address, is_unlike: bool) -> CellLook:
+    def _look_of(self, address: Address, is_unlike: bool) -> CellLook:
         file = self.workspace.file
         parameter, value = file.schema.parameters[address[0]], file.get(address)
         look = CellLook("not set" if value is None else "value")
@@ -297,7 +306,7 @@ class ShownValues(Translated):
                 here = as_written(here)
             plain = show_value(parameter, Value(here.value, ""), secrets=True)
             look.text = grouped(plain) if look.is_number else plain.replace("\n", " ⏎ ")
-            look.unit = shown(here.unit)
+            look.unit = unit_text(here.unit)
             if parameter.choices:
                 look.short = short_labels(tuple(c.label for c in parameter.choices)).get(plain, "")
         used = self.effective.get(address)

@@ -18,7 +18,7 @@ _SEVERITIES: dict[str, tuple[Token, Token, str]] = {
     "warning": ("warn", "warnbg", "warning-fill"),
     "advice": ("rec", "recbg", "lightbulb-fill"),
 }
-_INKS: tuple[Token, ...] = (
+_TOKENS: tuple[Token, ...] = (
     "grid",
     "panel",
     "hover",
@@ -62,7 +62,7 @@ class CellPainter:
         self._italic.setItalic(True)
         self._metrics = {id(f): QFontMetricsF(f) for f in (self._own, self._plain, self._small, self._italic)}
         self._widths: dict[tuple[int, str], float] = {}
-        self._inks: dict[Token, QColor] = {}
+        self._colours: dict[Token, QColor] = {}
         self._is_dark: bool | None = None
         self.take_colours()
 
@@ -71,9 +71,9 @@ class CellPainter:
         if self._is_dark == is_dark():
             return
         self._is_dark = is_dark()
-        self._inks = {token: colour(token) for token in _INKS}
-        self._hatch = QBrush(self._inks["line2"], Qt.BrushStyle.BDiagPattern)
-        self._dots = QPen(self._inks["dim"], 1, Qt.PenStyle.DotLine)
+        self._colours = {colour_name: colour(colour_name) for colour_name in _TOKENS}
+        self._hatch = QBrush(self._colours["line2"], Qt.BrushStyle.BDiagPattern)
+        self._dots = QPen(self._colours["dim"], 1, Qt.PenStyle.DotLine)
 
     def slot(self, look: CellLook) -> int:
         """Return the width that the unit of a number needs beside it."""
@@ -117,13 +117,13 @@ class CellPainter:
 
     # -- one cell ----------------------------------------------------------------
 
-    def ground(self, painter: QPainter, place: QRect, ink: Token) -> None:
+    def paint_background(self, painter: QPainter, place: QRect, colour_name: Token) -> None:
         """Paint a cell that has no value: of another kind of instance, or the head of a section."""
-        painter.fillRect(place, self._inks[ink])
+        painter.fillRect(place, self._colours[colour_name])
 
     def grid(self, painter: QPainter, place: QRect, *, is_section: bool = False) -> None:
         """Paint the lines below and right of a cell."""
-        line = self._inks["grid"]
+        line = self._colours["grid"]
         painter.fillRect(place.left(), place.bottom(), place.width(), 1, line)
         if not is_section:
             painter.fillRect(place.right(), place.top(), 1, place.height(), line)
@@ -143,22 +143,22 @@ class CellPainter:
 
         A number is painted in the first ``number_room`` pixels of a cell that is wider than a column.
         """
-        inks = self._inks
+        colours = self._colours
         if look.kind == "absent":
-            painter.fillRect(place, inks["panel"])
+            painter.fillRect(place, colours["panel"])
             return
         severity = _SEVERITIES.get(look.severity)
         if is_selected:
-            painter.fillRect(place, inks["selbg" if self.is_active else "selidle"])
+            painter.fillRect(place, colours["selbg" if self.is_active else "selidle"])
         elif severity:
-            painter.fillRect(place, inks[severity[1]])
+            painter.fillRect(place, colours[severity[1]])
         elif is_hovered:
-            painter.fillRect(place, inks["hover"])
+            painter.fillRect(place, colours["hover"])
         if look.is_inactive:
             painter.setBrushOrigin(place.topLeft())
             painter.fillRect(place, self._hatch)
         if look.is_changed:
-            painter.fillRect(place.left(), place.top(), 3, place.height() - 1, inks["chg"])
+            painter.fillRect(place.left(), place.top(), 3, place.height() - 1, colours["chg"])
         inner = place.adjusted(_ASIDE, 0, -_ASIDE, -1)
         if number_room and (look.is_number or look.kind == "not set"):
             inner.setWidth(number_room - 2 * _ASIDE)
@@ -170,7 +170,7 @@ class CellPainter:
             self._icon(painter, inner, "note-fill", "dim")
         if look.kind == "not set":
             painter.setFont(self._italic)
-            painter.setPen(inks["dim"])
+            painter.setPen(colours["dim"])
             painter.drawText(inner, _RIGHT, self.not_set)
         elif look.is_number:
             self._number(painter, inner, look, slot)
@@ -180,9 +180,11 @@ class CellPainter:
     not_set = "not set"
     """What is painted where there is no value, in the language of the window."""
 
-    def _icon(self, painter: QPainter, inner: QRect, name: str, ink: Token) -> None:
+    def _icon(self, painter: QPainter, inner: QRect, name: str, colour_name: Token) -> None:
         top = inner.center().y() - SMALL_ICON // 2 + 1
-        paint_icon(painter, QRect(inner.left(), top, SMALL_ICON, SMALL_ICON), name, self._inks[ink])
+        paint_icon(
+            painter, QRect(inner.left(), top, SMALL_ICON, SMALL_ICON), name, self._colours[colour_name]
+        )
         inner.setLeft(inner.left() + SMALL_ICON + 3)
 
     def _number(self, painter: QPainter, inner: QRect, look: CellLook, slot: int) -> None:
@@ -197,11 +199,11 @@ class CellPainter:
             width = self._width(letters, text)
         if own_slot and slot:
             painter.setFont(self._small)
-            painter.setPen(self._inks["dim"])
+            painter.setPen(self._colours["dim"])
             left = round(inner.right() + 1 - slot)
             painter.drawText(QRect(left, inner.top(), round(slot) + _ASIDE, inner.height()), _LEFT, look.unit)
         painter.setFont(letters)
-        painter.setPen(self._inks["text" if look.is_own else "dim"])
+        painter.setPen(self._colours["text" if look.is_own else "dim"])
         painter.drawText(QRect(inner.left(), inner.top(), round(room), inner.height()), _RIGHT, text)
         if look.is_unlike:
             self._underline(painter, inner.left() + room - width, width, inner)
@@ -213,7 +215,7 @@ class CellPainter:
         if number and room - number >= min(_NAMES, self._width(letters, look.short or look.text)):
             room -= number  # a mask: names, and its number where both have room
             painter.setFont(self._small)
-            painter.setPen(self._inks["dim"])
+            painter.setPen(self._colours["dim"])
             painter.drawText(inner, _RIGHT, look.unit)
         text, width = look.text, self._width(letters, look.text)
         if width > room and look.short:
@@ -222,7 +224,7 @@ class CellPainter:
             text = self._metrics[id(letters)].elidedText(text, Qt.TextElideMode.ElideMiddle, room)
             width = self._width(letters, text)
         painter.setFont(letters)
-        painter.setPen(self._inks["text" if look.is_own else "dim"])
+        painter.setPen(self._colours["text" if look.is_own else "dim"])
         painter.drawText(inner, _LEFT, text)
         if look.is_unlike:
             self._underline(painter, inner.left(), width, inner)
@@ -236,18 +238,20 @@ class CellPainter:
 
     def outline(self, painter: QPainter, place: QRect, severity: str) -> None:
         """Paint the outline of a cell that is part of the selected finding."""
-        painter.setPen(QPen(self._inks[_SEVERITIES[severity][0] if severity in _SEVERITIES else "edge"], 1))
+        painter.setPen(
+            QPen(self._colours[_SEVERITIES[severity][0] if severity in _SEVERITIES else "edge"], 1)
+        )
         painter.drawRect(QRectF(place).adjusted(0.5, 0.5, -1.5, -1.5))
 
     def current(self, painter: QPainter, place: QRect) -> None:
         """Paint the border of the current cell."""
-        painter.setPen(QPen(self._inks["sel" if self.is_active else "edge"], 2))
+        painter.setPen(QPen(self._colours["sel" if self.is_active else "edge"], 2))
         painter.drawRect(QRectF(place).adjusted(1, 1, -2, -2))
 
     def range_edge(self, painter: QPainter, place: QRect, handle: QRect) -> None:
         """Paint the edge of the selected range, and its fill handle."""
-        painter.setPen(QPen(self._inks["sel" if self.is_active else "edge"], 1))
+        painter.setPen(QPen(self._colours["sel" if self.is_active else "edge"], 1))
         painter.drawRect(place.adjusted(0, 0, -1, -1))
         if not handle.isNull():
-            painter.fillRect(handle.adjusted(-1, -1, 1, 1), self._inks["panel"])
-            painter.fillRect(handle, self._inks["sel"])
+            painter.fillRect(handle.adjusted(-1, -1, 1, 1), self._colours["panel"])
+            painter.fillRect(handle, self._colours["sel"])

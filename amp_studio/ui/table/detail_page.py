@@ -16,7 +16,7 @@ from amp_studio.files import (
     with_days_and_times,
 )
 from amp_studio.report import GRADES, facts, help_parts, severity_name, state_name, tables_of
-from amp_studio.schema import Address, Value, labels_of_word, limits, real_value, same_value, shown
+from amp_studio.schema import Address, Value, labels_of_word, limits, real_value, same_value, unit_text
 from amp_studio.ui.base.figures import sentence, show_value
 from amp_studio.ui.base.hazard import hazard_html
 from amp_studio.ui.base.theme import colour, icon_html, severity_html
@@ -84,7 +84,7 @@ class DetailPage(Translated):
 
     # -- the value -------------------------------------------------------------
 
-    def shown(self, address: Address, value: Value | None, workspace: Workspace | None = None) -> str:
+    def value_html(self, address: Address, value: Value | None, workspace: Workspace | None = None) -> str:
         """Return a value; one in units whose size another parameter sets with its length or angle:
         1000 BLU = 1 mm.
         """
@@ -104,7 +104,7 @@ class DetailPage(Translated):
         file, lines = self._workspace.file, []
         if (used := self._workspace.effective().get(address)) is not None:
             lines.append(
-                f"<b>{self.shown(address, used)}</b>"
+                f"<b>{self.value_html(address, used)}</b>"
                 f" <small>{self.tr('effective value in the control')}</small>"
             )
         if stored := storage_text(file, address):
@@ -126,7 +126,7 @@ class DetailPage(Translated):
         unit = self._workspace.typed_unit(address)
         found = limits(file.evaluation, address, unit)
         if found is None:
-            return self.tr("no bounds printed, in {shown}").format(shown=shown(unit)) if unit else ""
+            return self.tr("no bounds printed, in {shown}").format(value_html=unit_text(unit)) if unit else ""
         sources = [s for s in (found.low_from, found.high_from) if s]
         text = sentence(found.text()) + "".join(
             self.tr(" (set by {name})").format(name=file.machine_schema.label(s)) for s in sources
@@ -164,7 +164,7 @@ class DetailPage(Translated):
                     use = f' <a href="{USE}{n}">{self.tr("Use")}</a>' if self._workspace.may_edit else ""
                     title = html.escape(rule_title(self._workspace.validator, finding))
                     lines.append(
-                        f"<p><b>{self.shown(address, setting.value)}</b> <small>{title}</small>{use}</p>"
+                        f"<p><b>{self.value_html(address, setting.value)}</b> <small>{title}</small>{use}</p>"
                     )
         if file.schema.parameters[address[0]].formulas:
             lines.append(f'<p><a href="{CALCULATE}">{self.tr("Calculate…")}</a></p>')
@@ -266,7 +266,7 @@ class DetailPage(Translated):
         )
 
     def _compared(self, address: Address, found: Value | None, value: Value | None) -> str:
-        text = self.shown(address, found)
+        text = self.value_html(address, found)
         return f"<b>{text}</b>" if not same_value(found, value) else text
 
     def _in_other(self, other: Workspace, address: Address) -> str:
@@ -282,7 +282,7 @@ class DetailPage(Translated):
             if (v := other.file.get((address[0], a)))
         ]
         texts = (
-            f"{axis_letter(other.file, a) or a} {self.shown((address[0], a), v, other)}".strip()
+            f"{axis_letter(other.file, a) or a} {self.value_html((address[0], a), v, other)}".strip()
             for a, v in found
         )
         return ", ".join(texts)
@@ -301,17 +301,18 @@ class DetailPage(Translated):
         schema, machine = self._workspace.file.schema, self._workspace.file.machine
         found = facts(schema, schema.parameters[address[0]], machine)
         is_open = "facts" in self.opened
-        ink = colour("dim").name()
+        shade = colour("dim").name()
         arrow = icon_html("caret-down" if is_open else "caret-right", "dim")
         title = (
-            f'<a href="{FOLD}facts" style="color:{ink}; text-decoration:none">{arrow} {self.tr("Facts")}</a>'
+            f'<a href="{FOLD}facts" style="color:{shade};'
+            f' text-decoration:none">{arrow} {self.tr("Facts")}</a>'
         )
         if not is_open:
             brief = ", ".join(worded(text) for name, text in found if name in ("Takes effect", "Access"))
-            return title, f'<p style="color:{ink}">{html.escape(brief)}</p>'
+            return title, f'<p style="color:{shade}">{html.escape(brief)}</p>'
         rows = "".join(
             "<tr><td"
-            f' style="color:{ink}">{html.escape(worded(k))}&nbsp;&nbsp;</td><td>{html.escape(v)}</td></tr>'
+            f' style="color:{shade}">{html.escape(worded(k))}&nbsp;&nbsp;</td><td>{html.escape(v)}</td></tr>'
             for k, v in found
         )
         return title, f"<table cellpadding=2>{rows}</table>"

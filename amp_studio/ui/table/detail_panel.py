@@ -154,7 +154,9 @@ class DetailPanel(QWidget):
         value, has_boxes = file.get(address), bool(file.schema.parameters[address[0]].bits)
         word = value.value if has_boxes and value is not None else None
         # The names of the bits are on the check boxes below.
-        self.value.setText(hex_text(word) if isinstance(word, int) else self._writer.shown(address, value))
+        self.value.setText(
+            hex_text(word) if isinstance(word, int) else self._writer.value_html(address, value)
+        )
         self._show_axes(address)
         self.bar.show_range(self._in_range(address))
         if self.bar.isVisibleTo(self):

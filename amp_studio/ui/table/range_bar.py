@@ -11,7 +11,7 @@ from PySide6.QtCore import QPointF, QRectF, QSize, Qt
 from PySide6.QtGui import QFontMetrics, QPainter, QPaintEvent, QPolygonF
 from PySide6.QtWidgets import QSizePolicy, QWidget
 
-from amp_studio.schema import shown, write_number
+from amp_studio.schema import unit_text, write_number
 from amp_studio.ui.base.figures import written
 from amp_studio.ui.base.theme import GAP, RADIUS, Token, colour, font
 
@@ -77,7 +77,7 @@ class RangeBar(QWidget):
             ends = self.tr("{low} to {high} {unit}").format(
                 low=written(write_number(found.low)),
                 high=written(write_number(found.high)),
-                unit=shown(found.unit),
+                unit=unit_text(found.unit),
             )
             self.setAccessibleDescription(", ".join(filter(None, (ends, self.words))))
         self.update()
@@ -102,7 +102,7 @@ class RangeBar(QWidget):
         below = int(_TOP + _BAR + GAP)
         ends = (
             written(write_number(found.low)),
-            f"{written(write_number(found.high))} {shown(found.unit)}".rstrip(),
+            f"{written(write_number(found.high))} {unit_text(found.unit)}".rstrip(),
         )
         painter.setPen(colour("dim"))
         painter.drawText(QPointF(_SIDE, below + metrics.ascent()), ends[0])
@@ -129,24 +129,31 @@ class RangeBar(QWidget):
         found = self._range
         if found is None or found.value is None:
             return
-        inks: dict[str, Token] = {"error": "error", "warning": "warn", "advice": "rec"}
-        ink = inks.get(found.severity, "sel")
+        tokens: dict[str, Token] = {"error": "error", "warning": "warn", "advice": "rec"}
+        colour_name = tokens.get(found.severity, "sel")
         x = self._at(found.value, whole)
         painter.setPen(Qt.PenStyle.NoPen)
-        painter.setBrush(colour(ink))
+        painter.setBrush(colour(colour_name))
         painter.drawPolygon(QPolygonF([QPointF(x - 5, _TOP - 7), QPointF(x + 5, _TOP - 7), QPointF(x, _TOP)]))
         painter.drawRect(QRectF(x - 0.5, _TOP, 1, _BAR))
         if found.value != found.default:
-            self._above(painter, x + 9, written(write_number(found.value)), metrics, ink, right=False)
+            self._above(painter, x + 9, written(write_number(found.value)), metrics, colour_name, right=False)
 
     def _above(
-        self, painter: QPainter, x: float, text: str, metrics: QFontMetrics, ink: Token, *, right: bool
+        self,
+        painter: QPainter,
+        x: float,
+        text: str,
+        metrics: QFontMetrics,
+        colour_name: Token,
+        *,
+        right: bool,
     ) -> None:
         """Write above the bar, at the side of ``x`` where there is room."""
         width = metrics.horizontalAdvance(text)
         left = x - width if right else x
         left = min(max(left, float(_SIDE)), self.width() - _SIDE - width)
-        painter.setPen(colour(ink))
+        painter.setPen(colour(colour_name))
         painter.drawText(QPointF(left, _TOP - 8), text)
 
     def _at(self, number: float, whole: QRectF) -> float:

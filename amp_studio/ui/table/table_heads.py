@@ -25,7 +25,9 @@ class RowHeads(QHeaderView):
         head = font("small")
         head.setWeight(head.Weight.DemiBold)
         fonts = {"head": head, "text": font("text"), "dim": font("small")}
-        self._fonts = {ink: (letters, QFontMetrics(letters)) for ink, letters in fonts.items()}
+        self._fonts = {
+            colour_name: (letters, QFontMetrics(letters)) for colour_name, letters in fonts.items()
+        }
         self._elided: dict[tuple[str, str, int], str] = {}
         self.number_width = 0
         """Width of the column of numbers; 0 where no row has one."""
@@ -49,8 +51,8 @@ class RowHeads(QHeaderView):
         assert isinstance(view, QTableView)
         is_section = bool(table.rows[section].section)
         is_current = not is_section and view.currentIndex().row() == section
-        ground = colour("panel" if is_section else "selidle" if is_current else "base")
-        painter.fillRect(rect, ground)
+        background = colour("panel" if is_section else "selidle" if is_current else "base")
+        painter.fillRect(rect, background)
         painter.fillRect(rect.left(), rect.bottom(), rect.width(), 1, colour("grid"))
         place = rect.adjusted(GAP3, 0, -6, -1)
         if is_section:
@@ -75,11 +77,13 @@ class RowHeads(QHeaderView):
                 0, end, self.width(), self.viewport().height() - end, colour("base")
             )
 
-    def _write(self, painter: QPainter, place: QRect, text: str, ink: str, *, is_head: bool = False) -> None:
-        letters, metrics = self._fonts["head" if is_head else ink]
+    def _write(
+        self, painter: QPainter, place: QRect, text: str, colour_name: str, *, is_head: bool = False
+    ) -> None:
+        letters, metrics = self._fonts["head" if is_head else colour_name]
         painter.setFont(letters)
-        painter.setPen(colour("text" if ink == "text" else "dim"))
-        key = ink, text, place.width()
+        painter.setPen(colour("text" if colour_name == "text" else "dim"))
+        key = colour_name, text, place.width()
         shown = self._elided.get(key)
         if shown is None:
             if len(self._elided) > _MOST_REMEMBERED:

@@ -29,7 +29,7 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
-from amp_studio.schema import Address, InvalidValueError, Limits, Value, fault, limits, shown, write_value
+from amp_studio.schema import Address, InvalidValueError, Limits, Value, fault, limits, unit_text, write_value
 from amp_studio.ui.base.figures import sentence, show_value
 from amp_studio.ui.base.workspace import Workspace
 from amp_studio.ui.forms.choice_box import ChoiceBox
@@ -53,7 +53,7 @@ def allowed_text(workspace: Workspace, address: Address) -> str:
     if workspace.file.schema.parameters[address[0]].choices:
         return ""
     found = limits_of(workspace, address)
-    return sentence(found.text()) if found else shown(workspace.typed_unit(address))
+    return sentence(found.text()) if found else unit_text(workspace.typed_unit(address))
 
 
 class ValueDelegate(QStyledItemDelegate):
@@ -97,7 +97,7 @@ class ValueDelegate(QStyledItemDelegate):
         elif column == len(self._table.columns):
             super().paint(painter, option, index)
         else:
-            self.painter.ground(painter, place, "panel")
+            self.painter.paint_background(painter, place, "panel")
         self.painter.grid(painter, place, is_section=bool(self._table.rows[row].section))
 
     def cell_place(self, place: QRect, index: Index) -> QRect:
@@ -121,7 +121,7 @@ class ValueDelegate(QStyledItemDelegate):
         if parameter.choices:
             box = ChoiceBox(self._workspace, address, parent)
             box.activated.connect(self._choose)
-            box.left.connect(self._leave)
+            box.left.connect(self._close_later)
             box.tabbed.connect(self._tab)
             QTimer.singleShot(0, box, box.showPopup)
             return box
@@ -191,7 +191,7 @@ class ValueDelegate(QStyledItemDelegate):
             key = Qt.Key.Key_Tab if forward else Qt.Key.Key_Backtab
             QApplication.sendEvent(view, QKeyEvent(QEvent.Type.KeyPress, key, Qt.KeyboardModifier.NoModifier))
 
-    def _leave(self) -> None:
+    def _close_later(self) -> None:
         """Close the editor with its list; a choice is committed before that."""
         box = self.sender()
         assert isinstance(box, ChoiceBox)

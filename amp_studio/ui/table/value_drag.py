@@ -29,7 +29,7 @@ class ValueDrag(QObject):
         self._follow = QTimer(self)
         self._follow.setSingleShot(True)
         self._follow.setInterval(FOLLOW_MS)
-        self._follow.timeout.connect(self._tell)
+        self._follow.timeout.connect(self._show_value)
         workspace.validator.update(list(addresses))  # rules are compiled now, and not in the first frame
 
     @property
@@ -49,7 +49,7 @@ class ValueDrag(QObject):
             self._follow.start()
         return bool(changes)
 
-    def _tell(self) -> None:
+    def _show_value(self) -> None:
         self.workspace.follow(list(self.before))
 
     def _put_back(self) -> None:
@@ -61,7 +61,7 @@ class ValueDrag(QObject):
     def cancel(self) -> None:
         """Give the old values back."""
         self._put_back()
-        self._tell()
+        self._show_value()
         self.deleteLater()
 
     def drop(self, text: str) -> bool:
@@ -70,6 +70,6 @@ class ValueDrag(QObject):
         self._put_back()
         changed = wanted != self.before and self.workspace.edit(text, wanted)
         if not changed:
-            self._tell()
+            self._show_value()
         self.deleteLater()
         return bool(changed)

@@ -61,7 +61,7 @@ class ValueTable(QTableView):
         """What the contents need, until they or the font change."""
         """First and last cell of the range from which the fill handle is dragged."""
         self.last: Address | None = None
-        self._shown: list[Parameter] = []
+        self._parameters: list[Parameter] = []
         self._chosen: list[Address] = []
         self._was_block = True
         self._top = 0
@@ -157,11 +157,13 @@ class ValueTable(QTableView):
         """Take a text by Enter and go down; with Ctrl into every selected cell,
         with Ctrl and Shift out of range too.
         """
-        held = Qt.KeyboardModifier(modifiers) & ~Qt.KeyboardModifier.KeypadModifier
+        pressed = Qt.KeyboardModifier(modifiers) & ~Qt.KeyboardModifier.KeypadModifier
         control, shift = Qt.KeyboardModifier.ControlModifier, Qt.KeyboardModifier.ShiftModifier
         here, address = self.currentIndex(), self.address()
-        if held & control and address is not None:
-            refusal = self._force(address, editor.text()) if held & shift else self._fill_typed(editor.text())
+        if pressed & control and address is not None:
+            refusal = (
+                self._force(address, editor.text()) if pressed & shift else self._fill_typed(editor.text())
+            )
             if refusal is not None:
                 editor.show_refusal(refusal)
                 return
@@ -170,7 +172,7 @@ class ValueTable(QTableView):
             return
         if self._delegate.take(editor):
             self.closeEditor(editor, ValueDelegate.EndEditHint.NoHint)
-            move = self.CursorAction.MoveUp if held & shift else self.CursorAction.MoveDown
+            move = self.CursorAction.MoveUp if pressed & shift else self.CursorAction.MoveDown
             if self.currentIndex() == here:
                 self.setCurrentIndex(self.moveCursor(move, Qt.KeyboardModifier.NoModifier))
 
@@ -256,9 +258,9 @@ class ValueTable(QTableView):
     def keyboardSearch(self, search: str) -> None:
         """Look for nothing: letters are for values, and the find box looks through all of the file."""
 
-    def moveCursor(self, move: QAbstractItemView.CursorAction, held: Qt.KeyboardModifier) -> QModelIndex:
+    def moveCursor(self, move: QAbstractItemView.CursorAction, modifiers: Qt.KeyboardModifier) -> QModelIndex:
         """Go on below the block of the whole control in the first axis, and from there up into it again."""
-        here, found = self.currentIndex(), super().moveCursor(move, held)
+        here, found = self.currentIndex(), super().moveCursor(move, modifiers)
         by = {self.CursorAction.MoveDown: 1, self.CursorAction.MoveUp: -1}.get(move, 0)
         if by and self._table.has_block and here.isValid() and found.row() == here.row():
             rows = range(here.row() + by, len(self._table.rows) if by > 0 else -1, by)
@@ -361,7 +363,7 @@ class ValueTable(QTableView):
     # -- widths ------------------------------------------------------------------
 
     def _before_reset(self) -> None:
-        self._shown = self._table.asked
+        self._parameters = self._table.asked
         self._top = self.verticalScrollBar().value()
         self._chosen, self._was_block = self.cells.addresses(), self.cells.is_block
 
@@ -369,7 +371,7 @@ class ValueTable(QTableView):
         """Show the new list; one that is the old one with other rows stays where it was,
         with what was selected.
         """
-        is_same = self._shown is self._table.asked
+        is_same = self._parameters is self._table.asked
         self._is_dragged = self._is_dragged and is_same
         self._lay_block()
         self._content = None

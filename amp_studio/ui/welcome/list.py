@@ -26,8 +26,8 @@ from amp_studio.ui.base.theme import (
     colour,
     font,
     paint_icon,
+    severity_colour,
     severity_icon,
-    severity_ink,
 )
 
 ROW, KEY = Qt.ItemDataRole.UserRole, Qt.ItemDataRole.UserRole + 1
@@ -132,13 +132,13 @@ class RowDelegate(QStyledItemDelegate):
         row: WelcomeRow = index.data(ROW)
         place = QRect(option.rect)
         painter.save()
-        self._ground(painter, option, place)
+        self._paint_background(painter, option, place)
         place = inner(place)
         place.setRight(self._right(painter, place, row))
         self._left(painter, place, row)
         painter.restore()
 
-    def _ground(self, painter: QPainter, option: QStyleOptionViewItem, place: QRect) -> None:
+    def _paint_background(self, painter: QPainter, option: QStyleOptionViewItem, place: QRect) -> None:
         state = option.state
         focused = bool(state & QStyle.StateFlag.State_Selected) and option.widget.hasFocus()
         if focused:
@@ -161,8 +161,8 @@ class RowDelegate(QStyledItemDelegate):
             )
             x -= SMALL_ICON + GAP2
         if row.star is not None:
-            name, ink = ("star-fill", colour("text")) if row.star else ("star", colour("dim"))
-            paint_icon(painter, star_place(place, row), name, ink)
+            name, colour_name = ("star-fill", colour("text")) if row.star else ("star", colour("dim"))
+            paint_icon(painter, star_place(place, row), name, colour_name)
             x -= ICON + GAP3
         painter.setFont(font("small"))
         painter.setPen(colour("dim"))
@@ -221,7 +221,7 @@ def star_place(place: QRect, row: WelcomeRow) -> QRect:
 def _count(painter: QPainter, x: int, place: QRect, severity: str, count: int) -> int:
     text = str(count)
     width = painter.fontMetrics().horizontalAdvance(text)
-    painter.setPen(severity_ink(severity))
+    painter.setPen(severity_colour(severity))
     painter.drawText(QRect(x - width, place.top(), width, place.height()), _RIGHT, text)
     x -= width + 5
     severity_icon(severity).paint(

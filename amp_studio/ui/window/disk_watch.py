@@ -36,7 +36,7 @@ class DiskWatch(QObject):
         self._watcher.addPaths([str(path), str(path.parent)])
         self._timer = QTimer(self)
         self._timer.setSingleShot(True)
-        self._timer.timeout.connect(self._look)
+        self._timer.timeout.connect(self._check_disk)
         self._watcher.fileChanged.connect(self._wait)
         self._watcher.directoryChanged.connect(self._wait)
         page.conflict.connect(self.offer)
@@ -44,7 +44,7 @@ class DiskWatch(QObject):
     def _wait(self, _: str) -> None:
         self._timer.start(SETTLE_MS)
 
-    def _look(self) -> None:
+    def _check_disk(self) -> None:
         workspace = self._page.workspace
         if workspace.is_saving or QApplication.activeModalWidget() is not None:
             self._timer.start(4 * SETTLE_MS)

@@ -263,8 +263,8 @@ class Docks(Translated):
         width = size.width() - (self._preview_width if is_beside else 0)
         if is_beside and is_narrower and self.preview.width() > size.width() * _PREVIEW_WIDEST:
             self._window.resizeDocks([self.preview], [self._preview_width], Qt.Orientation.Horizontal)
-        self._take("Parameter", width < WIDE)
-        self._take("Groups", width < LEFT_WIDE)
+        self._set_small("Parameter", width < WIDE)
+        self._set_small("Groups", width < LEFT_WIDE)
         self._is_low = size.height() < LOW
         self._fold()
 
@@ -328,7 +328,7 @@ class Docks(Translated):
             height = self._open_sizes.get("Findings", _PANELS[2][2])
             self._window.resizeDocks([below], [height], Qt.Orientation.Vertical)
 
-    def _take(self, title: str, is_small: bool) -> None:
+    def _set_small(self, title: str, is_small: bool) -> None:
         if is_small == (title in self._taken):
             return
         dock = self._dock(title)
@@ -383,7 +383,7 @@ class Docks(Translated):
     def _widen(self) -> None:
         """Put back what a small window has taken away, so that an arrangement is that of a large one."""
         for title in tuple(self._taken):
-            self._take(title, False)
+            self._set_small(title, False)
         self._is_low = False
         self._fold()
 

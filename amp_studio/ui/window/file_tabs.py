@@ -36,7 +36,7 @@ class FileTabs(QSplitter):
         self.setChildrenCollapsible(False)
         self.sides = [self._side(self.tr("Open files")), self._side(self.tr("Open files beside"))]
         self._active = self.sides[0]
-        self._shown: FilePage | None = None
+        self._front: FilePage | None = None
         self.sides[1].hide()
         QApplication.instance().focusChanged.connect(self._follow_focus)
 
@@ -89,7 +89,7 @@ class FileTabs(QSplitter):
         self.rename(page)
         self._active = side
         side.setCurrentWidget(page)
-        self._tell()
+        self._emit_front()
 
     def remove(self, page: FilePage) -> None:
         """Take a page out; the one beside it comes to the front."""
@@ -101,7 +101,7 @@ class FileTabs(QSplitter):
         """Bring a page to the front."""
         self._active = self._side_of(page)
         self._active.setCurrentWidget(page)
-        self._tell()
+        self._emit_front()
 
     def rename(self, page: FilePage) -> None:
         """Update the name on a tab."""
@@ -156,13 +156,13 @@ class FileTabs(QSplitter):
             self._active = left if left.count() else right
         if not self._active.isVisibleTo(self):
             self._active = left
-        self._tell()
+        self._emit_front()
 
     # -- which one is in front ---------------------------------------------------
 
     def _turn(self, side: QTabWidget, _: int) -> None:
-        if side is self._active or self._shown is None:
-            self._tell()
+        if side is self._active or self._front is None:
+            self._emit_front()
 
     def _follow_focus(self, _: QWidget | None, now: QWidget | None) -> None:
         if now is None:
@@ -170,12 +170,12 @@ class FileTabs(QSplitter):
         for side in self.sides:
             if side is not self._active and side.count() and side.isAncestorOf(now):
                 self._active = side
-                self._tell()
+                self._emit_front()
 
-    def _tell(self) -> None:
+    def _emit_front(self) -> None:
         page = self.current
-        if page is not self._shown:
-            self._shown = page
+        if page is not self._front:
+            self._front = page
             self.current_changed.emit(page)
 
     def _menu(self, side: QTabWidget, place: QPoint) -> None:

@@ -37,18 +37,18 @@ class Experience:
         self._parts = (Alike(file), UsualValues(file), *tables, AxisWords(file), WithinTravel(file))
         self._earlier = EarlierValues(file, earlier)
         self._found: tuple[Finding, ...] | None = None
-        self._all_anew = True
+        self._is_stale = True
 
     def look_at_all(self) -> None:
         """Look at the whole file, once the findings are asked for: between them there may be many edits."""
-        self._found, self._all_anew = None, True
+        self._found, self._is_stale = None, True
 
     def look_again(self, changed: Iterable[Address]) -> None:
         """Look again at the changed addresses; one that decides which values count is a reason
         to look at all.
         """
         addresses = list(changed)
-        if self._all_anew:
+        if self._is_stale:
             return
         if any(map(self._file.evaluation.decides_states, addresses)):
             self.look_at_all()
@@ -60,10 +60,10 @@ class Experience:
 
     def findings(self) -> tuple[Finding, ...]:
         """Return what there is now, in no order."""
-        if self._all_anew:
+        if self._is_stale:
             for part in (*self._parts, self._earlier):
                 part.look_at_all()
-            self._all_anew = False
+            self._is_stale = False
         if self._found is None:
             found = [finding for part in self._parts for finding in part.findings()]
             asked = {cause for finding in found for cause in finding.causes}

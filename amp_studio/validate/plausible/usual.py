@@ -19,7 +19,7 @@ from amp_studio.schema import (
     canonical,
     dimension,
     show_value,
-    shown,
+    unit_text,
     write_figure,
 )
 from amp_studio.validate.finding import Finding
@@ -159,7 +159,7 @@ def _doubt(facts: _Known, value: Value) -> str:
             number, value.unit
         ) <= span[1]:
             unit, (low, high) = next((u, b) for u, b in usual.between.items() if dimension(u) == measures)
-            return f"usual is {write_figure(low)} to {write_figure(high)} {shown(unit)}".rstrip()
+            return f"usual is {write_figure(low)} to {write_figure(high)} {unit_text(unit)}".rstrip()
     unit = value.unit
     if measures != facts.default_measures and facts.default_digits >= ODD:
         unit = unit.replace("deg", "mm")  # the manual prints one number for linear and rotary axes

@@ -258,7 +258,7 @@ def test_an_option_that_no_9pc_has_is_refused(given, refused) -> None:
 
 
 def test_a_sheet_keyed_in_line_by_line_and_read_back_from_this_screen_is_the_file(mill, at) -> None:
-    from amp_studio.sheet import compare_shown, make_sheet, read_shown
+    from amp_studio.sheet import compare_screen, make_sheet, read_screen_readings
 
     wanted = mill.copy()
     for number, text in (
@@ -281,6 +281,6 @@ def test_a_sheet_keyed_in_line_by_line_and_read_back_from_this_screen_is_the_fil
     operator.keys("restart")
     logged_on(operator)
     screen = "\n".join(operator.keys(f"search {entry.number}") for entry in sheet.entries)
-    assert {each.state for each in compare_shown(sheet, wanted, read_shown(screen))} == {"same"}
+    assert {each.state for each in compare_screen(sheet, wanted, read_screen_readings(screen))} == {"same"}
     again = make_sheet(wanted, decode_image(operator.control.image))
     assert (again.entries, again.left_out) == ((), ())

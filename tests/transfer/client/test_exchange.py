@@ -253,7 +253,7 @@ def test_a_control_that_holds_something_else_after_the_commit_is_found_out(bench
 
     def rot(stage: str, done: int, total: int) -> None:
         if stage == "restart" and (done, total) == (1, 1):
-            made.control._take(NEW[:50] + b"?" + NEW[51:])
+            made.control._activate(NEW[:50] + b"?" + NEW[51:])
 
     outcome = download(HouseDriver(session), WantedContent(NEW, "s1"), shelf, Exchange(rot))
     assert (outcome.at_control, outcome.verified) == ("unknown", False)

@@ -61,7 +61,7 @@ def test_a_control_that_contains_something_else_after_its_restart_is_read_whole_
     restart = slow.control.restart
 
     def spoilt() -> None:
-        slow.control._take(NEW.replace(b"001500 old", b"001500 odd"))
+        slow.control._activate(NEW.replace(b"001500 old", b"001500 odd"))
         restart()
 
     monkeypatch.setattr(slow.control, "restart", spoilt)
@@ -79,7 +79,7 @@ def test_pieces_that_are_not_what_the_stated_digest_promises_are_read_again_and_
 
     def lies() -> None:
         digest = slow.control._digest
-        slow.control._take(b"x" * len(NEW))
+        slow.control._activate(b"x" * len(NEW))
         slow.control._digest = digest
         restart()
 

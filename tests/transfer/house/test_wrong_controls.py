@@ -238,7 +238,7 @@ def test_a_download_by_another_client_while_the_line_was_cut_is_not_claimed(
             answers = super().receive(data)
             if self.restart_due:
                 self.control._record.committed = None
-                self.control._take(there)
+                self.control._activate(there)
                 raise LinkError("null modem", "cut")
             return answers
 

@@ -172,7 +172,7 @@ def _write(result: ParameterFile, options: Options) -> None:
 
 def _print(merge: Merge, options: Options) -> None:
     """Print each conflict and what the result has, and how many are open."""
-    from amp_studio.cli.checks.comparing import named, shown
+    from amp_studio.cli.checks.comparing import named, value_text
     from amp_studio.report import counted
 
     for row in merge.conflicts:
@@ -183,7 +183,7 @@ def _print(merge: Merge, options: Options) -> None:
             print(f"conflict at {row.id.key} of the file: {took}")
         else:
             was, mine, wanted = (
-                shown(merge.a, row, value, options.secrets) for value in (row.base, row.a, row.b)
+                value_text(merge.a, row, value, options.secrets) for value in (row.base, row.a, row.b)
             )
             print(f"conflict at {named(merge.a, row)}: base {was}, ours {mine}, theirs {wanted}; {took}")
     written = merge.a.header.name if options.git else ""  # git calls its files .merge_file_a7xQ2b

@@ -146,7 +146,7 @@ def _print(form: CheckFormat, one: CheckResult) -> None:
     """Print the notes and the fault of a file, and its result where that need not wait for the others."""
     for text in (*one.notes, *([f"amp-studio: {one.fault}"] if one.fault else [])):
         note(text)
-    if not form.needs_all and (text := form.shown(one)):
+    if not form.needs_all and (text := form.line_of(one)):
         print(text)
 
 

@@ -144,11 +144,11 @@ def _named(names: Iterable[str], file: ParameterFile, sheet: Sheet) -> list[Shee
 
 def _check(options: Options, file: ParameterFile, sheet: Sheet, ticks: Ticks) -> int:
     from amp_studio.schema import read_file
-    from amp_studio.sheet import STATES, ReadBackError, compare_shown, read_shown
+    from amp_studio.sheet import STATES, ReadBackError, compare_screen, read_screen_readings
 
     content = read_file(options.check, _LARGEST)
     try:
-        found = compare_shown(sheet, file, read_shown(content.decode("utf-8-sig")))
+        found = compare_screen(sheet, file, read_screen_readings(content.decode("utf-8-sig")))
     except UnicodeDecodeError:
         raise UsageError(f"{options.check}: there is a byte that is no UTF-8 text") from None
     except ReadBackError as error:
@@ -159,32 +159,34 @@ def _check(options: Options, file: ParameterFile, sheet: Sheet, ticks: Ticks) ->
     if not options.json:
         for each in found:
             if each.state != "same":
-                print(_told(each))
+                print(_outcome(each))
         counts = [(state, sum(each.state == state for each in found)) for state in STATES]
         print(", ".join(f"{n} {STATES[state]}" for state, n in counts if n) or "Nothing is on the sheet")
     return int(any(each.state != "same" for each in found))
 
 
-def _told(each: ReadBack) -> str:
+def _outcome(each: ReadBack) -> str:
     from amp_studio.sheet import STATES
 
     entry = each.entry
-    shown = (
+    screen_text = (
         ""
-        if each.shown is None
-        else f": the screen shows {each.shown}, it should be {entry.new} {entry.unit}".rstrip()
+        if each.screen_text is None
+        else f": the screen shows {each.screen_text}, it should be {entry.new} {entry.unit}".rstrip()
     )
-    return f"{entry.number} {entry.name}: {STATES[each.state]}{shown}"
+    return f"{entry.number} {entry.name}: {STATES[each.state]}{screen_text}"
 
 
 def _print(options: Options, sheet: Sheet, ticks: Ticks, found: dict[str, ReadBack]) -> None:
     from amp_studio.report import PrintedSheet, counted, text_lines, write_sheet
 
-    shown = dict(ticks.shown) | {number: each.shown for number, each in found.items() if each.shown}
+    screen_text = dict(ticks.screen_text) | {
+        number: each.screen_text for number, each in found.items() if each.screen_text
+    }
     printed = PrintedSheet(
         sheet,
         {e.number for e in sheet.entries if e in ticks},
-        tuple(shown.items()),
+        tuple(screen_text.items()),
         language=options.language,
     )
     if options.output:
@@ -237,4 +239,4 @@ def _entry_json(
         "order": entry.order or None,
         "until": list(entry.until),
         "ticked": entry in ticks,
-    } | ({} if read is None else {"read_back": read.shown, "state": read.state})
+    } | ({} if read is None else {"read_back": read.screen_text, "state": read.state})

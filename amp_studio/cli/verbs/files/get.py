@@ -59,7 +59,7 @@ def _print_not_set(options: Options, file: ParameterFile, only: set[Address] | N
     """
     from amp_studio.guide import progress
     from amp_studio.machine import value_row
-    from amp_studio.schema import shown as unit_shown
+    from amp_studio.schema import unit_text
     from amp_studio.validate import Validator, rules_beside
 
     validator, rows = Validator(file, rules_beside(options.path, file)), []
@@ -72,7 +72,7 @@ def _print_not_set(options: Options, file: ParameterFile, only: set[Address] | N
                 unit = file.evaluation.unit(address, file.header.units)
                 print(
                     f"  {file.machine_schema.named(address):50} not set"
-                    + (f" (in {unit_shown(unit)})" if unit else "")
+                    + (f" (in {unit_text(unit)})" if unit else "")
                 )
     if options.json:
         print_json({"values": rows})
@@ -86,8 +86,7 @@ def run(options: Options) -> int:
     from amp_studio.cli.files.marked import marks_asked, with_marks
     from amp_studio.machine import bit_row, value_row
     from amp_studio.report import state_name
-    from amp_studio.schema import ResolvedAddress, real_value, resolve_all, show_value
-    from amp_studio.schema import shown as unit_shown
+    from amp_studio.schema import ResolvedAddress, real_value, resolve_all, show_value, unit_text
 
     file = opened(options.path, options)
     if options.params:
@@ -121,7 +120,7 @@ def run(options: Options) -> int:
             parameter = file.schema.parameters[address[0]]
             shown = show_value(parameter, file.get(address), secrets=options.secrets)
             if file.get(address) is None and rows[-1]["unit"]:
-                shown += f" (in {unit_shown(rows[-1]['unit'])})"
+                shown += f" (in {unit_text(rows[-1]['unit'])})"
             real = real_value(file.evaluation, address, file.get(address))
             shown += f" = {show_value(parameter, real)}" if real else ""
             shown += f" ({rows[-1]['labels']})" if "labels" in rows[-1] else ""

@@ -296,21 +296,21 @@ def _lines(
 def _measured(measurement: Measurement, proposal: Proposal) -> Iterator[str]:
     """Yield what was read, its figures, and what error is expected to remain."""
     from amp_studio.report import counted
-    from amp_studio.schema import shown
+    from amp_studio.schema import unit_text
 
-    figures, unit = proposal.figures, shown(proposal.unit)
+    figures, unit = proposal.figures, unit_text(proposal.unit)
     used = measurement.answers
     for text in proposal.notes:
         note(text)
     if measurement.is_circle:
         yield (
             f"{counted(len(measurement.runs), 'circle')} of a ball-bar; errors of the radius in"
-            f" {shown(used.error_unit)}, {used.sign}"
+            f" {unit_text(used.error_unit)}, {used.sign}"
         )
         return
     yield (
         f"{len(measurement.targets)} targets, {figures.runs_rising} runs rising and {figures.runs_falling}"
-        f" falling; positions in {shown(used.unit)}, errors in {shown(used.error_unit)}, {used.sign}"
+        f" falling; positions in {unit_text(used.unit)}, errors in {unit_text(used.error_unit)}, {used.sign}"
     )
     rows = (
         ("Systematic deviation E", figures.systematic),
@@ -334,7 +334,7 @@ def _table_lines(
 ) -> Iterator[str]:
     from amp_studio.calibration import shown_unit
     from amp_studio.files import describe
-    from amp_studio.schema import show_value, shown
+    from amp_studio.schema import show_value, unit_text
 
     if offered.reversal:
         value = file.get((offered.reversal, axis))
@@ -352,7 +352,7 @@ def _table_lines(
             else ""
         )
         unit, size = shown_unit(file, table)
-        yield f"Calibration table: {len(table.points)} points in {shown(unit)}{how}"
+        yield f"Calibration table: {len(table.points)} points in {unit_text(unit)}{how}"
         for at, by in table.points:
             yield f"{float(at / size):14.5f} {float(form.figure(table, at, by) / size):14.5f}"
         for remark in form.remarks(file, axis, table):

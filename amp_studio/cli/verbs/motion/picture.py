@@ -55,7 +55,7 @@ def run(options: Options) -> int:
     if options.json:
         print_json(scene_json(scene))
     elif not options.output:
-        print(_told(scene))
+        print(_described(scene))
     return 0
 
 
@@ -76,7 +76,7 @@ def _list(file: ParameterFile, *, as_json: bool) -> int:
     return 0
 
 
-def _told(scene: Scene) -> str:
+def _described(scene: Scene) -> str:
     """Return what a picture is drawn from, a line for each value, and what it does not draw."""
     lines = [f"{scene.title}: {scene.subtitle}"]
     lines += [f"  {handle.label:52}{handle.value}" for handle in scene.handles if len(handle.drags) == 1]

@@ -194,9 +194,9 @@ def run(options: Options) -> int:
             raise UsageError(f"--for belongs to tune, not to {options.scenario}")
         settings["tune.for"] = options.aim
     settings |= _sweep_settings(options)
-    told: list[str] = []
+    messages: list[str] = []
     before = file.copy()
-    for address, value in read_assignments(file, assignments(own), told.append).items():
+    for address, value in read_assignments(file, assignments(own), messages.append).items():
         file.set(address, value)
     axis = _axis(options, file)
     if options.machine_file:
@@ -209,8 +209,8 @@ def run(options: Options) -> int:
         trace = simulate(file, options.scenario, axis, settings, system)
     if options.against:
         trace = laid_over(trace, options.against)
-    for said in told:
-        note(said)
+    for message in messages:
+        note(message)
     if options.output:
         is_picture = options.output.suffix.lower() in PICTURES
         earlier = _earlier(before, trace, settings, system) if own and is_picture else None

@@ -85,7 +85,7 @@ def single(text: str) -> float:
     return kept
 
 
-def shown(number: float) -> str:
+def number_text(number: float) -> str:
     """Return a figure as the card shows it: seven digits (0.002441406 on the Gain screen, page 92)."""
     return f"{number:.7g}".upper() if math.isfinite(number) else "0"
 
@@ -167,7 +167,7 @@ class CardSettings:
         if found := _P.fullmatch(text):
             return self._variable(int(found[1]), found[2], found[3])
         if found := _PRINT.fullmatch(text):
-            return [shown(self.variables.get(_p_number(found[1]), 0.0))]
+            return [number_text(self.variables.get(_p_number(found[1]), 0.0))]
         word, _, rest = text.partition(" ")
         word = word.upper()
         if word == "REM":
@@ -196,7 +196,7 @@ class CardSettings:
         """Set a setting, or show it where no figure is given (assumed)."""
         if figures[0] is None:
             return [self.values[name]] if self.values[name] else []
-        self.values[name] = ", ".join(shown(single(figure)) for figure in figures if figure is not None)
+        self.values[name] = ", ".join(number_text(single(figure)) for figure in figures if figure is not None)
         return []
 
     def _variable(self, number: int, figure: str | None, other: str | None) -> list[str]:

@@ -33,8 +33,8 @@ from amp_studio.formats import (
     neighbours,
     plain,
     read_figure,
-    shown,
     system_of,
+    without_marks,
     write_figure,
 )
 from amp_studio.schema import Address, InvalidValueError, Schema, Value, load_schema, same_value, written
@@ -408,16 +408,16 @@ def _filled(
     front = [rows[a] for a in beside.get(None, [])]
     names = {written(a): a for a in rows}
     system = system_of(file)
-    if units and not any(_UNITS.fullmatch(shown(row)) for row in layout):
+    if units and not any(_UNITS.fullmatch(without_marks(row)) for row in layout):
         yield units[0]
     last = len(layout) - 1
     for n, row in enumerate(layout):
         what = marked(row)
         if what is None:
-            if n == last and not shown(row) and front:
+            if n == last and not without_marks(row) and front:
                 yield from front
                 front = []
-            yield _unit_remark(file, shown(row), system)
+            yield _unit_remark(file, without_marks(row), system)
             continue
         yield from front
         front = []

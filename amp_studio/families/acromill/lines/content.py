@@ -68,10 +68,10 @@ class CardContent:
             raise ImageError("the script of the card has been cut off")
         by_name = {setting.name: setting for setting in settings()}
         for number, line in enumerate(lines, 3):
-            found._take(line, number, by_name)
+            found._read_line(line, number, by_name)
         return found
 
-    def _take(self, line: str, number: int, by_name: dict[str, CommandSetting]) -> None:
+    def _read_line(self, line: str, number: int, by_name: dict[str, CommandSetting]) -> None:
         word = _BALLSCREW.fullmatch(line[: LONGEST + 1])
         name, figures = (f"BSC {word[1]}", (str(word[3]),)) if word else _figures_of(line, by_name)
         if not name or len(line) > LONGEST or name in self.figures or name in self.ballscrew:

@@ -139,9 +139,9 @@ class Firmware:
     def receive(self, data: bytes) -> None:
         """Take bytes of a client."""
         for byte in data:
-            self._take(byte)
+            self._receive_byte(byte)
 
-    def _take(self, byte: int) -> None:
+    def _receive_byte(self, byte: int) -> None:
         sign = chr(byte)
         if byte == 0x18:
             self._line, self._is_deaf = "", True  # this build takes no setting after a soft reset

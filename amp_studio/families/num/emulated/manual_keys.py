@@ -43,7 +43,7 @@ class NumKeys:
             self._machine.stop()
             return "released"
         try:
-            self._take()
+            self._load_parameters()
             if verb == "homing":
                 if self._machine.is_busy:
                     raise ValueError("an axis is moving")
@@ -55,7 +55,7 @@ class NumKeys:
         except SimulationError as error:
             raise ValueError(str(error)) from None
 
-    def _take(self) -> None:
+    def _load_parameters(self) -> None:
         """Have the machine be that of the parameters; one that an alarm has stopped is taken up again."""
         content = b"".join(self._parameters.lines())
         if content != self._content:

@@ -225,12 +225,12 @@ class PeripheralDriver(NumTableContent, LineDriver):
     def _line(self) -> Link:
         if self._link is None:
             try:
-                self._link = self._open_link(self._look)
+                self._link = self._open_link(self._poll)
             except LinkError as error:
                 raise NoConnectionError(f"no connection to the control: {error}") from None
         return self._link
 
-    def _look(self) -> None:
+    def _poll(self) -> None:
         """Be called while the link waits; a line of the table that has been begun is sent to its end."""
         if not self._is_within_line:
             self._waiting.look()

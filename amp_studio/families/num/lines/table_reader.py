@@ -43,7 +43,7 @@ class TableReader:
             if not self.table:
                 self._begin(byte)
             else:
-                self._take(byte)
+                self._read_byte(byte)
 
     def _begin(self, byte: int) -> None:
         if byte & 0x7F == _START:
@@ -55,7 +55,7 @@ class TableReader:
         if self._leader > LEADER:
             raise ImageDamagedError("what comes is not a parameter table: it does not begin with %")
 
-    def _take(self, byte: int) -> None:
+    def _read_byte(self, byte: int) -> None:
         if byte & 0x80 and self.parity == "none" and len(self.table) < 13:
             # The job reference has eight digits: one of 0, 3, 5, 6 or 9, or the ";" with its length, shows
             # odd parity.

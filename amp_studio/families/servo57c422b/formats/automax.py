@@ -23,7 +23,7 @@ from amp_studio.formats import (
     marked,
     neighbours,
     plain,
-    shown,
+    without_marks,
 )
 from amp_studio.schema import Address, InvalidValueError, Schema, is_low_first, show_value
 
@@ -225,7 +225,7 @@ def _filled(layout: list[str], settings: list[tuple[int, int]], statements: dict
         for statement in line.statements:
             mine = _marked_registers(statement)
             if not mine:
-                line.replace(statement, [shown(statement.text)])
+                line.replace(statement, [without_marks(statement.text)])
             else:
                 found = [r for first in mine if first in statements for r in (first, *beside.get(first, []))]
                 line.replace(statement, front + [statements[r] for r in found])

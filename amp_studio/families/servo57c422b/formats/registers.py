@@ -196,13 +196,13 @@ class RegisterValues:
             names = " or ".join(written(a) for a in claims)
             raise self._fault(cell, f"register {register} means {names} here")
         if not claims:
-            self._leave(register, f"register {register} {text}")
+            self._keep_unknown(register, f"register {register} {text}")
             return
         mine = self.registers.of(claims[0])
         missing = [str(r) for r in mine if r not in self._cells]
         if missing:
             name, numbers = self.registers.label(claims[0]), ", ".join(map(str, mine))
-            self._leave(
+            self._keep_unknown(
                 register,
                 f"register {register} is half of {name}, registers {numbers}, and {', '.join(missing)} is"
                 " missing",
@@ -226,7 +226,7 @@ class RegisterValues:
         except StorageError as error:
             raise FormatError(str(error), source.line, source.value_column) from None
 
-    def _leave(self, register: int, text: str) -> None:
+    def _keep_unknown(self, register: int, text: str) -> None:
         cell = self._cells[register]
         if not self.keep_unknown:
             raise self._fault(cell, text)

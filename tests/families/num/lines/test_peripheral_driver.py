@@ -13,8 +13,8 @@ import pytest
 
 from amp_studio.families.num.lines.driver import (
     CHECK_TEXT,
-    STOPPED_TEXT,
     LOAD_TEXT,
+    STOPPED_TEXT,
     UNLOAD_TEXT,
     PeripheralDriver,
 )
