@@ -27,7 +27,7 @@ from amp_studio.calibration import (
     read_measured_file,
 )
 from amp_studio.files import ParameterFile
-from amp_studio.schema import shown
+from amp_studio.schema import unit_text
 from amp_studio.ui.base.figures import show_value
 from amp_studio.ui.base.task import in_background
 from amp_studio.ui.base.theme import GAP2, GAP3, colour
@@ -108,8 +108,8 @@ class MeasuredDialog(QDialog):
         inputs = [(key, names[key]) for key in reversed(table.inputs if table else ())]
         ends = {"-": self.tr("most negative position"), "+": self.tr("most positive position")}
         starts = [(key, ends[key]) for key in reversed(table.starts if table else ())]
-        units = [named, *((unit, shown(unit)) for unit in POSITION_UNITS)]
-        error_units = [named, *((unit, shown(unit)) for unit in ERROR_UNITS)]
+        units = [named, *((unit, unit_text(unit)) for unit in POSITION_UNITS)]
+        error_units = [named, *((unit, unit_text(unit)) for unit in ERROR_UNITS)]
         is_compensated = self._is_compensated()
         return (
             Field("unit", self.tr("&Positions in"), "choice", "", units),
@@ -239,13 +239,13 @@ class MeasuredDialog(QDialog):
 
     def _lines(self, measurement: Measurement, proposal: Proposal) -> list[str]:
         """Return what was read, the figures of ISO 230-2, and what would be set."""
-        figures, unit = proposal.figures, shown(proposal.unit)
+        figures, unit = proposal.figures, unit_text(proposal.unit)
         used = measurement.answers
         if measurement.is_circle:
             return [
                 self.tr("%n circles of a ball-bar", "", len(measurement.runs)),
                 self.tr("Read as {error_unit}, {sign}").format(
-                    error_unit=shown(used.error_unit), sign=used.sign
+                    error_unit=unit_text(used.error_unit), sign=used.sign
                 ),
                 "",
                 *self._set_lines(proposal),
@@ -255,7 +255,7 @@ class MeasuredDialog(QDialog):
                 count=len(measurement.targets), up=figures.runs_rising, down=figures.runs_falling
             ),
             self.tr("Read as {unit} and {error_unit}, {sign}").format(
-                unit=shown(used.unit), error_unit=shown(used.error_unit), sign=used.sign
+                unit=unit_text(used.unit), error_unit=unit_text(used.error_unit), sign=used.sign
             ),
             "",
         ]

@@ -7,7 +7,7 @@ from collections.abc import Callable, Iterable, Mapping
 from PySide6.QtCore import Qt
 from PySide6.QtWidgets import QLineEdit, QScrollArea, QWidget
 
-from amp_studio.schema import dimension, read_number, shown, unit_named
+from amp_studio.schema import dimension, read_number, unit_named, unit_text
 from amp_studio.ui.base.translated import worded
 from amp_studio.ui.forms.form import Field, FieldForm
 
@@ -66,7 +66,7 @@ class SettingsForm(FieldForm):
         default = meaning.partition("default: ")[2] or "automatic"
         unit = unit or ("" if name in (*LENGTHS, FEEDRATE) else meaning.partition(" (")[2].partition(")")[0])
         empty = f"{self.tr('empty:')} {worded(default)}"
-        return f"{shown(unit)}, {empty}" if unit else empty
+        return f"{unit_text(unit)}, {empty}" if unit else empty
 
     def _unit(self, name: str) -> str:
         return self._units[0] if name in LENGTHS else self._units[1] if name == FEEDRATE else ""
@@ -95,7 +95,7 @@ def _read(name: str, text: str, unit: str) -> str:
     named = unit_named(rest) if rest else unit
     if dimension(named) != dimension(unit):
         raise ValueError(
-            f"Give the {_title(name).lower()} of this axis in {shown(unit)}, not in {shown(named)}."
+            f"Give the {_title(name).lower()} of this axis in {unit_text(unit)}, not in {unit_text(named)}."
         )
     return f"{number!r} {named}"
 
