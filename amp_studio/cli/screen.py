@@ -22,16 +22,16 @@ class Screen(io.TextIOWrapper):
 
     def write(self, text: str) -> int:
         """Write a text with its steering signs made visible."""
-        return super().write(_shown(text))
+        return super().write(_printable(text))
 
     def overwrite(self, text: str, *, last: bool) -> None:
         """Write over the present line of a terminal."""
-        super().write("\r" + _shown(text) + "\x1b[K" + ("\n" if last else ""))
+        super().write("\r" + _printable(text) + "\x1b[K" + ("\n" if last else ""))
         self.flush()
         self.overwritten = not last
 
 
-def _shown(text: str) -> str:
+def _printable(text: str) -> str:
     if text.replace("\n", "").replace("\t", "").isprintable():
         return text
     from amp_studio.schema import visible  # the rooms are loaded when they are needed

@@ -64,7 +64,7 @@ def picture_of(trace: Trace, before: Trace | None = None) -> Picture:
 def _title(trace: Trace) -> str:
     axis = f", axis {trace.axis_title}" if trace.axis else ""
     names = {"step": ("distance", "feedrate"), "circle": ("radius", "feedrate")}.get(trace.scenario, ())
-    figures = [_shown(trace, name) for name in names if _has(trace, name)]
+    figures = [_figure_of(trace, name) for name in names if _has(trace, name)]
     return f"{trace.scenario.capitalize()}{axis}" + (f": {' at '.join(figures)}" if figures else "")
 
 
@@ -91,7 +91,7 @@ _NAMED = {
 
 
 def _facts(trace: Trace) -> tuple[str, ...]:
-    found = [words.format(_shown(trace, name)) for name, words in _NAMED.items() if _has(trace, name)]
+    found = [words.format(_figure_of(trace, name)) for name, words in _NAMED.items() if _has(trace, name)]
     return (*(f"{a.code} at {value_text(a.time_s, 's')}" for a in trace.alarms), *found)
 
 
@@ -99,7 +99,7 @@ def _has(trace: Trace, name: str) -> bool:
     return trace.result.get(name, (None, ""))[0] is not None
 
 
-def _shown(trace: Trace, name: str) -> str:
+def _figure_of(trace: Trace, name: str) -> str:
     value, unit = trace.result[name]
     return "–" if value is None else value_text(value, unit)
 

@@ -82,8 +82,9 @@ class BallscrewTable:
         first, last = errors.points[0][0], errors.points[-1][0]
         if (low + home) * size < first or (high + home) * size > last:
             raise CalibrationError(
-                f"the table needs every whole position from {_shown((low + home) * size, size)} to"
-                f" {_shown((high + home) * size, size)}, and {_shown(first, size)} to {_shown(last, size)}"
+                f"the table needs every whole position from {_point_text((low + home) * size, size)} to"
+                f" {_point_text((high + home) * size, size)}, and {_point_text(first, size)} to "
+                f"{_point_text(last, size)}"
                 " was measured"
             )
         positions = [(n + home) * size for n in range(low, high + 1)]
@@ -174,7 +175,7 @@ def _figure(correction: Fraction) -> str:
     return ("-" if correction < 0 and text != "0.00000" else "") + text[1:]
 
 
-def _shown(at: Fraction, size: Fraction) -> str:
+def _point_text(at: Fraction, size: Fraction) -> str:
     return f"{float(at / size):g} {'in' if size == _INCH else 'mm'}"
 
 

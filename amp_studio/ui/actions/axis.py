@@ -49,7 +49,7 @@ def why_no_servo(workspace: Workspace) -> str:
     return tr("{family} has no parameter for the servo of an axis").format(family=family.name)
 
 
-def why_no_more(workspace: Workspace) -> str:
+def why_full(workspace: Workspace) -> str:
     """Return why no axis can be added."""
     if fixed := why_axes_are_fixed(workspace.file.schema):
         return fixed

@@ -54,7 +54,7 @@ class ControlDesk(Translated):
         self.exchanges.show_page = lambda: self.show("compare")
         files.comparing.address_of = self.exchanges.chosen_address
         self.emulated.ready.connect(self._ready)
-        self.emulated.line_shown.connect(self._shown)
+        self.emulated.line_shown.connect(self._add_line)
         self.emulated.ended.connect(self._ended)
 
     def show_state(self, action: QAction) -> None:
@@ -124,7 +124,7 @@ class ControlDesk(Translated):
         )
         self.window.enable()
 
-    def _shown(self, line: str) -> None:
+    def _add_line(self, line: str) -> None:
         """Show a line of the emulated control's screen; one that stays in E-stop stays so in the menu too."""
         if line.startswith(("kept in E-stop: ", "refused: the control stays in E-stop: ")):
             self.window.menus["control.estop"].setChecked(True)

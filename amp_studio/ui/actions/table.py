@@ -207,7 +207,7 @@ def _axis() -> Menu[PartsWindow]:
                 why_not=axis.why_no_servo,
             ),
             None,
-            Action("axis.add", tr("&Add Axis…"), axis.add, needs="edit", why_not=axis.why_no_more),
+            Action("axis.add", tr("&Add Axis…"), axis.add, needs="edit", why_not=axis.why_full),
             Action("axis.delete", tr("&Delete Axis…"), axis.delete, needs="edit", why_not=axis.why_none_less),
             None,
             Action("axis.copy", tr("&Copy Axis…"), axis.copy, needs="edit", why_not=axis.why_no_other),

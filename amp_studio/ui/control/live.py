@@ -228,7 +228,7 @@ class LivePage(QDialog):
         name = status.name or status.family
         self.state.setText(f"{name}: {status.state}" if status.state else name)
         self._show_axes(status.axes)
-        self.values.setText(", ".join(f"{key} {_shown(value)}" for key, value in status.values.items()))
+        self.values.setText(", ".join(f"{key} {_value_text(value)}" for key, value in status.values.items()))
         self.values.setVisible(bool(status.values))
         self.notes.setText("\n".join(status.assumptions))
         if self._take_faults(status.faults):
@@ -242,9 +242,11 @@ class LivePage(QDialog):
             self.chosen.addItems([axis.axis for axis in axes])
         now = time.monotonic() - self._begun
         for row, axis in enumerate(axes):
-            velocity = "" if axis.velocity is None else f"{_shown(axis.velocity)} {axis.unit}/s"
-            error = "–" if axis.following_error is None else f"{_shown(axis.following_error)} {axis.unit}"
-            place = "–" if axis.position is None else f"{_shown(axis.position)} {axis.unit}"
+            velocity = "" if axis.velocity is None else f"{_value_text(axis.velocity)} {axis.unit}/s"
+            error = (
+                "–" if axis.following_error is None else f"{_value_text(axis.following_error)} {axis.unit}"
+            )
+            place = "–" if axis.position is None else f"{_value_text(axis.position)} {axis.unit}"
             for column, text in enumerate((axis.axis, place, error, velocity, ", ".join(axis.states))):
                 item = self.axes.item(row, column)
                 if item is None:
@@ -300,5 +302,5 @@ def _titled(fault: ActiveFault) -> str:
     return f"{fault.axis + ': ' if fault.axis else ''}{fault.code} {fault.text}".strip()
 
 
-def _shown(value: float | str) -> str:
+def _value_text(value: float | str) -> str:
     return value if isinstance(value, str) else f"{round(value, PLACES):g}"

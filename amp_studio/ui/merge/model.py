@@ -78,14 +78,14 @@ class MergeModel(QAbstractItemModel):
         self._letters = axis_letters(merge.a)
         self._words.clear()
         self._cells.clear()
-        self.groups = merge.grouped(self._shown())
+        self.groups = merge.grouped(self._visible_rows())
         self.endResetModel()
 
     def show_only(self, wanted: Filter) -> None:
         """Show only some of the rows."""
         self.beginResetModel()
         self.filter = wanted
-        self.groups = self.merge.grouped(self._shown())
+        self.groups = self.merge.grouped(self._visible_rows())
         self.endResetModel()
 
     def show_in(self, units: str | None, *, secrets: bool) -> None:
@@ -94,7 +94,7 @@ class MergeModel(QAbstractItemModel):
         self._cells.clear()
         self._refresh_all()
 
-    def _shown(self) -> Iterable[Row]:
+    def _visible_rows(self) -> Iterable[Row]:
         wanted = self.filter
         rows: Iterable[Row] = self.merge.differing if wanted.only_differences else self.merge.rows
         if wanted.only_conflicts:

@@ -224,7 +224,7 @@ def _next(options: Options, file: ParameterFile, come: GuideProgress, only: Setu
         print("Every active value is set." if only is None else f"Every active value of {only.title} is set.")
     else:
         step, value = step_of(file.schema)[found[0]], open_value(file, found)
-        print(f"Step {step.number} {step.title}: {_shown(value)}")
+        print(f"Step {step.number} {step.title}: {_value_text(value)}")
         parameter = file.schema.parameters[found[0]]
         for text in (parameter.help.what, parameter.help.find):
             if text:
@@ -233,7 +233,7 @@ def _next(options: Options, file: ParameterFile, come: GuideProgress, only: Setu
     return 0
 
 
-def _shown(value: OpenValue) -> str:
+def _value_text(value: OpenValue) -> str:
     about = "; ".join(filter(None, (value.allowed, f"page {value.page}")))
     return f"{' '.join(filter(None, (value.number, value.name, value.place)))} ({about})"
 

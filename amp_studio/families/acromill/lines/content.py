@@ -206,7 +206,7 @@ def changed(a: bytes, b: bytes) -> list[str]:
 
 def same_figures(a: Iterable[str], b: Iterable[str]) -> bool:
     """Return whether a card shows two settings the same."""
-    return [_shown(figure) for figure in a] == [_shown(figure) for figure in b]
+    return [_rounded(figure) for figure in a] == [_rounded(figure) for figure in b]
 
 
 def plain_figure(text: str) -> str:
@@ -216,7 +216,7 @@ def plain_figure(text: str) -> str:
     return plain.rstrip("0").rstrip(".") if "." in plain else plain
 
 
-def _shown(figure: str) -> Decimal:
+def _rounded(figure: str) -> Decimal:
     number = Decimal(figure)
     return number if not number else round(number, DIGITS - 1 - number.adjusted()).normalize()
 

@@ -132,12 +132,14 @@ class TerminalDriver(AcrContent, LineDriver):
         return status_of(self._known, "in" if self.system == "inch" else "mm", axes)
 
     def _axis_figures(self, n: int, axis: str) -> CardAxis:
-        encoder = self._shown(f"?P{ENCODER + n * ENCODER_STEP}")
-        primary, secondary = (self._shown(f"?P{first + n * SETPOINT_STEP}") for first in (PRIMARY, SECONDARY))
-        within = self._shown(f"?BIT{NOT_EXCESS + n * BIT_STEP}")
+        encoder = self._queried(f"?P{ENCODER + n * ENCODER_STEP}")
+        primary, secondary = (
+            self._queried(f"?P{first + n * SETPOINT_STEP}") for first in (PRIMARY, SECONDARY)
+        )
+        within = self._queried(f"?BIT{NOT_EXCESS + n * BIT_STEP}")
         return CardAxis(axis, self._pulses[axis], encoder, primary, secondary, within != 0.0)
 
-    def _shown(self, query: str) -> float:
+    def _queried(self, query: str) -> float:
         """Return a figure that may change from one look to the next,
         so that it is asked for until it is one; raises TransferError.
         """
