@@ -14,6 +14,7 @@ if TYPE_CHECKING:
     from .control import ConnectedControl, connect
     from .files import Change, RangeError
     from .machine import AssignmentError, MachineError, MachineParameters, ParameterEntry, import_text
+    from .machine import edit_machine as edit
     from .machine import new_machine as new
     from .machine import open_machine as open  # noqa: A004  # amp.open, as gzip.open
     from .schema import UnknownParameterError, Value, family_ids, load_schema
@@ -35,6 +36,7 @@ __all__ = [
     "Value",
     "__version__",
     "connect",
+    "edit",
     "family_ids",
     "import_text",
     "load_schema",

@@ -4,22 +4,56 @@ and send a machine to it with everything that the verbs check.
 
 from __future__ import annotations
 
+from collections.abc import Generator
 from contextlib import closing
+from dataclasses import dataclass, replace
+from hashlib import sha256
 from pathlib import Path
+from threading import Event
 from typing import Self
 
+from amp_studio.files import Notify
 from amp_studio.machine import MachineError, MachineParameters
-from amp_studio.transfer import ControlIdentity, ControlStatus, Exchange
+from amp_studio.transfer import (
+    Abilities,
+    ControlIdentity,
+    ControlStatus,
+    Exchange,
+    Progress,
+    decode_content,
+    quiet,
+)
 from amp_studio.transfer.client import (
+    Copy,
     ImageComparison,
     Outcome,
     StatusReader,
     download_file,
-    fetch_file,
     fetch_image,
+    look_at,
+    open_copy,
     open_driver,
+    open_driver_at,
+    record_look,
+    restore_copy,
     verify_content,
 )
+
+
+@dataclass(frozen=True)
+class ControlLook:
+    """What one look at a control has found: who it is, what its protocol can do, and what it contains."""
+
+    identity: ControlIdentity
+    abilities: Abilities
+    content: bytes
+    """What it contains, byte for byte; empty where it contains nothing."""
+    sha256: str
+    """SHA-256 of the content, in hexadecimal."""
+
+    def machine(self) -> MachineParameters:
+        """Return the machine that the content is; raises ImageError for one that cannot be read."""
+        return MachineParameters(decode_content(self.content))
 
 
 class ConnectedControl:
@@ -30,10 +64,14 @@ class ConnectedControl:
     mixed, defaults or unknown.
     """
 
-    def __init__(self, address: str, family: str = "") -> None:
+    def __init__(self, address: str, family: str = "", exchange: Exchange | None = None) -> None:
         self.address = address
         self.family = family
         """The family of its protocol; empty where the control makes itself known."""
+        self.exchange = exchange or Exchange()
+        """Who watches an exchange and may stop it, and where it is kept and recorded."""
+        self.sha256 = ""
+        """SHA-256 of what was fetched last, in hexadecimal; empty before."""
 
     def __enter__(self) -> Self:
         return self
@@ -48,22 +86,51 @@ class ConnectedControl:
         with closing(open_driver(self.address, self.family)) as driver:
             return driver.identify()
 
+    def look(self) -> ControlLook:
+        """Return who the control is and what it contains; its protocol is found out where neither it nor a
+        family is named.
+        """
+        with closing(open_driver_at(self.address, self.family, self.exchange)) as driver:
+            abilities = driver.abilities
+            identity, content, digest = look_at(driver, self.exchange)
+        return ControlLook(identity, abilities, content, digest)
+
     def status(self) -> ControlStatus:
         """Return what the control shows of itself now: positions, following errors, states and faults;
         nothing is written.
         """
+        with closing(self.watch()) as seen:
+            return next(seen)
+
+    def watch(self) -> Generator[ControlStatus, None, None]:
+        """Yield the status each time it is asked for, over one line that stays open until the generator is
+        closed.
+        """
         with closing(StatusReader(self.address, self.family)) as reader:
-            return reader.read()
+            while True:
+                yield reader.read()
+
+    def fetch(self) -> bytes:
+        """Return what the control contains, byte for byte, whatever it is."""
+        content = fetch_image(self.address, self.exchange, family=self.family)
+        self.sha256 = sha256(content).hexdigest()
+        return content
 
     def upload(self) -> MachineParameters:
-        """Return the machine that the control contains; it has no file yet."""
-        return MachineParameters(fetch_file(self.address, family=self.family))
+        """Return the machine that the control contains; it has no file yet. Raises ImageError."""
+        return MachineParameters(decode_content(self.fetch()))
 
     def verify(self, machine: MachineParameters) -> ImageComparison:
         """Compare a machine with what the control contains, every value and every byte; nothing is
-        written.
+        written but the record of exchanges, where there is one.
         """
-        return verify_content(machine.file, fetch_image(self.address, family=machine.schema.family.family))
+        family = machine.schema.family.family
+        fetched = fetch_image(self.address, self.exchange, family=family)
+        self.sha256 = sha256(fetched).hexdigest()
+        found = verify_content(machine.file, fetched)
+        exchange = replace(self.exchange, record=machine.source)
+        record_look("verify", exchange, family, self.address, fetched, found.summary())
+        return found
 
     def download(
         self,
@@ -80,19 +147,46 @@ class ConnectedControl:
         machine's file, where it is left out. A machine with errors is refused
         with MachineError unless they are accepted.
         """
-        errors = [finding for finding in machine.check(as_delivered=True) if finding.severity == "error"]
-        if errors and not accept_errors:
-            raise MachineError(f"{len(errors)} errors, nothing was sent; the first: {errors[0].message}")
-        folder = Path(keep) if keep is not None else machine.path.parent if machine.path else None
-        if folder is None:
+        if not accept_errors:
+            errors = [finding for finding in machine.check(as_delivered=True) if finding.severity == "error"]
+            if errors:
+                raise MachineError(f"{len(errors)} errors, nothing was sent; the first: {errors[0].message}")
+        source = machine.source
+        if source is None and keep is None:
             raise MachineError(
                 "a machine that was never saved needs the folder for the copy of the control: keep=FOLDER"
             )
-        stem = machine.path.stem if machine.path else machine.file.header.name or "machine"
-        exchange = Exchange(keep=folder / f"{stem}.amp", record=machine.path)
+        named = source or Path(f"{machine.file.header.name or 'machine'}.amp")
+        kept = Path(keep) / named.name if keep is not None else named
+        exchange = replace(self.exchange, keep=kept, record=source)
         return download_file(machine.file, self.address, exchange, expected=expect)
 
+    def restore(
+        self, copy: str | Path | Copy, *, expect: str | None = None, keep: str | Path | None = None
+    ) -> Outcome:
+        """Put back what a control has contained, byte for byte: a copy that a download has kept
+        (``NAME.before-STAMP.img``, or the .amp of that name), which is compared with its digest.
 
-def connect(address: str, family: str = "") -> ConnectedControl:
-    """Return the control at an address; nothing is asked of it yet."""
-    return ConnectedControl(address, family)
+        What the control contains instead is kept first, in the folder ``keep`` or beside the copy. ``expect``
+        is as of ``download``. Raises CopyError, ParameterFileError.
+        """
+        found = copy if isinstance(copy, Copy) else open_copy(Path(copy))
+        kept = Path(keep) / found.path.name if keep is not None else found.path
+        exchange = replace(self.exchange, keep=kept, record=found.path)
+        return restore_copy(found, self.address, exchange, expected=expect)
+
+
+def connect(
+    address: str,
+    family: str = "",
+    *,
+    progress: Progress = quiet,
+    cancel: Event | None = None,
+    notify: Notify = lambda _message: None,
+) -> ConnectedControl:
+    """Return the control at an address; nothing is asked of it yet.
+
+    ``progress`` is called with the step, how far it has come and how far it goes; ``cancel`` breaks off what
+    waits, also from another thread; ``notify`` is called with what does not end an exchange.
+    """
+    return ConnectedControl(address, family, Exchange(progress, cancel, notify=notify))

@@ -7,48 +7,26 @@ the verbs of the command line are made of the same.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Self
 
 from amp_studio.errors import AmpStudioError
-from amp_studio.files import Document, ParameterFile, compare, new_file, open_file, same_file
-from amp_studio.guide import found_in
-from amp_studio.schema import (
-    Address,
-    Parameter,
-    Schema,
-    UnknownParameterError,
-    Value,
-    fault,
-    field_at,
-    field_value,
-    labels_of_word,
-    real_value,
-    resolve_address,
-    show_value,
-    stored_number,
-    with_field,
-    write_number,
-    write_value,
-)
-from amp_studio.validate import (
-    NO_RULES,
-    BuilderRules,
-    Finding,
-    Fixed,
-    Validator,
-    apply_fixes,
-    earlier_beside,
-    enter,
-    rules_beside,
-)
+from amp_studio.files import ENDING, open_file
+from amp_studio.schema import Value
 
 if TYPE_CHECKING:
-    from amp_studio.files import Change, Difference
+    from amp_studio.files import Change, Comparison, Difference, Document, Notify, ParameterFile
     from amp_studio.formats import Account
-    from amp_studio.sim import Trace
+    from amp_studio.schema import Address, Parameter, ResolvedAddress, Schema
+    from amp_studio.sim import MotionCheck, SweepWay, Trace
+    from amp_studio.validate import BuilderRules, Earlier, Finding, Fixed, Validator
+
+    NewValues = Mapping[str, "NewValue | ParameterEntry"] | Iterable[tuple[str, "NewValue | ParameterEntry"]]
+
+# Every verb that opens a file loads this module, and most need little of it: a function imports what it
+# needs, so that a check starts as fast as without the library.
 
 NOT_SET = "not-set"
 """The text of an assignment that clears a parameter."""
@@ -95,6 +73,10 @@ class ParameterEntry:
         return self.text
 
 
+_OF_ENTRY = ("param", "id", "instance", "value", "unit", "raw", "default", "state", "forced")
+"""Keys of a row that an entry has too."""
+
+
 class MachineParameters:
     """The parameters of one machine, by any address that a user types: ``machine["1300@X"] = "5 mm"``.
 
@@ -107,7 +89,24 @@ class MachineParameters:
         self.file = file
         self.path = path
         """Where it was opened, or saved last; None for one that was never saved."""
+        self.source = path
+        """What it was read from: ``path``, or a control's own text, which is never saved in place."""
+        self.account: Account | None = None
+        """What became of each entry of an imported text; None for any other machine."""
+        self.notes: list[str] = []
+        """What the last save could not keep or do, each in one sentence."""
         self._digest = digest
+        self.document: Document | None = None
+        """The open document of a machine that ``edit`` has opened, until its ``with`` ends."""
+
+    def __enter__(self) -> Self:
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        """Let other programs edit the file again, where ``edit`` has opened it."""
+        if self.document is not None:
+            self.document.close()
+            self.document = None
 
     def __repr__(self) -> str:
         name = self.path.name if self.path else self.file.header.name or "not saved"
@@ -129,31 +128,78 @@ class MachineParameters:
 
         Raises UnknownParameterError.
         """
+        from amp_studio.schema import resolve_address, show_value
+
         found = resolve_address(self.file.evaluation, address)
+        row = self.row(found)
         if found.bit is not None:
-            row = bit_row(self.file, found.address, found.bit)
-            shown = "not set" if row["value"] is None else str(row["value"])
-            return ParameterEntry(**{k: v for k, v in row.items() if k not in ("bit", "label")}, text=shown)
-        return _entry(self.file, found.address)
+            text = "not set" if row["value"] is None else str(row["value"])
+        else:
+            text = show_value(self.schema.parameters[found.address[0]], self.file.get(found.address))
+        return ParameterEntry(**{name: row[name] for name in _OF_ENTRY}, text=text)
+
+    def row(self, found: ResolvedAddress, *, secrets: bool = False) -> dict[str, Any]:
+        """Return a value, or one field of a word of bits, as ``get --json`` gives it.
+
+        A secret that is set has neither ``value`` nor ``raw`` unless ``secrets`` asks for them.
+        """
+        if found.bit is not None:
+            return _bit_row(self.file, found.address, found.bit)
+        return _value_row(self.file, found.address, secrets)
 
     def __setitem__(self, address: str, value: NewValue | ParameterEntry) -> None:
         """Set one value; raises AssignmentError, RangeError."""
         self.set({address: value})
 
-    def set(self, values: Mapping[str, NewValue | ParameterEntry], *, force: str = "") -> list[Change]:
+    def set(
+        self, values: NewValues, *, force: str = "", notify: Notify = lambda _message: None
+    ) -> list[Change]:
         """Set several values, all or none, and return what changed.
 
-        ``force`` (a text that names by whom and why) takes values out of range and marks them.
+        ``force`` (a text that names by whom and why) takes values out of range and marks them. ``notify`` is
+        called with which parameter a number means that is printed for several.
         Raises AssignmentError, RangeError.
         """
-        wanted = read_assignments(self.file, ((name, _typed(value)) for name, value in values.items()))
-        return self.file.set_many(wanted, force=force)
+        return self.file.set_many(self._read(values, notify), force=force)
+
+    def with_values(self, values: NewValues, *, notify: Notify = lambda _message: None) -> MachineParameters:
+        """Return a copy with these values, to try them: they may be out of range, and this machine and its
+        file stay as they are. Raises AssignmentError.
+        """
+        tried = MachineParameters(self.file.copy())
+        tried.source = self.source
+        for address, value in self._read(values, notify).items():
+            tried.file.set(address, value)
+        return tried
+
+    def _read(self, values: NewValues, notify: Notify) -> dict[Address, Value | None]:
+        pairs = values.items() if isinstance(values, Mapping) else values
+        return read_assignments(self.file, ((name, _typed(value)) for name, value in pairs), notify)
 
     def values(self) -> tuple[ParameterEntry, ...]:
         """Return every value that is set, in the order of the manual."""
-        return tuple(
-            _entry(self.file, address) for address in self.file.addresses() if address in self.file.values
-        )
+        from amp_studio.schema import ResolvedAddress, show_value
+
+        parameters, found = self.schema.parameters, []
+        for address in (a for a in self.file.addresses() if a in self.file.values):
+            row = self.row(ResolvedAddress(address))
+            text = show_value(parameters[address[0]], self.file.get(address))
+            found.append(ParameterEntry(**{name: row[name] for name in _OF_ENTRY}, text=text))
+        return tuple(found)
+
+    def axis(self, text: str) -> str:
+        """Return the axis that is named by itself or by its letter (``1``, ``X``); raises
+        UnknownParameterError.
+        """
+        from amp_studio.files import axis_instances
+        from amp_studio.schema import resolve_axis
+
+        known = axis_instances(self.file)
+        if not known:
+            from amp_studio.sim import simulated_axes
+
+            known = simulated_axes(self.file)
+        return resolve_axis(self.file.evaluation, known, text)
 
     # -- what is wrong -------------------------------------------------------------
 
@@ -161,109 +207,239 @@ class MachineParameters:
         """Return the findings, errors first; the builder's rules beside the file count too.
 
         Those about printed defaults of steps that nobody has reached are left out, as ``validate`` does,
-        unless
-        ``as_delivered``: a download asks for them.
+        unless ``as_delivered``: a download asks for them.
         """
-        validator = self._validator()
+        from amp_studio.guide import found_in
+
+        validator = self.validator()
         return validator.run() if as_delivered else found_in(validator)
 
-    def fix(self, rule: str = "", *, safe: bool = False) -> list[Fixed]:
-        """Make the suggested fixes of all findings, or of one rule, and return what changed;
-        with ``safe`` only what moves nothing.
+    def validator(self, rules: Path | None = None, *, with_backup: bool = True) -> Validator:
+        """Return what finds the findings, for whoever asks it more than once; ``run`` it first.
+
+        ``rules`` is a file of a builder's own rules instead of the one beside the machine; without
+        ``with_backup`` the backup is not asked for values that were changed by a slip of the finger.
+        Raises BuilderRulesError.
         """
-        return apply_fixes(self._validator(), lambda f: rule in ("", f.rule) and (f.safe or not safe))
+        from amp_studio.validate import Validator
+
+        earlier: Sequence[Earlier] = ()
+        if with_backup and self.source:
+            from amp_studio.validate import earlier_beside
+
+            earlier = earlier_beside(self.source, self.file)
+        return Validator(self.file, self.builder_rules(rules), earlier)
+
+    def builder_rules(self, rules: Path | None = None) -> BuilderRules:
+        """Return a builder's own rules: those beside the machine, or of the file ``rules``."""
+        if rules is not None:
+            from amp_studio.validate import axes_by_letter, read_builder_rules
+
+            return read_builder_rules(rules, self.schema, axes_by_letter(self.file))
+        from amp_studio.validate import NO_RULES, rules_beside
+
+        return rules_beside(self.source, self.file) if self.source else NO_RULES
+
+    def fix(
+        self,
+        rule: str | None = None,
+        *,
+        param: str | None = None,
+        safe: bool = False,
+        validator: Validator | None = None,
+    ) -> list[Fixed]:
+        """Make the suggested fixes of all findings, of one rule, or those that set one parameter, and return
+        what changed; with ``safe`` only what moves nothing.
+
+        ``validator`` is one of this machine, which has the findings that are left afterwards.
+        Raises MachineError for a rule that does not exist, UnknownParameterError.
+        """
+        from amp_studio.schema import resolve_addresses, unknown_name
+        from amp_studio.validate import GENERAL_RULES, apply_fixes
+
+        validator = validator or self.validator()
+        rules = {*GENERAL_RULES, *(each.id for each in (*self.schema.rules, *validator.own.rules))}
+        if rule is not None and rule not in rules:
+            raise MachineError(unknown_name("rule", rule, sorted(rules)))
+        named = resolve_addresses(self.file.evaluation, param) if param is not None else None
+
+        def wanted(finding: Finding) -> bool:
+            return (
+                rule in (None, finding.rule)
+                and (finding.safe or not safe)
+                and (named is None or any(setting.address in named for setting in finding.fix))
+            )
+
+        validator.run()
+        return apply_fixes(validator, wanted)
 
     def diff(self, other: MachineParameters | str | Path) -> tuple[Difference, ...]:
         """Return what differs from another machine of the same family, or from a file; raises
         MachineError.
         """
-        there = other if isinstance(other, MachineParameters) else open_machine(other)
-        if there.schema.family.family != self.schema.family.family:
-            raise MachineError(f"{there!r} is of another family than {self!r}")
-        return compare(self.schema, self.file.values, there.file.values).differences
+        return self.compare(
+            other if isinstance(other, MachineParameters) else open_machine(other)
+        ).differences
 
-    def _validator(self) -> Validator:
-        earlier = earlier_beside(self.path, self.file) if self.path else ()
-        return Validator(self.file, self._rules(), earlier)
+    def compare(self, other: MachineParameters) -> Comparison:
+        """Return what differs from another machine of the same family, with how much is the same or not set;
+        raises MachineError.
+        """
+        from amp_studio.files import compare
 
-    def _rules(self) -> BuilderRules:
-        return rules_beside(self.path, self.file) if self.path else NO_RULES
+        if other.schema.family.family != self.schema.family.family:
+            raise MachineError(f"{other!r} is of another family than {self!r}")
+        return compare(self.schema, self.file.values, other.file.values)
 
     # -- what it does --------------------------------------------------------------
 
-    def simulate(self, scenario: str, axis: str | None = None, **settings: float | str) -> Trace:
+    def simulate(
+        self,
+        scenario: str,
+        axis: str | None = None,
+        *,
+        units: str | None = None,
+        like: Trace | None = None,
+        way: SweepWay | None = None,
+        **settings: float | str,
+    ) -> Trace:
         """Run a scenario (``step``, ``circle``, ``home``, …) with these values;
         ``move_feedrate=2000`` is the setting move.feedrate.
 
+        ``units`` (``metric``, ``inch``) is the system of settings and trace, None for that of the file;
+        ``like`` a trace whose move is made again; ``way`` the cores or the cluster of a sweep.
         Raises SimulationError.
         """
-        from amp_studio.sim import simulate
+        from amp_studio.sim import simulate, sweep
 
-        return simulate(
-            self.file, scenario, axis, {_setting(name): value for name, value in settings.items()}
-        )
+        given = {_setting(name): value for name, value in settings.items()}
+        if way is not None:
+            return sweep(self.file, axis, given, units, way=way)
+        return simulate(self.file, scenario, axis, given, units, like=like)
 
-    def report(self, path: str | Path, **contents: Any) -> None:
+    def check_motion(self, axis: str | None = None) -> tuple[MotionCheck, ...]:
+        """Run every scenario that the machine allows, on one axis or on all, and return the verdicts;
+        raises SimulationError.
+        """
+        from amp_studio.sim import check_motion
+
+        return tuple(check_motion(self.file, axis))
+
+    def report(self, path: str | Path, *, notify: Notify = lambda _note: None, **contents: Any) -> bool:
         """Write the documentation as the ending of ``path`` names it (.pdf, .html, .xlsx, .csv, .json, .txt);
         ``contents`` are those of Contents.
 
-        Raises MachineError, SaveError.
+        Returns False where the project's own template failed and the standard report was written; ``notify``
+        is called with the reason. Raises MachineError, SaveError.
         """
         from amp_studio.dossier import write_report
         from amp_studio.report import Contents
 
         try:
-            write_report(self.file, path, Contents(**contents), source=self.path, own=self._rules())
+            wanted, own = Contents(**contents), self.builder_rules()
+            return write_report(self.file, path, wanted, source=self.source, own=own, notify=notify)
         except (TypeError, ValueError) as error:
             raise error if isinstance(error, AmpStudioError) else MachineError(str(error)) from None
 
     # -- files -----------------------------------------------------------------------
 
-    def save(self, path: str | Path | None = None) -> None:
+    def save(self, path: str | Path | None = None, *, verb: str = "library") -> None:
         """Save in place, keeping the file before as its backup, or under a new name that no file has.
 
-        Raises MachineError, InUseError, ChangedOnDiskError, SaveError.
+        ``verb`` is what the history calls the change. Raises MachineError, InUseError, ChangedOnDiskError,
+        SaveError.
         """
+        from amp_studio.files import Document, same_file
+
         target = Path(path) if path is not None else self.path
         if target is None:
             raise MachineError("a machine that was never saved needs a path: save('NAME.amp')")
         try:
-            if self.path is not None and same_file(target, self.path):
-                with Document(self.file, self.path, self._digest) as document:
-                    document.save("library")
-            else:
+            if self.path is None or not same_file(target, self.path):
                 document = Document.create(self.file, target)
                 document.close()
+            elif self.document is not None:
+                document = self.document
+                document.save(verb)
+            else:
+                with Document(self.file, self.path, self._digest) as document:
+                    document.save(verb)
         except OSError as error:
-            raise MachineError(str(error)) from None
-        self.path, self._digest = target, document.digest
+            if isinstance(error, AmpStudioError):
+                raise
+            text = f"{error.filename}: {error.strerror}" if error.strerror else str(error)
+            raise MachineError(text) from None
+        self.path = self.source = target
+        self.notes, self._digest = document.notes, document.digest
 
-    def export(self, path: str | Path, format_key: str | None = None, *, secrets: bool = False) -> Account:
+    def save_new(self, path: str | Path) -> None:
+        """Save under a name that no file has, which the machine is called by from then on; raises as
+        ``save`` does.
+        """
+        from amp_studio.files import text_of_name
+
+        self.path = None
+        self.file.header.name = text_of_name(Path(path).stem)
+        self.save(path)
+
+    def export(
+        self,
+        path: str | Path,
+        format_key: str | None = None,
+        *,
+        secrets: bool = False,
+        notify: Notify = lambda _message: None,
+    ) -> Account:
         """Write the values in a text format of the family, by the ending of ``path``;
         returns what became of each value.
 
-        Raises FormatError, SaveError.
+        ``notify`` is called with what of the file before could not be kept. Raises FormatError, SaveError.
         """
         from amp_studio.formats import export_file
 
-        return export_file(self.file, path, format_key, secrets=secrets).account
+        return export_file(self.file, path, format_key, notify, secrets=secrets).account
 
 
-def open_machine(path: str | Path) -> MachineParameters:
-    """Open a parameter file, or a control's own text; raises ParameterFileError and changes nothing."""
-    from amp_studio.formats import is_text_of_control, open_for_reading
+def open_machine(
+    path: str | Path, *, family: str | None = None, machine: str = "", notify: Notify = lambda _message: None
+) -> MachineParameters:
+    """Open a parameter file, or a control's own text; changes nothing.
 
+    ``family`` and ``machine`` are those of a text that shall not decide by itself; ``notify`` is called with
+    what a person should know of a text that was taken. Raises ParameterFileError, UnknownFamilyError.
+    """
     path = Path(path)
-    if is_text_of_control(path):
-        return MachineParameters(open_for_reading(path))
+    if path.suffix.casefold() != ENDING:
+        from amp_studio.formats import is_text_of_control, open_for_reading
+
+        if is_text_of_control(path):
+            found = MachineParameters(open_for_reading(path, notify, family=family, machine=machine))
+            found.source = path
+            return found
     opened = open_file(path)
     return MachineParameters(opened.file, path, opened.digest)
+
+
+def edit_machine(path: str | Path, *, only_view: bool = False) -> MachineParameters:
+    """Open a parameter file so that no other program edits it until the ``with`` of the machine ends.
+
+    With ``only_view`` nothing is locked, and it cannot be saved in place.
+    Raises ParameterFileError, and InUseError while another program edits it.
+    """
+    from amp_studio.files import Document
+
+    document = Document.view(path) if only_view else Document.open(path)
+    found = MachineParameters(document.file, document.path, document.digest)
+    found.document = document
+    return found
 
 
 def new_machine(
     family: str, machine: str | None = None, axes: Iterable[str] = (), name: str = ""
 ) -> MachineParameters:
     """Return a machine with the printed defaults of a family and axes of these names; raises MachineError."""
+    from amp_studio.files import new_file
+
     try:
         return MachineParameters(new_file(family, machine, list(axes), name))
     except (KeyError, ValueError) as error:
@@ -271,12 +447,39 @@ def new_machine(
 
 
 def import_text(
-    path: str | Path, family: str | None = None, *, keep_unknown: bool = False
+    path: str | Path,
+    family: str | None = None,
+    *,
+    format_key: str | None = None,
+    keep_unknown: bool = False,
+    machine: str = "",
+    listing: int = 0,
+    notify: Notify = lambda _message: None,
 ) -> MachineParameters:
-    """Return the machine of a control's own text, in any format of the family; raises FormatError."""
+    """Return the machine of a control's own text, in any format of the family.
+
+    Its ``account`` has what became of each entry; values out of range are in it too.
+
+    ``machine`` is the machine type where the text shall not decide, ``listing`` which of several listings in
+    the text, counted from 1 (0 is the last one); ``notify`` is called with what a person should know of a
+    text that was taken. Raises FormatError, UnknownFamilyError.
+    """
     from amp_studio.formats import import_file
 
-    return MachineParameters(import_file(path, family, keep_unknown=keep_unknown))
+    accounts: list[Account] = []
+    file = import_file(
+        path,
+        family,
+        format_key=format_key,
+        keep_unknown=keep_unknown,
+        machine=machine,
+        listing=listing,
+        notify=notify,
+        take_account=accounts.append,
+    )
+    found = MachineParameters(file)
+    (found.account,) = accounts
+    return found
 
 
 def _setting(name: str) -> str:
@@ -295,6 +498,8 @@ def _typed(value: NewValue | ParameterEntry) -> str | Value:
 
 
 def _plain(value: float | bool | str) -> str:
+    from amp_studio.schema import write_number
+
     if isinstance(value, bool):
         return "yes" if value else "no"
     return value if isinstance(value, str) else write_number(value)
@@ -314,6 +519,8 @@ def read_assignments(
     a number means that is printed for several. A value is cleared by ``NOT_SET`` only:
     an empty text may be a variable without a value.
     """
+    from amp_studio.schema import UnknownParameterError, fault, resolve_address
+
     trial = file.copy()
     found: dict[Address, Value | None] = {}
     slips: list[str] = []
@@ -357,6 +564,8 @@ def _entered(file: ParameterFile, address: Address, text: str) -> Value | None:
 
     Nobody sees the result before it is set, so that what only looks like one (``10-5``) is none.
     """
+    from amp_studio.validate import enter
+
     if not text.lstrip().startswith("="):
         return file.read(address, text)
     return enter(file, address, text, lambda a: file.evaluation.unit(a, file.header.units)).value
@@ -371,13 +580,17 @@ def _with_bit(file: ParameterFile, address: Address, bit: int, text: str) -> Val
     """Return the value of a word of bits with one field changed;
     a word that is not set counts as its default, or 0.
     """
+    from amp_studio.schema import field_at, with_field
+
     field = field_at(file.schema.parameters[address[0]], bit)
     word = file.get(address) or file.default(address) or Value(0)
     return Value(with_field(field, int(word.value), text), word.unit)
 
 
-def bit_row(file: ParameterFile, address: Address, bit: int) -> dict[str, Any]:
+def _bit_row(file: ParameterFile, address: Address, bit: int) -> dict[str, Any]:
     """Return one field of a word of bits as ``get`` shows it."""
+    from amp_studio.schema import field_at, field_value
+
     field = field_at(file.schema.parameters[address[0]], bit)
     words = (file.get(address), file.default(address))
     word, default = (None if v is None else field_value(field, int(v.value)) for v in words)
@@ -397,10 +610,12 @@ def bit_row(file: ParameterFile, address: Address, bit: int) -> dict[str, Any]:
     }
 
 
-def value_row(file: ParameterFile, address: Address, secrets: bool) -> dict[str, Any]:
+def _value_row(file: ParameterFile, address: Address, secrets: bool) -> dict[str, Any]:
     """Return a value as ``get --json`` gives it;
     a secret that is set has neither value nor raw unless asked for.
     """
+    from amp_studio.schema import stored_number, write_value
+
     parameter, value = file.schema.parameters[address[0]], file.get(address)
     masked = parameter.secret and not secrets
     plain = None if value is None or masked else value.value
@@ -429,6 +644,8 @@ def value_row(file: ParameterFile, address: Address, secrets: bool) -> dict[str,
 
 def _labels(parameter: Parameter, value: Value | None) -> dict[str, str]:
     """Return what is set in a word of bits by its labels."""
+    from amp_studio.schema import labels_of_word
+
     if not parameter.bits or value is None or not isinstance(value.value, int):
         return {}
     return {"labels": labels_of_word(parameter, value.value)}
@@ -436,15 +653,7 @@ def _labels(parameter: Parameter, value: Value | None) -> dict[str, str]:
 
 def _real_figure(file: ParameterFile, address: Address) -> dict[str, Any]:
     """Return what a value in internal units is in mm or degrees."""
+    from amp_studio.schema import real_value
+
     real = real_value(file.evaluation, address, file.get(address))
     return {} if real is None else {"real": {"value": real.value, "unit": real.unit}}
-
-
-def _entry(file: ParameterFile, address: Address) -> ParameterEntry:
-    row = value_row(file, address, secrets=False)
-    shown = show_value(file.schema.parameters[address[0]], file.get(address))
-    known = {
-        name: row[name]
-        for name in ("param", "id", "instance", "value", "unit", "raw", "default", "state", "forced")
-    }
-    return ParameterEntry(**known, text=shown)

@@ -8,19 +8,19 @@ from amp_studio.cli.console import note, print_json
 from amp_studio.cli.verb import Options
 
 if TYPE_CHECKING:
-    from amp_studio.files import ParameterFile
+    from amp_studio import MachineParameters
     from amp_studio.formats import Account
 
 
 def print_account(
-    options: Options, file: ParameterFile, account: Account, written: str, named: str = ""
+    options: Options, machine: MachineParameters, account: Account, written: str, named: str = ""
 ) -> None:
     """Print what went across, and name what did not."""
     from amp_studio.formats import account_json, account_lines
 
     if options.json:
-        print_json(account_json(file, account))
+        print_json(account_json(machine.file, account))
         return
-    for line in account_lines(file, account, named):
+    for line in account_lines(machine.file, account, named):
         note(line)
     print(f"{options.output}: {written}")

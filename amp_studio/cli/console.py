@@ -36,7 +36,8 @@ def print_json(data: Any) -> None:
 
 def family(name: str) -> Schema:
     """Return a family's schema; raises UsageError."""
-    from amp_studio.schema import UnknownFamilyError, load_schema
+    from amp_studio import load_schema
+    from amp_studio.schema import UnknownFamilyError
 
     try:
         return load_schema(name)
@@ -46,7 +47,7 @@ def family(name: str) -> Schema:
 
 def is_family(text: str) -> bool:
     """Return whether a text names a family, and not a file; raises UsageError where there is neither."""
-    from amp_studio.schema import family_ids
+    from amp_studio import family_ids
 
     if text in family_ids():
         return True

@@ -11,27 +11,25 @@ from .errors import UsageError
 from .verb import Options
 
 if TYPE_CHECKING:
-    from amp_studio.files import ParameterFile
+    from amp_studio import MachineParameters
 
 
-def opened(path: Path, options: Options | None = None, notify: Callable[[str], None] = note) -> ParameterFile:
-    """Return the parameters of a file that is only read;
+def opened(
+    path: Path, options: Options | None = None, notify: Callable[[str], None] = note
+) -> MachineParameters:
+    """Return the machine of a file that is only read;
     notes about a control's own text go to standard error.
 
     ``options`` with ``arguments.TEXT`` name the family and the machine type of such a text.
     Raises UsageError, ParameterFileError.
     """
-    from amp_studio.files import ENDING, open_file
-
-    if path.suffix.casefold() == ENDING:
-        return open_file(path).file
-    from amp_studio.formats import open_for_reading  # most files are parameter files
+    from amp_studio import open as open_machine
     from amp_studio.schema import UnknownFamilyError
 
     family, machine = (options.family, options.machine) if options else (None, None)
     try:
-        return open_for_reading(
-            path, lambda message: notify(f"{path}: {message}"), family=family, machine=machine or ""
+        return open_machine(
+            path, family=family, machine=machine or "", notify=lambda message: notify(f"{path}: {message}")
         )
     except UnknownFamilyError as error:
         raise UsageError(str(error)) from None

@@ -14,7 +14,7 @@ from .console import note
 from .errors import UsageError
 
 if TYPE_CHECKING:
-    from amp_studio.files import ParameterFile
+    from amp_studio import MachineParameters
 
 
 def check_replaced(output: Path, *inputs: Path) -> None:
@@ -44,14 +44,10 @@ def check_new(output: Path, what: str, *inputs: Path) -> None:
     check_output(output, *inputs)
 
 
-def write_new(file: ParameterFile, path: Path) -> None:
-    """Save a new file, named as its path; raises FileExistsError, SaveError."""
-    from amp_studio.files import Document, text_of_name
-
-    file.header.name = text_of_name(path.stem)
-    document = Document.create(file, path)
-    document.close()
-    note_all(document.notes)
+def write_new(machine: MachineParameters, path: Path) -> None:
+    """Save a new machine, named as its file; raises MachineError, SaveError."""
+    machine.save_new(path)
+    note_all(machine.notes)
 
 
 def note_all(notes: Sequence[str]) -> None:

@@ -51,6 +51,8 @@ class Account:
     rounded: tuple[Rounded, ...] = ()
     unknown: tuple[UnknownEntry, ...] = ()
     """Entries that name no parameter, those that are kept among them."""
+    format: str = ""
+    """Title of the format of an export."""
 
 
 def account_of_export(
@@ -74,6 +76,7 @@ def account_of_export(
         tuple(missing),
         tuple(rounded),
         tuple(UnknownEntry(name, 0) for name in file.unknown),
+        title,
     )
 
 

@@ -11,7 +11,7 @@ from amp_studio.cli.screen import end_results, flush_results
 from amp_studio.cli.verb import Options
 
 if TYPE_CHECKING:
-    from amp_studio.files import ParameterFile
+    from amp_studio import MachineParameters
     from amp_studio.transfer import Exchange, Stop
     from amp_studio.transfer.client import Outcome
 
@@ -24,15 +24,14 @@ def exchange_of(options: Options, path: Path, stop: Stop) -> Exchange:
     return Exchange(progress(), stop, keep, record=path, notify=note)
 
 
-def note_errors(file: ParameterFile, path: Path) -> str:
-    """List the errors of a file, by the rules beside it too; returns how many there are, "" for none."""
+def note_errors(machine: MachineParameters) -> str:
+    """List the errors of a machine, by the rules beside it too; returns how many there are, "" for none."""
     from amp_studio.report import alike, counted, same_finding_text
-    from amp_studio.validate import Validator, rules_beside
 
-    findings = Validator(file, rules_beside(path, file)).run()
+    findings = machine.validator(with_backup=False).run()
     errors = [finding for finding in findings if finding.severity == "error"]
     for same in alike(errors):
-        note(same_finding_text(file, same))
+        note(same_finding_text(machine.file, same))
     return counted(len(errors), "error") if errors else ""
 
 

@@ -6,6 +6,7 @@ from collections.abc import Sequence
 from dataclasses import replace
 from pathlib import Path
 
+from amp_studio import MachineParameters
 from amp_studio.cli.console import note, print_json, progress
 from amp_studio.cli.errors import UsageError
 from amp_studio.cli.exit_codes import AT_CONTROL, CHANGED, FAULT, UNKNOWN
@@ -103,7 +104,7 @@ def _uploaded(found: FleetResult[tuple[bytes, ParameterFile]], output: Path) -> 
     content, file = found.result
     digest = sha256(content)
     try:
-        write_new(file, output)
+        write_new(MachineParameters(file), output)
     except (OSError, ValueError) as error:
         return FleetRow(found.address, "not written", "failed", sha256=digest, text=str(error))
     record_upload(output, file, found.address, content)

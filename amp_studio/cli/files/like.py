@@ -5,22 +5,23 @@ from __future__ import annotations
 from collections.abc import Iterator
 from pathlib import Path
 
+from amp_studio import MachineParameters
 from amp_studio.cli.console import note
 from amp_studio.cli.errors import UsageError
 from amp_studio.cli.opened import opened
 from amp_studio.cli.verb import Options
-from amp_studio.files import MadeLike, ParameterFile, examples, made_like, note_origin
+from amp_studio.files import MadeLike, examples, made_like, note_origin
 from amp_studio.schema import unknown_name
 
 
-def file_like(options: Options, axes: list[str]) -> ParameterFile:
-    """Return the file, and print what it does not have of the other;
+def file_like(options: Options, axes: list[str]) -> MachineParameters:
+    """Return the machine, and print what it does not have of the other;
     raises UsageError where they cannot be alike.
     """
     made = _made_like(options, axes)
     for text in _not_taken(made):
         note(text)
-    return made.file
+    return MachineParameters(made.file)
 
 
 def _made_like(options: Options, axes: list[str]) -> MadeLike:
@@ -31,7 +32,7 @@ def _made_like(options: Options, axes: list[str]) -> MadeLike:
         raise UsageError(
             unknown_name("file or example", options.like, [e.path.parent.name for e in examples()])
         )
-    source = opened(path if path.exists() else known[options.like])
+    source = opened(path if path.exists() else known[options.like]).file
     if source.schema.family.family != options.family:
         raise UsageError(
             f"{options.like} is a file for {source.schema.family.name}, not for {options.family}"

@@ -9,10 +9,10 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from amp_studio.cli.verb import Options
-from amp_studio.files import ParameterFile
 from amp_studio.schema import ResolvedAddress
 
 if TYPE_CHECKING:  # most verbs about files ask for no mark, and start without what finds them
+    from amp_studio import MachineParameters
     from amp_studio.find import Mark
 
 _OPTIONS: dict[str, Mark] = {
@@ -31,17 +31,17 @@ def marks_asked(options: Options) -> list[Mark]:
 
 
 def with_marks(
-    file: ParameterFile, path: Path, found: Sequence[ResolvedAddress], wanted: list[Mark]
+    machine: MachineParameters, path: Path, found: Sequence[ResolvedAddress], wanted: list[Mark]
 ) -> list[ResolvedAddress]:
     """Return those of the values that have every mark; raises NoDownloadError where no download is known."""
     from amp_studio.find import ValueMarks, noted, rows_of_file
 
+    file = machine.file
     marks = ValueMarks(file)
     if "findings" in wanted:
         from amp_studio.guide import found_in
-        from amp_studio.validate import Validator, rules_beside
 
-        marks.take_findings(found_in(Validator(file, rules_beside(path, file))))
+        marks.take_findings(found_in(machine.validator(with_backup=False)))
     if "since-download" in wanted:
         from amp_studio.transfer.client import last_download
 

@@ -54,6 +54,7 @@ class Copy:
     ``is_checked`` whether it was compared with a digest beside it
     ``is_kept``    whether it is what a control contained, byte for byte: an image,
     or a parameter file beside its image
+    ``path``       where it was read
     """
 
     image: bytes
@@ -62,6 +63,7 @@ class Copy:
     fault: str
     is_checked: bool
     is_kept: bool
+    path: Path
 
     @property
     def family(self) -> str:
@@ -150,7 +152,7 @@ def open_copy(path: Path) -> Copy:
         current = _content(beside) if beside.is_file() else b""
         image = kind_of(current).encode(file, current)
         is_kept = image == current
-        return Copy(image, file.schema.signature, file, "", is_checked=True, is_kept=is_kept)
+        return Copy(image, file.schema.signature, file, "", is_checked=True, is_kept=is_kept, path=path)
     if path.suffix != IMAGE:
         raise CopyError(f"{path} is no copy of what a control contained: those end in {IMAGE} or {ENDING}")
     image = _content(path)
@@ -161,9 +163,9 @@ def open_copy(path: Path) -> Copy:
     signature = signed[1].decode() if signed else ""
     try:
         file = decode_content(image)
-        return Copy(image, file.schema.signature, file, "", is_checked, is_kept=True)
+        return Copy(image, file.schema.signature, file, "", is_checked, is_kept=True, path=path)
     except ImageError as error:
-        return Copy(image, signature, None, str(error), is_checked, is_kept=True)
+        return Copy(image, signature, None, str(error), is_checked, is_kept=True, path=path)
 
 
 def _content(path: Path) -> bytes:

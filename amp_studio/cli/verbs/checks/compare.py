@@ -46,7 +46,7 @@ def run(options: Options) -> int:
     )
     from amp_studio.schema import MASKED, show_value, write_value
 
-    files = [opened(path, options) for path in options.paths]
+    files = [opened(path, options).file for path in options.paths]
     if len({file.schema.family.family for file in files}) > 1:
         return _by_meaning(options, files)
     if options.by_letter:

@@ -194,9 +194,8 @@ def _side(options: Options, text: str) -> tuple[ParameterFile, str | None]:
     from amp_studio.transfer.links import is_endpoint
 
     if not is_endpoint(text):
-        return opened(Path(text), options), None
-    from amp_studio.transfer import Exchange, decode_content
-    from amp_studio.transfer.client import fetch_image, sha256
+        return opened(Path(text), options).file, None
+    from amp_studio import connect
 
-    image = fetch_image(text, Exchange(progress()))
-    return decode_content(image), sha256(image)
+    control = connect(text, progress=progress())
+    return control.upload().file, control.sha256

@@ -3,14 +3,12 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Callable, Iterator, Sequence
-from contextlib import nullcontext
+from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING, Any
 
 from amp_studio.cli import candidates
 from amp_studio.cli.arguments import DRY_RUN, JSON, PATH
 from amp_studio.cli.console import note, print_json
-from amp_studio.cli.errors import UsageError
 from amp_studio.cli.verb import Options, Verb, VerbArgument
 
 if TYPE_CHECKING:
@@ -34,18 +32,14 @@ VERB = Verb(
 
 def run(options: Options) -> int:
     """Make suggested fixes, all or none; 1 where errors are left."""
-    from amp_studio.files import Document
-    from amp_studio.validate import Validator, apply_fixes, rules_beside
+    from amp_studio import edit
 
     dry = options.dry_run
-    with nullcontext(Document.view(options.path)) if dry else Document.open(options.path) as document:
-        file = document.file
-        validator = Validator(file, rules_beside(options.path, file))
-        wanted = _wanted(validator, options)
-        validator.run()
-        done = apply_fixes(validator, wanted)
+    with edit(options.path, only_view=dry) as machine:
+        file, validator = machine.file, machine.validator(with_backup=False)
+        done = machine.fix(options.rule, param=options.param, safe=options.safe, validator=validator)
         if done and not dry:
-            document.save("fix")
+            machine.save(verb="fix")
     findings = validator.findings()
     left = Counter(finding.severity for finding in findings)
     if options.json:
@@ -62,28 +56,6 @@ def run(options: Options) -> int:
     if not done:
         note(_nothing(options, validator))
     return int(left["error"] > 0)
-
-
-def _wanted(validator: Validator, options: Options) -> Callable[[Finding], bool]:
-    """Return the function that decides whether the fix of a finding is requested;
-    raises UsageError for an unknown rule or parameter.
-    """
-    from amp_studio.schema import resolve_addresses, unknown_name
-    from amp_studio.validate import GENERAL_RULES
-
-    rules = {*GENERAL_RULES, *(rule.id for rule in (*validator.file.schema.rules, *validator.own.rules))}
-    if options.rule is not None and options.rule not in rules:
-        raise UsageError(unknown_name("rule", options.rule, sorted(rules)))
-    named = None if options.param is None else resolve_addresses(validator.file.evaluation, options.param)
-
-    def wanted(finding: Finding) -> bool:
-        return (
-            options.rule in (None, finding.rule)
-            and (finding.safe or not options.safe)
-            and (named is None or any(setting.address in named for setting in finding.fix))
-        )
-
-    return wanted
 
 
 def _nothing(options: Options, validator: Validator) -> str:

@@ -114,10 +114,10 @@ def _sources(options: Options) -> tuple[ParameterFile, ParameterFile, ParameterF
     """
     from amp_studio.files import ParameterFile
 
-    ours, theirs = opened(options.ours, options), opened(options.theirs, options)
+    ours, theirs = (opened(path, options).file for path in (options.ours, options.theirs))
     if options.git and options.base.is_file() and options.base.stat().st_size == 0:
         return ours, theirs, ParameterFile(ours.schema)
-    return ours, theirs, opened(options.base, options)
+    return ours, theirs, opened(options.base, options).file
 
 
 def _settle(merge: Merge, texts: list[str]) -> None:

@@ -20,9 +20,9 @@ from amp_studio.cli.verb import Options, Verb, VerbArgument
 from amp_studio.trouble import keep_details
 
 if TYPE_CHECKING:
+    from amp_studio import MachineParameters
     from amp_studio.cli.checks.formats import CheckFormat, CheckResult, FileFindings
-    from amp_studio.files import ParameterFile
-    from amp_studio.validate import BuilderRules, Validator
+    from amp_studio.validate import Validator
 
 FORMATS = ("text", "json", "sarif", "github", "junit")
 """What is printed; here, because help loads no room (a test compares them)."""
@@ -229,16 +229,15 @@ def _check(options: Options, path: Path) -> CheckResult:
     """Check one file; whatever is wrong with it ends no other's check."""
     from amp_studio.cli.checks.formats import CHECK_FORMATS, CheckResult
     from amp_studio.files import ParameterFileError
-    from amp_studio.validate import Validator, earlier_beside
 
     notes: list[str] = []
     try:
-        file = opened(path, options, notes.append)
-        validator = Validator(file, _own_rules(options, path, file), earlier_beside(path, file))
+        machine = opened(path, options, notes.append)
+        validator = machine.validator(options.rules)
         checked = _checked(path, validator, options.why)
         bad = 0
         if options.motion:
-            found, bad = _in_motion(file, as_document=options.format == "json")
+            found, bad = _in_motion(machine, as_document=options.format == "json")
             checked = replace(checked, motion=found)
         printed = CHECK_FORMATS[options.format].one(checked)
         return CheckResult(path, checked.counts["error"] + bad, printed, tuple(notes))
@@ -252,20 +251,20 @@ def _check(options: Options, path: Path) -> CheckResult:
         return CheckResult(path, notes=tuple(notes), fault=f"{path}: {keep_details(error)}")
 
 
-def _in_motion(file: ParameterFile, *, as_document: bool) -> tuple[object, int]:
+def _in_motion(machine: MachineParameters, *, as_document: bool) -> tuple[object, int]:
     """Return what the check of the motion found, as text or for a JSON document, and how much of it is
     bad.
     """
     from amp_studio.cli.motion.text import as_json, text
-    from amp_studio.sim import SimulationError, check_motion
+    from amp_studio.sim import SimulationError
 
     try:
-        checks = tuple(check_motion(file))
+        checks = machine.check_motion()
     except SimulationError as error:
         return (
             {"checks": [], "why": error.what} if as_document else f"not checked in motion: {error.what}"
         ), 0
-    found = as_json(file, checks) if as_document else text(checks)
+    found = as_json(machine.file, checks) if as_document else text(checks)
     return found, sum(check.verdict == "bad" for check in checks)
 
 
@@ -277,13 +276,3 @@ def _checked(path: Path, validator: Validator, why: bool) -> FileFindings:
     from amp_studio.guide import present
 
     return FileFindings(path, validator, present(validator, validator.run()), why)
-
-
-def _own_rules(options: Options, path: Path, file: ParameterFile) -> BuilderRules:
-    from amp_studio.validate import rules_beside
-
-    if not options.rules:
-        return rules_beside(path, file)
-    from amp_studio.validate import axes_by_letter, read_builder_rules
-
-    return read_builder_rules(options.rules, file.schema, axes_by_letter(file))

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from amp_studio.cli.arguments import EXPECT, JSON, PATH, TEXT, kept_in, several_controls
+from amp_studio.cli.console import note, progress
 from amp_studio.cli.errors import UsageError
 from amp_studio.cli.opened import opened
 from amp_studio.cli.stopping import asked_politely
@@ -35,21 +36,21 @@ def run(options: Options) -> int:
     """Send a file to a control; 3 if that is not proved afterwards, 4 where it is not known what it
     contains.
     """
+    from amp_studio import connect
     from amp_studio.cli.controls.by_hand import note_by_hand, ways_offered
     from amp_studio.cli.controls.endings import exchange_of, note_errors, print_outcome
     from amp_studio.cli.controls.fleet import check_fleet, download_to_several, is_fleet
-    from amp_studio.transfer.client import download_file
 
-    file, path = opened(options.path, options), options.path
-    errors = note_errors(file, path)
+    machine, path = opened(options.path, options), options.path
+    errors = note_errors(machine)
     if errors and not options.accept_errors:
         raise UsageError(f"{path} has {errors}: nothing was sent (--accept-errors sends it anyway)")
-    name = file.schema.family.family
+    name = machine.schema.family.family
     check_fleet(options, options.to)
     with asked_politely() as stop, ways_offered(name, options.to[0]):
-        exchange = exchange_of(options, path, stop)
         if is_fleet(options, options.to):
-            return download_to_several(options, file, exchange)
-        outcome = download_file(file, options.to[0], exchange, expected=options.expect)
+            return download_to_several(options, machine.file, exchange_of(options, path, stop))
+        control = connect(options.to[0], progress=progress(), cancel=stop, notify=note)
+        outcome = control.download(machine, expect=options.expect, accept_errors=True, keep=options.keep)
         note_by_hand(name)
         return print_outcome(outcome)

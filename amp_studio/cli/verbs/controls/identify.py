@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from contextlib import closing
 from dataclasses import asdict
 
 from amp_studio.cli import candidates
@@ -23,25 +22,21 @@ VERB = Verb(
 
 def run(options: Options) -> int:
     """Print who answers at an address, and what it contains."""
+    from amp_studio import connect
     from amp_studio.cli.controls.by_hand import note_by_hand, ways_offered
     from amp_studio.files import fitted_axes
     from amp_studio.report import counted
-    from amp_studio.transfer import Exchange, ImageError, decode_content
-    from amp_studio.transfer.client import look_at, open_driver_at
+    from amp_studio.transfer import ImageError
 
     if options.family:
         family(options.family)
-    exchange = Exchange(progress())
-    with (
-        closing(open_driver_at(options.address, options.family or "", exchange)) as driver,
-        ways_offered(options.family or "", options.address),
-    ):
-        abilities = driver.abilities
-        control, content, digest = look_at(driver, exchange)
+    with ways_offered(options.family or "", options.address):
+        found = connect(options.address, options.family or "", progress=progress()).look()
+    control, abilities, content = found.identity, found.abilities, found.content
     note_by_hand(control.family)
     unreadable, axes, values, signature = "", list(control.axes), None, control.signature
     try:
-        file = decode_content(content)
+        file = found.machine().file
         axes, values = axes or list(fitted_axes(file)), len(file.values)
         signature = signature or file.schema.signature
     except ImageError as error:
@@ -58,7 +53,7 @@ def run(options: Options) -> int:
                 "axes": axes,
                 "signature": signature,
                 "size": len(content),
-                "sha256": digest,
+                "sha256": found.sha256,
                 "values": values,
                 "unreadable": unreadable or None,
                 "in_estop": control.in_estop,
@@ -78,7 +73,7 @@ def run(options: Options) -> int:
         f"{len(content)} bytes, "
         + (f"not readable: {unreadable}" if unreadable else counted(values or 0, "value"))
     )
-    print(f"sha256 {digest}")
+    print(f"sha256 {found.sha256}")
     if control.restart_needed:
         print("Its parameters become active after a restart.")
     return 0

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from amp_studio.cli.arguments import EXPECT, TO, kept_in, path_of
-from amp_studio.cli.console import note
+from amp_studio.cli.console import note, progress
 from amp_studio.cli.errors import UsageError
 from amp_studio.cli.stopping import asked_politely
 from amp_studio.cli.verb import Options, Verb, VerbArgument
@@ -27,8 +27,9 @@ VERB = Verb(
 
 def run(options: Options) -> int:
     """Put back what a control has contained; codes as of a download."""
-    from amp_studio.cli.controls.endings import exchange_of, note_errors, print_outcome
-    from amp_studio.transfer.client import digest_path, open_copy, restore_copy
+    from amp_studio import MachineParameters, connect
+    from amp_studio.cli.controls.endings import note_errors, print_outcome
+    from amp_studio.transfer.client import digest_path, open_copy
 
     path = options.copy
     copy = open_copy(path)
@@ -36,7 +37,7 @@ def run(options: Options) -> int:
         note(f"{digest_path(path)} is not there: {path.name} goes back unchecked")
     if copy.file is None:
         note(f"{path} goes back byte for byte, but this program cannot read it: {copy.fault}")
-    elif errors := note_errors(copy.file, path):
+    elif errors := note_errors(MachineParameters(copy.file, path)):
         if not copy.is_kept:
             raise UsageError(
                 f"{path} has {errors}, and no image beside it proves that a control contained it: nothing was"
@@ -44,5 +45,6 @@ def run(options: Options) -> int:
             )
         note(f"{path} goes back with {errors}, as the control contained it")
     with asked_politely() as stop:
-        outcome = restore_copy(copy, options.to, exchange_of(options, path, stop), expected=options.expect)
+        control = connect(options.to, progress=progress(), cancel=stop, notify=note)
+        outcome = control.restore(copy, expect=options.expect, keep=options.keep)
         return print_outcome(outcome)

@@ -32,14 +32,14 @@ def run(options: Options) -> int:
     import time
     from contextlib import closing
 
-    from amp_studio.transfer.client import StatusReader
+    from amp_studio import connect
 
     if options.family:
         family(options.family)
-    with closing(StatusReader(options.address, options.family or "")) as reader:
+    with closing(connect(options.address, options.family or "").watch()) as seen:
         while True:
             begun = time.monotonic()
-            status = reader.read()
+            status = next(seen)
             if options.json:
                 print_json(as_json(options.address, status))
             else:

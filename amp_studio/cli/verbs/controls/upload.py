@@ -13,7 +13,7 @@ from amp_studio.cli.stopping import asked_politely
 from amp_studio.cli.verb import Options, Verb
 
 if TYPE_CHECKING:
-    from amp_studio.files import ParameterFile
+    from amp_studio import MachineParameters
 
 VERB = Verb(
     __doc__,
@@ -38,21 +38,24 @@ VERB = Verb(
 
 def run(options: Options) -> int:
     """Fetch what a control contains under a new name: its file, or byte for byte as an image."""
+    from amp_studio import connect
     from amp_studio.cli.controls.by_hand import note_by_hand
     from amp_studio.cli.controls.fleet import check_fleet, is_fleet, record_upload, upload_several
     from amp_studio.cli.out_of_range import settle_values
     from amp_studio.files import erased_question
     from amp_studio.report import counted
-    from amp_studio.transfer import Exchange
-    from amp_studio.transfer.client import IMAGE, digest_path, fetch_image, save_image, sha256
+    from amp_studio.transfer.client import IMAGE, digest_path, save_image
 
     output, source = options.output, options.source[0]
     check_fleet(options, options.source)
     if is_fleet(options, options.source):
         with asked_politely() as stop:
+            from amp_studio.transfer import Exchange
+
             return upload_several(options, Exchange(cancel=stop))
     check_new(output, "an upload")
-    image = fetch_image(source, Exchange(progress()))
+    control = connect(source, progress=progress())
+    image = control.fetch()
     if not image:
         raise UsageError("the control is empty: there is nothing to upload")
     values: int | None = None
@@ -60,29 +63,31 @@ def run(options: Options) -> int:
         save_image(image, output)
         text = f"{output}: {len(image)} bytes, digest in {digest_path(output).name}"
     else:
-        file = _readable(image, output)
+        machine = _readable(image, output)
+        file = machine.file
         note_by_hand(file.schema.family.family)
         settle_values(file, options.on_fault, "an upload")
-        write_new(file, output)
+        write_new(machine, output)
         if question := erased_question(file):
             note(f"{output}: {question}")
         values = len(file.values)
         text = f"{output}: {counted(values, 'value')}"
         record_upload(output, file, source, image)
     if options.json:
-        print_json({"path": str(output), "values": values, "sha256": sha256(image)})
+        print_json({"path": str(output), "values": values, "sha256": control.sha256})
     else:
         print(text)
-        print(f"sha256 {sha256(image)}")
+        print(f"sha256 {control.sha256}")
     return 0
 
 
-def _readable(image: bytes, output: Path) -> ParameterFile:
+def _readable(image: bytes, output: Path) -> MachineParameters:
+    from amp_studio import MachineParameters
     from amp_studio.transfer import ImageError, decode_content
     from amp_studio.transfer.client import IMAGE
 
     try:
-        return decode_content(image)
+        return MachineParameters(decode_content(image))
     except ImageError as error:
         raise UsageError(
             f"{error}; nothing was written (-o {output.with_suffix(IMAGE)} keeps it byte for byte)"

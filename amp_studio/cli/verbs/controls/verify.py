@@ -31,11 +31,10 @@ VERB = Verb(
 
 def run(options: Options) -> int:
     """Compare a file with what a control contains, its values and every byte; 1 where they differ."""
+    from amp_studio import connect
     from amp_studio.cli.checks.comparing import difference_json, print_comparison, print_difference
     from amp_studio.cli.controls.by_hand import ways_offered
     from amp_studio.cli.controls.fleet import check_fleet, is_fleet, verify_several
-    from amp_studio.transfer import Exchange
-    from amp_studio.transfer.client import fetch_image, record_look, sha256, verify_content
 
     if options.all:
         from amp_studio.cli.controls.drift import verify_all_verb  # compares many, and prints papers
@@ -43,24 +42,24 @@ def run(options: Options) -> int:
         return verify_all_verb(options)
     if options.path is None or not options.control:
         raise UsageError("verify takes a file and --with ADDRESS, or --all (see 'amp-studio verify --help')")
-    file = opened(options.path, options)
+    machine = opened(options.path, options)
+    file = machine.file
     check_fleet(options, options.control)
     if is_fleet(options, options.control):
         with asked_politely() as stop:
+            from amp_studio.transfer import Exchange
+
             return verify_several(options, file, Exchange(cancel=stop, record=options.path, notify=note))
-    control, name = options.control[0], file.schema.family.family
-    exchange = Exchange(progress(), record=options.path, notify=note)
-    with ways_offered(name, control):
-        fetched = fetch_image(control, exchange, family=name)
-    found = verify_content(file, fetched)
-    record_look("verify", exchange, name, control, fetched, found.summary())
+    control = connect(options.control[0], progress=progress(), notify=note)
+    with ways_offered(file.schema.family.family, control.address):
+        found = control.verify(machine)
     if options.json:
         print_json(
             {
                 "differences": [difference_json(file, d, options.secrets) for d in found.values.differences],
                 "same": found.values.same,
                 "same_bytes": found.is_same,
-                "sha256": sha256(fetched),
+                "sha256": control.sha256,
                 "unreadable": found.unreadable or None,
                 "absent": found.missing or None,
                 "stays": found.stays or None,
@@ -76,5 +75,5 @@ def run(options: Options) -> int:
     for head in found.head:
         print(f"{head.line} in the header: '{head.a}'  |  '{head.b}'")
     print(found.summary())
-    print(f"sha256 {sha256(fetched)}")
+    print(f"sha256 {control.sha256}")
     return int(not found.is_same)

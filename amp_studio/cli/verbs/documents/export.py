@@ -25,14 +25,11 @@ VERB = Verb(
 def run(options: Options) -> int:
     """Write a parameter file in a text format."""
     from amp_studio.cli.accounts import print_account
-    from amp_studio.formats import export_file
     from amp_studio.report import counted
 
     check_replaced(options.output, options.path)
-    file = opened(options.path, options)
-    export = export_file(file, options.output, options.format, note, secrets=options.secrets)
-    number = counted(len(file.values), "value")
-    print_account(
-        options, file, export.account, f"{export.format.title}, {export.account.written} of {number}"
-    )
+    machine = opened(options.path, options)
+    account = machine.export(options.output, options.format, secrets=options.secrets, notify=note)
+    number = counted(len(machine.file.values), "value")
+    print_account(options, machine, account, f"{account.format}, {account.written} of {number}")
     return 0

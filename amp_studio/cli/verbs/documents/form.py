@@ -33,17 +33,17 @@ VERB = Verb(
 
 def run(options: Options) -> int:
     """Write tables to fill in by hand."""
-    from amp_studio.files import new_file
+    from amp_studio import new
     from amp_studio.report import form_paper, write_paper
 
     if is_family(options.what):
-        file, everything = new_file(options.what, options.machine), True
+        file, everything = new(options.what, options.machine).file, True
     else:
         if options.machine is not None:
             raise UsageError("--machine belongs to a family; a file has its own machine type")
         path = Path(options.what)
         check_replaced(options.output, path)
-        file, everything = opened(path), False
+        file, everything = opened(path).file, False
     write_paper(form_paper(file, everything=everything, language=options.language), options.output, note)
     print(options.output)
     return 0

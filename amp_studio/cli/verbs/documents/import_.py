@@ -2,17 +2,12 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 from amp_studio.cli import candidates
 from amp_studio.cli.arguments import JSON, ON_FAULT, OUTPUT, count, path_of
 from amp_studio.cli.console import note
 from amp_studio.cli.errors import UsageError
 from amp_studio.cli.output import check_new, write_new
 from amp_studio.cli.verb import Options, Verb, VerbArgument
-
-if TYPE_CHECKING:
-    from amp_studio.formats import Account
 
 VERB = Verb(
     __doc__,
@@ -43,17 +38,17 @@ VERB = Verb(
 
 def run(options: Options) -> int:
     """Make a parameter file of a text; nothing is written when a part of it cannot be meant."""
+    from amp_studio import import_text
     from amp_studio.cli.accounts import print_account
     from amp_studio.cli.out_of_range import settle_values
-    from amp_studio.formats import FamilyNotGivenError, import_file
+    from amp_studio.formats import FamilyNotGivenError
     from amp_studio.report import counted
     from amp_studio.schema import UnknownFamilyError
 
     check_new(options.output, "an import", options.text)
-    accounts: list[Account] = []
     notes: list[str] = []
     try:
-        file = import_file(
+        machine = import_text(
             options.text,
             options.family,
             format_key=options.format,
@@ -61,7 +56,6 @@ def run(options: Options) -> int:
             machine=options.machine or "",
             listing=options.listing,
             notify=notes.append,
-            take_account=accounts.append,
         )
     except FamilyNotGivenError as error:
         raise UsageError(f"{options.text}: {error} (name it with --family)") from None
@@ -71,8 +65,9 @@ def run(options: Options) -> int:
         raise UsageError(f"{options.text}: {error}") from None
     for message in notes:
         note(message)
-    settle_values(file, options.on_fault, "an import")
-    write_new(file, options.output)
-    (account,) = accounts
-    print_account(options, file, account, counted(account.written, "value"), " ".join(notes))
+    settle_values(machine.file, options.on_fault, "an import")
+    write_new(machine, options.output)
+    account = machine.account
+    assert account is not None  # of an imported text
+    print_account(options, machine, account, counted(account.written, "value"), " ".join(notes))
     return 0

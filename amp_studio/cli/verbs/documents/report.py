@@ -54,28 +54,19 @@ def run(options: Options) -> int:
     """Write the documentation of a file; 1 where the project's template failed
     and the standard report was written.
     """
-    from amp_studio.dossier import write_report
     from amp_studio.files import real_path
-    from amp_studio.report import Contents
-    from amp_studio.validate import RULES_FILE, rules_beside
+    from amp_studio.validate import RULES_FILE
 
     check_replaced(options.output, options.path, real_path(options.path).with_name(RULES_FILE))
-    file = opened(options.path, options)
-    own = rules_beside(options.path, file)
-    as_wanted = write_report(
-        file,
+    as_wanted = opened(options.path, options).report(
         options.output,
-        Contents(
-            options.sort,
-            options.changed_only,
-            options.inactive,
-            options.units,
-            options.language,
-            frozenset(options.without or ()),
-            options.paper,
-        ),
-        source=options.path,
-        own=own,
+        sort=options.sort,
+        changed_only=options.changed_only,
+        inactive=options.inactive,
+        units=options.units,
+        language=options.language,
+        without=frozenset(options.without or ()),
+        paper=options.paper,
         notify=note,
     )
     print(options.output)

@@ -73,22 +73,17 @@ def run(options: Options) -> int:
     """
     from amp_studio.report import counted
     from amp_studio.sheet import SheetError, Ticks, TicksError, make_sheet, ticks_path
-    from amp_studio.validate import rules_beside
 
     path: Path = options.path
-    file = opened(path)
+    machine = opened(path)
+    file = machine.file
     inputs = [path, ticks_path(path), *([options.check] if options.check else [])]
     if options.output:
         check_replaced(options.output, *inputs)
     present, against = _present(options.against)
     try:
         sheet = make_sheet(
-            file,
-            present,
-            of=path.name,
-            against=against,
-            own=rules_beside(path, file),
-            secrets=options.secrets,
+            file, present, of=path.name, against=against, own=machine.builder_rules(), secrets=options.secrets
         )
         ticks = Ticks(ticks_path(path), sheet)
     except (SheetError, TicksError) as error:
@@ -109,16 +104,15 @@ def _present(text: str) -> tuple[ParameterFile, str]:
     from amp_studio.transfer.links import is_endpoint
 
     if is_endpoint(text):
-        from amp_studio.transfer import Exchange, decode_content
-        from amp_studio.transfer.client import fetch_image, sha256
+        from amp_studio import connect
 
-        content = fetch_image(text, Exchange(progress()))
-        return decode_content(content), f"{text}, sha256 {sha256(content)}"
+        control = connect(text, progress=progress())
+        return control.upload().file, f"{text}, sha256 {control.sha256}"
     from amp_studio.transfer.client import open_copy
 
     path = Path(text)
     if path.suffix != ".img":
-        return opened(path), path.name
+        return opened(path).file, path.name
     copy = open_copy(path)
     if copy.file is None:
         raise UsageError(f"{path}: {copy.fault}")

@@ -13,8 +13,8 @@ VERB = Verb(__doc__, JSON, examples=("amp-studio families",))
 
 def run(options: Options) -> int:
     """List the control families."""
+    from amp_studio import family_ids
     from amp_studio.report import counted
-    from amp_studio.schema import family_ids
 
     rows: list[dict[str, Any]] = []
     for family_id in family_ids():

@@ -16,7 +16,7 @@ from amp_studio.cli.opened import opened
 from amp_studio.cli.verb import Options, Verb, VerbArgument
 
 if TYPE_CHECKING:
-    from amp_studio.files import ParameterFile
+    from amp_studio import MachineParameters
     from amp_studio.find import Hit, MessagePage
     from amp_studio.schema import Schema
     from amp_studio.validate import Finding
@@ -55,10 +55,11 @@ _NAMED = {
 class _Source:
     """A family, or a file of it, that is searched."""
 
-    def __init__(self, schema: Schema, file: ParameterFile | None = None, path: Path | None = None) -> None:
+    def __init__(self, schema: Schema, opened_machine: MachineParameters | None = None) -> None:
         from amp_studio.find import Finder
 
-        self.schema, self.file, self._path = schema, file, path
+        file = opened_machine.file if opened_machine else None
+        self.schema, self.file, self._opened = schema, file, opened_machine
         self.machine = file.machine if file is not None else schema.family.default_machine
         self.finder = Finder(schema, self.machine, file)
         self._findings: tuple[Finding, ...] | None = None
@@ -73,11 +74,7 @@ class _Source:
         return message_page(self.schema, self.machine, message, self.file, self._findings)
 
     def _checked(self) -> tuple[Finding, ...]:
-        from amp_studio.validate import Validator, rules_beside
-
-        if self.file is None or self._path is None:
-            return ()
-        return Validator(self.file, rules_beside(self._path, self.file)).run()
+        return self._opened.validator(with_backup=False).run() if self._opened else ()
 
 
 def run(options: Options) -> int:
@@ -112,8 +109,8 @@ def run(options: Options) -> int:
 
 def _elsewhere(query: str, schema: Schema) -> Sequence[tuple[Schema, Hit]]:
     """Return the best hit of each other family."""
+    from amp_studio import family_ids, load_schema
     from amp_studio.find import Finder, elsewhere
-    from amp_studio.schema import family_ids, load_schema
 
     schemas = [load_schema(name) for name in family_ids() if name != schema.family.family]
     return elsewhere(query, (Finder(s, s.family.default_machine) for s in schemas))
@@ -136,8 +133,8 @@ def _sources(options: Options) -> tuple[list[_Source], list[str]]:
     """Return what is searched and for which words: the first may be a family or a file;
     else it is every family.
     """
+    from amp_studio import family_ids
     from amp_studio.files import ENDING
-    from amp_studio.schema import family_ids
 
     first, *words = options.words
     if options.family is not None:
@@ -146,8 +143,8 @@ def _sources(options: Options) -> tuple[list[_Source], list[str]]:
         return [_Source(family(first))], words
     path = Path(first)
     if path.suffix.casefold() == ENDING or (words and path.is_file()):
-        file = opened(path)
-        return [_Source(file.schema, file, path)], words
+        machine = opened(path)
+        return [_Source(machine.schema, machine)], words
     return [_Source(family(name)) for name in family_ids()], options.words
 
 

@@ -57,23 +57,23 @@ VERB = Verb(
 
 def run(options: Options) -> int:
     """List, compare or change the axes of a file; 1 where two axes differ."""
-    from amp_studio.files import Document
+    from amp_studio import edit
 
     least, most = OPERATIONS[options.operation]
     if not least <= len(options.arguments) <= most:
         raise UsageError(f"axis {options.operation} takes {_expected(least, most)}: amp-studio axis --help")
     if options.operation in ("list", "compare"):
-        file = opened(options.path)
+        file = opened(options.path).file
         if options.operation == "list":
             return _list(file, as_json=options.json)
         first, second = (_axis(file, text) for text in options.arguments)
         return _compare(file, first, second, options)
-    with Document.open(options.path) as document:
-        file = document.file
+    with edit(options.path) as machine:
+        file = machine.file
         changes = _change(file, options.operation, options.arguments)
         if changes:
-            document.save(f"axis {options.operation}")
-        note_all(document.notes)
+            machine.save(verb=f"axis {options.operation}")
+        note_all(machine.notes)
         _print_changes(file, changes, options)
     return 0
 

@@ -11,7 +11,7 @@ from amp_studio.cli.opened import opened
 from amp_studio.cli.verb import Options, Verb, VerbArgument
 
 if TYPE_CHECKING:
-    from amp_studio.files import ParameterFile
+    from amp_studio import MachineParameters
     from amp_studio.schema import Address
 
 VERB = Verb(
@@ -53,19 +53,18 @@ VERB = Verb(
 )
 
 
-def _print_not_set(options: Options, file: ParameterFile, only: set[Address] | None) -> int:
+def _print_not_set(options: Options, machine: MachineParameters, only: set[Address] | None) -> int:
     """Print the active values that are not set, those of the first step first; ``only`` these addresses,
     where given.
     """
     from amp_studio.guide import progress
-    from amp_studio.machine import value_row
-    from amp_studio.schema import unit_text
-    from amp_studio.validate import Validator, rules_beside
+    from amp_studio.schema import ResolvedAddress, unit_text
 
-    validator, rows = Validator(file, rules_beside(options.path, file)), []
+    file, validator, rows = machine.file, machine.validator(with_backup=False), []
     for each in progress(validator, validator.run()).steps:
         found = [address for address in each.open if only is None or address in only]
-        rows += [value_row(file, address, options.secrets) | {"step": each.step.number} for address in found]
+        values = (machine.row(ResolvedAddress(address), secrets=options.secrets) for address in found)
+        rows += [value | {"step": each.step.number} for value in values]
         if found and not options.json:
             print(f"Step {each.step.number}: {each.step.title}")
             for address in found:
@@ -84,11 +83,11 @@ def _print_not_set(options: Options, file: ParameterFile, only: set[Address] | N
 def run(options: Options) -> int:
     """Print values."""
     from amp_studio.cli.files.marked import marks_asked, with_marks
-    from amp_studio.machine import bit_row, value_row
     from amp_studio.report import state_name
     from amp_studio.schema import ResolvedAddress, real_value, resolve_all, show_value, unit_text
 
-    file = opened(options.path, options)
+    machine = opened(options.path, options)
+    file = machine.file
     if options.params:
         found = [m for p in options.params for m in resolve_all(file.evaluation, p)]
     else:
@@ -98,20 +97,20 @@ def run(options: Options) -> int:
             if options.all or (a in file.values and file.evaluation.state(a).state != "hidden")
         ]
     if options.not_set:
-        return _print_not_set(options, file, {m.address for m in found} if options.params else None)
+        return _print_not_set(options, machine, {m.address for m in found} if options.params else None)
     if marks := marks_asked(options):
-        found = with_marks(file, options.path, found, marks)
+        found = with_marks(machine, options.path, found, marks)
     for message in dict.fromkeys(message for m in found if (message := m.remark(file.schema))):
         note(message)
     rows = []
-    for address, bit in ((m.address, m.bit) for m in found):
-        if bit is not None:
-            rows.append(bit_row(file, address, bit))
+    for each in found:
+        address = each.address
+        rows.append(machine.row(each, secrets=options.secrets))
+        if each.bit is not None:
             if not options.json:
                 shown = "not set" if rows[-1]["value"] is None else rows[-1]["value"]
                 print(f"{rows[-1]['param']} {rows[-1]['label']:40} {shown}")
             continue
-        rows.append(value_row(file, address, options.secrets))
         if not options.json:
             mark = "" if rows[-1]["default"] else " *"
             state = (

@@ -85,9 +85,8 @@ def run(options: Options) -> int:
     """Print the steps of a family, or how far a file has come in them; tick a step, keep its defaults,
     print the check list.
     """
-    from amp_studio.files import Document
+    from amp_studio import edit
     from amp_studio.guide import progress
-    from amp_studio.validate import Validator, rules_beside
 
     asked_for = options.step or options.at
     if is_family(str(options.path)):
@@ -100,16 +99,16 @@ def run(options: Options) -> int:
     if options.output:
         check_replaced(options.output, path)
     if any(getattr(options, key) for key in _CHANGING):
-        with Document.open(path) as document:
-            _change(options, document.file)
-            if document.is_dirty:
-                document.save("guide")
-                note_all(document.notes)
-            file = document.file
+        with edit(path) as machine:
+            _change(options, machine.file)
+            if machine.document and machine.document.is_dirty:
+                machine.save(verb="guide")
+                note_all(machine.notes)
     else:
-        file = opened(path)
+        machine = opened(path)
+    file = machine.file
     step = _step(file.schema, asked_for) if asked_for else None
-    validator = Validator(file, rules_beside(path, file))
+    validator = machine.validator(with_backup=False)
     come = progress(validator, validator.run())
     if options.output:
         return _write(options, file, come, path)
@@ -329,11 +328,12 @@ def _as_json(file: ParameterFile, come: GuideProgress, path: Path, only: SetupSt
 
 def _values_json(file: ParameterFile, each: StepProgress) -> list[dict[str, Any]]:
     """Return every active value of a step, set or not, in the form of ``get --json``."""
-    from amp_studio.machine import value_row
+    from amp_studio import MachineParameters
+    from amp_studio.schema import ResolvedAddress
 
-    instances = ((p.id, file.machine_schema.instances(p)) for p in each.step.parameters)
-    every = [(name, instance) for name, places in instances for instance in places]
-    return [value_row(file, a, secrets=False) for a in every if file.evaluation.state(a).is_active]
+    machine, parameters = MachineParameters(file), each.step.parameters
+    every = [(p.id, instance) for p in parameters for instance in file.machine_schema.instances(p)]
+    return [machine.row(ResolvedAddress(a)) for a in every if file.evaluation.state(a).is_active]
 
 
 def _step_json(file: ParameterFile, each: StepProgress) -> dict[str, Any]:

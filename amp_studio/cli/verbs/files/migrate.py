@@ -43,7 +43,7 @@ def run(options: Options) -> int:
         write_migration,
     )
 
-    file = opened(options.path, options)
+    file = opened(options.path, options).file
     answers = _answers(options.answers) if options.answers else {}
     try:
         migration = migrate(file, options.to, answers)

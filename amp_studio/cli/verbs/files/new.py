@@ -35,17 +35,18 @@ VERB = Verb(
 
 def run(options: Options) -> int:
     """Make a parameter file with the family's defaults."""
+    from amp_studio import new
     from amp_studio.cli.files.like import file_like
-    from amp_studio.files import new_file
     from amp_studio.report import counted
 
     schema = family(options.family)
     axes = [a.strip() for a in options.axes.split(",")] if options.axes else []
     check_new(options.path, "a new file")
     if options.like:
-        file = file_like(options, axes)
+        machine = file_like(options, axes)
     else:
-        file = new_file(options.family, options.machine, axes, options.path.stem)
-    write_new(file, options.path)
-    print(f"{options.path}: {schema.family.name}, {file.machine}, {counted(len(file.values), 'value')}")
+        machine = new(options.family, options.machine, axes, options.path.stem)
+    write_new(machine, options.path)
+    number = counted(len(machine.file.values), "value")
+    print(f"{options.path}: {schema.family.name}, {machine.file.machine}, {number}")
     return 0

@@ -46,12 +46,13 @@ GROUP = "group:"
 
 def run(options: Options) -> int:
     """List notes, print one, write one or remove one."""
-    from amp_studio.files import Document, NoteError
+    from amp_studio import edit
+    from amp_studio.files import NoteError
 
     if options.about is None:
         return _list(options)
     if options.text is None and not options.remove:
-        file = opened(options.path)
+        file = opened(options.path).file
         text = _present(file, _about(file, options))
         if options.json:
             print_json({"about": options.about, "text": text})
@@ -62,24 +63,24 @@ def run(options: Options) -> int:
         return 0
     if options.text is not None and options.remove:
         raise UsageError("a note is written or removed, not both")
-    with Document.open(options.path) as document:
-        about = _about(document.file, options)
+    with edit(options.path) as machine:
+        about = _about(machine.file, options)
         try:
-            is_new = _write(document.file, about, options.text or "")
+            is_new = _write(machine.file, about, options.text or "")
         except NoteError as error:
             raise UsageError(f"{error}; nothing was changed") from None
         if is_new:
-            document.save("note")
+            machine.save(verb="note")
         else:
             note("no change")
-        note_all(document.notes)
+        note_all(machine.notes)
     return 0
 
 
 def _list(options: Options) -> int:
     from amp_studio.files import all_notes
 
-    found = list(all_notes(opened(options.path)))
+    found = list(all_notes(opened(options.path).file))
     if options.json:
         print_json(
             [{"subject": n.subject, "about": n.about, "label": n.label, "text": n.text} for n in found]

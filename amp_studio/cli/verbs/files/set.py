@@ -33,25 +33,25 @@ VERB = Verb(
 
 def run(options: Options) -> int:
     """Change values, all or none."""
-    from amp_studio.files import Document, RangeError, now
-    from amp_studio.machine import read_assignments
+    from amp_studio import RangeError, edit
+    from amp_studio.files import now
     from amp_studio.report import state_name
     from amp_studio.schema import show_value
 
-    with Document.open(options.path) as document:
-        file = document.file
+    with edit(options.path) as machine:
+        file = machine.file
         notes: list[str] = []
-        values = read_assignments(file, assignments(options.assignments), notes.append)
         marks = dict(file.forced)
+        by = f"on {now()} by 'set --force'" if options.force else ""
         try:
-            changes = file.set_many(values, force=f"on {now()} by 'set --force'" if options.force else "")
+            changes = machine.set(assignments(options.assignments), force=by, notify=notes.append)
         except RangeError as error:
             raise UsageError(f"{error}; nothing was changed (--force takes it and marks it)") from None
         if changes or file.forced != marks:
-            document.save("set --force" if options.force else "set")
+            machine.save(verb="set --force" if options.force else "set")
         for message in notes:
             note(message)
-        note_all(document.notes)
+        note_all(machine.notes)
         if not changes:
             note("no change")
         for change in changes:

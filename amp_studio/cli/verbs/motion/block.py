@@ -36,7 +36,7 @@ def run(options: Options) -> int:
     """Read blocks: 1 where the control refuses a word."""
     from amp_studio.programs import BlockReader, ProgramBlockError, power_up
 
-    file = opened(options.path)
+    file = opened(options.path).file
     if not file.schema.program.page:
         raise UsageError(f"{file.schema.family.name}: no page here prints how its blocks are read")
     if not options.block:

@@ -5,7 +5,6 @@ show them.
 from __future__ import annotations
 
 from collections.abc import Iterator
-from contextlib import nullcontext
 from dataclasses import asdict
 from fractions import Fraction
 from typing import TYPE_CHECKING, Any
@@ -93,8 +92,8 @@ _LONGEST = 64
 
 def run(options: Options) -> int:
     """Show or change the calibration of one axis; all or nothing."""
+    from amp_studio import RangeError, edit
     from amp_studio.calibration import CalibrationError, compensation_of
-    from amp_studio.files import Document, RangeError
     from amp_studio.schema import InvalidValueError, resolve_axis
 
     by_hand = bool(options.insert or options.replace or options.delete or options.clear)
@@ -105,8 +104,8 @@ def run(options: Options) -> int:
     if options.output:
         _check_picture(options)
     writes = (by_hand or bool(options.measured)) and not options.dry_run
-    with Document.open(options.path) if writes else nullcontext(Document.view(options.path)) as document:
-        file = document.file
+    with edit(options.path, only_view=not writes) as machine:
+        file = machine.file
         offered = compensation_of(file.schema.family.family)
         if not offered.reversal and offered.table is None:
             raise UsageError(
@@ -121,7 +120,7 @@ def run(options: Options) -> int:
         if writes:
             _demand_answers(found.measurement)
             if changes:
-                document.save("calibrate")
+                machine.save(verb="calibrate")
     if options.output and found.proposal is not None:
         _draw(options, file, found.proposal)
     if options.json:

@@ -32,19 +32,13 @@ PAPERS = (".pdf", ".html")
 
 def run(options: Options) -> int:
     """Check a file in motion: 1 where something is bad."""
-    from amp_studio.files import axis_instances
-    from amp_studio.schema import resolve_axis
-    from amp_studio.sim import check_motion, simulated_axes
-
     if options.output:
         check_replaced(options.output, options.path)
         if options.output.suffix.lower() not in PAPERS:
             raise UsageError(f"{options.output}: a check is written as {' or '.join(PAPERS)}")
-    file = opened(options.path)
-    axis = None
-    if options.axis:
-        axis = resolve_axis(file.evaluation, axis_instances(file) or simulated_axes(file), options.axis)
-    checks = tuple(check_motion(file, axis))
+    machine = opened(options.path)
+    file = machine.file
+    checks = machine.check_motion(machine.axis(options.axis) if options.axis else None)
     if options.output:
         _write(options, file, checks)
     if options.json:

@@ -36,16 +36,13 @@ VERB = Verb(
 
 def run(options: Options) -> int:
     """List the tests of an axis, or write the program of one; 1 where one that was named is refused."""
-    from amp_studio.files import axis_instances, write_atomic
-    from amp_studio.schema import resolve_axis
-    from amp_studio.sim import machine_tests, simulated_axes
+    from amp_studio.files import write_atomic
+    from amp_studio.sim import machine_tests
 
     if options.output:
         check_replaced(options.output, options.path)
-    file = opened(options.path)
-    axis = None
-    if options.axis:
-        axis = resolve_axis(file.evaluation, axis_instances(file) or simulated_axes(file), options.axis)
+    machine = opened(options.path)
+    file, axis = machine.file, machine.axis(options.axis) if options.axis else None
     tests = machine_tests(file, axis)
     if options.name:
         tests = tuple(test for test in tests if test.name == options.name)

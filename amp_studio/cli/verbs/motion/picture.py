@@ -40,7 +40,7 @@ def run(options: Options) -> int:
         check_replaced(options.output, options.path)
         if options.output.suffix.lower() != ".svg":
             raise UsageError(f"A picture is drawn as SVG: name the file {options.output.stem}.svg")
-    file = opened(options.path)
+    file = opened(options.path).file
     if options.name is None:
         if options.output:
             raise UsageError("Name a picture; amp-studio picture PATH lists them")

@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Sequence
 from dataclasses import asdict
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from amp_studio.cli import candidates
 from amp_studio.cli.arguments import AXIS, JSON, OUTPUT, PATH, count, path_of
@@ -17,6 +17,7 @@ from amp_studio.cli.verb import Options, Verb, VerbArgument
 from amp_studio.scenarios import IDENTIFY
 
 if TYPE_CHECKING:
+    from amp_studio import MachineParameters
     from amp_studio.files import ParameterFile
     from amp_studio.sim import SweepWay, Trace
 
@@ -161,14 +162,11 @@ SETTING_GROUPS = ("move", "model", "tune", "sweep", "gear", "cam")
 
 def run(options: Options) -> int:
     """Move the machine; 1 where it raised an alarm."""
-    from amp_studio.machine import read_assignments
     from amp_studio.sim import (
         laid_over,
         machine_for,
         named_parameter,
         read_machine,
-        simulate,
-        sweep,
         trace_summary,
         trace_text,
         write_trace,
@@ -177,43 +175,39 @@ def run(options: Options) -> int:
     if options.output:
         beside = (each for each in (options.record, options.machine_file) if each)
         check_replaced(options.output, options.path, *beside)
-    file = opened(options.path)
+    machine = opened(options.path)
     if options.list:
-        return _list(file, options.units, as_json=options.json)
+        return _list(machine.file, options.units, as_json=options.json)
     if options.scenario is None:
         raise UsageError("Name a scenario; amp-studio simulate PATH --list lists them")
     if options.scenario == IDENTIFY:
-        return _identify(options, file)
+        return _identify(options, machine)
     spoken = _spoken(options)
     if (options.record and not spoken) or options.scale:
         raise UsageError(f"a record and its scale belong to {IDENTIFY}, not to {options.scenario}")
-    settings, own = _settings(options.assignments)
-    settings = {**spoken, **settings}
+    named, own = _settings(options.assignments)
+    settings: dict[str, Any] = {**spoken, **named}
     if options.aim:
         if options.scenario != "tune":
             raise UsageError(f"--for belongs to tune, not to {options.scenario}")
         settings["tune.for"] = options.aim
     settings |= _sweep_settings(options)
     messages: list[str] = []
-    before = file.copy()
-    for address, value in read_assignments(file, assignments(own), messages.append).items():
-        file.set(address, value)
-    axis = _axis(options, file)
+    tried = machine.with_values(assignments(own), notify=messages.append)
+    file, axis = tried.file, _axis(options, tried)
     if options.machine_file:
-        axis, machine = machine_for(file, read_machine(options.machine_file), axis)
-        settings = {**machine, **settings}
+        axis, plant = machine_for(file, read_machine(options.machine_file), axis)
+        settings = {**plant, **settings}
     system = options.units or file.header.units
-    if options.scenario == "sweep":
-        trace = sweep(file, axis, settings, system, way=_way(options))
-    else:
-        trace = simulate(file, options.scenario, axis, settings, system)
+    way = _way(options) if options.scenario == "sweep" else None
+    trace = tried.simulate(options.scenario, axis, units=system, way=way, **settings)
     if options.against:
         trace = laid_over(trace, options.against)
     for message in messages:
         note(message)
     if options.output:
         is_picture = options.output.suffix.lower() in PICTURES
-        earlier = _earlier(before, trace, settings, system) if own and is_picture else None
+        earlier = _earlier(machine, trace, settings, system) if own and is_picture else None
         write_trace(trace, options.output, note, before=earlier)
     if options.json:
         print_json(trace_summary(trace, lambda parameter: named_parameter(file, parameter, trace.axis)))
@@ -261,19 +255,14 @@ def _way(options: Options) -> SweepWay:
     return SweepWay(options.scheduler, options.jobs, progress(), options.output)
 
 
-def _axis(options: Options, file: ParameterFile) -> str | None:
+def _axis(options: Options, machine: MachineParameters) -> str | None:
     """Return the axis by itself, several as ``1,2``."""
-    from amp_studio.files import axis_instances
-    from amp_studio.schema import resolve_axis
-    from amp_studio.sim import simulated_axes
-
     if not options.axis:
         return None
-    known = axis_instances(file) or simulated_axes(file)
-    return ",".join(resolve_axis(file.evaluation, known, each.strip()) for each in options.axis.split(","))
+    return ",".join(machine.axis(each.strip()) for each in options.axis.split(","))
 
 
-def _identify(options: Options, file: ParameterFile) -> int:
+def _identify(options: Options, of: MachineParameters) -> int:
     """Find the machine of an axis in a record of its drive."""
     from amp_studio.sim import (
         identified_text,
@@ -293,7 +282,7 @@ def _identify(options: Options, file: ParameterFile) -> int:
         )
     if options.assignments or options.machine_file:
         raise UsageError(f"{IDENTIFY} takes neither --set nor --machine: it finds the machine")
-    axis = _axis(options, file)
+    file, axis = of.file, _axis(options, of)
     if options.response:
         if options.record:
             raise UsageError(f"{IDENTIFY} takes a record or --frf, not both")
@@ -315,16 +304,14 @@ def _identify(options: Options, file: ParameterFile) -> int:
     return 0
 
 
-def _earlier(
-    file: ParameterFile, trace: Trace, settings: dict[str, float | str], system: str
-) -> Trace | None:
+def _earlier(machine: MachineParameters, trace: Trace, settings: dict[str, Any], system: str) -> Trace | None:
     """Return the same move with the values in the file, to draw under that of the changed ones;
     None where it has none.
     """
-    from amp_studio.sim import SimulationError, simulate
+    from amp_studio.sim import SimulationError
 
     try:
-        return simulate(file, trace.scenario, trace.axis, settings, system, like=trace)
+        return machine.simulate(trace.scenario, trace.axis, units=system, like=trace, **settings)
     except SimulationError:
         return None
 
