@@ -215,7 +215,7 @@ class MachineParameters:
         return validator.run() if as_delivered else found_in(validator)
 
     def validator(self, rules: Path | None = None, *, with_backup: bool = True) -> Validator:
-        """Return what finds the findings, for whoever asks it more than once; ``run`` it first.
+        """Return what finds the findings, where they are asked for more than once; ``run`` it first.
 
         ``rules`` is a file of a builder's own rules instead of the one beside the machine; without
         ``with_backup`` the backup is not asked for values that were changed by a slip of the finger.
