@@ -79,7 +79,7 @@ PAST_THE_DOOR = {
 AS_THE_DOOR_DOES = {
     "candidates.py": "new_file open_file",  # a shell is answered in a blink: half the door is not needed
     "checks/formats.py": "Validator",  # the type of a field
-    "controls/fleet.py": "decode_content fetch_image record_look",  # each control in a thread of its own
+    "controls/fleet.py": "decode_content fetch_image record_look",  # a thread for each control
     "files/marked.py": "found_in",
     "verbs/checks/diff.py": "compare",  # by the schema of A, also where B is of another revision
     "verbs/checks/merge.py": "Validator rules_beside text_of_name",  # the result has no file yet
