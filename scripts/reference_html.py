@@ -127,6 +127,8 @@ def list_pages(schema: Schema) -> dict[str, str]:
     }
     if schema.commissioning is not None:
         titles["commissioning"] = "Steps of commissioning"
+    if schema.motion.scenarios:
+        titles["motion"] = "What a simulation reads and assumes"
     if printed := printed_tables(schema):
         titles["tables"] = f"Tables ({len(printed)})"
     if schema.errata:

@@ -77,6 +77,35 @@ def commissioning(schema: Schema) -> str:
     return page(schema, "Commissioning", *parts)
 
 
+def motion(schema: Schema) -> str:
+    """Return the page of what the law of the axes takes from facts."""
+    facts = schema.motion
+    figures = (
+        (
+            f'<span id="{escape(name)}">{escape(name.replace("_", " "))}</span>',
+            escape(f"{figure.value:.9g} {figure.unit}".rstrip()),
+            escape(figure.why),
+            page_links([figure.page] if figure.page else []),
+        )
+        for name, figure in facts.assumed.items()
+    )
+    settings = ((f"<code>{escape(name)}</code>", escape(what)) for name, what in facts.settings.items())
+    parts = [
+        paragraph(f"Scenarios of amp-studio simulate: {', '.join(facts.scenarios)}."),
+        section("assumed", "Assumed"),
+        paragraph("Figures that no parameter gives. A result names those that it was made with."),
+        table(("Figure", "Value", "Why", "Page"), figures),
+    ]
+    if facts.settings:
+        parts += [section("settings", "Settings of the machine"), table(("Setting", "What it is"), settings)]
+    read = (p for p in schema.parameters.values() if p.id in set(facts.params.values()))
+    parts += [
+        section("read", "Parameters that are read"),
+        listed(parameter_link(schema, parameter) for parameter in read),
+    ]
+    return page(schema, "Simulation", *parts)
+
+
 def errata(schema: Schema) -> str:
     """Return the page of the contradictions of the manual."""
     parts: list[str] = []

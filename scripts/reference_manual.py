@@ -69,6 +69,9 @@ def printed_on(schema: Schema) -> dict[str, dict[str, list[str]]]:
             "Commissioning",
             link("commissioning", f"step-{step.number}", f"Step {step.number}: {step.title}"),
         )
+    for name, figure in schema.motion.assumed.items():
+        target = link("motion", name, name.replace("_", " "))
+        add(filter(None, [figure.page]), "Assumed in a simulation", target)
     for rule in schema.rules:
         add(filter(None, [rule.page]), "Rules", rule_link(rule))
     for erratum in schema.errata.values():

@@ -36,7 +36,7 @@ from reference_html import (
     section,
     table,
 )
-from reference_lists import commissioning, errata, numbers, rules, tables
+from reference_lists import commissioning, errata, motion, numbers, rules, tables
 from reference_manual import manual_pages
 from reference_messages import all_messages, messages
 from reference_search import guide_entries, search_script
@@ -103,6 +103,7 @@ def family_pages(schema: Schema) -> dict[str, str]:
         "numbers": numbers,
         "pages": manual_pages,
         "commissioning": commissioning,
+        "motion": motion,
         "rules": rules,
         "tables": tables,
         "errata": errata,

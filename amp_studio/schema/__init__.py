@@ -55,6 +55,7 @@ if TYPE_CHECKING:
     from .load import DatabaseError, FactEntry, UnknownFamilyError, family_ids, read_entries
     from .machine_schema import MachineSchema, labelled
     from .model import (
+        AssumedFigure,
         AxisDeclaration,
         AxisField,
         AxisProfile,
@@ -79,6 +80,7 @@ if TYPE_CHECKING:
         MacroCall,
         Messages,
         Model,
+        Motion,
         Parameter,
         ParameterId,
         ParameterState,
@@ -103,6 +105,7 @@ if TYPE_CHECKING:
         ZoneRole,
     )
     from .model.compiled_json import record_text
+    from .model.motion import NO_MOTION
     from .model.parameter import ValueType
     from .model.plausible import TravelSpan
     from .model_errors import read_model

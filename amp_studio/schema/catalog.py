@@ -19,6 +19,7 @@ from .model import (
     Group,
     Guide,
     Messages,
+    Motion,
     Parameter,
     PictureRoles,
     Plausible,
@@ -99,6 +100,11 @@ class Schema:
     def program(self) -> ProgramWords:
         """How the words of its part programs are read."""
         return self._further.program
+
+    @property
+    def motion(self) -> Motion:
+        """What the law of its axes takes from facts."""
+        return self._further.motion
 
     @cached_property
     def _on(self) -> dict[str, MachineSchema]:

@@ -29,6 +29,7 @@ from .model import (
     Guides,
     Messages,
     Model,
+    Motion,
     PictureRoles,
     Plausible,
     ProgramWords,
@@ -39,10 +40,11 @@ from .model import (
 )
 from .model.compiled_json import record_text, text_record
 from .model.family import define_units
+from .model.motion import NO_MOTION
 from .nearest import unknown_name
 from .quoting import LONGEST, quoted, short
 from .registration import added_facts
-from .role_faults import faults_of_pictures, faults_of_program
+from .role_faults import faults_of_motion, faults_of_pictures, faults_of_program
 from .units import UNITS_FILE
 from .yaml_reader import KeyPath, YamlDocument
 
@@ -77,6 +79,7 @@ class FurtherFacts(Model):
     commissioning: Commissioning | None = None
     pictures: PictureRoles = PictureRoles.model_construct()
     program: ProgramWords = ProgramWords.model_construct()
+    motion: Motion = NO_MOTION
 
 
 class Compiled(Model):
@@ -160,6 +163,10 @@ def compile_family(folder: Path) -> Compiled:
     program = _read(programs, ProgramWords) if programs.exists() else ProgramWords()
     if wrong := next(iter(faults_of_program(program, groups)), None):
         raise DatabaseError(programs, _parsed(programs).line(wrong[0]), wrong[1])
+    moving = folder / "motion.yaml"
+    motion = _read(moving, Motion) if moving.exists() else NO_MOTION
+    if wrong := next(iter(faults_of_motion(motion, groups)), None):
+        raise DatabaseError(moving, _parsed(moving).line(wrong[0]), wrong[1])
     experience = folder / "plausible.yaml"
     plausible = _read(experience, Plausible) if experience.exists() else Plausible()
     if wrong := next(iter(faults_of_experience(plausible, groups)), None):
@@ -182,6 +189,7 @@ def compile_family(folder: Path) -> Compiled:
         commissioning=commissioning,
         pictures=pictures,
         program=program,
+        motion=motion,
     )
     return Compiled(
         family=family, groups=groups, rules=rules, plausible=plausible, further=record_text(further)

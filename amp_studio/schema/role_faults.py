@@ -1,4 +1,4 @@
-"""What is wrong with the roles of a family's pictures, and of the words of its programs:
+"""What is wrong with the roles of a family's pictures, of the words of its programs and of its motion:
 parameters and choices that there are not.
 """
 
@@ -6,7 +6,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from .model import Group, MacroCall, Model, Parameter, PictureRoles, ProgramWords
+from .model import Group, MacroCall, Model, Motion, Parameter, PictureRoles, ProgramWords
 from .model.pictures import Direction, ForbiddenSide, RampRoles, ZoneRole, parameters_named
 from .quoting import quoted
 from .yaml_reader import KeyPath
@@ -93,6 +93,14 @@ def faults_of_program(program: ProgramWords, groups: tuple[Group, ...]) -> Itera
         for m, code in enumerate(group.codes):
             if code.choice is not None and code.choice not in offered:
                 yield ("groups", n, "codes", m, "choice"), f"there is no choice {quoted(code.choice)}"
+
+
+def faults_of_motion(motion: Motion, groups: tuple[Group, ...]) -> Iterator[tuple[KeyPath, str]]:
+    """Yield each fault with its place in the file."""
+    known = {p.id for group in groups for p in group.parameters}
+    for role, named in motion.params.items():
+        if named not in known:
+            yield ("params", role), f"there is no parameter {quoted(named)}"
 
 
 def _named(model: Model, place: KeyPath) -> Iterator[tuple[KeyPath, str]]:

@@ -48,21 +48,12 @@ if TYPE_CHECKING:
     from .identification.identify_response import identify_response
     from .identification.machine_file import machine_for, read_machine, write_machine
     from .identification.overlay import laid_over
-    from .law import (
-        USUAL_SCENARIOS,
-        AlarmText,
-        AxisLaw,
-        BoundMachine,
-        Law,
-        Leader,
-        Prediction,
-        Source,
-        law_of,
-    )
+    from .law import AlarmText, AxisLaw, BoundMachine, Law, Leader, Prediction, Source, law_of
     from .listings import SimulationListing, listing
     from .machine_test import MachineTest, MachineTestStep
     from .model import assumptions, with_model
     from .motion_check import MotionCheck, check_motion
+    from .parameter_roles import ParameterRoles
     from .picture import picture_of, plot_svg, settling_span
     from .probing import Probing
     from .rounding import rounded_down, rounded_up, value_text

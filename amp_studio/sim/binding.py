@@ -28,7 +28,7 @@ def bind_axis(
     """
     fitted = tuple(law.axes(file))
     if not fitted:
-        raise SimulationError(law.without_axes)
+        raise SimulationError(law.motion.without_axes)
     chosen = axis or fitted[0]
     if chosen not in fitted:
         chosen = next((each for each in fitted if axis_name(file.evaluation, each) == chosen.upper()), chosen)

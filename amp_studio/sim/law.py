@@ -34,13 +34,21 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterable, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 import numpy.typing as npt
 
 from amp_studio.files import ParameterFile, fitted_axes
-from amp_studio.schema import load_part, load_schema, registered_families, registration_of, why_not_simulated
+from amp_studio.schema import (
+    NO_MOTION,
+    Motion,
+    load_part,
+    load_schema,
+    registered_families,
+    registration_of,
+    why_not_simulated,
+)
 
 from .axis_parameters import AxisParameters, ParameterValue
 from .command.events import RAMPS, Homing, Jogging, Ramp, Travel
@@ -55,9 +63,6 @@ from .trace import Recommendation, Trace
 from .zones import Zone
 
 Leader = Callable[["AxisLaw"], Mapping[str, npt.NDArray[np.float64]]]
-
-USUAL_SCENARIOS = ("step", "velocity", "frequency", "tune", "load", "sweep", "circle")
-"""Scenarios of every family."""
 
 
 @dataclass(frozen=True)
@@ -187,10 +192,6 @@ class Law:
 
     ``bind``       one axis from a file; raises SimulationError naming the parameter
     ``axes``       the axes of a file that can be simulated
-    ``without_axes``  what to do about a file that has none, in a sentence
-    ``settings``   figures that are no parameters and not of every machine (`model.py`), ``model.*`` -> what
-    they are
-    ``scenarios``  those that the manual of the family carries
     ``advise``     the family's own recommendations after a scenario
     ``own``        scenarios of the family alone, by name
     ``spindle``    spindle(values of the machine, its number) -> the spindle; None where no output to one is
@@ -199,14 +200,12 @@ class Law:
     is not printed
     ``probing``    probing(values of the machine, axis, which cycle) -> how a probe is met
     ``machine_tests``  machine_tests(machine, axis) -> programs and procedures that try an axis out
+    ``motion``     the facts of ``motion.yaml``, which `law_of` puts here
     ``zones``      zones(machine, axes) -> areas that axes must not enter or leave
     """
 
     bind: Callable[[AxisParameters], AxisLaw]
     axes: Callable[[ParameterFile], Sequence[str]] = fitted_axes
-    without_axes: str = "No axis is fitted. Set the type of an axis first"
-    settings: Mapping[str, str] = field(default_factory=dict)
-    scenarios: Sequence[str] = USUAL_SCENARIOS
     advise: Callable[[AxisLaw, Trace], Sequence[Recommendation]] = _no_recommendation
     own: Mapping[str, Scenario] = field(default_factory=dict)
     spindle: Callable[[AxisParameters, str], Spindle] | None = None
@@ -214,6 +213,7 @@ class Law:
     probing: Callable[[AxisParameters, AxisLaw, str], Probing] | None = None
     zones: Callable[[BoundMachine, Sequence[str]], Iterable[Zone]] | None = None
     machine_tests: Callable[[BoundMachine, AxisLaw], Sequence[MachineTest]] | None = None
+    motion: Motion = NO_MOTION
 
 
 @dataclass(frozen=True)
@@ -266,12 +266,11 @@ def law_of(family: str) -> Law:
         raise SimulationError(f"{why_not_simulated(load_schema(family).family)} Simulated are: {known}")
     found = load_part(place)
     assert isinstance(found, Law)
-    return found
+    return replace(found, motion=load_schema(family).motion)
 
 
 __all__ = [
     "RAMPS",
-    "USUAL_SCENARIOS",
     "AlarmText",
     "AxisLaw",
     "BoundMachine",

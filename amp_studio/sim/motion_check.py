@@ -63,14 +63,14 @@ def check_motion(file: ParameterFile, axis: str | None = None) -> Iterator[Motio
     law = law_of(file.schema.family.family)
     axes = tuple(law.axes(file))
     if not axes:
-        raise SimulationError(law.without_axes)
+        raise SimulationError(law.motion.without_axes)
     chosen = axes if axis is None else (axis,)
-    for scenario in (each for each in CHECKED if each in law.scenarios):
+    for scenario in (each for each in CHECKED if each in law.motion.scenarios):
         for each in chosen:
             yield _checked(file, law, scenario, each)
             if scenario == "circle":
                 break  # two axes make it
-    if axis is None and "spindle" in law.scenarios and (checked := _spindle_checked(file)):
+    if axis is None and "spindle" in law.motion.scenarios and (checked := _spindle_checked(file)):
         yield checked
 
 

@@ -52,9 +52,10 @@ def simulate(
     law = law_of(file.schema.family.family)
     if scenario not in {**SCENARIOS, **law.own}:
         raise SimulationError(unknown_name("scenario", scenario, {**SCENARIOS, **law.own}))
-    if scenario not in (*law.scenarios, *law.own):
+    if scenario not in (*law.motion.scenarios, *law.own):
         raise SimulationError(
-            f"{file.schema.family.name} has no scenario '{scenario}': {', '.join((*law.scenarios, *law.own))}"
+            f"{file.schema.family.name} has no scenario '{scenario}':"
+            f" {', '.join((*law.motion.scenarios, *law.own))}"
         )
     length = length_unit(file, system)
     unit = axis_unit(file, axis or next(iter(law.axes(file)), ""), length)

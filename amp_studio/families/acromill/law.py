@@ -1,7 +1,7 @@
 """Binds an axis of AcroMill from a file: the gains of the Servo tab and of appendix C,
 and the machine behind them.
 
-The only module of the law with ids of AcroMill. Pages are those of the User's Guide.
+Pages are those of the User's Guide.
 """
 
 from __future__ import annotations
@@ -13,7 +13,6 @@ from functools import partial
 
 from amp_studio.files import ParameterFile
 from amp_studio.sim import (
-    USUAL_SCENARIOS,
     AlarmText,
     AxisLaw,
     AxisParameters,
@@ -32,48 +31,26 @@ from amp_studio.sim import (
 from . import law_events as events
 from . import law_plant as plant
 from . import law_sample as loop
+from .law_facts import MOTION, ids
 from .law_filters import PASS, Biquad, lopass, notch
 from .law_machine_tests import machine_tests
 from .law_spindle import probing, spindle
-
-AXES = ("X", "Y", "Z", "A", "B", "C", "U", "V")
-COUNT = "view.number_of_axes"
-PULSES, PERIOD = "axes.pulses_per_unit", "tuning.servo_period"
-D_GAIN = "servo.d_gain"
-P_GAIN, I_DELAY, D_TIME = "servo.p_gain", "servo.i_delay", "servo.d_time"
-LIMIT = "servo.torque_limits"
-VEL_FFWD, FBVEL, DAC_GAIN = "servo.vel_ffwd", "tuning.fbvel", "tuning.dac_gain"
-EXCESS, BAND = "axes.excess_error_band", "axes.inposition_band"
-RAPID, HIGHEST, RAMP = "speeds.rapid", "speeds.max_machine", "speeds.rapid_acc_dec"
 
 NORMAL_DAC_GAIN = 3276.8
 """Words of the converter for 1 V (page 114)."""
 
 _GAINS = {
-    loop.P_GAIN: P_GAIN,
-    loop.I_GAIN: "servo.i_gain",
-    loop.D_GAIN: D_GAIN,
-    loop.I_LIMIT: "servo.i_limit",
-    loop.VEL_FFWD: VEL_FFWD,
-    loop.ACC_FFWD: "servo.acc_ffwd",
-    loop.FBVEL: FBVEL,
+    loop.P_GAIN: ids.p_gain,
+    loop.I_GAIN: ids.i_gain,
+    loop.D_GAIN: ids.d_gain,
+    loop.I_LIMIT: ids.i_limit,
+    loop.VEL_FFWD: ids.vel_ffwd,
+    loop.ACC_FFWD: ids.acc_ffwd,
+    loop.FBVEL: ids.tuning_fbvel,
 }
 _MILLISECONDS = 1e-3
 _SMALLEST_GAIN, _LARGEST_GAIN = 1e-9, 1e6
 
-_TEST_MOTOR = (
-    "The control does not know its motor: taken is the bare test motor of appendix C (from page 115 on)"
-)
-_ASSUMED = {
-    "acceleration_per_output": (
-        f"{_TEST_MOTOR}, 5025126 pulses/s2 for 1 V, the reciprocal of its ACC FFwd 0.000000199."
-    ),
-    "viscous_friction": f"{_TEST_MOTOR}: its Vel FFwd 0.0000015 V for 1 pulse/s.",
-    "coulomb_friction": (
-        f"{_TEST_MOTOR}: 100 pulses of error at 500 turns a minute with P Gain 0.001, less the viscous part."
-    ),
-    "delay": f"{_TEST_MOTOR}: with it P Gain 0.08 is stable and 0.11 is not.",
-}
 _NOTES = (
     (
         "Dac Polarity, the sign of DAC GAIN and that of Encoder Mult are taken to fit each other (page 114):"
@@ -94,21 +71,22 @@ _FILTER_NOTE = (
 
 def axes(file: ParameterFile) -> Sequence[str]:
     """Return the axes of the machine: as many as in Number of Axes, all eight if it is not set (page 102)."""
-    count = file.evaluation.canonical((COUNT, ""))
-    return AXES if not isinstance(count, float) else AXES[: max(0, int(count))]
+    count = file.evaluation.canonical((ids.number_of_axes, ""))
+    return MOTION.axes if not isinstance(count, float) else MOTION.axes[: max(0, int(count))]
 
 
 def bind(read: AxisParameters) -> AxisLaw:
     """Return one axis; raises SimulationError naming the parameter that is missing or impossible."""
-    pulses = read.within(PULSES, 0.001, 1e9)
-    period = read.within(PERIOD, 0.01, 100.0, everywhere=True) * _MILLISECONDS
+    pulses = read.within(ids.pulses_per_unit, 0.001, 1e9)
+    period = read.within(ids.servo_period, 0.01, 100.0, everywhere=True) * _MILLISECONDS
     notes = list(_NOTES)
     p = _parameters(read, pulses, period, notes)
-    excess, band = _or(read, EXCESS, 1e9), _or(read, BAND, 1e9)
+    excess, band = _or(read, ids.excess_error_band, 1e9), _or(read, ids.inposition_band, 1e9)
     p[loop.EXCESS] = excess * pulses
     if excess <= 0.0:
         notes.append(
-            f"{EXCESS} is 0, so every error would be too large (page 60): simulated without this limit."
+            f"{ids.excess_error_band} is 0, so every error would be too large (page 60): simulated without"
+            " this limit."
             " Set it."
         )
     machine = Machine(
@@ -121,9 +99,9 @@ def bind(read: AxisParameters) -> AxisLaw:
         position_count=1.0 / pulses,
         load_sensor=p[loop.FBVEL] != 0.0,
     )
-    rapid = _or(read, RAPID, 1e9, everywhere=True)
-    feedrate = rapid or _or(read, HIGHEST, 1e9, everywhere=True)
-    ramp = _or(read, RAMP, 1e12, everywhere=True)
+    rapid = _or(read, ids.speeds_rapid, 1e9, everywhere=True)
+    feedrate = rapid or _or(read, ids.max_machine, 1e9, everywhere=True)
+    ramp = _or(read, ids.rapid_acc_dec, 1e12, everywhere=True)
     axis = AxisLaw(
         axis=read.axis,
         unit="mm",
@@ -149,9 +127,9 @@ def bind(read: AxisParameters) -> AxisLaw:
         limits={"excess_error": excess} if excess > 0.0 else {},
         gains=("derivative_gain", "position_gain", "integral_gain"),
         follow=follow,
-        sources=_sources(pulses, "speeds.rapid" if rapid else HIGHEST),
+        sources=_sources(pulses, ids.speeds_rapid if rapid else ids.max_machine),
         assumptions=tuple(notes),
-        assumed=_ASSUMED,
+        assumed=plant.REASONS,
         sweep_parameters=[*p[: loop.EXCESS], 0.0, *p[loop.EXCESS + 1 :]],
         linear_parameters=_linear(p),
     )
@@ -190,16 +168,16 @@ def _parameters(read: AxisParameters, pulses: float, period: float, notes: list[
         p[place] = read.within(parameter, -_LARGEST_GAIN, _LARGEST_GAIN)
     if abs(p[loop.P_GAIN]) < _SMALLEST_GAIN:
         raise SimulationError(
-            f"{P_GAIN} of axis {read.axis} is {p[loop.P_GAIN]:g}: the loop is open and the axis would not"
+            f"{ids.p_gain} of axis {read.axis} is {p[loop.P_GAIN]:g}: the loop is open and the axis would not"
             " follow (page 115)",
-            P_GAIN,
+            ids.p_gain,
         )
     p[loop.PULSES], p[loop.PERIOD] = pulses, period
-    p[loop.TORQUE_LIMIT] = read.within(LIMIT, 0.001, 1000.0)
-    p[loop.I_DELAY] = read.within(I_DELAY, 0.0, 1e9) * _MILLISECONDS
+    p[loop.TORQUE_LIMIT] = read.within(ids.torque_limits, 0.001, 1000.0)
+    p[loop.I_DELAY] = read.within(ids.i_delay, 0.0, 1e9) * _MILLISECONDS
     if p[loop.I_LIMIT] <= 0.0:  # no room to work in (page 59)
         p[loop.I_LIMIT] = p[loop.I_GAIN] = 0.0
-    p[loop.D_PERIODS] = max(1.0, round(read.within(D_TIME, 0.0, 1e6) * _MILLISECONDS / period))
+    p[loop.D_PERIODS] = max(1.0, round(read.within(ids.d_time, 0.0, 1e6) * _MILLISECONDS / period))
     p[loop.DAC_SHARE] = _dac_share(read)
     p[loop.DAC_WORDS] = NORMAL_DAC_GAIN
     sections = _filters(read, 1.0 / period)
@@ -211,20 +189,21 @@ def _parameters(read: AxisParameters, pulses: float, period: float, notes: list[
 
 def _dac_share(read: AxisParameters) -> float:
     """Return the volts put out for 1 V."""
-    gain = read.number(DAC_GAIN)
+    gain = read.number(ids.dac_gain)
     if not 1.0 <= abs(gain) <= 1e6:
         raise SimulationError(
-            f"{DAC_GAIN} of axis {read.axis} is {gain:g}: the output has no use. 3276.8 is normal (page 114)",
-            DAC_GAIN,
+            f"{ids.dac_gain} of axis {read.axis} is {gain:g}: the output has no use. 3276.8 is normal (page"
+            " 114)",
+            ids.dac_gain,
         )
     return abs(gain) / NORMAL_DAC_GAIN
 
 
 def _filters(read: AxisParameters, servo_hz: float) -> tuple[Biquad, Biquad]:
-    low, middle = read.optional("tuning.lopass_frequency"), read.optional("tuning.notch_frequency")
-    width = read.optional("tuning.notch_width")
+    low, middle = read.optional(ids.lopass_frequency), read.optional(ids.notch_frequency)
+    width = read.optional(ids.notch_width)
     if (middle is None) != (width is None):
-        raise SimulationError("NOTCH takes a frequency and a width: set both or none", "tuning.notch_width")
+        raise SimulationError("NOTCH takes a frequency and a width: set both or none", ids.notch_width)
     first = PASS if low is None else lopass(low, servo_hz)
     return first, PASS if middle is None or width is None else notch(middle, width, servo_hz)
 
@@ -282,16 +261,16 @@ def _predicted(p: Sequence[float], machine: Machine, speed: float) -> Prediction
 
 def _sources(pulses: float, feedrate: str) -> Mapping[str, Source]:
     return {
-        "position_gain": Source(P_GAIN, page="59"),
-        "derivative_gain": Source(D_GAIN, page="59"),
-        "integral_gain": Source("servo.i_gain", page="59"),
-        "feed_forward": Source(VEL_FFWD, page="59"),
-        "excess_error": Source(EXCESS, page="60"),
-        "inposition_band": Source(BAND, page="60"),
+        "position_gain": Source(ids.p_gain, page="59"),
+        "derivative_gain": Source(ids.d_gain, page="59"),
+        "integral_gain": Source(ids.i_gain, page="59"),
+        "feed_forward": Source(ids.vel_ffwd, page="59"),
+        "excess_error": Source(ids.excess_error_band, page="60"),
+        "inposition_band": Source(ids.inposition_band, page="60"),
         "feedrate": Source(feedrate, page="74"),
-        "linear_acceleration": Source(RAMP, page="74"),
-        "servo_period": Source(PERIOD, page="113"),
-        "feedback_counts": Source(PULSES, pulses, page="60"),
+        "linear_acceleration": Source(ids.rapid_acc_dec, page="74"),
+        "servo_period": Source(ids.servo_period, page="113"),
+        "feedback_counts": Source(ids.pulses_per_unit, pulses, page="60"),
     }
 
 
@@ -316,7 +295,7 @@ def follow(axis: AxisLaw) -> Sequence[Recommendation]:
         return ()
     return (
         Recommendation(
-            VEL_FFWD,
+            ids.vel_ffwd,
             wanted,
             "Vs/count",
             "No steady error at the rapid feedrate: what viscous and dry friction take there, for a pulse a"
@@ -330,13 +309,4 @@ SAME = 0.005
 """Share of the Vel FFwd by which another one is the same."""
 
 
-LAW = Law(
-    bind=bind,
-    axes=axes,
-    without_axes="Number of Axes (view.number_of_axes) is 0: set it to simulate an axis",
-    scenarios=(*USUAL_SCENARIOS, "home", "jog", "travel", "spindle", "probe"),
-    advise=advise,
-    spindle=spindle,
-    probing=probing,
-    machine_tests=machine_tests,
-)
+LAW = Law(bind=bind, axes=axes, advise=advise, spindle=spindle, probing=probing, machine_tests=machine_tests)

@@ -6,8 +6,8 @@ import math
 
 from amp_studio.sim import AxisParameters, Homing, Jogging, Ramp, SimulationError, Travel
 
-LINES = 4096.0
-"""Pulses from marker to marker: an encoder of appendix C, after multiplication (page 113)."""
+from .law_facts import MOTION, ids
+
 NOTES = (
     (
         "To the switch at Home Fast Speed, away from it at Home Slow Speed, on to the marker at Marker Speed"
@@ -29,15 +29,15 @@ def _above_zero(read: AxisParameters, name: str) -> float:
 
 def homing(read: AxisParameters, pulses: float) -> Homing:
     """Return the sequence; ``pulses`` for 1 u."""
-    sign = -1.0 if read.choice("home.direction") == "neg" else 1.0
+    sign = -1.0 if read.choice(ids.home_direction) == "neg" else 1.0
     return Homing(
-        approach=sign * _above_zero(read, "home.fast_speed") / 60.0,
-        leave=-sign * _above_zero(read, "home.slow_speed") / 60.0,
+        approach=sign * _above_zero(read, ids.fast_speed) / 60.0,
+        leave=-sign * _above_zero(read, ids.slow_speed) / 60.0,
         marker="next",
-        turn=LINES / pulses,
-        coordinate=read.optional("home.preset") or 0.0,
-        search=_above_zero(read, "home.marker_speed") / 60.0,
-        ramp=Ramp("linear", _above_zero(read, "home.acceleration"), _above_zero(read, "home.stop")),
+        turn=MOTION.value("pulses_per_turn") / pulses,
+        coordinate=read.optional(ids.home_preset) or 0.0,
+        search=_above_zero(read, ids.marker_speed) / 60.0,
+        ramp=Ramp("linear", _above_zero(read, ids.home_acceleration), _above_zero(read, ids.home_stop)),
         page="65",
         notes=NOTES,
     )
@@ -45,17 +45,17 @@ def homing(read: AxisParameters, pulses: float) -> Homing:
 
 def jogging(read: AxisParameters) -> Jogging:
     """Return the jog speeds and increments (page 67)."""
-    speeds = {name: _above_zero(read, f"jog.{name}") / 60.0 for name in ("feedrate", "rapid")}
-    increments = {str(n): read.optional(f"jog.increment_{n}") or 0.0 for n in range(1, 6)}
-    ramp = Ramp("linear", _above_zero(read, "jog.acceleration"), _above_zero(read, "jog.deceleration"))
+    speeds = {name: _above_zero(read, ids[f"jog_{name}"]) / 60.0 for name in ("feedrate", "rapid")}
+    increments = {str(n): read.optional(ids[f"jog_increment_{n}"]) or 0.0 for n in range(1, 6)}
+    ramp = Ramp("linear", _above_zero(read, ids.jog_acceleration), _above_zero(read, ids.jog_deceleration))
     return Jogging(speeds, {name: way for name, way in increments.items() if way}, ramp=ramp, page="67")
 
 
 def travel(read: AxisParameters) -> Travel:
     """Return the soft limits from the home position (page 60)."""
-    if read.value("axes.disable_limit") is True:
+    if read.value(ids.disable_limit) is True:
         return Travel({}, "SOFT LIMIT", "60", ("Soft limits of this axis are disabled.",))
-    low, high = read.optional("axes.soft_limit_minus"), read.optional("axes.soft_limit_plus")
+    low, high = read.optional(ids.soft_limit_minus), read.optional(ids.soft_limit_plus)
     edges = (-math.inf if low is None else low, math.inf if high is None else high)
     note = (
         "ASSUMED: a manual move stops at once at a soft limit; the guide prints the limits alone (page 60)."

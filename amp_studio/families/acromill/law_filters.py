@@ -17,6 +17,8 @@ import math
 
 from amp_studio.sim import SimulationError
 
+from .law_facts import ids
+
 Biquad = tuple[float, float, float, float, float]
 """(a0, a1, a2, b1, b2) of the printed form."""
 
@@ -43,7 +45,7 @@ def notch(frequency: float, width: float, servo_hz: float) -> Biquad:
     if not 0.0 < width <= frequency:
         raise SimulationError(
             f"NOTCH({frequency:g}, {width:g}): the width must be above 0 and at most the frequency",
-            "tuning.notch_width",
+            ids.notch_width,
         )
     k = _warped("NOTCH", frequency, servo_hz)
     return _bilinear((1.0, 1.0 - width / frequency, 1.0), (1.0, 1.0, 1.0), k)
@@ -54,7 +56,7 @@ def _warped(name: str, frequency: float, servo_hz: float) -> float:
         raise SimulationError(
             f"{name} {frequency:g} Hz cannot be simulated: it must be above 0 and below half of the servo"
             f" update frequency, which is {servo_hz:g} Hz",
-            f"tuning.{name.lower()}_frequency",
+            ids[f"{name.lower()}_frequency"],
         )
     return math.tan(math.pi * frequency / servo_hz)
 

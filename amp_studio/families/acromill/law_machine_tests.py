@@ -6,24 +6,31 @@ from __future__ import annotations
 
 from amp_studio.sim import AxisLaw, BoundMachine, MachineTest, MachineTestStep
 
-TURNS, LINES, OUTPUT = 3.0, 4096.0, 32
+from .law_facts import MOTION, ids
+
+TURNS, OUTPUT = 3.0, 32
 FIRST, STEP = 769, 32
-PULSES = "axes.pulses_per_unit"
 
 
 def machine_tests(machine: BoundMachine, _axis: AxisLaw) -> list[MachineTest]:
     """Return the program for the axes of the file."""
     title, page = "Excess error of every axis takes the power away while it is tuned", "113, 114"
     bits = [FIRST + STEP * "XYZABCUV".index(name) for name in machine.fitted]
-    pulses = {name: machine.read(name).optional(PULSES) for name in machine.fitted}
+    pulses = {name: machine.read(name).optional(ids.pulses_per_unit) for name in machine.fitted}
     if missing := [name for name, figure in pulses.items() if not figure]:
         return [
-            MachineTest("excess-error", title, page, refusal=f"{PULSES} of {', '.join(missing)} is not set.")
+            MachineTest(
+                "excess-error",
+                title,
+                page,
+                refusal=f"{ids.pulses_per_unit} of {', '.join(missing)} is not set.",
+            )
         ]
-    unit = 1.0 if machine.parameters.value("control.default_units", everywhere=True) == "metric" else 25.4
+    unit = 1.0 if machine.parameters.value(ids.default_units, everywhere=True) == "metric" else 25.4
     # The guide sets 4 units at 4096 pulses; three turns of its motor are 3 units.
+    way = TURNS * MOTION.value("pulses_per_turn")
     ranges = " ".join(
-        f"AXIS{'XYZABCUV'.index(name)} {_word(TURNS * LINES / (figure or 1.0) / unit)}"
+        f"AXIS{MOTION.axes.index(name)} {_word(way / (figure or 1.0) / unit)}"
         for name, figure in pulses.items()
     )
     lines = ["PROG0", f"EXC {ranges}", "PLC0", "HALT", "NEW"]

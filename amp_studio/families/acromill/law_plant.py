@@ -19,17 +19,25 @@ not. The traces themselves are lost.
 
 from __future__ import annotations
 
-PULSES_PER_TURN = 4096.0
-"""PPU X4096 (page 114)."""
-SERVO_PERIOD = 0.0004
-"""s: 2500 Hz, the example (page 128)."""
-SPEED = 500.0 / 60.0 * PULSES_PER_TURN
-"""Pulses/s of F500 (page 115)."""
-ACCELERATION = 1.0 / 0.000000199
+from .law_facts import MOTION
+
+PULSES_PER_TURN = MOTION.value("pulses_per_turn")
+SERVO_PERIOD = MOTION.value("servo_period")
+"""s"""
+SPEED = MOTION.value("speed") / 60.0 * PULSES_PER_TURN
+"""Pulses/s."""
+ACCELERATION = 1.0 / MOTION.value("acc_ffwd")
 """Pulses/s² for 1 V."""
-VISCOUS = 0.0000015
+VISCOUS = MOTION.value("vel_ffwd")
 """V for 1 pulse/s."""
-COULOMB = 0.001 * 100.0 - VISCOUS * SPEED
+COULOMB = MOTION.value("p_gain_at_speed") * MOTION.value("error_at_speed") - VISCOUS * SPEED
 """V."""
-DELAY = 0.00064
+DELAY = MOTION.value("delay")
 """s: 1.6 servo periods."""
+REASONS = MOTION.reasons(
+    acceleration_per_output="acc_ffwd",
+    viscous_friction="vel_ffwd",
+    coulomb_friction="error_at_speed",
+    delay="delay",
+)
+"""Figure of the machine -> why it has its value."""

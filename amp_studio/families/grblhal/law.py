@@ -25,24 +25,20 @@ from amp_studio.sim import (
 )
 
 from . import law_sample as loop
+from .law_facts import MOTION, ids
 from .law_spindle import probing, spindle
 
-STEPS, RATE, ACCELERATION, TRAVEL = "axis.steps", "axis.max_rate", "axis.acceleration", "axis.max_travel"
-CYCLE, DIRECTION, PULL_OFF, PASSES = (
-    "homing.cycle",
-    "homing.invert_direction",
-    "homing.pull_off",
-    "homing.passes",
-)
-COMMON = ("homing.seek_rate", "homing.locate_rate")
-OWN = ("axis.homing_seek_rate", "axis.homing_locate_rate")
+COMMON = (ids.seek_rate, ids.locate_rate)
+OWN = (ids.homing_seek_rate, ids.homing_locate_rate)
 ENABLED, ORIGIN, PER_AXIS = 1 << 0, 1 << 3, 1 << 9
 SEARCH, LOCATE = 1.5, 5.0
 """Times the travel, and times the pull-off, in which a switch is searched (config.h,
 HOMING_AXIS_SEARCH_SCALAR, _LOCATE_SCALAR)."""
-LETTERS = "XYZABCUV"
-SAMPLE, GAIN, BANDWIDTH = 1e-3, 100.0, 400.0
-"""s, 1/s, Hz: how closely the simulated motor keeps to its steps; an assumption."""
+
+SAMPLE = MOTION.value("sample")
+"""s"""
+GAIN = MOTION.value("position_gain")
+"""1/s"""
 
 FOLLOWS = (
     "ASSUMED: the motor follows its steps; a stepper has no servo loop, and steps that it loses under load"
@@ -64,18 +60,21 @@ LIMITED = (
 
 def axes(file: ParameterFile) -> Sequence[str]:
     """Return the axes that have steps."""
-    named = file.machine_schema.instances(file.schema.parameters[STEPS])
+    named = file.machine_schema.instances(file.schema.parameters[ids.axis_steps])
     return tuple(
         axis
         for axis in named
-        if file.get((STEPS, axis)) is not None and file.evaluation.state((STEPS, axis)).is_active
+        if file.get((ids.axis_steps, axis)) is not None
+        and file.evaluation.state((ids.axis_steps, axis)).is_active
     )
 
 
 def bind(read: AxisParameters) -> AxisLaw:
     """Return one axis; raises SimulationError naming the setting that is missing or impossible."""
-    steps, rate, acceleration = (_above(read, name) for name in (STEPS, RATE, ACCELERATION))
-    unit = "deg" if _bit(read, "stepper.rotary_axes", LETTERS.index(read.axis) - 3) else "mm"
+    steps, rate, acceleration = (
+        _above(read, name) for name in (ids.axis_steps, ids.max_rate, ids.axis_acceleration)
+    )
+    unit = "deg" if _bit(read, ids.rotary_axes, MOTION.axes.index(read.axis) - 3) else "mm"
     ramp = Ramp("linear", acceleration=acceleration)
     return AxisLaw(
         axis=read.axis,
@@ -88,7 +87,9 @@ def bind(read: AxisParameters) -> AxisLaw:
         servo_period=SAMPLE,
         velocity_period=SAMPLE,
         machine=Machine(
-            acceleration_per_output=1e4, velocity_per_output=1.0 / 60.0, velocity_bandwidth=BANDWIDTH
+            acceleration_per_output=1e4,
+            velocity_per_output=1.0 / 60.0,
+            velocity_bandwidth=MOTION.value("velocity_bandwidth"),
         ),
         output_unit=f"{unit}/min",
         position_rate=GAIN,
@@ -97,7 +98,7 @@ def bind(read: AxisParameters) -> AxisLaw:
         ramps={"linear": ramp, "none": Ramp()},
         monitors=(("step_rate", "Hz"),),
         predict=lambda speed: {"step_rate": Prediction(abs(speed) * steps, "Hz", "protocol")},
-        sources={"feedrate": Source(RATE, 60.0), "acceleration": Source(ACCELERATION)},
+        sources={"feedrate": Source(ids.max_rate, 60.0), "acceleration": Source(ids.axis_acceleration)},
         assumptions=(FOLLOWS,),
         homing=partial(homing, read),
         jogging=lambda: Jogging(
@@ -122,10 +123,10 @@ def _bit(read: AxisParameters, name: str, bit: int) -> bool:
 
 def homing(read: AxisParameters) -> Homing:
     """Return the homing cycle of one axis; raises SimulationError where it is off."""
-    cycle = int(read.optional(CYCLE, everywhere=True) or 0.0)
+    cycle = int(read.optional(ids.homing_cycle, everywhere=True) or 0.0)
     if not cycle & ENABLED:
-        raise SimulationError("Homing is off ($22): $H is answered with error:5", CYCLE)
-    sign = -1.0 if _bit(read, DIRECTION, LETTERS.index(read.axis)) else 1.0
+        raise SimulationError("Homing is off ($22): $H is answered with error:5", ids.homing_cycle)
+    sign = -1.0 if _bit(read, ids.invert_direction, MOTION.axes.index(read.axis)) else 1.0
     seek, locate = (
         (read.optional(name) if cycle & PER_AXIS else read.optional(name, everywhere=True)) or 0.0
         for name in (OWN if cycle & PER_AXIS else COMMON)
@@ -135,9 +136,9 @@ def homing(read: AxisParameters) -> Homing:
             f"The homing rates of axis {read.axis} are {seek:g} and {locate:g}; both must be above 0",
             COMMON[0],
         )
-    back, travelled = read.number(PULL_OFF, everywhere=True), read.number(TRAVEL)
+    back, travelled = read.number(ids.pull_off, everywhere=True), read.number(ids.max_travel)
     if not back > 0.0:
-        raise SimulationError(f"Homing pull-off ($27) is {back:g}; it must be above 0", PULL_OFF)
+        raise SimulationError(f"Homing pull-off ($27) is {back:g}; it must be above 0", ids.pull_off)
     home = 0.0 if cycle & ORIGIN else back - travelled if sign < 0.0 else -back
     none = f"the switch has not been found ({SOURCE}, homing_cycle)"
     return Homing(
@@ -150,7 +151,7 @@ def homing(read: AxisParameters) -> Homing:
         offset=-sign * back,
         again=locate / 60.0,
         pull_off=back,
-        passes=int(read.optional(PASSES, everywhere=True) or 1.0),
+        passes=int(read.optional(ids.homing_passes, everywhere=True) or 1.0),
         stops_by_switch=True,
         failures={
             "switch": Failure(
@@ -167,23 +168,16 @@ def homing(read: AxisParameters) -> Homing:
 
 def travel(read: AxisParameters) -> Travel:
     """Return the soft limits of a homed axis (machine_limits.c, limits_set_work_envelope)."""
-    if read.value("limits.soft", everywhere=True) not in (True, "yes"):
+    if read.value(ids.limits_soft, everywhere=True) not in (True, "yes"):
         return Travel({}, "ALARM:2", SOURCE, ("Soft limits are off ($20): only switches stop an axis.",))
-    length, cycle = read.number(TRAVEL), int(read.optional(CYCLE, everywhere=True) or 0.0)
-    back = (read.optional(PULL_OFF, everywhere=True) or 0.0) if _bit(read, "limits.hard", 0) else 0.0
+    length, cycle = read.number(ids.max_travel), int(read.optional(ids.homing_cycle, everywhere=True) or 0.0)
+    back = (read.optional(ids.pull_off, everywhere=True) or 0.0) if _bit(read, ids.limits_hard, 0) else 0.0
     low, high = back - length, -back
     if cycle & ORIGIN:
-        negative = _bit(read, DIRECTION, LETTERS.index(read.axis))
+        negative = _bit(read, ids.invert_direction, MOTION.axes.index(read.axis))
         low, high = (0.0, length - back) if negative else (back - length, 0.0)
     edges = (low, high) if math.isfinite(length) else (-math.inf, math.inf)
     return Travel({"the soft limit": edges}, "ALARM:2", SOURCE, (LIMITED,), refuses=True)
 
 
-LAW = Law(
-    bind,
-    axes,
-    "No axis has steps. Set $100 of an axis",
-    scenarios=("step", "home", "jog", "travel", "spindle", "probe"),
-    spindle=spindle,
-    probing=probing,
-)
+LAW = Law(bind, axes, spindle=spindle, probing=probing)

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from amp_studio.sim import AxisLaw, AxisParameters, Gear, Probing, SimulationError, Spindle
 
+from .law_facts import ids
+
 STEPPED = (
     "The duty cycle changes in one step; a speed outside of $31 to $30 is set to the nearest of both"
     " (spindle_control.c)."
@@ -18,14 +20,12 @@ def spindle(read: AxisParameters, number: str) -> Spindle:
     """Return the PWM spindle; raises SimulationError without a highest speed."""
     if number != "1":
         raise SimulationError("The PWM spindle is number 1", "move.spindle")
-    high = read.number("spindle.max_speed", everywhere=True)
-    low = read.optional("spindle.min_speed", everywhere=True) or 0.0
+    high = read.number(ids.max_speed, everywhere=True)
+    low = read.optional(ids.min_speed, everywhere=True) or 0.0
     if not high > low:
-        raise SimulationError(
-            "$30 must be above $31: the duty cycle is shared between both", "spindle.max_speed"
-        )
-    least = read.optional("spindle.pwm_min", everywhere=True) or 0.0
-    most = read.optional("spindle.pwm_max", everywhere=True)
+        raise SimulationError("$30 must be above $31: the duty cycle is shared between both", ids.max_speed)
+    least = read.optional(ids.pwm_min, everywhere=True) or 0.0
+    most = read.optional(ids.pwm_max, everywhere=True)
     gear = Gear(
         "1", low, high, full=high, output=100.0 if most is None else most, least_output=least, least=low
     )

@@ -25,13 +25,8 @@ from amp_studio.sim import (
 
 from . import law_sample as loop
 from .kinematics import joint_letters
+from .law_facts import MOTION, ids
 
-GAIN, FORWARD, BANDWIDTH, MARKERS = 100.0, 1.0, 100.0, 10.0
-"""1/s, a ratio, Hz, u: what is assumed where the file has nothing."""
-
-DRIVE = {
-    "velocity_bandwidth": "ASSUMED: a velocity drive of 100 Hz; what the drive is the file does not show."
-}
 NO_LOOP = (
     "ASSUMED: the file has no P for the joint, so its HAL closes the loop elsewhere: a loop of 100 1/s with"
     " full feed-forward."
@@ -51,7 +46,7 @@ LIMITED = (
 
 def axes(file: ParameterFile) -> tuple[str, ...]:
     """Return the axes that have a joint of plain kinematics."""
-    kinematics, joints = file.get(("kins.kinematics", "")), file.get(("kins.joints", ""))
+    kinematics, joints = file.get((ids.kins_kinematics, "")), file.get((ids.kins_joints, ""))
     letters = joint_letters(
         str(kinematics.value) if kinematics else None, _count(joints.value if joints else 0)
     )
@@ -66,20 +61,20 @@ class _Joint:
     """The values of the joint of an axis; the first one where it has several."""
 
     def __init__(self, read: AxisParameters) -> None:
-        kinematics = read.value("kins.kinematics", everywhere=True)
+        kinematics = read.value(ids.kins_kinematics, everywhere=True)
         letters = joint_letters(
-            str(kinematics or ""), int(read.optional("kins.joints", everywhere=True) or 0.0)
+            str(kinematics or ""), int(read.optional(ids.kins_joints, everywhere=True) or 0.0)
         )
         if read.axis not in letters:
             raise SimulationError(
                 f"Axis {read.axis} has no joint in Kinematics ({kinematics}): only trivkins is simulated",
-                "kins.kinematics",
+                ids.kins_kinematics,
             )
         self.read, self.instance = read, str(letters.index(read.axis))
 
     def optional(self, parameter: str) -> float | None:
         """Return a number, None where it is not set."""
-        return self.read.optional(f"joint.{parameter}", at=self.instance)
+        return self.read.optional(ids[f"joint_{parameter}"], at=self.instance)
 
     def number(self, parameter: str, otherwise: float) -> float:
         """Return a number, or what LinuxCNC takes where there is none."""
@@ -88,25 +83,26 @@ class _Joint:
 
     def value(self, parameter: str) -> object:
         """Return any value."""
-        return self.read.value(f"joint.{parameter}", at=self.instance)
+        return self.read.value(ids[f"joint_{parameter}"], at=self.instance)
 
 
 def bind(read: AxisParameters) -> AxisLaw:
     """Return one axis; raises SimulationError naming what is missing or impossible."""
     joint = _Joint(read)
-    top, ramp = _above(read, "axis.max_velocity") / 60.0, _above(read, "axis.max_acceleration")
+    top, ramp = _above(read, ids.axis_max_velocity) / 60.0, _above(read, ids.max_acceleration)
     fastest = joint.number("max_velocity", 60.0) / 60.0
     if not fastest > 0.0:
         raise SimulationError(
-            f"joint.max_velocity of axis {read.axis} is {fastest:g}; it must be above 0", "joint.max_velocity"
+            f"{ids.joint_max_velocity} of axis {read.axis} is {fastest:g}; it must be above 0",
+            ids.joint_max_velocity,
         )
     unit = "deg" if joint.value("type") == "angular" or read.axis in "ABC" else "mm"
     gain, forward = joint.optional("pid_p"), joint.optional("pid_ff1")
     notes = [RAMP] + ([] if gain else [NO_LOOP])
     ferror = joint.number("ferror", 1.0)
     least = joint.number("min_ferror", ferror)
-    rate = gain or GAIN
-    share = (forward or 0.0) if gain else FORWARD
+    rate = gain or MOTION.value("position_gain")
+    share = (forward or 0.0) if gain else MOTION.value("feed_forward")
     limit = f"joint {joint.instance} following error"
     return AxisLaw(
         axis=read.axis,
@@ -116,9 +112,13 @@ def bind(read: AxisParameters) -> AxisLaw:
         velocity_sample=None,
         parameters=[rate, share, ferror, least, fastest],
         state_size=1,
-        servo_period=(read.optional("emcmot.servo_period", everywhere=True) or 1.0) / 1000.0,
-        velocity_period=(read.optional("emcmot.servo_period", everywhere=True) or 1.0) / 1000.0,
-        machine=Machine(acceleration_per_output=1e4, velocity_per_output=1.0, velocity_bandwidth=BANDWIDTH),
+        servo_period=(read.optional(ids.servo_period, everywhere=True) or 1.0) / 1000.0,
+        velocity_period=(read.optional(ids.servo_period, everywhere=True) or 1.0) / 1000.0,
+        machine=Machine(
+            acceleration_per_output=1e4,
+            velocity_per_output=1.0,
+            velocity_bandwidth=MOTION.value("velocity_bandwidth"),
+        ),
         output_unit=f"{unit}/s",
         position_rate=rate,
         feedrate=top,
@@ -137,12 +137,12 @@ def bind(read: AxisParameters) -> AxisLaw:
         },
         limits={"ferror": ferror, "min_ferror": least},
         sources={
-            "feedrate": Source("axis.max_velocity", 1.0),
-            "acceleration": Source("axis.max_acceleration"),
+            "feedrate": Source(ids.axis_max_velocity, 1.0),
+            "acceleration": Source(ids.max_acceleration),
         },
         gains=(),
         assumptions=tuple(notes),
-        assumed=DRIVE,
+        assumed=MOTION.reasons("velocity_bandwidth"),
         homing=partial(homing, joint),
         jogging=partial(jogging, read, top),
         travel=partial(travel, read),
@@ -168,12 +168,12 @@ def homing(joint: _Joint) -> Homing:
         raise SimulationError(
             "A search needs a latch, and a latch a search or a marker (H817, H828): the joint cannot be"
             " homed",
-            "joint.home_latch_velocity",
+            ids.joint_home_latch_velocity,
         )
     if search * latch > 0.0:
         raise SimulationError(
             "Search and latch of one sign, with a second approach, are not simulated",
-            "joint.home_latch_velocity",
+            ids.joint_home_latch_velocity,
         )
     home, offset = joint.number("home", 0.0), joint.number("home_offset", 0.0)
     final = joint.number("home_final_velocity", -60.0) / 60.0
@@ -182,7 +182,7 @@ def homing(joint: _Joint) -> Homing:
         approach=search,
         leave=latch,
         marker="next" if has_index else "none",
-        turn=MARKERS,
+        turn=MOTION.value("marker_distance"),
         coordinate=home,
         final=final if final > 0.0 else fastest,
         offset=home - offset,
@@ -194,7 +194,7 @@ def homing(joint: _Joint) -> Homing:
 def jogging(read: AxisParameters, top: float) -> Jogging:
     """Return the speeds of a jog: those of the screen, at most that of the axis."""
     speeds = {"greatest": top}
-    for name, parameter in (("first", "display.jog_default"), ("screen", "display.jog_greatest")):
+    for name, parameter in (("first", ids.jog_default), ("screen", ids.jog_greatest)):
         speed = read.optional(parameter, everywhere=True)
         if speed:
             speeds[name] = min(speed / 60.0, top)
@@ -205,14 +205,9 @@ def jogging(read: AxisParameters, top: float) -> Jogging:
 
 def travel(read: AxisParameters) -> Travel:
     """Return the limits of a homed axis; none where there is no key."""
-    low, high = read.optional("axis.min_limit"), read.optional("axis.max_limit")
+    low, high = read.optional(ids.min_limit), read.optional(ids.max_limit)
     edges = (-math.inf if low is None else low, math.inf if high is None else high)
     return Travel({"the limit of the axis": edges}, "exceed limit", "CM218", (LIMITED,), refuses=True)
 
 
-LAW = Law(
-    bind,
-    axes,
-    "No axis has a joint: set Kinematics to trivkins with coordinates=, and Joints",
-    scenarios=("step", "circle", "home", "jog", "travel"),
-)
+LAW = Law(bind, axes)

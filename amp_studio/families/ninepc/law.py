@@ -11,17 +11,7 @@ from dataclasses import dataclass, replace
 from functools import lru_cache, partial
 
 from amp_studio.schema import canonical, load_schema
-from amp_studio.sim import (
-    USUAL_SCENARIOS,
-    AlarmText,
-    AxisLaw,
-    AxisParameters,
-    Law,
-    Ramp,
-    SimulationError,
-    Source,
-    value_text,
-)
+from amp_studio.sim import AlarmText, AxisLaw, AxisParameters, Law, Ramp, SimulationError, Source, value_text
 
 from . import law_dac as dac
 from . import law_events as events
@@ -30,7 +20,8 @@ from . import law_samples as samples
 from . import law_split as split
 from .law_advice import advise, follow
 from .law_drives import Parts, analog, digital, third_party
-from .law_feedback import OWN_TRAVEL, Feedback, feedback_of
+from .law_facts import ids
+from .law_feedback import Feedback, feedback_of
 from .law_figures import Loop, predictions
 from .law_machine_tests import machine_tests
 from .law_probing import probing
@@ -38,52 +29,31 @@ from .law_ramps import ramps_of
 from .law_reading import above_zero, demand, if_set, not_negative
 from .law_spindle import spindle, tapping
 from .law_tune import SCENARIO as PROCEDURE
-from .law_units import OWN_INERTIA, OWN_TORQUE
 from .law_zones import zones
-
-HARDWARE, LOOP, POSITION_LOOP = "servo.hardware_type", "servo.loop_type", "servo.position_loop_type"
-CYCLE, RAPID, CUTTING = "servo.sercos_cycle", "feedrate.rapid", "feedrate.max_cutting"
-GAIN, BREAK_POINT, BREAK_RATIO = "servo.initial_gain", "servo.gain_break_point", "servo.gain_break_ratio"
-FEED_FORWARD, BAND = "servo.feed_forward", "servo.inposition_band"
-SUPPRESSION, EXCESS, REVERSAL = "servo.feedrate_suppression", "servo.excess_error", "servo.reversal_error"
 
 LONGEST_CYCLE = 1000.0
 """ms; 30 is the longest one printed (7-4)."""
 
-SETTINGS = {
-    OWN_TRAVEL: "travel for one turn of the lead screw or table (mm or deg)",
-    split.OWN_COUPLING: (
-        "torque that a skew of 1 mm or 1 deg between both servos of a split axis brings (torque)"
-    ),
-    OWN_TORQUE: "rated torque of a digital motor (N m)",
-    OWN_INERTIA: "inertia of a digital motor without its load (kg m2)",
-    "model.position_gain": "position gain of a third-party SERCOS drive (1000/min, as Initial Gain)",
-    **dac.SETTINGS,
-}
-"""Settings of the model that are no parameters of the control."""
-
 SOURCES = {
-    "position_gain": Source(GAIN, page="7-25"),
-    "inposition_band": Source(BAND, page="7-24"),
-    "gain_break_point": Source(BREAK_POINT, page="7-22"),
-    "gain_break_ratio": Source(BREAK_RATIO, page="7-27"),
-    "feed_forward": Source(FEED_FORWARD, page="7-28"),
-    "feedrate_suppression": Source(SUPPRESSION, page="7-21"),
-    "excess_error": Source(EXCESS, page="7-20"),
-    "linear_acceleration": Source("accdec.linear_acceleration", page="10-8"),
-    "linear_deceleration": Source("accdec.linear_deceleration", page="10-10"),
-    "exponential_time": Source("accdec.programmed_delay", whole=True, page="10-17"),
-    "feedrate": Source(RAPID, page="9-1"),
-    "cutting_feedrate": Source(CUTTING, page="9-2"),
-    "servo_period": Source(CYCLE, page="7-4"),
-    "velocity_proportional_gain": Source(
-        "servo.velocity_proportional_gain", unit="", whole=True, page="7-54"
-    ),
-    "velocity_integral_gain": Source("servo.velocity_integral_gain", unit="", whole=True, page="7-56"),
-    "integrator_discharge": Source("servo.integrator_discharge", unit="", whole=True, page="7-58"),
-    "torque_limit_positive": Source("servo.max_torque_positive", page="7-62"),
-    "torque_limit_negative": Source("servo.max_torque_negative", page="7-61"),
-    "torque_filter": Source("servo.torque_filter", unit="Hz", whole=True, page="7-69"),
+    "position_gain": Source(ids.initial_gain, page="7-25"),
+    "inposition_band": Source(ids.inposition_band, page="7-24"),
+    "gain_break_point": Source(ids.gain_break_point, page="7-22"),
+    "gain_break_ratio": Source(ids.gain_break_ratio, page="7-27"),
+    "feed_forward": Source(ids.feed_forward, page="7-28"),
+    "feedrate_suppression": Source(ids.feedrate_suppression, page="7-21"),
+    "excess_error": Source(ids.excess_error, page="7-20"),
+    "linear_acceleration": Source(ids.linear_acceleration, page="10-8"),
+    "linear_deceleration": Source(ids.linear_deceleration, page="10-10"),
+    "exponential_time": Source(ids.programmed_delay, whole=True, page="10-17"),
+    "feedrate": Source(ids.feedrate_rapid, page="9-1"),
+    "cutting_feedrate": Source(ids.max_cutting, page="9-2"),
+    "servo_period": Source(ids.sercos_cycle, page="7-4"),
+    "velocity_proportional_gain": Source(ids.velocity_proportional_gain, unit="", whole=True, page="7-54"),
+    "velocity_integral_gain": Source(ids.velocity_integral_gain, unit="", whole=True, page="7-56"),
+    "integrator_discharge": Source(ids.integrator_discharge, unit="", whole=True, page="7-58"),
+    "torque_limit_positive": Source(ids.max_torque_positive, page="7-62"),
+    "torque_limit_negative": Source(ids.max_torque_negative, page="7-61"),
+    "torque_filter": Source(ids.torque_filter, unit="Hz", whole=True, page="7-69"),
 }
 
 _NO_LOOP = {
@@ -151,7 +121,7 @@ def _alone(read: AxisParameters, master: AxisParameters | None = None) -> AxisLa
     common = _common(read, kind, notes, master)
     shown_in_volts = dac.columns(read, kind.drive, parameters, notes)
     common |= {
-        "inposition_band": not_negative(read, BAND),
+        "inposition_band": not_negative(read, ids.inposition_band),
         "position_rate": loop.rate,
         "predict": partial(predictions, loop, kind.unit) if kind.loop != "open" else _nothing,
         "limits": _limits(parameters, read, loop) if kind.loop != "open" else {},
@@ -182,29 +152,31 @@ def _nothing(_feedrate: float) -> dict[str, object]:
 
 def _kind(read: AxisParameters) -> Kind:
     """Return the kind; raises SimulationError for an axis without a servo that moves it."""
-    axis, kind = read.axis, read.choice("axis.type")
+    axis, kind = read.axis, read.choice(ids.axis_type)
     if kind == "unfitted":
-        raise SimulationError(f"Axis {axis} is unfitted. Choose another axis", "axis.type")
+        raise SimulationError(f"Axis {axis} is unfitted. Choose another axis", ids.axis_type)
     if kind == "spindle":
-        raise SimulationError(f"Axis {axis} is a spindle. This scenario is for axes", "axis.type")
-    drive = read.choice(LOOP)
-    if drive not in ("digital", "analog", "sercos") or read.value(HARDWARE) == "none":
-        raise SimulationError(f"Axis {axis} has no servo. First set its servo hardware and loop type", LOOP)
-    position = read.choice(POSITION_LOOP)
+        raise SimulationError(f"Axis {axis} is a spindle. This scenario is for axes", ids.axis_type)
+    drive = read.choice(ids.loop_type)
+    if drive not in ("digital", "analog", "sercos") or read.value(ids.hardware_type) == "none":
+        raise SimulationError(
+            f"Axis {axis} has no servo. First set its servo hardware and loop type", ids.loop_type
+        )
+    position = read.choice(ids.position_loop_type)
     if position not in ("open", "closed", "zfe"):
         what = _NO_LOOP.get(position, f"loop type '{position}' has no position loop")
-        raise SimulationError(f"Axis {axis} cannot be simulated: {what}", POSITION_LOOP)
+        raise SimulationError(f"Axis {axis} cannot be simulated: {what}", ids.position_loop_type)
     return Kind("deg" if kind == "rotary" else "mm", drive, position)
 
 
 def _loop(read: AxisParameters, kind: Kind) -> Loop:
     """Return the position loop; with ZFE the gain break is not used (7-22, 7-27)."""
-    gain = above_zero(read, GAIN)
+    gain = above_zero(read, ids.initial_gain)
     if kind.loop == "zfe":
-        share = not_negative(read, FEED_FORWARD, most=100.0, unit=" %")
+        share = not_negative(read, ids.feed_forward, most=100.0, unit=" %")
         return Loop(gain, math.inf, 1.0, share / 100.0)
-    ratio = not_negative(read, BREAK_RATIO, most=1.0)
-    return Loop(gain, not_negative(read, BREAK_POINT), ratio, 0.0)
+    ratio = not_negative(read, ids.gain_break_ratio, most=1.0)
+    return Loop(gain, not_negative(read, ids.gain_break_point), ratio, 0.0)
 
 
 def _position_parameters(
@@ -215,11 +187,14 @@ def _position_parameters(
     p[samples.GAIN], p[samples.FEED_FORWARD] = loop.rate, loop.feed_forward
     p[samples.BREAK_POINT], p[samples.BREAK_RATIO] = loop.break_point, loop.break_ratio
     p[samples.OPEN] = 1.0 if kind.loop == "open" else 0.0
-    p[samples.EXCESS], p[samples.SUPPRESSION] = not_negative(read, EXCESS), not_negative(read, SUPPRESSION)
+    p[samples.EXCESS], p[samples.SUPPRESSION] = (
+        not_negative(read, ids.excess_error),
+        not_negative(read, ids.feedrate_suppression),
+    )
     p[samples.COUNT] = feedback.position_count
-    p[samples.CUTTING] = if_set(read, CUTTING) / 60.0
-    reversal = read.optional(REVERSAL) or 0.0
-    demand(read, REVERSAL, reversal, not math.isnan(reversal), "must be a number")
+    p[samples.CUTTING] = if_set(read, ids.max_cutting) / 60.0
+    reversal = read.optional(ids.reversal_error) or 0.0
+    demand(read, ids.reversal_error, reversal, not math.isnan(reversal), "must be a number")
     if reversal and feedback.on_load:
         notes.append(notes_of.REVERSAL_ON_SCALE)
     elif reversal:
@@ -233,12 +208,17 @@ def _common(
 ) -> dict[str, object]:
     """Return what every kind of axis has, as fields of AxisLaw."""
     assumptions = notes if notes is not None else []
-    cycle = above_zero(read, CYCLE, everywhere=True)
+    cycle = above_zero(read, ids.sercos_cycle, everywhere=True)
     demand(
-        read, CYCLE, cycle, cycle <= LONGEST_CYCLE, f"must be {LONGEST_CYCLE:g} ms or less", everywhere=True
+        read,
+        ids.sercos_cycle,
+        cycle,
+        cycle <= LONGEST_CYCLE,
+        f"must be {LONGEST_CYCLE:g} ms or less",
+        everywhere=True,
     )
     ramps: dict[str, Ramp] = ramps_of(master or read, kind.unit, assumptions)
-    rapid = if_set(master or read, RAPID)
+    rapid = if_set(master or read, ids.feedrate_rapid)
     assumptions += [notes_of.SAMPLED, notes_of.RAMPS]
     return {
         "axis": read.axis,
@@ -256,7 +236,7 @@ def _limits(parameters: list[float], read: AxisParameters, loop: Loop) -> dict[s
     limits = {
         "excess error": parameters[samples.EXCESS],
         "feedrate suppression": parameters[samples.SUPPRESSION],
-        "inposition band": not_negative(read, BAND),
+        "inposition band": not_negative(read, ids.inposition_band),
     }
     if loop.break_ratio < 1.0:
         limits["gain break point"] = loop.break_point
@@ -265,7 +245,7 @@ def _limits(parameters: list[float], read: AxisParameters, loop: Loop) -> dict[s
 
 def _alarms(read: AxisParameters, kind: Kind, parameters: list[float]) -> dict[int, AlarmText]:
     limit = value_text(parameters[samples.EXCESS], kind.unit)
-    text = f"Following error above {limit} ({EXCESS}@{read.axis}): the control goes into E-STOP"
+    text = f"Following error above {limit} ({ids.excess_error}@{read.axis}): the control goes into E-STOP"
     return {int(samples.EXCESS_ERROR_ALARM): AlarmText("EXCESS FOLLOWING ERROR", text)}
 
 
@@ -285,8 +265,6 @@ def _bounded(source: Source, unit: str) -> Source:
 
 LAW = Law(
     bind,
-    scenarios=(*USUAL_SCENARIOS, "home", "jog", "travel", "spindle", "tap", "probe"),
-    settings=SETTINGS,
     advise=advise,
     own={PROCEDURE.name: PROCEDURE},
     spindle=spindle,

@@ -13,9 +13,9 @@ from amp_studio.sim import AxisParameters, SimulationError
 
 from . import law_samples as samples
 from .formulas.tuning import dac_monitor_function
+from .law_facts import ids
 from .law_reading import above_zero, demand
 
-CODE, FULL_SCALE, DIVISOR = "patch.dac_monitor", "spindle.voltage_at_max", "spindle.max_speed"
 VOLTS = 10.0
 """V: the end of a DAC output (12-2)."""
 
@@ -37,13 +37,6 @@ class Channel:
 
 
 CHANNELS = (Channel("86", "2", "1.1"), Channel("87", "3", "2.1"))
-SETTINGS = {
-    each.unit: (
-        f"what counts as 1 in DAC monitor {each.number}, in the unit of the signal shown: mm, mm/s, % (deg"
-        " for mm on an axis that turns)"
-    )
-    for each in CHANNELS
-}
 SIGNALS = {
     100: samples.VELOCITY_FEEDBACK,
     200: samples.FOLLOWING_ERROR,
@@ -75,10 +68,12 @@ def columns(read: AxisParameters, drive: str, p: list[float], notes: list[str]) 
         signal = _signal(read, channel, drive, notes)
         if signal is None:
             continue
-        volts = read.number(FULL_SCALE, at=channel.gear)
-        divisor = read.number(DIVISOR, at=channel.gear)
-        demand(read, FULL_SCALE, volts, abs(volts) <= VOLTS, "must be from -10 to 10 V", everywhere=True)
-        demand(read, DIVISOR, divisor, divisor > 0.0, "must be above 0", everywhere=True)
+        volts = read.number(ids.voltage_at_max, at=channel.gear)
+        divisor = read.number(ids.spindle_max_speed, at=channel.gear)
+        demand(
+            read, ids.voltage_at_max, volts, abs(volts) <= VOLTS, "must be from -10 to 10 V", everywhere=True
+        )
+        demand(read, ids.spindle_max_speed, divisor, divisor > 0.0, "must be above 0", everywhere=True)
         first = samples.DAC + samples.DAC_FIGURES * len(found)
         p[first : first + samples.DAC_FIGURES] = [float(signal), volts / (divisor * unit), abs(volts)]
         found.append((f"dac_{channel.number}", "V"))
@@ -92,22 +87,24 @@ def _signal(read: AxisParameters, channel: Channel, drive: str, notes: list[str]
     """Return the column that a channel shows: function code + axis number (A-6);
     None where it shows another axis.
     """
-    code = read.number(CODE, at=channel.place)
-    place = f"DAC monitor {channel.number} ({CODE}@{channel.place}) is {code:g}"
+    code = read.number(ids.dac_monitor, at=channel.place)
+    place = f"DAC monitor {channel.number} ({ids.dac_monitor}@{channel.place}) is {code:g}"
     if code == 0.0:
-        raise SimulationError(f"{place}. Set it to a function code plus the axis number, as 101 (A-6)", CODE)
+        raise SimulationError(
+            f"{place}. Set it to a function code plus the axis number, as 101 (A-6)", ids.dac_monitor
+        )
     try:
         function, axis = dac_monitor_function(code)
     except ValueError:
         why = "no function code plus axis number; the control stays in E-STOP (A-6)"
-        raise SimulationError(f"{place}, {why}", CODE) from None
+        raise SimulationError(f"{place}, {why}", ids.dac_monitor) from None
     if str(axis) != read.axis:
         notes.append(f"{place}: it shows axis {axis}, so it is no column of axis {read.axis}.")
         return None
     if function not in SIGNALS:
         raise SimulationError(
-            f"{place}: the manual does not say what this signal is (A-6). Take 100 to 400", CODE
+            f"{place}: the manual does not say what this signal is (A-6). Take 100 to 400", ids.dac_monitor
         )
     if drive == "analog" and function not in OF_ANALOG:
-        raise SimulationError(f"{place}: an analog servo has no such signal (A-6). Take 200", CODE)
+        raise SimulationError(f"{place}: an analog servo has no such signal (A-6). Take 200", ids.dac_monitor)
     return SIGNALS[function]

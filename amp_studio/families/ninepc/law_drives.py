@@ -10,6 +10,7 @@ from amp_studio.sim import AxisLaw, AxisParameters, Machine, SimulationError, va
 
 from . import law_notes as notes_of
 from . import law_samples as samples
+from .law_facts import MOTION, ids
 from .law_feedback import Feedback
 from .law_figures import Loop, predictions
 from .law_reading import above_zero, demand, if_set, not_negative
@@ -28,21 +29,13 @@ from .law_units import (
     torque_for,
 )
 
-PROPORTIONAL, INTEGRAL = "servo.velocity_proportional_gain", "servo.velocity_integral_gain"
-DISCHARGE, FILTER = "servo.integrator_discharge", "servo.torque_filter"
-LIMIT_POSITIVE, LIMIT_NEGATIVE = "servo.max_torque_positive", "servo.max_torque_negative"
-OFFSET, OFFSET_DIRECTION, PEAK = "servo.torque_offset", "servo.torque_offset_direction", "servo.peak_current"
-TABLES, MOTOR, RATIO = "servo.standard_motor_values", "servo.motor_type", "servo.load_inertia_ratio"
 RATIOS = ("r0", "r1", "r2", "r3")
-MOTOR_SPEED, RAPID = "servo.max_motor_speed", "feedrate.rapid"
 FRICTION = {
-    "servo.friction_threshold": samples.THRESHOLD,
-    "servo.stiction_torque": samples.STICTION,
-    "servo.friction_positive": samples.FRICTION_POSITIVE,
-    "servo.friction_negative": samples.FRICTION_NEGATIVE,
+    ids.friction_threshold: samples.THRESHOLD,
+    ids.stiction_torque: samples.STICTION,
+    ids.friction_positive: samples.FRICTION_POSITIVE,
+    ids.friction_negative: samples.FRICTION_NEGATIVE,
 }
-VOLTS_POSITIVE, VOLTS_NEGATIVE = "servo.analog_positive_voltage", "servo.analog_negative_voltage"
-MAX_ACCELERATION = "servo.max_acceleration"
 OWN_ACCELERATION, OWN_GAIN = "model.acceleration_per_output", "model.position_gain"
 OWN_DELAY, OWN_BANDWIDTH = "model.delay", "model.current_bandwidth"
 
@@ -50,13 +43,12 @@ FILTER_OFF = 10000.0
 """Hz: as high as possible is off (7-69)."""
 VOLTS = 10.0
 """V: the end of the analog output (7-41)."""
-DRIVE_RATIO = 10.0
-"""Velocity loop of an analog drive / position loop:
-the upper bound of 7-54 (10923 / 65536 per ms to gain / 60 per ms)."""
-USUAL_PITCH = 10.0
-"""mm: a usual lead; that of a third-party drive is in the drive (7-17)."""
-USUAL_GAIN = 1.0
-"""Initial Gain of most machines (7-25)."""
+DRIVE_RATIO = MOTION.value("drive_ratio")
+"""Velocity loop of an analog drive / position loop (10923 / 65536 per ms to gain / 60 per ms)."""
+USUAL_PITCH = MOTION.value("usual_pitch")
+"""mm"""
+USUAL_GAIN = MOTION.value("usual_gain")
+"""Initial Gain."""
 
 
 @dataclass(frozen=True)
@@ -76,7 +68,7 @@ class Parts:
 def digital(read: AxisParameters, parts: Parts) -> AxisLaw:
     """Return an axis whose velocity loop the 1394 closes: torque in % of rated torque."""
     feedback, loop, p, notes, common = parts.feedback, parts.loop, parts.p, parts.notes, parts.common
-    motor = str(read.value(MOTOR) or "nonstandard")
+    motor = str(read.value(ids.motor_type) or "nonstandard")
     ratio = _inertia_ratio(read)
     proportional, integral = _gains(read, motor, ratio, notes)
     travel = feedback.motor_turn
@@ -106,12 +98,7 @@ def digital(read: AxisParameters, parts: Parts) -> AxisLaw:
         load_sensor=feedback.on_load,
         motor_friction=1.0,
     )
-    assumed = {
-        "bandwidth": "No current loop is printed; with the delay it ends appendix A as printed (A-9, A-10).",
-        "delay": (
-            "Computing and transfer; the whole lag of the velocity loop is 3 to 5 of its samples (A-9, A-10)."
-        ),
-    }
+    assumed = MOTION.reasons(bandwidth="current_loop", delay="delay")
     if inertia.why:
         assumed = {"acceleration_per_output": inertia.why + " All torques depend on it.", **assumed}
     if p[samples.OFFSET]:
@@ -171,10 +158,11 @@ def _linear(p: list[float]) -> list[float]:
 
 def _inertia_ratio(read: AxisParameters) -> int:
     """Return the load's side of Load Inertia Ratio (7-71)."""
-    key = str(read.value(RATIO) or "r0")
+    key = str(read.value(ids.load_inertia_ratio) or "r0")
     if key not in RATIOS:
         raise SimulationError(
-            f"{RATIO} of axis {read.axis} is '{key}', not one of {', '.join(RATIOS)}", RATIO
+            f"{ids.load_inertia_ratio} of axis {read.axis} is '{key}', not one of {', '.join(RATIOS)}",
+            ids.load_inertia_ratio,
         )
     return RATIOS.index(key)
 
@@ -183,8 +171,12 @@ def _gains(read: AxisParameters, motor: str, ratio: int, notes: list[str]) -> tu
     """Return the gains that the control uses: those of its tables for a standard motor,
     unless one is set by hand (7-6).
     """
-    by_hand = read.given(PROPORTIONAL) or read.given(INTEGRAL)
-    if read.value(TABLES, everywhere=True) is True and motor != "nonstandard" and not by_hand:
+    by_hand = read.given(ids.velocity_proportional_gain) or read.given(ids.velocity_integral_gain)
+    if (
+        read.value(ids.standard_motor_values, everywhere=True) is True
+        and motor != "nonstandard"
+        and not by_hand
+    ):
         notes.append("The control may replace the torque limits for a standard motor (7-61).")
         cells = standard_gains(read.tables, motor, ratio)
         if cells is not None:
@@ -199,31 +191,36 @@ def _gains(read: AxisParameters, motor: str, ratio: int, notes: list[str]) -> tu
             "Standard Motor Table Values is Yes, so the control takes the velocity loop gains from its tables"
             " (7-6), where this motor is not printed; the gains of the file are simulated instead."
         )
-    return not_negative(read, PROPORTIONAL), not_negative(read, INTEGRAL)
+    return not_negative(read, ids.velocity_proportional_gain), not_negative(read, ids.velocity_integral_gain)
 
 
 def _torque(read: AxisParameters, p: list[float], notes: list[str]) -> float:
     """Set discharge, limits, offset, filter and friction compensation; return the cutoff of the filter in
     Hz.
     """
-    p[samples.DISCHARGE] = read.number(DISCHARGE)
-    demand(read, DISCHARGE, p[samples.DISCHARGE], p[samples.DISCHARGE] >= 1.0, "must be 1 or more")
-    for name, place in ((LIMIT_POSITIVE, samples.LIMIT_POSITIVE), (LIMIT_NEGATIVE, samples.LIMIT_NEGATIVE)):
+    p[samples.DISCHARGE] = read.number(ids.integrator_discharge)
+    demand(
+        read, ids.integrator_discharge, p[samples.DISCHARGE], p[samples.DISCHARGE] >= 1.0, "must be 1 or more"
+    )
+    for name, place in (
+        (ids.max_torque_positive, samples.LIMIT_POSITIVE),
+        (ids.max_torque_negative, samples.LIMIT_NEGATIVE),
+    ):
         p[place] = not_negative(read, name)
-    offset = if_set(read, OFFSET)
+    offset = if_set(read, ids.torque_offset)
     if offset:
-        sign = 1.0 if read.value(OFFSET_DIRECTION) == "plus" else -1.0
+        sign = 1.0 if read.value(ids.torque_offset_direction) == "plus" else -1.0
         p[samples.OFFSET] = sign * offset * _peak(read) / 100.0
         notes.append(notes_of.OFFSET.format(value_text(p[samples.OFFSET])))
     for name, place in FRICTION.items():
         p[place] = if_set(read, name)
     if any(p[place] for place in FRICTION.values()):
         notes.append(notes_of.FRICTION)
-    cutoff = read.optional(FILTER)
+    cutoff = read.optional(ids.torque_filter)
     p[samples.FILTER] = 1.0
     if cutoff is None or cutoff >= FILTER_OFF:
         return math.inf
-    demand(read, FILTER, cutoff, cutoff > 0.0, "must be above 0")
+    demand(read, ids.torque_filter, cutoff, cutoff > 0.0, "must be above 0")
     p[samples.FILTER] = -math.expm1(-2.0 * math.pi * cutoff * p[samples.PERIOD])
     notes.append(notes_of.FILTER)
     return cutoff
@@ -236,7 +233,7 @@ def _dry(p: list[float]) -> float:
 
 def _speed(read: AxisParameters, common: dict[str, Any], travel: float, notes: list[str]) -> None:
     """Say it where the rapid feedrate needs more than Maximum Motor Speed (7-74)."""
-    most, rapid = if_set(read, MOTOR_SPEED), common["feedrate"]
+    most, rapid = if_set(read, ids.max_motor_speed), common["feedrate"]
     if most == 0.0 or rapid is None or rapid * 60.0 / travel <= most:
         return
     notes.append(
@@ -251,10 +248,14 @@ def analog(read: AxisParameters, parts: Parts) -> AxisLaw:
     rapid = common["feedrate"]
     if rapid is None:
         raise SimulationError(
-            f"{RAPID} is not set for axis {read.axis}. An analog servo is scaled by it (7-41): set a value",
-            RAPID,
+            f"{ids.feedrate_rapid} is not set for axis {read.axis}. An analog servo is scaled by it (7-41):"
+            " set a value",
+            ids.feedrate_rapid,
         )
-    positive, negative = _volts(read, VOLTS_POSITIVE, 1.0), _volts(read, VOLTS_NEGATIVE, -1.0)
+    positive, negative = (
+        _volts(read, ids.analog_positive_voltage, 1.0),
+        _volts(read, ids.analog_negative_voltage, -1.0),
+    )
     p[samples.VOLTS_POSITIVE], p[samples.VOLTS_NEGATIVE] = positive / rapid, negative / rapid
     p[samples.VOLTS_LIMIT] = VOLTS
     peak = _peak(read)
@@ -270,12 +271,7 @@ def analog(read: AxisParameters, parts: Parts) -> AxisLaw:
         position_count=feedback.position_count,
         load_sensor=feedback.on_load,
     )
-    assumed = {
-        "velocity_bandwidth": (
-            "The velocity loop of the drive is taken ten times as fast as a position loop with the gain of"
-            " most machines, 1 (7-25): the upper bound of 7-54."
-        )
-    }
+    assumed = MOTION.reasons(velocity_bandwidth="drive_ratio")
     if why:
         assumed["acceleration_per_output"] = why
     else:
@@ -309,7 +305,7 @@ def _analog_acceleration(
     so a rotary axis takes nothing from it.
     """
     if unit == "mm":
-        most = above_zero(read, MAX_ACCELERATION)
+        most = above_zero(read, ids.max_acceleration)
         return most / peak, ""
     why = (
         "Maximum Servo Acceleration is printed in mm and inches only (7-67) and not taken for a rotary axis:"
@@ -327,10 +323,12 @@ def _volts(read: AxisParameters, name: str, sign: float) -> float:
 
 
 def _peak(read: AxisParameters) -> float:
-    choice = read.choice(PEAK)
+    choice = read.choice(ids.peak_current)
     digits = choice.lstrip("p")
     if not digits.isdigit() or int(digits) == 0:
-        raise SimulationError(f"{PEAK} of axis {read.axis} is '{choice}', not a percentage", PEAK)
+        raise SimulationError(
+            f"{ids.peak_current} of axis {read.axis} is '{choice}', not a percentage", ids.peak_current
+        )
     return float(digits)
 
 
@@ -351,14 +349,10 @@ def third_party(read: AxisParameters, unit: str, common: dict[str, Any]) -> Axis
         f"The position gain of the drive is taken as {value_text(gain)}, that of most machines (7-25); set"
         f" {OWN_GAIN}."
     )
-    assumed = {
-        "velocity_bandwidth": (
-            "The velocity loop of the drive is taken ten times as fast as a position loop with the gain of"
-            " most machines, 1 (7-25): the upper bound of 7-54."
-        ),
+    assumed = MOTION.reasons(velocity_bandwidth="drive_ratio") | {
         "acceleration_per_output": (
             f"Nothing of motor and load is in the file: {NOMINAL:.0f} rad/s2 at rated torque."
-        ),
+        )
     }
     return AxisLaw(
         **common,

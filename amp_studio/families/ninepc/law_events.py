@@ -6,19 +6,10 @@ import math
 
 from amp_studio.sim import AxisParameters, CodedScale, Failure, Homing, Jogging, Ramp, SimulationError, Travel
 
-from .law_feedback import COUNTS, DEVICE, Feedback
-from .law_ramps import SCAN, SCANS
+from .law_facts import ids
+from .law_feedback import Feedback
 from .law_reading import above_zero, if_set
 
-OFF, CALIBRATION, POSITION, OFF_SPEED = (
-    "home.direction_off_switch",
-    "home.calibration",
-    "home.position",
-    "home.speed_off_switch",
-)
-DIRECTION, SPEED = "home.g28_direction", "home.g28_speed"
-SCALE_ZERO, SMALL, LARGE = "home.dcm_scale_zero", "servo.dcm_small_period", "servo.dcm_large_period"
-MANUAL_MODE, MANUAL_DELAY = "accdec.manual_mode", "accdec.manual_delay"
 SIGN = {"plus": 1.0, "positive": 1.0, "minus": -1.0, "negative": -1.0}
 JOGS = ("lowest", "second", "third", "fourth", "highest")
 INCREMENTS = ("smallest", "second", "third", "fourth", "largest")
@@ -63,7 +54,6 @@ STOPPED = (
     " printed."
 )
 ZONE_PAGE = "6-3 and 6-7"
-SLOW = "feedrate.external_decel_positioning"
 """While the logic program requests it, in positioning moves; jogs are not slowed (9-6)."""
 ZONES = (
     "ASSUMED: the axis is alone in its zone group, so that no other axis keeps it out of the zone (6-4), and"
@@ -78,13 +68,13 @@ def manual_ramp(read: AxisParameters, linear: Ramp, homing: bool) -> Ramp:
     """Return the ramp of manual moves (10-14, 10-18): exponential, or linear as Manual ACC./DEC Mode is set,
     but for homing.
     """
-    if not homing and read.value(MANUAL_MODE, everywhere=True) == "linear":
+    if not homing and read.value(ids.manual_mode, everywhere=True) == "linear":
         return linear
-    delay = read.optional(MANUAL_DELAY)
-    fine = read.optional(SCAN, everywhere=True)
+    delay = read.optional(ids.manual_delay)
+    fine = read.optional(ids.fine_foreground, everywhere=True)
     if delay is None or fine is None:
         return linear
-    scans = read.optional(SCANS, everywhere=True)
+    scans = read.optional(ids.scans_per_logic, everywhere=True)
     return Ramp("exponential", time=delay * fine * (1.0 if scans is None else scans) / 1000.0)
 
 
@@ -92,18 +82,18 @@ def homing(read: AxisParameters, feedback: Feedback) -> Homing:
     """Return the homing sequence, with a marker each turn of the position device. Raises SimulationError for
     devices that home without a switch.
     """
-    if read.choice(DEVICE) == "dcm":
+    if read.choice(ids.position_feedback_type) == "dcm":
         return _coded(read)
-    off = SIGN[read.choice(OFF)]
-    speed = above_zero(read, OFF_SPEED) / 60.0
+    off = SIGN[read.choice(ids.direction_off_switch)]
+    speed = above_zero(read, ids.speed_off_switch) / 60.0
     return Homing(
-        approach=SIGN[read.choice(DIRECTION)] * above_zero(read, SPEED) / 60.0,
+        approach=SIGN[read.choice(ids.g28_direction)] * above_zero(read, ids.g28_speed) / 60.0,
         leave=off * speed,
         marker="nearest",
-        turn=feedback.position_count * above_zero(read, COUNTS),
-        coordinate=read.number(POSITION),
+        turn=feedback.position_count * above_zero(read, ids.position_counts),
+        coordinate=read.number(ids.home_position),
         final=speed,
-        offset=read.optional(CALIBRATION) or 0.0,
+        offset=read.optional(ids.home_calibration) or 0.0,
         failures={"fast": TOO_FAST},
         page="5-4",
         notes=HOMED,
@@ -114,19 +104,20 @@ def _coded(read: AxisParameters) -> Homing:
     """Return the homing by distance-coded markers (5-5 to 5-7, 5-14): no switch, any three in a row,
     then to the home position.
     """
-    small, large = above_zero(read, SMALL), above_zero(read, LARGE)
+    small, large = above_zero(read, ids.dcm_small_period), above_zero(read, ids.dcm_large_period)
     if small == large:
         raise SimulationError(
-            f"Both periods of the scale of axis {read.axis} are {small:g}: no place is known by them", LARGE
+            f"Both periods of the scale of axis {read.axis} are {small:g}: no place is known by them",
+            ids.dcm_large_period,
         )
     return Homing(
         approach=0.0,
-        leave=SIGN[read.choice(DIRECTION)] * above_zero(read, SPEED) / 60.0,
+        leave=SIGN[read.choice(ids.g28_direction)] * above_zero(read, ids.g28_speed) / 60.0,
         marker="next",
         turn=small,
-        coordinate=read.number(POSITION),
-        final=above_zero(read, OFF_SPEED) / 60.0,
-        scale=CodedScale(small, large, 0.5 * small, read.optional(SCALE_ZERO) or 0.0),
+        coordinate=read.number(ids.home_position),
+        final=above_zero(read, ids.speed_off_switch) / 60.0,
+        scale=CodedScale(small, large, 0.5 * small, read.optional(ids.dcm_scale_zero) or 0.0),
         page="5-5",
         notes=CODED,
     )
@@ -134,9 +125,9 @@ def _coded(read: AxisParameters) -> Homing:
 
 def jogging(read: AxisParameters) -> Jogging:
     """Return the speeds (8-2 to 8-5, 8-14) and increments (8-7 to 8-10) that are set."""
-    speeds = {name: if_set(read, f"jog.speed_{name}") / 60.0 for name in JOGS}
-    speeds["traverse"] = if_set(read, "jog.traverse_speed") / 60.0
-    increments = {name: if_set(read, f"jog.increment_{name}") for name in INCREMENTS}
+    speeds = {name: if_set(read, ids[f"jog_speed_{name}"]) / 60.0 for name in JOGS}
+    speeds["traverse"] = if_set(read, ids.traverse_speed) / 60.0
+    increments = {name: if_set(read, ids[f"jog_increment_{name}"]) for name in INCREMENTS}
     return Jogging(
         {name: speed for name, speed in speeds.items() if speed},
         {name: way for name, way in increments.items() if way},
@@ -149,9 +140,9 @@ def jogging(read: AxisParameters) -> Jogging:
 def travel(read: AxisParameters) -> Travel:
     """Return the software overtravels (6-10, 6-11), if they are used."""
     zones = _zones(read)
-    if read.value("zone.overtravel_used") is not True:
+    if read.value(ids.overtravel_used) is not True:
         return Travel({}, "OVERTRAVEL", "6-10", zones=zones, zone_page=ZONE_PAGE, zone_note=ZONES)
-    low, high = (read.optional(f"zone.overtravel_{side}") for side in ("negative", "positive"))
+    low, high = (read.optional(ids[f"zone_overtravel_{side}"]) for side in ("negative", "positive"))
     edges = (-math.inf if low is None else low, math.inf if high is None else high)
     notes = (
         STOPPED,
@@ -160,7 +151,7 @@ def travel(read: AxisParameters) -> Travel:
             " the measured position."
         ),
     )
-    slow = (read.optional(SLOW) or 0.0) / 60.0
+    slow = (read.optional(ids.external_decel_positioning) or 0.0) / 60.0
     return Travel(
         {"the software overtravel": edges}, "OVERTRAVEL", "6-10", notes, zones, ZONE_PAGE, ZONES, slow=slow
     )
@@ -170,7 +161,7 @@ def _zones(read: AxisParameters) -> dict[str, tuple[float, float]]:
     """Return the programmable zones 2 and 3 (6-7 to 6-9) that are set."""
     found = {}
     for zone in ("2", "3"):
-        low, high = (read.optional(f"zone.limit{zone}_{side}") for side in ("min", "max"))
+        low, high = (read.optional(ids[f"zone_limit{zone}_{side}"]) for side in ("min", "max"))
         if low is not None and high is not None and low < high:
             found[zone] = (low, high)
     return found

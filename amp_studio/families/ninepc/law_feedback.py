@@ -6,17 +6,11 @@ from dataclasses import dataclass
 
 from amp_studio.sim import AxisParameters, SimulationError
 
+from .law_facts import ids
 from .law_reading import above_zero, if_set
 
-DEVICE, COUNTS, PITCH, PERIOD = (
-    "servo.position_feedback_type",
-    "servo.position_counts",
-    "servo.lead_screw_pitch",
-    "servo.dcm_small_period",
-)
-POSITION_TEETH = ("servo.position_gear_teeth", "servo.position_screw_teeth")
-VELOCITY_TEETH = ("servo.velocity_gear_teeth", "servo.velocity_screw_teeth")
-VELOCITY_COUNTS = "servo.velocity_counts"
+POSITION_TEETH = (ids.position_gear_teeth, ids.position_screw_teeth)
+VELOCITY_TEETH = (ids.velocity_gear_teeth, ids.velocity_screw_teeth)
 OWN_TRAVEL = "model.travel_per_turn"
 SCALES = ("aqb-no-marker", "aqb-one-marker", "dcm")
 """Linear scales: they measure the load (7-32, B-1)."""
@@ -38,13 +32,13 @@ class Feedback:
 
 def feedback_of(read: AxisParameters, unit: str, *, digital: bool, notes: list[str]) -> Feedback:
     """Return the devices of an axis; raises SimulationError where a parameter is not set or impossible."""
-    device = read.choice(DEVICE)
+    device = read.choice(ids.position_feedback_type)
     if device == "none":
-        raise SimulationError(f"Axis {read.axis} has no position feedback", DEVICE)
+        raise SimulationError(f"Axis {read.axis} has no position feedback", ids.position_feedback_type)
     turn = _turn(read, unit, device, digital=digital, notes=notes)
-    counts = above_zero(read, COUNTS)
+    counts = above_zero(read, ids.position_counts)
     if device == "dcm":
-        count = above_zero(read, PERIOD) / counts
+        count = above_zero(read, ids.dcm_small_period) / counts
     else:
         gear, screw = (above_zero(read, name) for name in POSITION_TEETH)
         count = turn * gear / (counts * screw)
@@ -53,7 +47,7 @@ def feedback_of(read: AxisParameters, unit: str, *, digital: bool, notes: list[s
         return Feedback(turn, turn, count, 0.0, device in SCALES)
     gear, screw = (1.0 if read.optional(name) is None else above_zero(read, name) for name in VELOCITY_TEETH)
     motor_turn = turn * gear / screw
-    velocity_counts = if_set(read, VELOCITY_COUNTS)
+    velocity_counts = if_set(read, ids.velocity_counts)
     motor_count = motor_turn / velocity_counts if velocity_counts else 0.0
     return Feedback(turn, motor_turn, count, motor_count, device in SCALES)
 
@@ -67,6 +61,6 @@ def _turn(read: AxisParameters, unit: str, device: str, *, digital: bool, notes:
             f" gears of this rotary axis is assumed to be 360 deg; set {OWN_TRAVEL} for another value."
         )
         return 360.0
-    if device == "dcm" and not digital and read.optional(PITCH) is None:
-        return above_zero(read, PERIOD)  # nothing but the counts needs the pitch there (B-2)
-    return above_zero(read, PITCH)
+    if device == "dcm" and not digital and read.optional(ids.lead_screw_pitch) is None:
+        return above_zero(read, ids.dcm_small_period)  # nothing but the counts needs the pitch there (B-2)
+    return above_zero(read, ids.lead_screw_pitch)

@@ -8,12 +8,14 @@ import math
 
 from amp_studio.sim import AxisLaw, BoundMachine, MachineTest, MachineTestStep, value_text
 
+from .law_facts import ids
+
 PRINTED = 127.0
 """mm: 5 inches (A-8)."""
 REPEATS = 6
 ROOM = 0.8
 """Share of the travel that a move may take."""
-FEED, INCHES = "feedrate.max_cutting", 25.4
+FEED, INCHES = ids.max_cutting, 25.4
 
 
 def machine_tests(machine: BoundMachine, axis: AxisLaw) -> list[MachineTest]:

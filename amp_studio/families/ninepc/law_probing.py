@@ -4,19 +4,21 @@ from __future__ import annotations
 
 from amp_studio.sim import AxisLaw, AxisParameters, Probing, SimulationError
 
+from .law_facts import ids
+
 CYCLES = {
-    "G31": ("feedrate.skip_g31", ""),
-    "G31.1": ("feedrate.skip_g31", ""),
-    "G31.2": ("feedrate.skip_g31_2", ""),
-    "G31.3": ("feedrate.skip_g31_3", ""),
-    "G31.4": ("feedrate.skip_g31_4", ""),
-    "G37": ("feedrate.skip_g31", "1"),
-    "G37.1": ("feedrate.skip_g31", "1"),
-    "G37.2": ("feedrate.skip_g31_2", "2"),
-    "G37.3": ("feedrate.skip_g31_3", "3"),
-    "G37.4": ("feedrate.skip_g31_4", "4"),
-    "G38": ("probing.probe_rate", ""),
-    "G38.1": ("probing.probe_rate", ""),
+    "G31": (ids.skip_g31, ""),
+    "G31.1": (ids.skip_g31, ""),
+    "G31.2": (ids.skip_g31_2, ""),
+    "G31.3": (ids.skip_g31_3, ""),
+    "G31.4": (ids.skip_g31_4, ""),
+    "G37": (ids.skip_g31, "1"),
+    "G37.1": (ids.skip_g31, "1"),
+    "G37.2": (ids.skip_g31_2, "2"),
+    "G37.3": (ids.skip_g31_3, "3"),
+    "G37.4": (ids.skip_g31_4, "4"),
+    "G38": (ids.probe_rate, ""),
+    "G38.1": (ids.probe_rate, ""),
 }
 """Cycle -> the parameter of its feedrate (9-8, 29-7) and the skip whose tolerance it has (21-9)."""
 LATENCY = (
@@ -35,7 +37,7 @@ def probing(read: AxisParameters, axis: AxisLaw, cycle: str) -> Probing:
     if name not in CYCLES:
         raise SimulationError(f"Unknown cycle {cycle}. Known: {', '.join(CYCLES)}", "move.cycle")
     parameter, skip = CYCLES[name]
-    edge = read.value("probing.transition", everywhere=True)
+    edge = read.value(ids.probing_transition, everywhere=True)
     seen = f"The signal counts as it goes {'off' if edge == 'high-to-low' else 'on'} (602, 29-4)."
     speed = (read.optional(parameter, everywhere=True) or 0.0) / 60.0
     if name.startswith("G38"):
@@ -44,20 +46,20 @@ def probing(read: AxisParameters, axis: AxisLaw, cycle: str) -> Probing:
             speed,
             axis.servo_period,
             LATENCY,
-            approach=(read.optional("probing.approach_rate", everywhere=True) or 0.0) / 60.0,
-            approach_distance=read.optional("probing.approach_distance", everywhere=True) or 0.0,
-            band=read.number("probing.tolerance_band", everywhere=True),
+            approach=(read.optional(ids.approach_rate, everywhere=True) or 0.0) / 60.0,
+            approach_distance=read.optional(ids.approach_distance, everywhere=True) or 0.0,
+            band=read.number(ids.tolerance_band, everywhere=True),
             outside="PROBE ERROR",
             page="29-6",
             notes=(seen, "Approach Distance counts from the start of the cycle (29-4)."),
         )
-    is_own = read.value("feedrate.use_skip_feedrate", everywhere=True) is True
+    is_own = read.value(ids.use_skip_feedrate, everywhere=True) is True
     notes = [seen] if is_own else [seen, PROGRAMMED]
     band = float("inf")
     if skip:
-        band = read.number("tool.skip_tolerance", at=skip)
-        adds = read.value("tool.skip_add", at=skip) is True
-        target = read.value("tool.skip_target", at=skip)
+        band = read.number(ids.skip_tolerance, at=skip)
+        adds = read.value(ids.skip_add, at=skip) is True
+        target = read.value(ids.skip_target, at=skip)
         notes.append(
             f"In the tolerance the result {'is added to' if adds else 'replaces'} the {target or 'wear'}"
             " offset; outside of it no offset changes (21-9 to 21-11)."

@@ -4,12 +4,9 @@ from __future__ import annotations
 
 from amp_studio.sim import AxisParameters, Ramp, SimulationError, value_text
 
+from .law_facts import ids
 from .law_reading import LARGEST, SMALLEST, demand, if_set, not_negative
 
-DELAY, SCAN, SCANS = "accdec.programmed_delay", "timing.fine_foreground", "timing.scans_per_logic"
-UP, DOWN, STEP = "accdec.linear_acceleration", "accdec.linear_deceleration", "accdec.velocity_step"
-CURVE_UP, CURVE_DOWN, JERK = "accdec.scurve_acceleration", "accdec.scurve_deceleration", "accdec.jerk"
-MODE = "accdec.positioning_mode"
 SHORTEST, LONGEST = 2, 60
 """Scans of an S-curve filter (10-19)."""
 
@@ -20,7 +17,11 @@ def ramps_of(read: AxisParameters, unit: str, notes: list[str]) -> dict[str, Ram
     0 as acceleration is no ramp, as deceleration the acceleration (10-8, 10-10, 10-11, 10-13). Raises
     SimulationError where a figure that the ramp needs is not set or impossible.
     """
-    step, up, down = if_set(read, STEP) / 60.0, not_negative(read, UP), not_negative(read, DOWN)
+    step, up, down = (
+        if_set(read, ids.velocity_step) / 60.0,
+        not_negative(read, ids.linear_acceleration),
+        not_negative(read, ids.linear_deceleration),
+    )
     found = {"linear": Ramp("linear", up, down or up, velocity_step=step)}
     time, scan = _exponential(read, notes)
     if time is not None:
@@ -29,10 +30,11 @@ def ramps_of(read: AxisParameters, unit: str, notes: list[str]) -> dict[str, Ram
     if curve is not None:
         found["s-curve"] = curve
     found["none"] = Ramp()
-    own = str(read.value(MODE, everywhere=True) or "linear")
+    own = str(read.value(ids.positioning_mode, everywhere=True) or "linear")
     if own not in found:
         notes.append(
-            f"Positioning is exponential (10-3), but {DELAY} or the scan time is not set: linear ramps are"
+            f"Positioning is exponential (10-3), but {ids.programmed_delay} or the scan time is not set:"
+            " linear ramps are"
             " used."
         )
         own = "linear"
@@ -48,18 +50,23 @@ def jerk_bounds(ramp: float, scan: float) -> tuple[float, float]:
 
 def _exponential(read: AxisParameters, notes: list[str]) -> tuple[float | None, float | None]:
     """Return (time constant, system scan time) in s; None where they are not set (10-14, 10-17)."""
-    delay, fine = read.optional(DELAY, everywhere=True), read.optional(SCAN, everywhere=True)
-    scans = read.optional(SCANS, everywhere=True)
+    delay, fine = (
+        read.optional(ids.programmed_delay, everywhere=True),
+        read.optional(ids.fine_foreground, everywhere=True),
+    )
+    scans = read.optional(ids.scans_per_logic, everywhere=True)
     if fine is None:
         return None, None
     scan = fine * (1.0 if scans is None else scans)
     if not SMALLEST <= scan <= LARGEST:
         raise SimulationError(
-            f"{SCAN} times {SCANS} is {scan:g} ms; it must be above 0 and a scan time", SCAN
+            f"{ids.fine_foreground} times {ids.scans_per_logic} is {scan:g} ms; it must be above 0 and a"
+            " scan time",
+            ids.fine_foreground,
         )
     if delay is None:
         return None, scan / 1000.0
-    demand(read, DELAY, delay, delay > 0.0, "must be above 0", everywhere=True)
+    demand(read, ids.programmed_delay, delay, delay > 0.0, "must be above 0", everywhere=True)
     notes.append(
         "One coarse iteration of Programmed Delay Constant (10-17) is assumed to be Fine Foreground Scan Time"
         f" times Fine Scans per Logic Scan (33-19), {scan:g} ms."
@@ -71,7 +78,11 @@ def _curve(read: AxisParameters, unit: str, scan: float | None, step: float, not
     """Return the S-curve: its time is ramp / jerk, between 2 and 60 scans (10-19 to 10-22);
     None where it is not set.
     """
-    up, down, jerk = if_set(read, CURVE_UP), if_set(read, CURVE_DOWN), if_set(read, JERK)
+    up, down, jerk = (
+        if_set(read, ids.scurve_acceleration),
+        if_set(read, ids.scurve_deceleration),
+        if_set(read, ids.accdec_jerk),
+    )
     if up == 0.0 or jerk == 0.0:
         return None
     if scan is not None:

@@ -14,12 +14,11 @@ from amp_studio.sim import (
     Tapping,
 )
 
-from .law_ramps import SCAN, SCANS
+from .law_facts import ids
 
 GEARS = 8
 PER_GAIN = 1000.0 / 60.0
 """1/s for a gain of 1 rpm in 0.001 revolutions (12-15)."""
-GAIN = "servo.initial_gain"
 RAMPED = (
     "The ramp takes Acceleration Time up to Maximum Tapping Speed with the solid tapping option, else Dev."
     " Detection Filter Time up to Max. Spindle Speed (12-3); its table names the ramp parameter itself for"
@@ -41,16 +40,16 @@ SIGN = {"clockwise": 1.0, "counterclockwise": -1.0}
 
 def spindle(read: AxisParameters, number: str) -> Spindle:
     """Return a spindle; raises SimulationError where it is not set."""
-    count = read.optional("spindle.gear_count", at=number)
+    count = read.optional(ids.gear_count, at=number)
     if count is None:
-        raise SimulationError(f"Number of Gears Used of spindle {number} is not set", "spindle.gear_count")
+        raise SimulationError(f"Number of Gears Used of spindle {number} is not set", ids.gear_count)
     names = [str(n) for n in range(1, min(int(count), GEARS) + 1)]
     found = [_gear(read, number, name) for name in names]
     gears = tuple(gear for gear in found if gear is not None)
-    ramped = read.value("spindle.dac_ramping", at=number) is True
+    ramped = read.value(ids.dac_ramping, at=number) is True
     notes = (SHARED, RAMPED if ramped else STEPPED)
-    fine = read.optional(SCAN, everywhere=True)
-    scans = read.optional(SCANS, everywhere=True)
+    fine = read.optional(ids.fine_foreground, everywhere=True)
+    scans = read.optional(ids.scans_per_logic, everywhere=True)
     # The code of a gear that is not requested is ours: the control shows none.
     return Spindle(
         number,
@@ -69,13 +68,15 @@ def spindle(read: AxisParameters, number: str) -> Spindle:
 def _gear(read: AxisParameters, number: str, name: str) -> Gear | None:
     """Return a gear; None for one without legal values."""
     at = f"{number}.{name}"
-    low, high = (read.optional(f"spindle.{which}_speed", at=at) for which in ("min", "max"))
+    low, high = (read.optional(ids[f"spindle_{which}_speed"], at=at) for which in ("min", "max"))
     if low is None or high is None or not 0.0 <= low < high:
         return None
-    volts = read.optional("spindle.voltage_at_max", at=at)
-    time, top = (read.optional(f"tapping.{which}", at=at) for which in ("acceleration_time", "max_speed"))
-    filtered = read.optional("spindle.deviation_filter_time", at=number)
-    is_ramped = read.value("spindle.dac_ramping", at=number) is True
+    volts = read.optional(ids.voltage_at_max, at=at)
+    time, top = (
+        read.optional(ids[f"tapping_{which}"], at=at) for which in ("acceleration_time", "max_speed")
+    )
+    filtered = read.optional(ids.deviation_filter_time, at=number)
+    is_ramped = read.value(ids.dac_ramping, at=number) is True
     seconds, to = ((time or 0.0) / 1000.0, top or high) if time else ((filtered or 0.0) / 1000.0, high)
     return Gear(
         name,
@@ -85,32 +86,32 @@ def _gear(read: AxisParameters, number: str, name: str) -> Gear | None:
         output=10.0 if volts is None else volts,
         ramp_time=seconds if is_ramped else 0.0,
         ramp_top=to,
-        gain=(read.optional("spindle.gain", at=at) or 0.0) * PER_GAIN,
+        gain=(read.optional(ids.spindle_gain, at=at) or 0.0) * PER_GAIN,
         tap_rate=top / 60.0 / (time / 1000.0) if time and top else 0.0,
         tap_speed=top or high,
     )
 
 
 def _orient(read: AxisParameters, number: str) -> Orient | None:
-    speed = read.optional("spindle.orient_speed", at=number)
+    speed = read.optional(ids.orient_speed, at=number)
     if not speed:
         return None
-    direction = read.value("spindle.orient_direction", at=number)
+    direction = read.value(ids.orient_direction, at=number)
     return Orient(
         speed,
         SIGN.get(str(direction), 1.0),
-        read.optional("spindle.marker_calibration", at=number) or 0.0,
-        read.optional("spindle.orient_angle", at=number) or 0.0,
-        read.optional("spindle.orient_inposition_band", at=number) or 0.0,
+        read.optional(ids.marker_calibration, at=number) or 0.0,
+        read.optional(ids.orient_angle, at=number) or 0.0,
+        read.optional(ids.orient_inposition_band, at=number) or 0.0,
         page="12-10 to 12-15",
     )
 
 
 def _watch(read: AxisParameters, number: str) -> SpeedWatch | None:
-    tolerance = read.optional("spindle.deviation_tolerance", at=number)
+    tolerance = read.optional(ids.deviation_tolerance, at=number)
     if tolerance is None:
         return None
-    time = (read.optional("spindle.deviation_filter_time", at=number) or 0.0) / 1000.0
+    time = (read.optional(ids.deviation_filter_time, at=number) or 0.0) / 1000.0
     return SpeedWatch(tolerance / 100.0, time, "Spindle Speed Deviation Excessive", "12-5")
 
 
@@ -120,11 +121,11 @@ def tapping(machine: BoundMachine, _spindle: Spindle, gear: Gear, axis: AxisLaw,
     own = axis.position_rate
     gain = min(own, gear.gain) if gear.gain else own
     rates = [rate for rate in (next(iter(axis.ramps.values())).acceleration, gear.tap_rate * pitch) if rate]
-    axis_gain = read.optional(GAIN)
-    overrides = {} if axis_gain is None or gain >= own else {GAIN: axis_gain * gain / own}
-    forced = read.value("servo.position_loop_type") == "zfe"
+    axis_gain = read.optional(ids.initial_gain)
+    overrides = {} if axis_gain is None or gain >= own else {ids.initial_gain: axis_gain * gain / own}
+    forced = read.value(ids.position_loop_type) == "zfe"
     notes = (TAPPED, FORCED) if forced else (TAPPED,)
-    forward = (read.optional("servo.feed_forward") or 0.0) / 100.0 if forced else 0.0
+    forward = (read.optional(ids.feed_forward) or 0.0) / 100.0 if forced else 0.0
     return Tapping(
         "",
         overrides,

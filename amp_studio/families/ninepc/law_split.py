@@ -13,12 +13,11 @@ import numpy.typing as npt
 from amp_studio.sim import AlarmText, AxisLaw, AxisParameters, Leader, SimulationError, value_text
 
 from . import law_samples as samples
+from .law_facts import MOTION, ids
 
-SETS = (("deskew.master", "deskew.slave", "1"), ("deskew.master_2", "deskew.slave_2", "2"))
-GAIN, LIMIT, NAME = "deskew.gain", "deskew.skew_limit", "axis.name"
+SETS = ((ids.deskew_master, ids.deskew_slave, "1"), (ids.master_2, ids.slave_2, "2"))
 Positions = npt.NDArray[np.float64]
 Leads = Mapping[str, Positions]
-AXES = tuple(str(n) for n in range(1, 9))
 
 SLAVE = (
     "This servo is the slave of axis {0}: command, ramps and feedrates are those of its master (32-4), whose"
@@ -57,19 +56,19 @@ def slave_of(read: AxisParameters) -> Slave | None:
     """Return the pair of an axis that is a slave, None for any other;
     raises SimulationError for an impossible pair.
     """
-    own = read.value(NAME)
+    own = read.value(ids.axis_name)
     for master, slave, place in SETS:
         names = read.value(master, at=place), read.value(slave, at=place)
         if own is None or names[1] != own or names[0] in (None, "none", own):
             continue
-        gain, limit = (_not_negative(read, name, place) for name in (GAIN, LIMIT))
+        gain, limit = (_not_negative(read, name, place) for name in (ids.deskew_gain, ids.skew_limit))
         return Slave(_axis_named(read, str(names[0]), master), gain, limit)
     return None
 
 
 def slave_named(read: AxisParameters) -> str | None:
     """Return the axis of the slave of a master, None for any other axis."""
-    own = read.value(NAME)
+    own = read.value(ids.axis_name)
     for master, slave, place in SETS:
         if own is not None and own == read.value(master, at=place):
             name = str(read.value(slave, at=place) or "none")
@@ -99,7 +98,7 @@ def leading(law: AxisLaw, slave: AxisLaw, own: Slave, stiffness: float) -> AxisL
 def _deskewed(law: AxisLaw, slave: Slave) -> AxisLaw:
     p = list(law.parameters)
     p[samples.DESKEW], p[samples.SKEW_LIMIT] = slave.gain, slave.limit
-    text = f"Skew above {value_text(slave.limit, law.unit)} ({LIMIT}): the control goes into E-STOP"
+    text = f"Skew above {value_text(slave.limit, law.unit)} ({ids.skew_limit}): the control goes into E-STOP"
     alarms = {**law.alarms, int(samples.EXCESS_SKEW_ALARM): AlarmText("EXCESS SKEW", text)}
     return replace(law, parameters=p, alarms=alarms)
 
@@ -183,8 +182,8 @@ def _mixed(given: list[Positions], answers: list[Positions]) -> Positions:
 
 
 def _axis_named(read: AxisParameters, name: str, parameter: str) -> str:
-    for axis in AXES:
-        if read.value(NAME, at=axis) == name:
+    for axis in MOTION.axes:
+        if read.value(ids.axis_name, at=axis) == name:
             return axis
     raise SimulationError(f"{parameter} is '{name}', the name of no axis", parameter)
 
@@ -193,7 +192,7 @@ def _not_negative(read: AxisParameters, name: str, place: str) -> float:
     """Return a figure of a set; a gain that is not set is 0, the default, which switches it off (32-9,
     37-3).
     """
-    value = (read.optional(name, at=place) or 0.0) if name == GAIN else read.number(name, at=place)
+    value = (read.optional(name, at=place) or 0.0) if name == ids.deskew_gain else read.number(name, at=place)
     if not 0.0 <= value < math.inf:
         raise SimulationError(f"{name}@{place} is {value:g}; it must not be negative", name)
     return value

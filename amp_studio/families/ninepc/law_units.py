@@ -39,13 +39,15 @@ from dataclasses import dataclass
 from amp_studio.schema import Table
 from amp_studio.sim import SimulationError
 
+from .law_facts import MOTION
+
 FULL = 65536.0
 """Gain for rated torque at a velocity error (or sum) of 1 rad/s."""
-VELOCITY_PERIOD = 1e-3
+VELOCITY_PERIOD = MOTION.value("velocity_period")
 """s between two samples of the velocity loop."""
-DELAY = 1.5e-3
-"""s from a sample to its torque command: computing and transfer."""
-CURRENT_LOOP = 200.0
+DELAY = MOTION.value("delay")
+"""s from a sample to its torque command."""
+CURRENT_LOOP = MOTION.value("current_loop")
 """Hz: the current loop."""
 
 
@@ -59,16 +61,16 @@ def lag_of(delay: float, bandwidth: float, torque_filter: float = math.inf) -> f
 
 LAG = lag_of(DELAY, CURRENT_LOOP)
 """s: of an axis without torque filter."""
-NOMINAL = 1000.0
+NOMINAL = MOTION.value("rated_acceleration")
 """rad/s2 at rated torque of the axis that the printed bounds are about."""
 SEPARATE = 3.0
 """Least ratio of velocity loop to position loop (7-54: 3277 / 65536 per ms to gain / 60 per ms), below which
 a closed position loop overshoots."""
 
-ASSUMED_MOTORS = {"b410": (2.7, 0.004), "b420": (4.5, 0.007)}
-"""Frame -> rated torque in N m and inertia in lb in s2. ASSUMED: no manual here prints them, they come from
-an excerpt of the maker's data sheet 1326AB Torque Plus (within 10 %). Of the other frames nothing is at
-hand."""
+ASSUMED_MOTORS = {
+    frame: (MOTION.value(f"torque_{frame}"), MOTION.value(f"inertia_{frame}")) for frame in ("b410", "b420")
+}
+"""Frame -> rated torque in N m and inertia in lb in s2."""
 DATA_SHEET = "an excerpt of the maker's data sheet 1326AB Torque Plus (within 10 %), not from a manual"
 OWN_TORQUE, OWN_INERTIA = "model.motor_torque", "model.motor_inertia"
 """N m and kg m2 of the motor, when they are set."""

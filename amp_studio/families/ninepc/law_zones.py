@@ -6,6 +6,8 @@ from collections.abc import Iterator, Sequence
 
 from amp_studio.sim import BoundMachine, Zone
 
+from .law_facts import ids
+
 ON = {"g22": ("2", "3"), "g22.1": ("3",), "g23": (), "g23.1": ("2",)}
 """G code at power-up (524) -> zones that are on (16-16)."""
 GUARDS = {"2": "outside", "3": "by start"}
@@ -22,19 +24,19 @@ def zones(machine: BoundMachine, axes: Sequence[str]) -> Iterator[Zone]:
     an axis of no group is open to its overtravels (6-4).
     """
     read = machine.parameters
-    count = read.optional("zone.group_count", everywhere=True)
-    on = ON.get(str(read.value("powerup.zones", everywhere=True) or ""), ())
+    count = read.optional(ids.group_count, everywhere=True)
+    on = ON.get(str(read.value(ids.powerup_zones, everywhere=True) or ""), ())
     for n, group in enumerate(GROUPS, 1):
         if count is not None and n > int(count):
             return  # 0 switches the zones off (6-6)
-        members = [axis for axis in machine.fitted if machine.read(axis).value("zone.group") == group]
+        members = [axis for axis in machine.fitted if machine.read(axis).value(ids.zone_group) == group]
         if not any(axis in axes for axis in members):
             continue
         for zone in ("2", "3"):
             sides = {}
             for axis in members:
                 own = machine.read(axis)
-                low, high = (own.optional(f"zone.limit{zone}_{side}") for side in ("min", "max"))
+                low, high = (own.optional(ids[f"zone_limit{zone}_{side}"]) for side in ("min", "max"))
                 if low is not None and high is not None and low < high:
                     sides[axis] = (low, high)
             if sides:

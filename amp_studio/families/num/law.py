@@ -14,39 +14,22 @@ from dataclasses import replace
 from functools import partial
 
 from amp_studio.files import ParameterFile
-from amp_studio.sim import (
-    USUAL_SCENARIOS,
-    AxisLaw,
-    AxisParameters,
-    Law,
-    Machine,
-    Prediction,
-    Ramp,
-    SimulationError,
-    Source,
-)
+from amp_studio.sim import AxisLaw, AxisParameters, Law, Machine, Prediction, Ramp, SimulationError, Source
 
 from . import law_events as events
 from . import law_sample as sample
 from .formulas import approach_speed, circle_speed, increments_per_sample, measured_step
 from .formulas.servo import FOLLOWING_ERROR_MARGIN
 from .law_advice import advise, follow
+from .law_facts import MOTION, ids
 from .law_loop import loop
 from .law_machine_tests import machine_tests
-from .law_notes import ALWAYS, DRIVE, NOT_SIMULATED
+from .law_notes import ALWAYS, NOT_SIMULATED
 from .law_pair import drive_axis, is_synchronised, refuse_chain, synchronised
 from .law_spindle import spindle, tapping
-from .law_words import FILTER, VOLTAGE, Words, above, read_words
+from .law_words import Words, above, read_words
 
 SCALE = "model.scale"
-SETTINGS = {
-    VOLTAGE: "reference at which the drive has the speed of P30 (V); 9 unless set",
-    SCALE: "1 where the position is measured on the load, 0 where on the motor",
-    FILTER: "1 where E11012 has the filter of P55 work, 0 where not; 1 unless set",
-}
-
-BANDWIDTH, INTEGRAL, TORQUE_LIMIT = 50.0, 60.0, 200.0
-"""Hz, 1/s, % of rated torque: the assumed drive."""
 
 
 def axes(file: ParameterFile) -> tuple[str, ...]:
@@ -56,8 +39,8 @@ def axes(file: ParameterFile) -> tuple[str, ...]:
         value = file.evaluation.canonical((parameter, ""))
         return int(value) if isinstance(value, float) else 0
 
-    taken = (word("spindle.measured") & 15) << 24 | (word("axes.handwheels") & 15) << 28
-    declared = word("axes.measured") & word("axes.servoed") & ~taken
+    taken = (word(ids.spindle_measured) & 15) << 24 | (word(ids.axes_handwheels) & 15) << 28
+    declared = word(ids.axes_measured) & word(ids.axes_servoed) & ~taken
     return tuple(str(address) for address in range(32) if declared >> address & 1)
 
 
@@ -84,7 +67,7 @@ def _alone(read: AxisParameters) -> tuple[AxisLaw, float]:
     try:
         words = read_words(read, notes)
         parameters, alarms, limits = loop(read, words, notes)
-        machine, assumed = _machine(read, words)
+        machine = _machine(read, words)
     except SimulationError:
         raise
     except ValueError as error:  # of a formula
@@ -112,7 +95,7 @@ def _alone(read: AxisParameters) -> tuple[AxisLaw, float]:
         output_unit="V",
         position_rate=words.rate,
         feedrate=words.top,
-        inposition_band=read.number("servo.in_position_window") * words.length,
+        inposition_band=read.number(ids.in_position_window) * words.length,
         ramps=ramps,
         monitors=(
             ("reference_points", "points"),
@@ -127,7 +110,9 @@ def _alone(read: AxisParameters) -> tuple[AxisLaw, float]:
         sources=_sources(read, words),
         follow=follow,
         assumptions=(*notes, *ALWAYS, *NOT_SIMULATED),
-        assumed=assumed,
+        assumed=MOTION.reasons(
+            "acceleration_per_output", "velocity_bandwidth", "velocity_integral", "inertia_ratio"
+        ),
         linear_parameters=linear,
         sweep_parameters=swept,
         homing=partial(events.homing, read, words.length),
@@ -173,8 +158,8 @@ def _ramps(read: AxisParameters, acceleration: float, notes: list[str]) -> dict[
     """Return the ramps: in S (sin²) where bit 5 of P7N1 is set (9-6), else straight,
     with the fast acceleration of P32.
     """
-    functions = read.optional("misc.functions_more", everywhere=True)
-    least = read.optional("servo.acceleration_least_time", everywhere=True)
+    functions = read.optional(ids.functions_more, everywhere=True)
+    least = read.optional(ids.acceleration_least_time, everywhere=True)
     if functions is None:
         notes.append("P7N1 is not set: the ramps are straight, as with bit 5 at 0 (9-6).")
     if least is None:
@@ -190,26 +175,25 @@ def _ramps(read: AxisParameters, acceleration: float, notes: list[str]) -> dict[
     return {ramp.kind: ramp for ramp in (*own, Ramp("none"))}
 
 
-def _machine(read: AxisParameters, words: Words) -> tuple[Machine, dict[str, str]]:
-    sensor = read.optional("measure.sensor") or 0.0
+def _machine(read: AxisParameters, words: Words) -> Machine:
+    sensor = read.optional(ids.measure_sensor) or 0.0
     scale = read.optional(SCALE)
     if scale is not None and scale not in (0.0, 1.0):
         raise SimulationError(f"{SCALE} is {scale:g}; it is 0 or 1", SCALE)
-    step = measured_step(read.number("measure.multi"), read.number("measure.divi"), sensor)
-    above(step, "measure.multi", f"MULTI / DIVI (P11) of axis {read.axis}")
+    step = measured_step(read.number(ids.measure_multi), read.number(ids.measure_divi), sensor)
+    above(step, ids.measure_multi, f"MULTI / DIVI (P11) of axis {read.axis}")
     ruled = int(sensor) >> 25 & 3 == 3
-    machine = Machine(
-        acceleration_per_output=words.acceleration / 100.0,
+    return Machine(
+        acceleration_per_output=words.acceleration / MOTION.value("acceleration_per_output"),
         velocity_per_output=words.top / words.voltage,
-        velocity_bandwidth=BANDWIDTH,
-        velocity_integral=INTEGRAL,
+        velocity_bandwidth=MOTION.value("velocity_bandwidth"),
+        velocity_integral=MOTION.value("velocity_integral"),
         output_limit=10.0,
-        torque_limit_positive=TORQUE_LIMIT,
-        torque_limit_negative=TORQUE_LIMIT,
+        torque_limit_positive=MOTION.value("torque_limit"),
+        torque_limit_negative=MOTION.value("torque_limit"),
         position_count=step * words.length,
         load_sensor=ruled if scale is None else scale == 1.0,
     )
-    return machine, DRIVE
 
 
 def _sources(read: AxisParameters, words: Words) -> dict[str, Source]:
@@ -217,25 +201,15 @@ def _sources(read: AxisParameters, words: Words) -> dict[str, Source]:
     iu = 1.0 / words.length
     return {
         "position_gain": Source(
-            "servo.loop_gain", read.number("servo.loop_gain") / words.rate, "", True, page="6-14"
+            ids.loop_gain, read.number(ids.loop_gain) / words.rate, "", True, page="6-14"
         ),
-        "servo_period": Source("misc.sampling_period", 1e6, "us", True, page="9-10"),
-        "excess_error": Source("servo.max_following_error", iu, "iu", True, page="6-22"),
-        "inposition_band": Source("servo.in_position_window", iu, "iu", True, page="6-20"),
-        "dynamic_check": Source("servo.movement_tolerance", 1000.0, "um/sample", True, page="6-24"),
-        "feedrate": Source("servo.max_speed", 60.0, None, True, page="6-6"),
-        "acceleration": Source("servo.acceleration_fast", 1.0, None, True, page="6-10"),
+        "servo_period": Source(ids.sampling_period, 1e6, "us", True, page="9-10"),
+        "excess_error": Source(ids.max_following_error, iu, "iu", True, page="6-22"),
+        "inposition_band": Source(ids.in_position_window, iu, "iu", True, page="6-20"),
+        "dynamic_check": Source(ids.movement_tolerance, 1000.0, "um/sample", True, page="6-24"),
+        "feedrate": Source(ids.max_speed, 60.0, None, True, page="6-6"),
+        "acceleration": Source(ids.acceleration_fast, 1.0, None, True, page="6-10"),
     }
 
 
-LAW = Law(
-    bind,
-    axes,
-    "No axis is servo-controlled. Declare one in P2N0 and P3N0, with its name and group in P9",
-    SETTINGS,
-    scenarios=(*USUAL_SCENARIOS, "home", "jog", "travel", "spindle", "tap"),
-    advise=advise,
-    spindle=spindle,
-    tapping=tapping,
-    machine_tests=machine_tests,
-)
+LAW = Law(bind, axes, advise=advise, spindle=spindle, tapping=tapping, machine_tests=machine_tests)

@@ -13,6 +13,7 @@ from amp_studio.sim import AxisLaw, Recommendation, Source, Trace, rounded_down,
 
 from . import law_sample as sample
 from .formulas.servo import FOLLOWING_ERROR_MARGIN
+from .law_facts import ids
 
 LOOSE = 2.0
 """Ratio of EMAX to the recommended one from which it is too large. A choice of this program."""
@@ -21,7 +22,6 @@ APART = 0.03
 program."""
 HALF_MS = 0.00051
 """s: P66 is in whole ms."""
-CONSTANT_OF_AXIS = "servo.axis_time_constant"
 RESERVE = 0.8
 """Share of the available acceleration that a ramp may use. A choice of this program."""
 
@@ -47,7 +47,7 @@ def _constant(axis: AxisLaw, _trace: Trace | None = None) -> Iterator[Recommenda
         return
     constant, gives = axis.parameters[sample.CONSTANT], 1000.0 / axis.position_rate
     yield Recommendation(
-        CONSTANT_OF_AXIS,
+        ids.axis_time_constant,
         float(max(1, round(gives))),
         "ms",
         f"KVAR gives a time constant of {value_text(gives, 'ms', 3)}, but P56 or P66 is"

@@ -6,12 +6,10 @@ import math
 
 from amp_studio.sim import AxisParameters, Homing, Jogging, SimulationError, Travel
 
-NEGATIVE, NO_SWITCH = "travel.homing_negative", "travel.switch_not_tested"
-PLACE, LOW, HIGH = "travel.switch_position", "travel.limit_min", "travel.limit_max"
-JOGS = {"normal": "servo.jog_normal", "slow": "servo.jog_slow", "fast": "servo.jog_fast"}
-REDUCED = {"mm": "servo.reduced_speed_linear", "deg": "servo.reduced_speed_rotary"}
-MARKERS = 10.0
-"""u from one encoder zero to the next: assumed, move.turn gives another."""
+from .law_facts import MOTION, ids
+
+JOGS = {"normal": ids.jog_normal, "slow": ids.jog_slow, "fast": ids.jog_fast}
+REDUCED = {"mm": ids.reduced_speed_linear, "deg": ids.reduced_speed_rotary}
 
 HOMED = (
     (
@@ -46,15 +44,15 @@ def homing(read: AxisParameters, length: float) -> Homing:
     speed = read.number(JOGS["normal"], everywhere=True)
     if not speed > 0.0:
         raise SimulationError(f"Normal JOG speed (P31N1) is {speed:g}; it must be above 0", JOGS["normal"])
-    sign, alone = (-1.0 if _bit(read, NEGATIVE) else 1.0), _bit(read, NO_SWITCH)
+    sign, alone = (-1.0 if _bit(read, ids.homing_negative) else 1.0), _bit(read, ids.switch_not_tested)
     velocity = sign * speed / 60.0
     notes = (WITHOUT.format(read.axis), *HOMED) if alone else HOMED
     return Homing(
         approach=0.0 if alone else velocity,
         leave=velocity,
         marker="next",
-        turn=MARKERS,
-        coordinate=(read.optional(PLACE) or 0.0) * length,
+        turn=MOTION.value("marker_distance"),
+        coordinate=(read.optional(ids.switch_position) or 0.0) * length,
         through=not alone,
         page="7-8",
         notes=notes,
@@ -72,8 +70,8 @@ def jogging(read: AxisParameters, unit: str) -> Jogging:
 
 def travel(read: AxisParameters, length: float) -> Travel:
     """Return the limits of P17 from the measurement origin; none for a modulo axis (4-12)."""
-    if _bit(read, "axes.modulo"):
+    if _bit(read, ids.axes_modulo):
         return Travel({}, "TRAVEL LIMIT", "7-12", ("A modulo axis has no travel limits (4-12).",))
-    low, high = read.optional(LOW), read.optional(HIGH)
+    low, high = read.optional(ids.limit_min), read.optional(ids.limit_max)
     edges = (-math.inf if low is None else low * length, math.inf if high is None else high * length)
     return Travel({"the travel limit of P17": edges}, "TRAVEL LIMIT", "7-12", (LIMITED,))

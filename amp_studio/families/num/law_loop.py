@@ -9,6 +9,7 @@ import math
 from amp_studio.sim import AlarmText, AxisParameters, SimulationError, value_text
 
 from . import law_sample as sample
+from .law_facts import ids
 from .law_words import Words
 
 
@@ -22,7 +23,7 @@ def loop(
     p[sample.VOLTS] = words.voltage / words.top
     p[sample.FRICTION], p[sample.FRICTION_LEFT] = _friction(read, words, notes)
     p[sample.AHEAD] = _ahead(read, words, notes)
-    p[sample.EMAX] = read.number("servo.max_following_error") * words.length
+    p[sample.EMAX] = read.number(ids.max_following_error) * words.length
     p[sample.TOLERANCE] = _tolerance(read, words, notes)
     p[sample.SYNC_LIMIT], p[sample.BACKLASH] = math.inf, _backlash(read, words, notes)
     limit = value_text(p[sample.EMAX], words.unit)
@@ -40,7 +41,7 @@ def loop(
             " the tolerance (6-24).",
         ),
     }
-    band = read.number("servo.in_position_window") * words.length
+    band = read.number(ids.in_position_window) * words.length
     return p, alarms, {"maximum following error": p[sample.EMAX], "in-position window": band}
 
 
@@ -50,7 +51,7 @@ def _ahead(read: AxisParameters, words: Words, notes: list[str]) -> float:
     In the printed formula one reference is missing: Ri - Ri-2j-1 + Ri-2j-2. Only - Ri-1 makes it 0 at rest
     and at a constant speed, the change of the filtered speed from one sample to the next.
     """
-    anticipation = read.optional("servo.acceleration_anticipation") or 0.0
+    anticipation = read.optional(ids.acceleration_anticipation) or 0.0
     if not anticipation:
         return 0.0
     if words.share < 1.0:
@@ -71,16 +72,16 @@ def _friction(read: AxisParameters, words: Words, notes: list[str]) -> tuple[flo
     """Return (amplitude in u, share that one sample leaves of the correction)
     of the dry friction correction (6-34).
     """
-    amplitude = read.optional("servo.friction_amplitude") or 0.0
+    amplitude = read.optional(ids.friction_amplitude) or 0.0
     if not amplitude:
         return 0.0, 0.0
-    time = (read.optional("servo.friction_time") or 0.0) / 1000.0
+    time = (read.optional(ids.friction_time) or 0.0) / 1000.0
     if not time > words.period / 2.0:
         raise SimulationError(
             f"The dry friction correction of axis {read.axis} has the time constant {time * 1000.0:g} ms"
             f" (P19, words 64 to 95). With less than half the sampling period, {words.period * 500.0:g} ms,"
             " it never dies away (6-34)",
-            "servo.friction_time",
+            ids.friction_time,
         )
     notes.append(
         "ASSUMED: the amplitude of the dry friction correction has the sign of the speed reference, and the"
@@ -91,7 +92,7 @@ def _friction(read: AxisParameters, words: Words, notes: list[str]) -> tuple[flo
 
 def _tolerance(read: AxisParameters, words: Words, notes: list[str]) -> float:
     """Return the tolerance of the dynamic check in u per sample, -1 for no check (6-24)."""
-    tolerance = read.optional("servo.movement_tolerance")
+    tolerance = read.optional(ids.movement_tolerance)
     if tolerance is None:
         notes.append("Dynamic Movement Control (P57) is not set: it is not simulated.")
     if not tolerance:
@@ -114,7 +115,7 @@ def _backlash(read: AxisParameters, words: Words, notes: list[str]) -> float:
     """Return the reversal error compensation in u (7-14); 0 on a machine without backlash, which needs
     none.
     """
-    compensation = read.optional("travel.backlash") or 0.0
+    compensation = read.optional(ids.travel_backlash) or 0.0
     if not compensation:
         return 0.0
     if not read.optional("model.backlash"):

@@ -8,7 +8,8 @@ import math
 
 from amp_studio.sim import AxisLaw, BoundMachine, MachineTest, MachineTestStep, value_text
 
-SPEED = "servo.max_speed"
+from .law_facts import ids
+
 CHECKS = 10
 RADIUS, CIRCLE_FEED = 20.0, 3000.0
 """mm and mm/min (6-46)."""
@@ -79,7 +80,7 @@ def _homing(axis: AxisLaw, letter: str) -> MachineTest:
 
 def _speeds(machine: BoundMachine, axis: AxisLaw, letter: str) -> MachineTest:
     title = "Both speeds of the adjustment of the drive"
-    top = machine.read(axis.axis).optional(SPEED)
+    top = machine.read(axis.axis).optional(ids.max_speed)
     if not top:
         return MachineTest("speeds", title, "11-3", refusal=f"P30 gives axis {letter} no speed.")
     low, high = _room(axis)

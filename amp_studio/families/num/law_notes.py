@@ -20,19 +20,3 @@ ALWAYS = (
 )
 
 NOT_SIMULATED = ("Not simulated: interaxis calibration, QVN and DISC loops (P70 to P87).",)
-
-DRIVE = {
-    "acceleration_per_output": (
-        "The file contains neither inertia nor torque: 100 % of rated torque is taken to give the fast"
-        " acceleration of P32 (6-43 takes it from the speed buildup of the axis), and the drive to end at"
-        " 200 %."
-    ),
-    "velocity_bandwidth": (
-        "The drive is not in the file: it is taken to be a velocity drive that has the speed of P30 at 9 V"
-        " (6-14; set model.drive_voltage)."
-    ),
-    "velocity_integral": (
-        "An integral part of that drive, without which friction and weight would leave a speed error."
-    ),
-    "inertia_ratio": "Load and motor are one rigid mass unless model.resonance or model.backlash is set.",
-}

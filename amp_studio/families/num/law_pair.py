@@ -10,6 +10,7 @@ from functools import partial
 from amp_studio.sim import AlarmText, AxisLaw, AxisParameters, Leader, Prediction, SimulationError
 
 from . import law_sample as sample
+from .law_facts import ids
 
 BASIC_CORRECTION = 250.0
 """Thousandths of the error that are given back, the basic value (6-30)."""
@@ -17,13 +18,13 @@ BASIC_CORRECTION = 250.0
 
 def drive_axis(read: AxisParameters) -> str | None:
     """Return the address of the drive axis of a driven one (P27), None for an axis on its own."""
-    leader = read.value("axes.drive_axis")
+    leader = read.value(ids.drive_axis)
     return None if leader in (None, "none") else str(leader).removeprefix("axis-")
 
 
 def is_synchronised(read: AxisParameters) -> bool:
     """Return whether P28 has a driven axis corrected."""
-    return int(read.optional("axes.synchronised", everywhere=True) or 0.0) >> int(read.axis) & 1 == 1
+    return int(read.optional(ids.axes_synchronised, everywhere=True) or 0.0) >> int(read.axis) & 1 == 1
 
 
 def synchronised(law: AxisLaw, read: AxisParameters, leader: AxisLaw, length: float) -> AxisLaw:
@@ -35,9 +36,9 @@ def synchronised(law: AxisLaw, read: AxisParameters, leader: AxisLaw, length: fl
         raise SimulationError(
             f"Drive axis {leader.axis} moves in {leader.unit}, driven axis {read.axis} in {law.unit}: they"
             " cannot be synchronised",
-            "axes.drive_axis",
+            ids.drive_axis,
         )
-    correction, threshold = read.optional("servo.sync_correction"), read.optional("servo.sync_error")
+    correction, threshold = read.optional(ids.sync_correction), read.optional(ids.sync_error)
     p = list(law.parameters)
     p[sample.CORRECTION] = (BASIC_CORRECTION if correction is None else correction) / 1000.0
     p[sample.SYNC_LIMIT] = math.inf if threshold is None else threshold * length
@@ -78,7 +79,7 @@ def refuse_chain(read: AxisParameters, leader: AxisParameters) -> None:
     """Raise SimulationError for a drive axis that is a driven one or the axis itself."""
     if leader.axis == read.axis or drive_axis(leader) is not None:
         raise SimulationError(
-            f"Drive axis {leader.axis} of axis {read.axis} is a driven axis itself (P27)", "axes.drive_axis"
+            f"Drive axis {leader.axis} of axis {read.axis} is a driven axis itself (P27)", ids.drive_axis
         )
 
 

@@ -16,6 +16,7 @@ from amp_studio.sim import (
 )
 
 from .formulas.spindle import indexing_standstill, spindle_increment, tapping_deceleration_distance
+from .law_facts import ids
 
 RANGES = range(40, 46)
 FULL_V = 10.0
@@ -41,11 +42,11 @@ def spindle(read: AxisParameters, number: str) -> Spindle:
     gears = []
     for word in RANGES:
         at = f"{number}.{word}"
-        high = read.optional("spindle.range_max", at=at) or 0.0
+        high = read.optional(ids.range_max, at=at) or 0.0
         if high <= 0.0:
             continue  # the range is not there (8-16)
-        limit = read.optional("spindle.limit_speed", at=at) or high
-        low = read.optional("spindle.range_min", at=at) or 0.0
+        limit = read.optional(ids.limit_speed, at=at) or high
+        low = read.optional(ids.range_min, at=at) or 0.0
         gears.append(
             Gear(
                 str(word),
@@ -53,13 +54,13 @@ def spindle(read: AxisParameters, number: str) -> Spindle:
                 limit,
                 full=high,
                 output=FULL_V,
-                gain=(read.optional("spindle.gain", at=number) or 0.0) / 60.0,
-                tap_rate=read.optional("spindle.tapping_acceleration", at=number) or 0.0,
+                gain=(read.optional(ids.spindle_gain, at=number) or 0.0) / 60.0,
+                tap_rate=read.optional(ids.tapping_acceleration, at=number) or 0.0,
             )
         )
     if not gears:
-        raise SimulationError(f"Spindle {number} has no speed range (P46 to P49)", "spindle.range_max")
-    functions = int(read.optional("misc.functions", everywhere=True) or 0.0)
+        raise SimulationError(f"Spindle {number} has no speed range (P46 to P49)", ids.range_max)
+    functions = int(read.optional(ids.misc_functions, everywhere=True) or 0.0)
     return Spindle(
         number,
         f"NUM spindle {number}: {len(gears)} ranges, 10 V at the end of each",
@@ -78,17 +79,19 @@ def spindle(read: AxisParameters, number: str) -> Spindle:
 
 
 def _orient(read: AxisParameters, number: str) -> Orient | None:
-    speed, points = (read.optional(f"spindle.{each}", at=number) for each in ("indexing_speed", "points"))
-    period = read.optional("misc.sampling_period", everywhere=True)
+    speed, points = (
+        read.optional(ids[f"spindle_{each}"], at=number) for each in ("indexing_speed", "points")
+    )
+    period = read.optional(ids.sampling_period, everywhere=True)
     if not speed or not points or not period:
         return None
     unit = spindle_increment(points)
     return Orient(
         speed,
         1.0,
-        (read.optional("spindle.origin", at=number) or 0.0) * unit,
+        (read.optional(ids.spindle_origin, at=number) or 0.0) * unit,
         0.0,
-        (read.optional("spindle.window", at=number) or 0.0) * unit,
+        (read.optional(ids.spindle_window, at=number) or 0.0) * unit,
         standstill=indexing_standstill(period if period > 1.0 else period * 1000.0),
         page="8-5, 8-6",
     )
@@ -100,13 +103,11 @@ def tapping(machine: BoundMachine, spindle: Spindle, gear: Gear, axis: AxisLaw, 
     """
     read = machine.parameters
     if not gear.tap_rate:
-        raise SimulationError(
-            f"P62 gives spindle {spindle.name} no acceleration", "spindle.tapping_acceleration"
-        )
-    period = (read.optional("misc.sampling_period", everywhere=True) or 0.0) / 1000.0  # ms to s
-    ahead = (read.optional("spindle.position_anticipation", at=GROUP_1) or 0.0) / 1000.0 * period
-    start = (read.optional("spindle.zero_crossing_anticipation", at=GROUP_1) or 0.0) * period
-    volts = read.optional("spindle.hole_bottom_reference", at=spindle.name) or 0.0
+        raise SimulationError(f"P62 gives spindle {spindle.name} no acceleration", ids.tapping_acceleration)
+    period = (read.optional(ids.sampling_period, everywhere=True) or 0.0) / 1000.0  # ms to s
+    ahead = (read.optional(ids.position_anticipation, at=GROUP_1) or 0.0) / 1000.0 * period
+    start = (read.optional(ids.zero_crossing_anticipation, at=GROUP_1) or 0.0) * period
+    volts = read.optional(ids.hole_bottom_reference, at=spindle.name) or 0.0
     distance = tapping_deceleration_distance(pitch, gear.high, gear.tap_rate)
     figures = {
         "deceleration_distance_at_limit": (distance, axis.unit),

@@ -20,21 +20,22 @@ from .formulas import (
     effective_anticipation,
     sampling_period_in_force,
 )
+from .law_facts import MOTION, ids
 
 VOLTAGE, FILTER = "model.drive_voltage", "model.filter"
 UC_SII = "1060 UCSII"
 """The application with that processor."""
 
-_OF_CONTROL = ("axes.measured", "axes.servoed", "misc.sampling_period")
+_OF_CONTROL = (ids.axes_measured, ids.axes_servoed, ids.sampling_period)
 _OF_AXIS = (
-    "axes.assignment",
-    "measure.multi",
-    "measure.divi",
-    "servo.max_speed",
-    "servo.acceleration_fast",
-    "servo.loop_gain",
-    "servo.in_position_window",
-    "servo.max_following_error",
+    ids.axes_assignment,
+    ids.measure_multi,
+    ids.measure_divi,
+    ids.max_speed,
+    ids.acceleration_fast,
+    ids.loop_gain,
+    ids.in_position_window,
+    ids.max_following_error,
 )
 
 
@@ -78,8 +79,8 @@ class Words:
 def read_words(read: AxisParameters, notes: list[str]) -> Words:
     """Return the words of an axis; what is taken for a word that is not set goes to ``notes``."""
     _demand(read, _OF_CONTROL, _OF_AXIS)
-    address, assignment = float(read.axis), read.number("axes.assignment")
-    bits = [read.optional(name, everywhere=True) for name in ("axes.modulo", "axes.limited_excursion")]
+    address, assignment = float(read.axis), read.number(ids.axes_assignment)
+    bits = [read.optional(name, everywhere=True) for name in (ids.axes_modulo, ids.limited_excursion)]
     if None in bits:
         notes.append("P1 is not set: only an axis with the name A, B or C is taken to turn (4-12).")
     modulo, limited = (each or 0.0 for each in bits)
@@ -87,24 +88,24 @@ def read_words(read: AxisParameters, notes: list[str]) -> Words:
     length = axis_unit(address, modulo, limited, assignment, *_dividers(read, turns, notes))
     group = int(assignment) >> 4
     named = str(group + 1) if group < 8 else None
-    own = read.optional("servo.axis_time_constant")
-    of_group = None if named is None else read.optional("servo.group_time_constant", at=named)
+    own = read.optional(ids.axis_time_constant)
+    of_group = None if named is None else read.optional(ids.group_time_constant, at=named)
     constant = axis_time_constant(own or 0.0, of_group or 0.0) / 1000.0
     if named is None and not constant:
         raise SimulationError(
             f"P9N{read.axis} gives the axis no group, and so no time constant of P56 (or P66)",
-            "axes.assignment",
+            ids.axes_assignment,
         )
     if not constant and of_group is None:
-        raise _not_set_error(read, [f"servo.group_time_constant@{named}"])
-    above(constant, "servo.group_time_constant", "The time constant of P56 (or P66)")
-    acceleration = read.number("servo.acceleration_fast")
-    above(acceleration, "servo.acceleration_fast", "Maximum Permissible Acceleration, fast speed (P32)")
-    top, gain = read.number("servo.max_speed") / 60.0, read.number("servo.loop_gain")
-    above(top, "servo.max_speed", f"Maximum Axis Traverse Rate (P30N{read.axis})")
-    above(gain, "servo.loop_gain", f"KVAR (P21N{read.axis}), which is in the drive with DISC NT,")
+        raise _not_set_error(read, [f"{ids.group_time_constant}@{named}"])
+    above(constant, ids.group_time_constant, "The time constant of P56 (or P66)")
+    acceleration = read.number(ids.acceleration_fast)
+    above(acceleration, ids.acceleration_fast, "Maximum Permissible Acceleration, fast speed (P32)")
+    top, gain = read.number(ids.max_speed) / 60.0, read.number(ids.loop_gain)
+    above(top, ids.max_speed, f"Maximum Axis Traverse Rate (P30N{read.axis})")
+    above(gain, ids.loop_gain, f"KVAR (P21N{read.axis}), which is in the drive with DISC NT,")
     voltage = read.optional(VOLTAGE)
-    voltage = 9.0 if voltage is None else voltage
+    voltage = MOTION.value("drive_voltage") if voltage is None else voltage
     if not 0.0 < voltage <= 10.0:
         raise SimulationError(f"{VOLTAGE} is {voltage:g} V; it must be above 0 and at most 10", VOLTAGE)
     terms, share = _anticipation(read, named, notes)
@@ -120,7 +121,7 @@ def read_words(read: AxisParameters, notes: list[str]) -> Words:
         terms=terms,
         voltage=voltage,
         acceleration=acceleration,
-        work_acceleration=read.optional("servo.acceleration_work") or 0.0,
+        work_acceleration=read.optional(ids.acceleration_work) or 0.0,
         curve_constant=(of_group or 0.0) / 1000.0,
         curve_error=_curve_error(read, turns, notes),
     )
@@ -130,7 +131,7 @@ def _curve_error(read: AxisParameters, turns: bool, notes: list[str]) -> float:
     """Return the error tolerated on circles in um (6-32), 0 for no limit of the speed."""
     if turns:
         return 0.0  # a length, for linear axes
-    error = read.optional("servo.circle_error", everywhere=True)
+    error = read.optional(ids.circle_error, everywhere=True)
     if not error:
         notes.append(
             f"P52N0 is {'not set' if error is None else '0, which by 6-32 leaves no speed'}: the speed on"
@@ -156,9 +157,9 @@ def _not_set_error(read: AxisParameters, missing: list[str]) -> SimulationError:
 
 def _dividers(read: AxisParameters, turns: bool, notes: list[str]) -> tuple[float, float]:
     if not turns:
-        _demand(read, ("axes.internal_unit",), ())
-        return read.number("axes.internal_unit", everywhere=True), 0.0
-    divider = read.optional("axes.rotary_unit", everywhere=True)
+        _demand(read, (ids.internal_unit,), ())
+        return read.number(ids.internal_unit, everywhere=True), 0.0
+    divider = read.optional(ids.rotary_unit, everywhere=True)
     if divider is None:
         notes.append(
             "P4N4 is not set: the internal unit is deg/10000, as in software before index LA (4-18)."
@@ -174,7 +175,7 @@ def above(figure: float, parameter: str, what: str) -> None:
 
 def _period(read: AxisParameters, notes: list[str]) -> float:
     """Return the active sampling period in s (9-10)."""
-    given = round(read.number("misc.sampling_period", everywhere=True) * 1000.0, 6)
+    given = round(read.number(ids.sampling_period, everywhere=True) * 1000.0, 6)
     taken = sampling_period_in_force(given, read.application == UC_SII)
     if taken != given:
         notes.append(f"P50N0 is {given:g} us: the control takes {taken:g} us (9-10).")
@@ -185,8 +186,8 @@ def _period(read: AxisParameters, notes: list[str]) -> float:
 
 def _anticipation(read: AxisParameters, group: str | None, notes: list[str]) -> tuple[int, float]:
     """Return (references averaged, share of the speed reference 0 to 1) of the axis' group (6-26)."""
-    percent = None if group is None else read.optional("servo.speed_anticipation", at=group)
-    terms = None if group is None else read.optional("servo.filter_terms", at=group)
+    percent = None if group is None else read.optional(ids.speed_anticipation, at=group)
+    terms = None if group is None else read.optional(ids.filter_terms, at=group)
     for value, word in ((percent, "Speed Anticipation Coefficient"), (terms, "Number of Filtered Terms")):
         if value is None:
             notes.append(
@@ -201,7 +202,7 @@ def _anticipation(read: AxisParameters, group: str | None, notes: list[str]) -> 
         raise SimulationError(
             f"The filter (P55) averages {terms:g} references; it takes an odd number, 2j+1 (6-26), below 14"
             " (6-26)",
-            "servo.filter_terms",
+            ids.filter_terms,
         )
     notes.append(
         f"ASSUMED: E11012 has the filter of {terms:g} references work (6-26), of which the file knows"

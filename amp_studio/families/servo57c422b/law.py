@@ -1,7 +1,7 @@
 """Binds an axis of the 57C422B from its registers: gains, limits and the command,
 and an assumed motor behind them.
 
-The only module of the law with ids of the module. Pages are those of the manual J-3642-7.
+Pages are those of the manual J-3642-7.
 """
 
 from __future__ import annotations
@@ -14,7 +14,6 @@ from functools import partial
 from amp_studio.files import ParameterFile
 from amp_studio.schema import load_schema
 from amp_studio.sim import (
-    USUAL_SCENARIOS,
     AlarmText,
     AxisLaw,
     AxisParameters,
@@ -34,47 +33,43 @@ from . import law_plant as plant
 from . import law_sample as loop
 from .law_axis import ModuleAxis
 from .law_commands import COMMANDS
+from .law_facts import MOTION, ids
 from .law_home import homing, travel
 from .law_machine_tests import machine_tests
 from .law_registration import probing
 from .law_tune import Scales
 
-AXES = ("X", "Y")
-PROPORTIONAL, INTEGRAL, VELOCITY = "gain.proportional", "gain.integral", "gain.velocity"
-FEED_FORWARD, DEADBAND, CLAMP = "gain.feedforward", "gain.deadband", "output.max_voltage"
-POSITION_ERROR, VELOCITY_ERROR = "setup.max_position_error", "setup.max_velocity_error"
-BAND = "setup.in_position_tolerance"
-SPEED, ACCELERATION, DECELERATION = "command.velocity", "command.acceleration", "command.deceleration"
-NEEDED = (PROPORTIONAL, INTEGRAL, VELOCITY, FEED_FORWARD, DEADBAND, CLAMP, SPEED, ACCELERATION, DECELERATION)
+NEEDED = (
+    ids.gain_proportional,
+    ids.gain_integral,
+    ids.gain_velocity,
+    ids.gain_feedforward,
+    ids.gain_deadband,
+    ids.max_voltage,
+    ids.command_velocity,
+    ids.command_acceleration,
+    ids.command_deceleration,
+)
 
 COMMAND_DATA = (
-    "command.position",
-    "setup.overtravel_positive",
-    "setup.overtravel_negative",
-    "command.gear_ratio",
-    "output.backlash",
-    "cam.points",
-    "cam.time",
-    "cam.position_increment",
+    ids.command_position,
+    ids.setup_overtravel_positive,
+    ids.setup_overtravel_negative,
+    ids.gear_ratio,
+    ids.output_backlash,
+    ids.cam_points,
+    ids.cam_time,
+    ids.position_increment,
 )
 """What tune commands, gearing, cams and backlash compensation read besides."""
 
 PER_VOLT = "model.velocity_per_output"
-_SCALES = {
-    "model.proportional_scale": (
-        65536.0,
-        "Proportional Gain that commands 1 count a scan for 1 count of error",
-    ),
-    "model.integral_scale": (
-        65536.0,
-        "Integral Gain that commands 1 count a scan for 1 count of summed error",
-    ),
-    "model.feedforward_scale": (8192.0, "Feedforward Gain that adds the whole commanded velocity"),
-    "model.velocity_scale": (1.0, "Velocity Gain that puts out 1 word (10 V / 1984) for 1 count a scan"),
-}
-SETTINGS = {name: text for name, (_, text) in _SCALES.items()} | {
-    PER_VOLT: "speed of a drive with velocity reference (counts/s for 1 V)"
-}
+_SCALES = (
+    "model.proportional_scale",
+    "model.integral_scale",
+    "model.feedforward_scale",
+    "model.velocity_scale",
+)
 
 _WORD = (-32768.0, 32767.0)
 """Range of a register of 16 bits."""
@@ -103,24 +98,25 @@ _LINEAR = "Linearization Constants other than -1 are not simulated: their scale 
 
 def axes(file: ParameterFile) -> Sequence[str]:
     """Return the axes whose Proportional Gain is set, both where none is."""
-    tuned = tuple(axis for axis in AXES if file.get((PROPORTIONAL, axis)) is not None)
-    return tuned or AXES
+    tuned = tuple(axis for axis in MOTION.axes if file.get((ids.gain_proportional, axis)) is not None)
+    return tuned or MOTION.axes
 
 
 def bind(read: AxisParameters) -> AxisLaw:
     """Return one axis; raises SimulationError that names every register that has to be set."""
     _refuse_missing(read)
-    if read.number(PROPORTIONAL) <= 0.0:
+    if read.number(ids.gain_proportional) <= 0.0:
         raise SimulationError(
-            f"{PROPORTIONAL} of axis {read.axis} is {read.number(PROPORTIONAL):g}: without it the axis does"
+            f"{ids.gain_proportional} of axis {read.axis} is {read.number(ids.gain_proportional):g}:"
+            " without it the axis does"
             " not follow. Begin with 100 (page 5-3)",
-            PROPORTIONAL,
+            ids.gain_proportional,
         )
-    current = read.number(VELOCITY) != 0.0
+    current = read.number(ids.gain_velocity) != 0.0
     per_volt = None if read.value(PER_VOLT) is None else read.within(PER_VOLT, 1.0, 1e9)
     machine = plant.machine(current_reference=current, velocity_per_volt=per_volt)
     p, notes = _parameters(read, machine, current)
-    assumed = dict(plant.CURRENT if current else plant.VELOCITY)
+    assumed = plant.reasons(current_reference=current)
     if per_volt is not None:
         assumed.pop("velocity_per_output", None)
     axis = ModuleAxis(
@@ -136,8 +132,10 @@ def bind(read: AxisParameters) -> AxisLaw:
         machine=machine,
         output_unit="V",
         position_rate=p[loop.PROPORTIONAL] / loop.SCAN,
-        feedrate=read.within(SPEED, 1e-3, 1e9),
-        inposition_band=0.0 if read.value(BAND) is None else read.within(BAND, 0.0, 1e9),
+        feedrate=read.within(ids.command_velocity, 1e-3, 1e9),
+        inposition_band=0.0
+        if read.value(ids.in_position_tolerance) is None
+        else read.within(ids.in_position_tolerance, 0.0, 1e9),
         ramps=_ramps(read),
         monitors=loop.MONITORS,
         alarms=_alarms(p),
@@ -182,26 +180,27 @@ def _named(parameter: str, axis: str) -> str:
 def _parameters(read: AxisParameters, machine: Machine, current: bool) -> tuple[list[float], list[str]]:
     scales = [_scale(read, name) for name in _SCALES]
     p = [0.0] * loop.PARAMETERS
-    gains = (PROPORTIONAL, INTEGRAL, FEED_FORWARD, VELOCITY)
+    gains = (ids.gain_proportional, ids.gain_integral, ids.gain_feedforward, ids.gain_velocity)
     places = (loop.PROPORTIONAL, loop.INTEGRAL, loop.FEED_FORWARD, loop.VELOCITY)
     for place, gain, scale in zip(places, gains, scales, strict=True):
         p[place] = read.within(gain, *_WORD) / scale
     p[loop.CURRENT_REFERENCE], p[loop.WHOLE_WORDS] = float(current), 1.0
     if not current:
         p[loop.VELOCITY] = loop.WORDS_PER_VOLT / (machine.velocity_per_output * loop.SCAN)
-    p[loop.DEADBAND] = read.within(DEADBAND, *_WORD)
-    p[loop.CLAMP] = read.within(CLAMP, 0.005, 10.0) * loop.WORDS_PER_VOLT
+    p[loop.DEADBAND] = read.within(ids.gain_deadband, *_WORD)
+    p[loop.CLAMP] = read.within(ids.max_voltage, 0.005, 10.0) * loop.WORDS_PER_VOLT
     notes = [_LOST.format(*scales)]
     kind = "a current reference is simulated" if current else "a velocity reference is simulated"
-    notes.append(_SIGNS.format(kind, f"{read.number(VELOCITY):g}"))
+    notes.append(_SIGNS.format(kind, f"{read.number(ids.gain_velocity):g}"))
     notes += [_DEADBAND] * (p[loop.DEADBAND] != 0.0) + [_MATCHED] * (not current) + [_S_CURVE]
     if any(
-        read.optional(f"output.linearization_{side}") not in (None, -1.0) for side in ("positive", "negative")
+        read.optional(ids[f"output_linearization_{side}"]) not in (None, -1.0)
+        for side in ("positive", "negative")
     ):
         notes.append(_LINEAR)
     for place, parameter, factor in (
-        (loop.POSITION_ERROR, POSITION_ERROR, 1.0),
-        (loop.VELOCITY_ERROR, VELOCITY_ERROR, loop.SCAN),
+        (loop.POSITION_ERROR, ids.max_position_error, 1.0),
+        (loop.VELOCITY_ERROR, ids.max_velocity_error, loop.SCAN),
     ):
         limit = None if read.value(parameter) is None else read.within(parameter, 0.0, 1e9)
         p[place] = -1.0 if limit is None else limit * factor
@@ -213,17 +212,20 @@ def _parameters(read: AxisParameters, machine: Machine, current: bool) -> tuple[
 def _scale(read: AxisParameters, name: str) -> float:
     value = read.optional(name)
     if value is None:
-        return _SCALES[name][0]
+        return MOTION.value(name.removeprefix("model."))
     return read.within(name, 1e-6, 1e9)
 
 
 def _ramps(read: AxisParameters) -> Mapping[str, Ramp]:
-    up, down = read.within(ACCELERATION, -1e12, 1e12), read.within(DECELERATION, -1e12, 1e12)
+    up, down = (
+        read.within(ids.command_acceleration, -1e12, 1e12),
+        read.within(ids.command_deceleration, -1e12, 1e12),
+    )
     if up <= 0.0 or down <= 0.0:
         raise SimulationError(
             f"Axis {read.axis} has an acceleration of {up:g} and a deceleration of {down:g} counts/s2: the"
             " module answers a move with an illegal command fault (page 4-38). Both must be above 0",
-            ACCELERATION if up <= 0.0 else DECELERATION,
+            ids.command_acceleration if up <= 0.0 else ids.command_deceleration,
         )
     return {"linear": Ramp("linear", up, down), "s-curve": Ramp("sine-squared", up, down), "none": Ramp()}
 
@@ -285,15 +287,15 @@ def _predicted(p: Sequence[float], machine: Machine, speed: float) -> Prediction
 
 def _sources() -> Mapping[str, Source]:
     return {
-        "position_gain": Source(PROPORTIONAL, whole=True, largest=_WORD[1], page="4-7"),
-        "velocity_gain": Source(VELOCITY, whole=True, largest=_WORD[1], page="4-7"),
-        "integral_gain": Source(INTEGRAL, whole=True, largest=_WORD[1], page="4-7"),
-        "feed_forward": Source(FEED_FORWARD, whole=True, page="4-8"),
-        "excess_error": Source(POSITION_ERROR, whole=True, page="4-8"),
-        "inposition_band": Source(BAND, whole=True, page="4-10"),
-        "feedrate": Source(SPEED, page="4-13"),
-        "linear_acceleration": Source(ACCELERATION, page="4-13"),
-        "linear_deceleration": Source(DECELERATION, page="4-14"),
+        "position_gain": Source(ids.gain_proportional, whole=True, largest=_WORD[1], page="4-7"),
+        "velocity_gain": Source(ids.gain_velocity, whole=True, largest=_WORD[1], page="4-7"),
+        "integral_gain": Source(ids.gain_integral, whole=True, largest=_WORD[1], page="4-7"),
+        "feed_forward": Source(ids.gain_feedforward, whole=True, page="4-8"),
+        "excess_error": Source(ids.max_position_error, whole=True, page="4-8"),
+        "inposition_band": Source(ids.in_position_tolerance, whole=True, page="4-10"),
+        "feedrate": Source(ids.command_velocity, page="4-13"),
+        "linear_acceleration": Source(ids.command_acceleration, page="4-13"),
+        "linear_deceleration": Source(ids.command_deceleration, page="4-14"),
     }
 
 
@@ -326,20 +328,11 @@ def follow(axis: AxisLaw) -> Sequence[Recommendation]:
         "As small an error at the commanded speed as possible without going negative, with this Velocity Gain"
         " (page 5-4)."
     )
-    return (Recommendation(FEED_FORWARD, gain, "", why, "Overshoot in moves (page 4-30)."),)
+    return (Recommendation(ids.gain_feedforward, gain, "", why, "Overshoot in moves (page 4-30)."),)
 
 
 SAME = 5e-4
 """Difference of two feed-forward shares that is not worth a change: 4 of 8192."""
 
 
-LAW = Law(
-    bind=bind,
-    axes=axes,
-    settings=SETTINGS,
-    scenarios=(*USUAL_SCENARIOS, "home", "travel", "probe"),
-    advise=advise,
-    probing=probing,
-    own=COMMANDS,
-    machine_tests=machine_tests,
-)
+LAW = Law(bind=bind, axes=axes, advise=advise, probing=probing, own=COMMANDS, machine_tests=machine_tests)

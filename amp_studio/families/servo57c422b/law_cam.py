@@ -12,6 +12,8 @@ from itertools import chain, cycle, islice
 
 from amp_studio.sim import SimulationError
 
+from .law_facts import ids
+
 
 def time_cam_order(
     points: int, *, reverse: bool = False, mirror: bool = False, continuous: bool = False, loop_back: int = 0
@@ -26,7 +28,7 @@ def time_cam_order(
         raise SimulationError(
             f"The loop back point {loop_back} is not one of the {points} points of the cam, 0 to"
             f" {points - 1}",
-            "cam.loop_back",
+            ids.loop_back,
         )
     forward = range(points)
     if not continuous:
@@ -47,7 +49,7 @@ def time_cam(
     ``negative`` is the motion direction bit: against the sign of the points (page 4-55).
     """
     if scans < 1:
-        raise SimulationError("The time between two points of a cam is at least 1 scan", "cam.time")
+        raise SimulationError("The time between two points of a cam is at least 1 scan", ids.cam_time)
     sign, position, positions = -1.0 if negative else 1.0, 0.0, [0.0]
     for point in islice(order, intervals):
         start = position
@@ -65,7 +67,7 @@ def position_cam(table: Sequence[int], increment: int, travelled: float, base: f
     if increment < 1 or len(table) < 2:
         raise SimulationError(
             "A position cam needs two points or more and a master increment of at least 1 count",
-            "cam.position_increment",
+            ids.position_increment,
         )
     step = min(max(travelled / increment, 0.0), len(table) - 1.0)
     point = min(int(step), len(table) - 2)
@@ -84,7 +86,7 @@ def rotary_position_cam(
         raise SimulationError(
             f"The cam is {increment * (len(table) - 1)} counts of the master long, more than its unwind"
             f" constant {unwind}",
-            "output.gearing_unwind",
+            ids.gearing_unwind,
         )
     turns, rest = divmod(travelled, unwind)
     return position_cam(table, increment, rest, base + turns * (table[-1] - table[0]))

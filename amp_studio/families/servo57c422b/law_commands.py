@@ -38,6 +38,7 @@ from .formulas.cam import word_bytes
 from .formulas.motion import backlash_moves
 from .law_axis import ModuleAxis
 from .law_cam import position_cam, time_cam, time_cam_order
+from .law_facts import ids
 from .law_gear import followed, gear_fraction, pieces_of
 from .law_sample import SCAN
 
@@ -108,17 +109,19 @@ def run_procedure(axis: AxisLaw, settings: Settings) -> Trace:
 
 def _tune_gains(axis: ModuleAxis) -> tuple[tune.Left, Settings]:
     increment = abs(
-        axis.needed("command.position", "tune gains moves by it, .25 to .5 turns of the motor (page 4-30)")
+        axis.needed(ids.command_position, "tune gains moves by it, .25 to .5 turns of the motor (page 4-30)")
     )
     if increment < 1.0:
-        raise SimulationError("Tune gains needs an increment of at least 1 count", "command.position")
+        raise SimulationError("Tune gains needs an increment of at least 1 count", ids.command_position)
     return tune.gains(axis, axis.scales, increment), {"move.distance": increment}
 
 
 def _tune_dynamics(axis: ModuleAxis) -> tuple[tune.Left, Settings]:
-    travel = axis.needed("setup.overtravel_positive", "tune dynamics takes its travel from it (page 4-30)")
+    travel = axis.needed(ids.setup_overtravel_positive, "tune dynamics takes its travel from it (page 4-30)")
     if travel < 1.0:
-        raise SimulationError("Tune dynamics needs a travel of at least 1 count", "setup.overtravel_positive")
+        raise SimulationError(
+            "Tune dynamics needs a travel of at least 1 count", ids.setup_overtravel_positive
+        )
     ramp = axis.ramps["linear"]
     left = tune.dynamics(axis, travel, axis.feedrate or 0.0, ramp.acceleration, ramp.deceleration)
     return left, {"move.distance": travel}
@@ -126,13 +129,13 @@ def _tune_dynamics(axis: ModuleAxis) -> tuple[tune.Left, Settings]:
 
 def _tune_feed_forward(axis: ModuleAxis) -> tuple[tune.Left, Settings]:
     ends = [
-        axis.needed(f"setup.overtravel_{side}", "tune feedforward takes its travel from it (page 4-31)")
+        axis.needed(ids[f"setup_overtravel_{side}"], "tune feedforward takes its travel from it (page 4-31)")
         for side in ("positive", "negative")
     ]
     if not ends[1] < 0.0 < ends[0]:
         raise SimulationError(
             "Tune feedforward moves both ways from 0: the travel limits must be on both sides of it",
-            "setup.overtravel_negative",
+            ids.setup_overtravel_negative,
         )
     return tune.feed_forward(axis, axis.scales, ends[0], ends[1], axis.feedrate or 0.0), {
         "move.distance": ends[0]
@@ -150,13 +153,13 @@ def run_gear(axis: AxisLaw, settings: Settings) -> Trace:
     """Gear the axis to a reference that is already moving (pages 4-15, 4-20, 4-24)."""
     refuse_unknown(settings, GEAR)
     module = _module(axis)
-    if module.bit("gearing.modes", 2):
+    if module.bit(ids.gearing_modes, 2):
         upper, lower = gear_fraction(
-            None, module.register("command.gear_numerator"), module.register("command.gear_denominator")
+            None, module.register(ids.gear_numerator), module.register(ids.gear_denominator)
         )
     else:
         upper, lower = gear_fraction(
-            module.needed("command.gear_ratio", "gearing needs it (page 4-15)"), None, None
+            module.needed(ids.gear_ratio, "gearing needs it (page 4-15)"), None, None
         )
     ratio = upper / lower
     speed = above_zero(settings, "gear.speed") or (axis.feedrate or 0.0) / abs(ratio)
@@ -165,8 +168,8 @@ def run_gear(axis: AxisLaw, settings: Settings) -> Trace:
             f"gear.speed is {speed:g}; at most {_FASTEST:g} counts/s are simulated", "gear.speed"
         )
     time = above_zero(settings, "gear.time") or 1.0
-    ramped = module.bit("gearing.modes", 3)
-    sign = -1 if module.bit("control.mode", 4) else 1
+    ramped = module.bit(ids.gearing_modes, 3)
+    sign = -1 if module.bit(ids.control_mode, 4) else 1
     master = [round(speed * SCAN * k) for k in range(_scans(time))]
     positions = followed(master, sign * upper, lower, axis.ramps["linear"].acceleration if ramped else 0.0)
     lost = abs(master[-1] * ratio) - abs(positions[-1])
@@ -193,18 +196,19 @@ def run_cam(axis: AxisLaw, settings: Settings) -> Trace:
     """Run the cam profile of registers 125 to 2046 (pages 4-49 to 4-56)."""
     refuse_unknown(settings, CAM)
     module = _module(axis)
-    points = int(module.needed("cam.points", "it counts the points of the cam (page 4-54)"))
+    points = int(module.needed(ids.cam_points, "it counts the points of the cam (page 4-54)"))
     asked = number(settings, "cam.cycles")
-    cycles = (2.0 if module.bit("cam.mode", 3) else 1.0) if asked is None else asked
+    cycles = (2.0 if module.bit(ids.cam_mode, 3) else 1.0) if asked is None else asked
     if cycles < 1.0 or cycles != math.floor(cycles):
         raise SimulationError(f"cam.cycles is {cycles:g}; it must be a whole number from 1 on", "cam.cycles")
-    most = 956 if module.bit("cam.mode", 8) else 1915 if module.bit("cam.mode", 0) else 3830
+    most = 956 if module.bit(ids.cam_mode, 8) else 1915 if module.bit(ids.cam_mode, 0) else 3830
     if not 1 <= points <= most:
         raise SimulationError(
-            f"{module.names['cam.points']} is {points}; this kind of cam has 1 to {most} points (page 4-57)",
-            "cam.points",
+            f"{module.names[ids.cam_points]} is {points}; this kind of cam has 1 to {most} points "
+            "(page 4-57)",
+            ids.cam_points,
         )
-    if module.bit("cam.mode", 8):
+    if module.bit(ids.cam_mode, 8):
         positions, note = (
             _position_cam(module, settings, points),
             "Straight lines between the points (page 4-51).",
@@ -219,19 +223,19 @@ def run_cam(axis: AxisLaw, settings: Settings) -> Trace:
 
 
 def _time_cam(axis: ModuleAxis, settings: Settings, points: int, cycles: int) -> list[float]:
-    if axis.bit("cam.mode", 0):
-        values = _table(axis, "cam.time_points", points)
+    if axis.bit(ids.cam_mode, 0):
+        values = _table(axis, ids.time_points, points)
     else:
-        words = _table(axis, "cam.byte_points", (points + 1) // 2)
+        words = _table(axis, ids.byte_points, (points + 1) // 2)
         values = [value for word in words for value in word_bytes(word)][:points]
-    scans = round(axis.needed("cam.time", "the time between two points (page 4-54)") / 1000.0 / SCAN)
-    continuous, mirror = axis.bit("cam.mode", 3), _yes(settings, "cam.mirror")
+    scans = round(axis.needed(ids.cam_time, "the time between two points (page 4-54)") / 1000.0 / SCAN)
+    continuous, mirror = axis.bit(ids.cam_mode, 3), _yes(settings, "cam.mirror")
     order = time_cam_order(
         points,
         reverse=_yes(settings, "cam.reverse"),
         mirror=mirror,
         continuous=continuous,
-        loop_back=int(axis.register("cam.loop_back") or 0) if continuous else 0,
+        loop_back=int(axis.register(ids.loop_back) or 0) if continuous else 0,
     )
     intervals = points * cycles * (2 if mirror and not continuous else 1)
     _scans(intervals * scans * SCAN)
@@ -239,9 +243,9 @@ def _time_cam(axis: ModuleAxis, settings: Settings, points: int, cycles: int) ->
 
 
 def _position_cam(axis: ModuleAxis, settings: Settings, points: int) -> list[float]:
-    table = _table(axis, "cam.position_points", points)
+    table = _table(axis, ids.position_points, points)
     increment = int(
-        axis.needed("cam.position_increment", "travel of the master from point to point (page 4-53)")
+        axis.needed(ids.position_increment, "travel of the master from point to point (page 4-53)")
     )
     speed = above_zero(settings, "cam.speed") or axis.feedrate or 0.0
     scans = _scans((points - 1) * increment / speed)
@@ -252,7 +256,7 @@ def _table(axis: ModuleAxis, parameter: str, points: int) -> list[int]:
     values = [axis.register(parameter, k) for k in range(points)]
     if None in values:
         raise SimulationError(
-            f"Point {values.index(None)} of the cam is not set, and {axis.names['cam.points']} counts"
+            f"Point {values.index(None)} of the cam is not set, and {axis.names[ids.cam_points]} counts"
             f" {points}",
             parameter,
         )
@@ -266,12 +270,12 @@ def run_backlash(axis: AxisLaw, settings: Settings) -> Trace:
     refuse_unknown(settings, BACKLASH)
     module = _module(axis)
     asked = number(settings, "move.distance")
-    distance = module.needed("command.position", "the distance of the move") if asked is None else asked
+    distance = module.needed(ids.command_position, "the distance of the move") if asked is None else asked
     if not 1.0 <= abs(distance) < 2.0**31:
         raise SimulationError(
             f"The distance is {distance:g}; it must be 1 count to {2**31 - 1}", "move.distance"
         )
-    play = module.needed("output.backlash", "the compensation (page 4-21)")
+    play = module.needed(ids.output_backlash, "the compensation (page 4-21)")
     moves = backlash_moves(round(distance), round(play))
     rows: list[float] = []
     start = position = 0.0
@@ -365,9 +369,9 @@ def _figure(parameter: str) -> str:
 
 def _unit(parameter: str) -> str:
     return {
-        "command.velocity": "counts/s",
-        "command.acceleration": "counts/s2",
-        "command.deceleration": "counts/s2",
+        ids.command_velocity: "counts/s",
+        ids.command_acceleration: "counts/s2",
+        ids.command_deceleration: "counts/s2",
     }.get(parameter, "")
 
 

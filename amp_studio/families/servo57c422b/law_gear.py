@@ -11,6 +11,7 @@ from itertools import pairwise
 from amp_studio.sim import Piece, SimulationError
 
 from .formulas.motion import GEAR_SCALE
+from .law_facts import ids
 from .law_sample import SCAN
 
 LARGEST, SMALLEST = 127.0, 1.0 / 32767.0
@@ -31,7 +32,7 @@ def gear_fraction(ratio: float | None, numerator: float | None, denominator: flo
     if lower <= 0 or not SMALLEST <= abs(upper / lower) <= LARGEST:
         raise SimulationError(
             f"The gear ratio {upper}/{lower} is not between 1:32767 and 127:1, so gearing is not enabled",
-            "command.gear_ratio",
+            ids.gear_ratio,
         )
     return upper, lower
 

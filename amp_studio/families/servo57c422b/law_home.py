@@ -8,12 +8,8 @@ from typing import Literal
 from amp_studio.sim import AxisParameters, Homing, Ramp, SimulationError, Travel
 
 from . import switch_bits as bits
+from .law_facts import MOTION, ids
 
-POSITION, FAST, SLOW = "command.position", "command.velocity", "command.home_speed_low"
-SWITCHES, ENCODER = "setup.switches", "setup.encoder"
-LOW, HIGH = "setup.overtravel_negative", "setup.overtravel_positive"
-TURN = 4000.0
-"""Counts from marker to marker: 1000 lines, times 4 (page 4-48)."""
 MARKER = "ASSUMED: an encoder of 1000 lines (page 4-48), if a marker is used; move.turn gives another."
 UNKNOWN = (
     "Register 2 is not set. ASSUMED: the fourth sequence of page 4-29, with home switch and marker, in the"
@@ -27,19 +23,19 @@ PLACE = (
 
 def homing(read: AxisParameters) -> Homing:
     """Return the sequence of register 2; raises SimulationError for speeds that are not set."""
-    word = read.optional(SWITCHES)
+    word = read.optional(ids.setup_switches)
     setup = bits.HOME_SWITCH | bits.MARKER if word is None else int(word)
     switch, marker = bool(setup & bits.HOME_SWITCH), bool(setup & bits.MARKER)
     sign = -1.0 if setup & bits.HOME_NEGATIVE else 1.0
-    fast = _speed(read, FAST) if switch else 0.0
-    slow = _speed(read, SLOW) if switch or marker else 0.0
+    fast = _speed(read, ids.command_velocity) if switch else 0.0
+    slow = _speed(read, ids.home_speed_low) if switch or marker else 0.0
     counts: Literal["next", "none"] = "next" if marker else "none"
     return Homing(
         approach=sign * fast,
         leave=-sign * slow if switch else sign * slow,
         marker=counts,
-        turn=TURN,
-        coordinate=read.number(POSITION),
+        turn=MOTION.value("marker_distance"),
+        coordinate=read.number(ids.command_position),
         direction_lost=True,
         page="4-29",
         notes=(
@@ -61,8 +57,11 @@ def travel(read: AxisParameters, ramp: Ramp) -> Travel:
     """Return the software overtravel of registers 11 to 14,
     of a linear axis that has it enabled in register 2.
     """
-    setup, encoder = int(read.optional(SWITCHES) or 0.0), int(read.optional(ENCODER) or 0.0)
-    low, high = read.optional(LOW), read.optional(HIGH)
+    setup, encoder = (
+        int(read.optional(ids.setup_switches) or 0.0),
+        int(read.optional(ids.setup_encoder) or 0.0),
+    )
+    low, high = read.optional(ids.setup_overtravel_negative), read.optional(ids.setup_overtravel_positive)
     notes = (bits.SWITCHES,)
     if encoder & bits.ROTARY:
         return Travel({}, "OVERTRAVEL", "4-10", ("A rotary axis has no software overtravel (4-10).", *notes))
@@ -75,7 +74,7 @@ def travel(read: AxisParameters, ramp: Ramp) -> Travel:
         raise SimulationError(
             f"The negative overtravel limit {edges[0]:g} is not below the positive one, {edges[1]:g}: a"
             " motion fault (4-10)",
-            LOW,
+            ids.setup_overtravel_negative,
         )
     coasts = bool(setup & bits.OVERTRAVEL_COASTS)
     action = (

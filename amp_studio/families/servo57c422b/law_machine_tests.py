@@ -6,12 +6,14 @@ from __future__ import annotations
 
 from amp_studio.sim import AxisLaw, BoundMachine, MachineTest, MachineTestStep, SimulationError, value_text
 
+from .law_facts import ids
+
 COUNTS = 65536
 MOVE_WORDS = (
-    ("17", "command.position"),
-    ("19", "command.velocity"),
-    ("21", "command.acceleration"),
-    ("23", "command.deceleration"),
+    ("17", ids.command_position),
+    ("19", ids.command_velocity),
+    ("21", ids.command_acceleration),
+    ("23", ids.command_deceleration),
 )
 
 

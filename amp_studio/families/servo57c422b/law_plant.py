@@ -16,43 +16,28 @@ from __future__ import annotations
 
 from amp_studio.sim import Machine
 
+from .law_facts import MOTION
 from .law_sample import SCAN, WORDS_PER_VOLT
 
-ACCELERATION = 400_000.0
-"""Counts/s² for 1 V of a current reference: 1000 turns/s² of 4000 counts at 10 V."""
-VISCOUS = 1.15 * SCAN / WORDS_PER_VOLT
-"""V for 1 count/s: the mean of both programs."""
-COULOMB = 27.5 / WORDS_PER_VOLT
-"""V: the deadband compensation of both programs."""
-DELAY = 0.0002
+ACCELERATION = MOTION.value("acceleration_per_output")
+"""Counts/s² for 1 V of a current reference."""
+VISCOUS = MOTION.value("viscous_friction") * SCAN / WORDS_PER_VOLT
+"""V for 1 count/s."""
+COULOMB = MOTION.value("coulomb_friction") / WORDS_PER_VOLT
+"""V"""
+DELAY = MOTION.value("delay")
 """s from the measured position to the reference at the drive."""
-FULL_SPEED = 1_000_000.0
-"""Counts/s of a velocity drive at 10 V: the most that the encoder inputs take with *4 quadrature (page
-A-1)."""
-DRIVE_BANDWIDTH = 50.0
-"""Hz: the velocity loop of such a drive."""
+FULL_SPEED = MOTION.value("velocity_per_output")
+"""Counts/s of a velocity drive at 10 V."""
 FULL_VOLTS = 10.0
-PERCENT_PER_VOLT = 10.0
-"""% of the torque of a velocity drive that is as much as 1 V of a current reference."""
+PERCENT_PER_VOLT = MOTION.value("percent_per_volt")
 
-_NO_MOTOR = "The module knows no motor."
-CURRENT = {
-    "acceleration_per_output": f"{_NO_MOTOR} 1000 turns/s2 of 4000 counts at 10 V.",
-    "viscous_friction": (
-        f"{_NO_MOTOR} What the feed-forward of both printed programs has above 8192 (pages 4-48, 5-5)."
-    ),
-    "coulomb_friction": f"{_NO_MOTOR} The deadband compensation of both printed programs (pages 4-48, 5-5).",
-    "delay": "How long the module computes in its scan is not printed.",
-}
-VELOCITY = {
-    **CURRENT,
-    "velocity_per_output": (
-        "Full speed of the drive at 10 V is not in the registers: 1000000 counts/s, the most that the encoder"
-        " inputs take (page A-1). Set model.velocity_per_output in counts/s for 1 V."
-    ),
-    "velocity_bandwidth": "The drive closes the velocity loop with separate settings (page 4-4).",
-}
-"""Figures of the machine that are assumed -> why."""
+
+def reasons(*, current_reference: bool) -> dict[str, str]:
+    """Return figure of the machine that is assumed -> why."""
+    common = ("acceleration_per_output", "viscous_friction", "coulomb_friction", "delay")
+    drive = () if current_reference else ("velocity_per_output", "velocity_bandwidth")
+    return MOTION.reasons(*common, *drive)
 
 
 def machine(*, current_reference: bool, velocity_per_volt: float | None) -> Machine:
@@ -76,7 +61,7 @@ def machine(*, current_reference: bool, velocity_per_volt: float | None) -> Mach
         delay=DELAY,
         output_limit=FULL_VOLTS,
         velocity_per_output=FULL_SPEED / FULL_VOLTS if velocity_per_volt is None else velocity_per_volt,
-        velocity_bandwidth=DRIVE_BANDWIDTH,
+        velocity_bandwidth=MOTION.value("velocity_bandwidth"),
         motor_count=1.0,
         position_count=1.0,
     )

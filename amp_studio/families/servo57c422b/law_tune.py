@@ -32,6 +32,7 @@ from amp_studio.sim import (
 )
 
 from . import law_sample as loop
+from .law_facts import ids
 
 LARGEST = 32767
 """Of a register of 16 bits."""
@@ -72,16 +73,16 @@ def gains(axis: AxisLaw, scales: Scales, increment: float) -> Left:
     """
     faults = {place: axis.parameters[place] for place in (loop.POSITION_ERROR, loop.VELOCITY_ERROR)}
     axis = with_figures(axis, {loop.POSITION_ERROR: -1.0, loop.VELOCITY_ERROR: -1.0, loop.INTEGRAL: 0.0})
-    found = {"gain.deadband": deadband(axis)}
-    axis = with_figures(axis, {loop.DEADBAND: found["gain.deadband"]})
+    found = {ids.gain_deadband: deadband(axis)}
+    axis = with_figures(axis, {loop.DEADBAND: found[ids.gain_deadband]})
     if axis.parameters[loop.CURRENT_REFERENCE] > 0.0:
 
         def velocity(gain: float) -> bool:
             trial = with_figures(axis, {loop.VELOCITY: gain / scales.velocity})
             return vibrates(trial, increment, VELOCITY_LOOP)
 
-        found["gain.velocity"] = _third("Velocity Gain", velocity)
-        axis = with_figures(axis, {loop.VELOCITY: found["gain.velocity"] / scales.velocity})
+        found[ids.gain_velocity] = _third("Velocity Gain", velocity)
+        axis = with_figures(axis, {loop.VELOCITY: found[ids.gain_velocity] / scales.velocity})
 
     def proportional(gain: float) -> bool:
         trial = {loop.PROPORTIONAL: gain / scales.proportional, loop.FEED_FORWARD: 0.0}
@@ -89,11 +90,11 @@ def gains(axis: AxisLaw, scales: Scales, increment: float) -> Left:
 
     gain = _third("Proportional Gain", proportional)
     share = gain / scales.proportional
-    found["gain.integral"] = float(
+    found[ids.gain_integral] = float(
         math.floor(share * share / 4.0 * scales.integral)
     )  # the aperiodic limit of both
-    found["gain.proportional"] = gain
-    integral = found["gain.integral"] / scales.integral
+    found[ids.gain_proportional] = gain
+    integral = found[ids.gain_integral] / scales.integral
     tuned = with_figures(axis, {loop.PROPORTIONAL: share, loop.INTEGRAL: integral, **faults})
     if not linear_model(tuned).is_stable():
         raise SimulationError(
@@ -122,9 +123,9 @@ def dynamics(axis: AxisLaw, travel: float, speed: float, up: float, down: float)
     deceleration = _greatest(down, lambda d: good(velocity, min(acceleration, gentle * velocity**2), d))
     deceleration = min(max(deceleration, acceleration / 5.0), acceleration * 5.0)  # page 4-14
     found = {
-        "command.velocity": velocity,
-        "command.acceleration": acceleration,
-        "command.deceleration": deceleration,
+        ids.command_velocity: velocity,
+        ids.command_acceleration: acceleration,
+        ids.command_deceleration: deceleration,
     }
     ramp = replace(axis.ramps["linear"], acceleration=acceleration, deceleration=deceleration)
     return Left(found, replace(axis, feedrate=velocity, ramps={**axis.ramps, "linear": ramp}))
@@ -148,11 +149,11 @@ def feed_forward(axis: AxisLaw, scales: Scales, positive: float, negative: float
     if not 0.0 <= share * scales.feed_forward <= LARGEST:
         raise SimulationError(
             f"No Feedforward Gain from 0 to {LARGEST} takes the following error of {first:.6g} counts away",
-            "gain.feedforward",
+            ids.gain_feedforward,
         )
     gain = float(math.floor(share * scales.feed_forward))
     return Left(
-        {"gain.feedforward": gain}, with_figures(axis, {loop.FEED_FORWARD: gain / scales.feed_forward})
+        {ids.gain_feedforward: gain}, with_figures(axis, {loop.FEED_FORWARD: gain / scales.feed_forward})
     )
 
 
@@ -193,7 +194,7 @@ def _breakaway(axis: AxisLaw, start: float, end: float) -> float:
         raise SimulationError(
             f"The axis does not move with {abs(end) / loop.WORDS_PER_VOLT:.3g} V: its friction is above"
             " Maximum Voltage Reference",
-            "output.max_voltage",
+            ids.max_voltage,
         )
     return float(motion.columns["output"][moved[0]]) * loop.WORDS_PER_VOLT
 
@@ -262,6 +263,6 @@ def _at_speed(axis: AxisLaw, travel: float, speed: float) -> float:
         raise SimulationError(
             f"The axis does not reach {speed:g} counts/s within {abs(travel):g} counts: the travel limits are"
             " too near",
-            "setup.overtravel_positive",
+            ids.setup_overtravel_positive,
         )
     return float(columns["following_error"][even[even.size // 2 :]].mean()) * math.copysign(1.0, travel)

@@ -14,7 +14,6 @@ from functools import partial
 
 from amp_studio.files import ParameterFile, fitted_axes
 from amp_studio.sim import (
-    USUAL_SCENARIOS,
     AlarmText,
     AxisLaw,
     AxisParameters,
@@ -41,34 +40,33 @@ from .formulas import (
 )
 from .formulas.resolution import STANDARD_BLU
 from .law_advice import advise
+from .law_facts import MOTION, ids
 from .law_machine_tests import machine_tests
 from .law_zones import zones
 
 SHORTEST, LONGEST = 1e-4, 0.1
 """s: interpolation times that are simulated."""
-BANDWIDTH, INTEGRAL, TORQUE_LIMIT = 50.0, 60.0, 200.0
-"""Hz, 1/s, % of rated torque: the assumed drive."""
 
 _NEEDED = (
-    "axis.type",
-    "resolution.encoder",
-    "resolution.multiplication",
-    "resolution.encoder_type",
-    "resolution.screw_teeth",
-    "resolution.motor_teeth",
-    "resolution.pitch",
-    "feed.rapid",
-    "servo.loop_gain",
+    ids.axis_type,
+    ids.resolution_encoder,
+    ids.resolution_multiplication,
+    ids.encoder_type,
+    ids.screw_teeth,
+    ids.motor_teeth,
+    ids.resolution_pitch,
+    ids.feed_rapid,
+    ids.loop_gain,
 )
 _ABOVE_ZERO = (
-    "resolution.encoder",
-    "resolution.screw_teeth",
-    "resolution.motor_teeth",
-    "resolution.pitch",
-    "feed.rapid",
-    "servo.loop_gain",
+    ids.resolution_encoder,
+    ids.screw_teeth,
+    ids.motor_teeth,
+    ids.resolution_pitch,
+    ids.feed_rapid,
+    ids.loop_gain,
 )
-_NEEDED_ONCE = ("control.blu", "control.series", "dda.interpolation_time")
+_NEEDED_ONCE = (ids.control_blu, ids.control_series, ids.interpolation_time)
 
 
 @dataclass(frozen=True)
@@ -97,7 +95,7 @@ class _Axis:
 
 def axes(file: ParameterFile) -> tuple[str, ...]:
     """Return the axes that have a port, or are set to a type while the port is not set."""
-    return tuple(a for a in fitted_axes(file) if file.get(("axis.port", a)) or file.get(("axis.type", a)))
+    return tuple(a for a in fitted_axes(file) if file.get((ids.axis_port, a)) or file.get((ids.axis_type, a)))
 
 
 def bind(read: AxisParameters) -> AxisLaw:
@@ -142,7 +140,9 @@ def bind(read: AxisParameters) -> AxisLaw:
         limits=limits,
         sources=_sources(read, axis),
         assumptions=(*notes, *ALWAYS),
-        assumed=ASSUMED,
+        assumed=MOTION.reasons(
+            "acceleration_per_output", "velocity_bandwidth", "velocity_integral", "inertia_ratio"
+        ),
         linear_parameters=linear,
         homing=partial(events.homing, read, _turn(read, axis)),
         jogging=partial(events.jogging, read),
@@ -153,9 +153,9 @@ def bind(read: AxisParameters) -> AxisLaw:
 def _turn(read: AxisParameters, axis: _Axis) -> float:
     """Return u for a turn of the motor: from index to index."""
     if axis.encoder == "linear":
-        return read.number("resolution.pitch") * STANDARD_BLU
+        return read.number(ids.resolution_pitch) * STANDARD_BLU
     return axis.pulse * pulses_per_turn(
-        read.number("resolution.encoder"), float(read.choice("resolution.multiplication"))
+        read.number(ids.resolution_encoder), float(read.choice(ids.resolution_multiplication))
     )
 
 
@@ -180,9 +180,9 @@ def _demand(read: AxisParameters) -> None:
     """Raise one SimulationError with all parameters that are not set."""
     missing = [f"{name}@{read.axis}" for name in _NEEDED if read.value(name) is None]
     missing += [name for name in _NEEDED_ONCE if read.value(name, everywhere=True) is None]
-    own = read.value("motion.axis_acceleration")
-    if own is None and read.value("motion.acceleration_time", everywhere=True) is None:
-        missing.append(f"motion.axis_acceleration@{read.axis}")
+    own = read.value(ids.axis_acceleration)
+    if own is None and read.value(ids.acceleration_time, everywhere=True) is None:
+        missing.append(f"{ids.axis_acceleration}@{read.axis}")
     if missing:
         raise SimulationError(
             f"The simulation of axis {read.axis} needs values that are not set: {', '.join(missing)}",
@@ -191,29 +191,30 @@ def _demand(read: AxisParameters) -> None:
 
 
 def _axis(read: AxisParameters, notes: list[str]) -> _Axis:
-    unit = "mm" if read.choice("axis.type") == "linear" else "deg"
-    if read.choice("control.blu", everywhere=True) != "standard":
+    unit = "mm" if read.choice(ids.axis_type) == "linear" else "deg"
+    if read.choice(ids.control_blu, everywhere=True) != "standard":
         raise SimulationError(
             "The length of the BLU is printed for its default alone (1.2.6); this file has another one",
-            "control.blu",
+            ids.control_blu,
         )
-    for name, everywhere in (*((name, False) for name in _ABOVE_ZERO), ("dda.interpolation_time", True)):
+    for name, everywhere in (*((name, False) for name in _ABOVE_ZERO), (ids.interpolation_time, True)):
         figure = read.number(name, everywhere=everywhere)
         if not (math.isfinite(figure) and figure > 0.0):
             raise SimulationError(f"{name} of axis {read.axis} is {figure:g}; it must be above 0", name)
-    series = read.choice("control.series", everywhere=True)
+    series = read.choice(ids.control_series, everywhere=True)
     basic = hardware_basic_time_us(series)
     if not is_basic_time_printed(series):
         notes.append(f"ASSUMED: hardware basic time {basic:g} us; for this series none is printed (1.4.1).")
-    setting = read.number("dda.interpolation_time", everywhere=True)
+    setting = read.number(ids.interpolation_time, everywhere=True)
     period = interpolation_time_us(setting, basic) * 1e-6
     if not SHORTEST <= period <= LONGEST:
         raise SimulationError(
-            f"dda.interpolation_time is {setting:g}, an interpolation time of {period * 1e3:g} ms; simulated"
+            f"{ids.interpolation_time} is {setting:g}, an interpolation time of {period * 1e3:g} ms; "
+            "simulated"
             f" are {SHORTEST * 1e3:g} to {LONGEST * 1e3:g} ms",
-            "dda.interpolation_time",
+            ids.interpolation_time,
         )
-    home = read.optional("home.first_speed")
+    home = read.optional(ids.first_speed)
     if home is None:
         notes.append(
             "The first homing speed is not set: the alarm limits go by the rapid feedrate alone (1.5.3)."
@@ -221,26 +222,25 @@ def _axis(read: AxisParameters, notes: list[str]) -> _Axis:
     return _Axis(
         unit=unit,
         pulse=_pulse(read, unit, notes),
-        gain=read.number("servo.loop_gain"),
-        rapid=read.number("feed.rapid") / 60.0,
+        gain=read.number(ids.loop_gain),
+        rapid=read.number(ids.feed_rapid) / 60.0,
         home=(home or 0.0) / 60.0,
         period=period,
         most_pulses=_most_pulses(read, notes),
-        encoder=read.choice("resolution.encoder_type"),
+        encoder=read.choice(ids.encoder_type),
     )
 
 
 def _pulse(read: AxisParameters, unit: str, notes: list[str]) -> float:
     """Return the length of one pulse in u (1.2.5, 1.2.6)."""
     pulses = pulses_per_turn(
-        read.number("resolution.encoder"), float(read.choice("resolution.multiplication"))
+        read.number(ids.resolution_encoder), float(read.choice(ids.resolution_multiplication))
     )
-    kind = read.choice("resolution.encoder_type")
+    kind = read.choice(ids.encoder_type)
     if kind == "linear":
         if unit == "deg":
             raise SimulationError(
-                f"Axis {read.axis} turns, and a linear encoder has pulses per mm (1.2.5)",
-                "resolution.encoder_type",
+                f"Axis {read.axis} turns, and a linear encoder has pulses per mm (1.2.5)", ids.encoder_type
             )
         notes.append(
             "ASSUMED: a pulse of the command is one of the linear encoder (1.2.5); the drive is set up"
@@ -252,10 +252,10 @@ def _pulse(read: AxisParameters, unit: str, notes: list[str]) -> float:
             "The axis has no feedback (1.2.7): the control has no following error, and no alarm of it."
         )
     return pulse_length(
-        read.number("resolution.pitch") * STANDARD_BLU,
+        read.number(ids.resolution_pitch) * STANDARD_BLU,
         pulses,
-        read.number("resolution.screw_teeth"),
-        read.number("resolution.motor_teeth"),
+        read.number(ids.screw_teeth),
+        read.number(ids.motor_teeth),
     )
 
 
@@ -269,12 +269,12 @@ def _most_pulses(read: AxisParameters, notes: list[str]) -> float:
 
 def _acceleration(read: AxisParameters, axis: _Axis, notes: list[str]) -> float:
     """Return the acceleration of the ramps in u/s2; what Pr541 and Pr401 mean together is not printed."""
-    own = read.optional("motion.axis_acceleration")
-    name, word = ("motion.axis_acceleration", "Pr541 of the axis")
+    own = read.optional(ids.axis_acceleration)
+    name, word = (ids.axis_acceleration, "Pr541 of the axis")
     if own is None:
         own, name, word = (
-            read.number("motion.acceleration_time", everywhere=True),
-            "motion.acceleration_time",
+            read.number(ids.acceleration_time, everywhere=True),
+            ids.acceleration_time,
             "Pr401",
         )
     if not (math.isfinite(own) and own > 0.0):
@@ -296,12 +296,12 @@ def _parameters(axis: _Axis) -> list[float]:
 
 def _machine(axis: _Axis, acceleration: float) -> Machine:
     return Machine(
-        acceleration_per_output=acceleration / 100.0,
+        acceleration_per_output=acceleration / MOTION.value("acceleration_per_output"),
         velocity_per_output=1.0 / 60.0,
-        velocity_bandwidth=BANDWIDTH,
-        velocity_integral=INTEGRAL,
-        torque_limit_positive=TORQUE_LIMIT,
-        torque_limit_negative=TORQUE_LIMIT,
+        velocity_bandwidth=MOTION.value("velocity_bandwidth"),
+        velocity_integral=MOTION.value("velocity_integral"),
+        torque_limit_positive=MOTION.value("torque_limit"),
+        torque_limit_negative=MOTION.value("torque_limit"),
         position_count=axis.pulse,
         load_sensor=axis.encoder == "linear",
     )
@@ -346,40 +346,20 @@ ALWAYS = (
     ),
 )
 
-ASSUMED: Mapping[str, str] = {
-    "acceleration_per_output": (
-        "The file contains neither inertia nor torque: 100 % of rated torque is taken to give the ramp of"
-        " the axis, and the drive to end at 200 %."
-    ),
-    "velocity_bandwidth": "The drive is not in the file: the bandwidth of its velocity loop.",
-    "velocity_integral": (
-        "An integral part of that drive, without which friction and weight would leave a speed error."
-    ),
-    "inertia_ratio": "Load and motor are one rigid mass unless model.resonance or model.backlash is set.",
-}
-
 
 def _sources(read: AxisParameters, axis: _Axis) -> dict[str, Source]:
     """Return the parameters behind the figures, with the factor to the value in the file."""
-    setting = read.number("dda.interpolation_time", everywhere=True)
-    own = read.value("motion.axis_acceleration") is not None
-    ramp = ("motion.axis_acceleration", "1.5.4") if own else ("motion.acceleration_time", "1.5.3")
+    setting = read.number(ids.interpolation_time, everywhere=True)
+    own = read.value(ids.axis_acceleration) is not None
+    ramp = (ids.axis_acceleration, "1.5.4") if own else (ids.acceleration_time, "1.5.3")
     return {
-        "position_gain": Source("servo.loop_gain", whole=True, page="1.5.3"),
+        "position_gain": Source(ids.loop_gain, whole=True, page="1.5.3"),
         "servo_period": Source(
-            "dda.interpolation_time", setting * sample.PARTS / axis.period, "", True, page="1.4.1"
+            ids.interpolation_time, setting * sample.PARTS / axis.period, "", True, page="1.4.1"
         ),
-        "feedrate": Source("feed.rapid", 60.0, None, True, page="1.5.1"),
+        "feedrate": Source(ids.feed_rapid, 60.0, None, True, page="1.5.1"),
         "acceleration": Source(ramp[0], 1.0, "", True, page=ramp[1]),
     }
 
 
-LAW = Law(
-    bind,
-    axes,
-    "No axis has a port. Give one its port (Pr21) and its type (Pr221)",
-    scenarios=(*USUAL_SCENARIOS, "home", "jog", "travel"),
-    advise=advise,
-    zones=zones,
-    machine_tests=machine_tests,
-)
+LAW = Law(bind, axes, advise=advise, zones=zones, machine_tests=machine_tests)

@@ -10,6 +10,7 @@ from collections.abc import Iterator
 from amp_studio.sim import AxisLaw, Recommendation, Trace, value_text
 
 from . import law_sample as sample
+from .law_facts import ids
 
 LEAST_GRID, MOST_GRID = 20.0, 80.0
 """% of a turn between dog and index (2.2)."""
@@ -34,7 +35,7 @@ def _grid(trace: Trace) -> Iterator[Recommendation]:
     if grid is None or LEAST_GRID <= grid <= MOST_GRID:
         return
     yield Recommendation(
-        "home.grid",
+        ids.home_grid,
         1.0,
         "",
         f"The home grid is {value_text(grid, '%', 3)}: below {LEAST_GRID:g} or above {MOST_GRID:g} % "

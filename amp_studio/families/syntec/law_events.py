@@ -6,13 +6,12 @@ import math
 
 from amp_studio.sim import AxisParameters, Failure, Homing, Jogging, SimulationError, Travel
 
-METHOD, OFFSET, DIRECTION = "home.search_method", "home.offset", "home.direction"
-FIRST, SECOND, GRID = "home.first_speed", "home.second_speed", "home.grid"
+from .law_facts import ids
+
 BLU = 0.001
 """mm or deg (1.2.6)."""
 HALF = 0.5
 """Share of a turn below which home grid passes an index over (2.2)."""
-WINDOW, PROTECTIVE = "home.zero_speed_window", "home.protective_turns"
 PITCHES = 5.0
 """Turns without an index, or on the dog, after which MOT-029 and MOT-036 come (2.2)."""
 SCATTER = 0.1
@@ -45,26 +44,25 @@ def homing(read: AxisParameters, turn: float) -> Homing:
     """Return the homing sequence; ``turn`` is u from index to index.
     Raises SimulationError where a value is missing.
     """
-    if read.choice("resolution.encoder_type") == "absolute":
+    if read.choice(ids.encoder_type) == "absolute":
         raise SimulationError(
-            f"Axis {read.axis} has an absolute encoder: it is not homed by a search (2.1.1)",
-            "resolution.encoder_type",
+            f"Axis {read.axis} has an absolute encoder: it is not homed by a search (2.1.1)", ids.encoder_type
         )
-    method = read.choice(METHOD)
-    sign = -1.0 if read.choice(DIRECTION) == "negative" else 1.0
-    offset = (read.optional(OFFSET) or 0.0) * BLU
-    second = _above_zero(read, SECOND) / 60.0
+    method = read.choice(ids.search_method)
+    sign = -1.0 if read.choice(ids.home_direction) == "negative" else 1.0
+    offset = (read.optional(ids.home_offset) or 0.0) * BLU
+    second = _above_zero(read, ids.second_speed) / 60.0
     alone, stays = method == "index-only", method == "stay"
-    window = read.optional(WINDOW)
+    window = read.optional(ids.zero_speed_window)
     return Homing(
-        approach=0.0 if alone else sign * _above_zero(read, FIRST) / 60.0,
+        approach=0.0 if alone else sign * _above_zero(read, ids.first_speed) / 60.0,
         leave=sign * second * (1.0 if alone else -1.0),
         marker="none" if method == "dog-only" else "next",
         turn=turn,
         coordinate=offset if stays else 0.0,
         final=second,
         offset=0.0 if stays else offset,
-        skipped=HALF if read.value(GRID) is True else 0.0,
+        skipped=HALF if read.value(ids.home_grid) is True else 0.0,
         failures=_failures(read, turn),
         rest_window=math.inf if not window else window * BLU,
         page="2.2",
@@ -74,7 +72,7 @@ def homing(read: AxisParameters, turn: float) -> Homing:
 
 def _failures(read: AxisParameters, turn: float) -> dict[str, Failure]:
     """Return the alarms of a homing (2.2, alarms), lengths in turns of the motor between two indices."""
-    turns = read.optional(PROTECTIVE)
+    turns = read.optional(ids.protective_turns)
     far = (turns or PITCHES) * turn
     given = f"the {turns:g} turns of its protective revolution" if turns else "5 pitches"
     return {
@@ -98,13 +96,13 @@ def _failures(read: AxisParameters, turn: float) -> dict[str, Failure]:
 
 def jogging(read: AxisParameters) -> Jogging:
     """Return the jog speed (Pr521)."""
-    return Jogging({"jog": _above_zero(read, "jog.feedrate") / 60.0}, page="4.1")
+    return Jogging({"jog": _above_zero(read, ids.jog_feedrate) / 60.0}, page="4.1")
 
 
 def travel(read: AxisParameters) -> Travel:
     """Return the first software stroke limits (Pr2401), which are active after homing (3.2)."""
     edges = []
-    for name, none in (("limit.first_negative", -FARTHEST_BLU), ("limit.first_positive", FARTHEST_BLU)):
+    for name, none in ((ids.limit_first_negative, -FARTHEST_BLU), (ids.limit_first_positive, FARTHEST_BLU)):
         value = read.optional(name)
         edges.append(math.copysign(math.inf, none) if value in (None, none) else float(value or 0.0) * BLU)
     return Travel(

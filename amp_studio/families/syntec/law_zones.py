@@ -6,6 +6,8 @@ from collections.abc import Iterator, Sequence
 
 from amp_studio.sim import BoundMachine, Zone
 
+from .law_facts import ids
+
 BLU = 0.001
 """mm or deg (1.2.6)."""
 READ_AHEAD = "COR-040"
@@ -24,18 +26,18 @@ def zones(machine: BoundMachine, _axes: Sequence[str]) -> Iterator[Zone]:
         sides = {}
         for axis in machine.fitted:
             own = machine.read(axis)
-            first, second = (own.optional(f"limit.{name}_{side}") for side in ("negative", "positive"))
+            first, second = (own.optional(ids[f"limit_{name}_{side}"]) for side in ("negative", "positive"))
             if first is None or second is None or first == second:
                 continue
             sides[axis] = (min(first, second) * BLU, max(first, second) * BLU)
         if not sides:
             continue
-        keeps_in = read.value(f"limit.{name}_scope", everywhere=True) == "outside"
+        keeps_in = read.value(ids[f"limit_{name}_scope"], everywhere=True) == "outside"
         yield Zone(
             f"software stroke limit {number}",
             sides,
             "inside" if keeps_in else "outside",
-            is_on=number == "2" and read.value("limit.second_at_start", everywhere=True) in (True, "yes"),
+            is_on=number == "2" and read.value(ids.second_at_start, everywhere=True) in (True, "yes"),
             code=plus if keeps_in else enters,
             code_plus=plus,
             code_minus=minus,

@@ -35,6 +35,7 @@ from .family import (
     UnitSize,
 )
 from .group import Group, GroupState
+from .motion import AssumedFigure, Motion
 from .parameter import (
     Bit,
     Bound,
@@ -81,6 +82,7 @@ from .synonyms import Synonyms
 __all__ = [
     "Area",
     "Assignment",
+    "AssumedFigure",
     "AxisDeclaration",
     "AxisField",
     "AxisProfile",
@@ -120,6 +122,7 @@ __all__ = [
     "MacroCall",
     "Messages",
     "Model",
+    "Motion",
     "Need",
     "Numbers",
     "Page",

@@ -50,7 +50,7 @@ def identify(
     rpm. Raises SimulationError for what the record cannot show, OSError where it cannot be read.
     """
     law = law_of(file.schema.family.family)
-    if "velocity" not in law.scenarios:
+    if "velocity" not in law.motion.scenarios:
         name = file.schema.family.name
         raise SimulationError(f"{name} has stepper motors without a servo loop: it has no torque to identify")
     bound = bind_axis(file, law, axis)

@@ -50,7 +50,7 @@ def identify_response(
     the response for 1 of the simulator's unit. Raises SimulationError, OSError.
     """
     law = law_of(file.schema.family.family)
-    if "velocity" not in law.scenarios:
+    if "velocity" not in law.motion.scenarios:
         raise SimulationError(
             f"{file.schema.family.name} has stepper motors without a servo loop: it has no torque to identify"
         )

@@ -432,4 +432,6 @@ def _possible(file: ParameterFile) -> tuple[SimulationListing, SimulationError |
         found = listing(file)
     except SimulationError as error:
         return SimulationListing((), (), (), {}), error
-    return found, None if found.axes else SimulationError(law_of(file.schema.family.family).without_axes)
+    return found, None if found.axes else SimulationError(
+        law_of(file.schema.family.family).motion.without_axes
+    )

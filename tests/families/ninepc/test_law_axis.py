@@ -7,8 +7,7 @@ import math
 import pytest
 
 from amp_studio.families.ninepc import law_samples as samples
-from amp_studio.families.ninepc.law import LAW
-from amp_studio.sim import SimulationError
+from amp_studio.sim import SimulationError, law_of
 
 from .conftest import Axis, Values
 
@@ -293,4 +292,4 @@ def test_the_settings_of_the_family_are_named() -> None:
         "model.motor_torque",
         "model.motor_inertia",
     }
-    assert set(LAW.settings) == own | {"model.dac_unit_86", "model.dac_unit_87"}
+    assert set(law_of("9pc").motion.settings) == own | {"model.dac_unit_86", "model.dac_unit_87"}

@@ -130,9 +130,7 @@ def _axis(read: AxisParameters) -> AxisLaw:
     )
 
 
-LAW = Law(
-    _axis, axes=lambda _file: ("X",), settings={"model.rapid": "rapid feedrate (mm/min)"}, scenarios=("step",)
-)
+LAW = Law(_axis, axes=lambda _file: ("X",))
 
 HERE = __name__
 REGISTRATION = Registration(
