@@ -80,7 +80,7 @@ if TYPE_CHECKING:
         MacroCall,
         Messages,
         Model,
-        Motion,
+        MotionFacts,
         Parameter,
         ParameterId,
         ParameterState,

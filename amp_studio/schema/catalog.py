@@ -19,7 +19,7 @@ from .model import (
     Group,
     Guide,
     Messages,
-    Motion,
+    MotionFacts,
     Parameter,
     PictureRoles,
     Plausible,
@@ -102,7 +102,7 @@ class Schema:
         return self._further.program
 
     @property
-    def motion(self) -> Motion:
+    def motion(self) -> MotionFacts:
         """What the law of its axes takes from facts."""
         return self._further.motion
 

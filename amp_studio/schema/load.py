@@ -29,7 +29,7 @@ from .model import (
     Guides,
     Messages,
     Model,
-    Motion,
+    MotionFacts,
     PictureRoles,
     Plausible,
     ProgramWords,
@@ -79,7 +79,7 @@ class FurtherFacts(Model):
     commissioning: Commissioning | None = None
     pictures: PictureRoles = PictureRoles.model_construct()
     program: ProgramWords = ProgramWords.model_construct()
-    motion: Motion = NO_MOTION
+    motion: MotionFacts = NO_MOTION
 
 
 class Compiled(Model):
@@ -164,7 +164,7 @@ def compile_family(folder: Path) -> Compiled:
     if wrong := next(iter(faults_of_program(program, groups)), None):
         raise DatabaseError(programs, _parsed(programs).line(wrong[0]), wrong[1])
     moving = folder / "motion.yaml"
-    motion = _read(moving, Motion) if moving.exists() else NO_MOTION
+    motion = _read(moving, MotionFacts) if moving.exists() else NO_MOTION
     if wrong := next(iter(faults_of_motion(motion, groups)), None):
         raise DatabaseError(moving, _parsed(moving).line(wrong[0]), wrong[1])
     experience = folder / "plausible.yaml"

@@ -6,7 +6,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from .model import Group, MacroCall, Model, Motion, Parameter, PictureRoles, ProgramWords
+from .model import Group, MacroCall, Model, MotionFacts, Parameter, PictureRoles, ProgramWords
 from .model.pictures import Direction, ForbiddenSide, RampRoles, ZoneRole, parameters_named
 from .quoting import quoted
 from .yaml_reader import KeyPath
@@ -95,7 +95,7 @@ def faults_of_program(program: ProgramWords, groups: tuple[Group, ...]) -> Itera
                 yield ("groups", n, "codes", m, "choice"), f"there is no choice {quoted(code.choice)}"
 
 
-def faults_of_motion(motion: Motion, groups: tuple[Group, ...]) -> Iterator[tuple[KeyPath, str]]:
+def faults_of_motion(motion: MotionFacts, groups: tuple[Group, ...]) -> Iterator[tuple[KeyPath, str]]:
     """Yield each fault with its place in the file."""
     known = {p.id for group in groups for p in group.parameters}
     for role, named in motion.params.items():

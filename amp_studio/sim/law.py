@@ -42,7 +42,7 @@ import numpy.typing as npt
 from amp_studio.files import ParameterFile, fitted_axes
 from amp_studio.schema import (
     NO_MOTION,
-    Motion,
+    MotionFacts,
     load_part,
     load_schema,
     registered_families,
@@ -213,7 +213,7 @@ class Law:
     probing: Callable[[AxisParameters, AxisLaw, str], Probing] | None = None
     zones: Callable[[BoundMachine, Sequence[str]], Iterable[Zone]] | None = None
     machine_tests: Callable[[BoundMachine, AxisLaw], Sequence[MachineTest]] | None = None
-    motion: Motion = NO_MOTION
+    motion: MotionFacts = NO_MOTION
 
 
 @dataclass(frozen=True)

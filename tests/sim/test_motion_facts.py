@@ -13,7 +13,7 @@ import pytest
 from amp_studio.scenarios import SCENARIOS
 from amp_studio.schema import DatabaseError, load_schema, registration_of
 from amp_studio.schema.load import compile_family
-from amp_studio.schema.model.motion import Motion, ScenarioName
+from amp_studio.schema.model.motion import MotionFacts, ScenarioName
 from amp_studio.sim import ParameterRoles, law_of
 from amp_studio.sim.law import simulated_families
 
@@ -122,6 +122,6 @@ def test_a_fault_in_the_facts_is_refused_with_its_line(
 
 def test_a_reason_is_that_of_the_figure_named() -> None:
     assumed = {name: {"value": 1, "why": f"Why {name}."} for name in ("delay", "lag")}
-    motion = Motion.model_validate({"scenarios": ["step"], "assumed": assumed})
+    motion = MotionFacts.model_validate({"scenarios": ["step"], "assumed": assumed})
     assert motion.reasons("delay", bandwidth="lag") == {"delay": "Why delay.", "bandwidth": "Why lag."}
     assert motion.value("lag") == 1.0

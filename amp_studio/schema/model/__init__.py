@@ -35,7 +35,7 @@ from .family import (
     UnitSize,
 )
 from .group import Group, GroupState
-from .motion import AssumedFigure, Motion
+from .motion import AssumedFigure, MotionFacts
 from .parameter import (
     Bit,
     Bound,
@@ -122,7 +122,7 @@ __all__ = [
     "MacroCall",
     "Messages",
     "Model",
-    "Motion",
+    "MotionFacts",
     "Need",
     "Numbers",
     "Page",

@@ -6,7 +6,6 @@ from typing import Annotated, Literal
 
 from .record import Model, NotEmpty, Page, ParameterId, Pattern
 
-Text = Annotated[str, NotEmpty()]
 Role = Annotated[str, Pattern(r"^[a-z][a-z0-9_]*$")]
 
 ScenarioName = Literal[
@@ -32,13 +31,13 @@ class AssumedFigure(Model):
     value: float
     unit: str = ""
     """As in the sentences of a result: 1/s, mm, V; "" for a ratio or a count."""
-    why: Text
+    why: Annotated[str, NotEmpty()]
     """Where it comes from, a sentence."""
     page: Page | None = None
     """Where the manual has the evidence; none where nothing is printed."""
 
 
-class Motion(Model):
+class MotionFacts(Model):
     """A file ``motion.yaml``: what the law of a family takes from its facts."""
 
     without_axes: str = "No axis is fitted. Set the type of an axis first"
@@ -72,5 +71,5 @@ class Motion(Model):
         }
 
 
-NO_MOTION = Motion.model_construct(scenarios=())
+NO_MOTION = MotionFacts.model_construct(scenarios=())
 """Of a family whose axes are not simulated."""
