@@ -27,8 +27,8 @@ test: setup ## set up what is missing and run all tests
 durations: setup ## run all tests and print the sixty that take longest
 	@$(BIN)/python -m pytest -q -n $(WORKERS) --dist worksteal --durations=60 --durations-min=0.5 $(TESTS)
 
-mutants: setup ## change every rule and its findings in every way, one at a time, and list what no case notices
-	@AMP_STUDIO_FULL=1 $(BIN)/python -m pytest -q -s tests/validate/test_rule_mutants.py tests/validate/test_finding_mutants.py
+mutants: setup ## change every rule and its findings in every way, and every fact of the manuals, one at a time, and list what no case notices
+	@AMP_STUDIO_FULL=1 $(BIN)/python -m pytest -q -s tests/validate/test_rule_mutants.py tests/validate/test_finding_mutants.py tests/manual/test_printed_facts.py
 
 campaign: setup ## generated cases that no run has tried: every property 25 times as often, with another seed each time
 	@AMP_STUDIO_FULL=1 $(BIN)/python -m pytest -q -n $(WORKERS) -m hypothesis $(TESTS)
@@ -86,7 +86,7 @@ build/docs/env/ready: requirements/docs.lock
 	@touch $@
 
 bench: setup ## measure, and print one table
-	@$(BIN)/python bench/run.py
+	@$(BIN)/python bench/run.py $(BENCH)
 
 translations: setup ## find the texts of the window that have no translation, and list them
 	@$(BIN)/python scripts/translations.py

@@ -54,7 +54,6 @@ def measures(folder: Path, full: Path, times: int) -> Iterator[Measure]:
     yield _cam(times)
     yield from _num_table(folder, num, times)
     yield from _peers(full, times)
-    yield from _hall(folder, HALL if times > 1 else FEW, max(1, times // 5))
 
 
 def _first_runs(path: Path, times: int) -> tuple[float, ...]:
@@ -162,10 +161,11 @@ def _num_table(folder: Path, num: Path, times: int) -> Iterator[Measure]:
 # -- a hall full of machines ---------------------------------------------------------------------------
 
 
-def _hall(folder: Path, files: int, times: int) -> Iterator[Measure]:
+def measures_of_hall(folder: Path, runs: int) -> Iterator[Measure]:
     """Yield the time of the command line for a folder of machines of all families,
     of which no two are the same.
     """
+    files, times = HALL if runs > 1 else FEW, max(1, runs // 5)
     hall = folder / "hall"
     hall.mkdir()
     texts = [path.read_text("utf-8") for path in sorted(examples_folder().glob("*/*.amp"))]

@@ -1,4 +1,4 @@
-"""Measure AMP Studio and print one table: ``make bench``, or ``python bench/run.py [--quick]``.
+"""Measure AMP Studio and print one table: ``make bench``, or ``python bench/run.py``.
 
 Everything is measured on a file of eight axes with every parameter set, and on the mill of the examples.
 """
@@ -11,7 +11,7 @@ import platform
 import shutil
 import sys
 import tempfile
-from collections.abc import Iterator
+from collections.abc import Collection, Iterator
 from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parent.parent))
@@ -32,24 +32,44 @@ import sim_laws
 import warm
 from measure import Measure, table
 
+GROUPS = (
+    "cold",
+    "warm",
+    "rules",
+    "hall",
+    "find",
+    "published",
+    "sim",
+    "laws",
+    "screen",
+    "grid",
+    "comparing",
+    "drag",
+    "memory",
+    "exchange",
+)
+"""In the order of the table."""
+
 
 def main() -> None:
-    """Measure everything, or with --quick everything once."""
+    """Measure the groups that are asked for, or with --quick each once."""
     parser = argparse.ArgumentParser(description="Measure AMP Studio and print one table.")
     parser.add_argument(
         "--quick", action="store_true", help="everything once: shows that it runs, not how fast"
     )
-    times = 1 if parser.parse_args().quick else 15
+    parser.add_argument("--only", nargs="+", choices=GROUPS, default=GROUPS, help="these groups of measures")
+    chosen = parser.parse_args()
+    times = 1 if chosen.quick else 15
     print(
         f"Python {platform.python_version()} on {platform.system()}, {processor()}, {os.cpu_count()}"
         f" processors{load()}"
     )
     with tempfile.TemporaryDirectory(prefix="amp-studio-bench-") as name:
-        print(table(list(measures(Path(name), times))))
+        print(table(list(measures(Path(name), times, chosen.only))))
 
 
-def measures(folder: Path, times: int) -> Iterator[Measure]:
-    """Yield every measure in the order of the table."""
+def measures(folder: Path, times: int, groups: Collection[str]) -> Iterator[Measure]:
+    """Yield the measures of these groups in the order of the table."""
     full = machine.write_full_file(folder)
     example = (
         Path(shutil.copytree(machine.example_path().parent, folder / "mill")) / machine.example_path().name
@@ -57,19 +77,26 @@ def measures(folder: Path, times: int) -> Iterator[Measure]:
     printed = (
         full if times > 1 else example
     )  # where nothing is to be known but that it runs, a small one will do
-    yield from cold.measures(folder, full, printed, example, max(1, times // 2))
-    yield from warm.measures(folder, full, printed, example, times)
-    yield from rules.measures(folder, full, times)
-    yield from find.measures(full, times)
-    yield from published.measures()
-    yield from sim.measures(folder, times)
-    yield from sim_laws.measures(times)
-    yield from screen.measures(folder, full, times)
-    yield from grid.measures(folder, times)
-    yield from comparing.measures(folder, times)
-    yield from drag.measures(folder, times)
-    yield from many_files.measures(folder, full, times)
-    yield from exchange.measures(folder, full, example, max(1, times // 3))
+    few = max(1, times // 3)
+    each = {
+        "cold": lambda: cold.measures(folder, full, printed, example, max(1, times // 2)),
+        "warm": lambda: warm.measures(folder, full, printed, example, times),
+        "rules": lambda: rules.measures(folder, full, times),
+        "hall": lambda: rules.measures_of_hall(folder, times),
+        "find": lambda: find.measures(full, times),
+        "published": published.measures,
+        "sim": lambda: sim.measures(folder, times),
+        "laws": lambda: sim_laws.measures(times),
+        "screen": lambda: screen.measures(folder, full, times),
+        "grid": lambda: grid.measures(folder, times),
+        "comparing": lambda: comparing.measures(folder, times),
+        "drag": lambda: drag.measures(folder, times),
+        "memory": lambda: many_files.measures(folder, full, times),
+        "exchange": lambda: exchange.measures(folder, full, example, few),
+    }
+    for group in GROUPS:
+        if group in groups:
+            yield from each[group]()
 
 
 def processor() -> str:

@@ -8,6 +8,7 @@ each with line and section of the manual and with both readings.
 
 from __future__ import annotations
 
+from itertools import islice
 from typing import Any
 
 import pytest
@@ -17,7 +18,11 @@ from families import FAMILIES
 from family import AlteredEntry, AlteredFact, Family
 from manual_facts import KINDS
 
+from tests.campaigns import CAMPAIGN
+
 AnyFamily = Family[Any]
+EACH = 1 if CAMPAIGN else 3
+"""Every how many facts of a manual are altered; `make mutants` alters each."""
 EVERY_FAMILY = pytest.mark.parametrize("family", FAMILIES.values(), ids=FAMILIES)
 
 
@@ -89,7 +94,7 @@ def test_no_fact_of_the_manual_can_be_altered_unseen(family: AnyFamily, fact: Al
     altered = [
         (line, what, bool(family.new_with_section(fact.check, at, now)))
         for at, section in enumerate(family.book.sections)
-        for line, what, now in altered_facts(section, fact.kind, fact.alter)
+        for line, what, now in islice(altered_facts(section, fact.kind, fact.alter), None, None, EACH)
         if line not in excused
     ]
     assert altered

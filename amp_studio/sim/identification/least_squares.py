@@ -29,14 +29,19 @@ class LeastSquares:
     residual: Series
 
 
-def fit(residual: Callable[[Series], Series], start: Series) -> LeastSquares:
+def fit(
+    residual: Callable[[Series], Series], start: Series, slopes_at: Callable[[Series], Matrix] | None = None
+) -> LeastSquares:
     """Return the parameters with the least sum of squares from a start on;
     the covariance is that of the residuals' own spread.
+
+    ``slopes_at`` returns the slopes of the residuals, a column a parameter, where they have a formula;
+    else differences are taken.
     """
     there, rest = np.array(start, dtype=float), residual(start)
     cost, damping = float(rest @ rest), 1e-3
     for _ in range(STEPS):
-        slopes = _slopes(residual, there, rest)
+        slopes = slopes_at(there) if slopes_at else _slopes(residual, there, rest)
         squares, push = slopes.T @ slopes, slopes.T @ rest
         sizes = np.diag(squares) + 1e-12
         better = False
@@ -51,7 +56,7 @@ def fit(residual: Callable[[Series], Series], start: Series) -> LeastSquares:
             damping *= 10.0
         if not better:
             break
-    slopes = _slopes(residual, there, rest)
+    slopes = slopes_at(there) if slopes_at else _slopes(residual, there, rest)
     freedom = max(1, len(rest) - len(there))
     covariance = np.linalg.pinv(slopes.T @ slopes) * cost / freedom
     return LeastSquares(there, covariance, cost, rest)

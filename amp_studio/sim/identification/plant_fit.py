@@ -19,6 +19,7 @@ import numpy as np
 
 from amp_studio.sim.errors import SimulationError
 from amp_studio.sim.series import Response, Series
+from amp_studio.sim.tuning.sampled import Matrix
 
 from .least_squares import LeastSquares, fit
 from .response import FrequencyResponse
@@ -90,6 +91,29 @@ class _Shape:
                 before = rate / math.sqrt(1.0 + ratio)
                 found = found * (s**2 / before**2 + 2.0 * before_damping * s / before + 1.0) / under
         return np.asarray(found)
+
+    def slopes(self, parameters: Series, s: Response) -> Response:
+        """Return how the logarithm of the model changes with each parameter, a row each."""
+        size = math.exp(min(parameters[0], 300.0))
+        inertia = s + size * parameters[1] ** 2
+        rows = [s / inertia, -2.0 * size * parameters[1] / inertia, -1e-3 * s]
+        for n in range(self.pairs):
+            rate, ratio, damping, before_damping = np.exp(
+                np.clip(parameters[3 + 4 * n : 7 + 4 * n], -40.0, 40.0)
+            )
+            square, damped, none = (s / rate) ** 2, 2.0 * damping * s / rate, np.zeros_like(s)
+            under, over = square + damped + 1.0, 1.0 + damped
+            by_rate, by_damping = (2.0 * square + damped) / under, -damped / under
+            if self.at_load and n == 0:
+                rows += [by_rate - damped / over, none, by_damping + damped / over, none]
+            else:
+                square, before_damped = (1.0 + ratio) * square, 2.0 * before_damping * s / rate
+                before_damped = before_damped * math.sqrt(1.0 + ratio)
+                over = square + before_damped + 1.0
+                by_before = -(2.0 * square + before_damped) / over
+                by_ratio = -0.5 * ratio / (1.0 + ratio) * by_before
+                rows += [by_rate + by_before, by_ratio, by_damping, before_damped / over]
+        return np.array(rows)
 
 
 def fit_plant(found: FrequencyResponse, quantity: str | None = None) -> PlantFit:
@@ -180,8 +204,18 @@ def _residual(found: FrequencyResponse, s: Response, shape: _Shape, parameters: 
     return np.concatenate([found.weights * rest.real, found.weights * rest.imag])
 
 
+def _slopes(found: FrequencyResponse, s: Response, shape: _Shape, parameters: Series) -> Matrix:
+    with np.errstate(all="ignore"):
+        rows = shape.slopes(parameters, s)
+    weighed = np.where(np.isfinite(rows), rows, 0.0) * -found.weights
+    return np.concatenate([weighed.real, weighed.imag], axis=1).T
+
+
 def _best(found: FrequencyResponse, s: Response, shape: _Shape, starts: Sequence[Series]) -> LeastSquares:
-    fits = [fit(lambda p: _residual(found, s, shape, p), start) for start in starts]
+    fits = [
+        fit(lambda p: _residual(found, s, shape, p), start, lambda p: _slopes(found, s, shape, p))
+        for start in starts
+    ]
     return min(fits, key=lambda each: each.cost)
 
 
