@@ -15,6 +15,7 @@ from amp_studio.ui.dialogs.calculator_dialog import CalculatorDialog
 from amp_studio.ui.dialogs.file_dialogs import ReportDialog
 from amp_studio.ui.dialogs.new_file_dialog import NewFileDialog
 from amp_studio.ui.dialogs.note_dialog import NoteDialog
+from amp_studio.ui.dialogs.settings_dialog import SettingsDialog
 from amp_studio.ui.dialogs.tables_dialog import TablesDialog
 from amp_studio.ui.main_window import MainWindow
 from amp_studio.ui.merge.machines_dialog import MachinesDialog
@@ -168,6 +169,7 @@ PAGES: dict[str, Callable[[MainWindow], QWidget]] = {
     "sheet": shown(lambda window: (window.control.show("hand"), window)[1]),
     "new": shown(lambda window: NewFileDialog(window, "9pc")),
     "report": shown(lambda window: ReportDialog(window.workspace.path, window)),
+    "settings": by("Settings", SettingsDialog),
     "note": shown(lambda window: NoteDialog(window.workspace, EXCESS, window)),
     "download": shown(at_the_control),
     "project check": shown(project_check),

@@ -102,6 +102,7 @@ from PySide6.QtWidgets import QApplication
 application = QApplication([])
 from amp_studio.ui.base import theme
 from amp_studio.ui.main_window import MainWindow
+from amp_studio.ui.dialogs.settings_dialog import SettingsDialog
 from amp_studio.ui.window.settings import UserSettings
 window, told = MainWindow(), []
 theme.scheme().changed.connect(lambda: told.append(theme.colour("base").name()))
@@ -111,7 +112,7 @@ def inks(icon):
     return sorted({spot.name() for spot in spots if spot.alpha() == 255})
 icon = theme.icon("floppy-disk")
 before = inks(icon)
-{action.text(): action for action in window.menus.menu("view.theme").actions()}["&Dark"].trigger()
+SettingsDialog(window).form.set_answer("theme", "dark")
 print(json.dumps({"told": told, "base": QGuiApplication.palette().base().color().name(), "before": before, "after": inks(icon),
                   "window": window.palette().window().color().name(), "kept": UserSettings().theme()}))
 """

@@ -9,7 +9,7 @@ if TYPE_CHECKING:
     from .link import Link, LinkError, Listener
     from .opening import connect, listen
     from .password import PasswordError
-    from .passwords import ask_with, enter_password
+    from .passwords import ask_with, enter_password, forget_password, kept_password
     from .pseudo_terminal import PtyLink
     from .security import Security, can_others_read, exposure, read_password
     from .serial_line import SerialLink

@@ -9,6 +9,7 @@ from __future__ import annotations
 import os
 from collections.abc import Callable
 from importlib import import_module
+from typing import Literal
 
 from .endpoint import Endpoint
 
@@ -57,6 +58,31 @@ def ask_password(endpoint: Endpoint) -> str:
 def enter_password(endpoint: Endpoint, password: str) -> None:
     """Take a password for this run of the program; an empty one forgets what was entered before."""
     _known.entered[place_of(endpoint)] = password
+
+
+def kept_password(endpoint: Endpoint) -> Literal["entered", "environment", "keyring"] | None:
+    """Return where the password of a control is kept, None where there is none."""
+    place = place_of(endpoint)
+    if _known.entered.get(place):
+        return "entered"
+    if os.environ.get(ENVIRONMENT):
+        return "environment"
+    return "keyring" if _from_keyring(place) else None
+
+
+def forget_password(endpoint: Endpoint) -> None:
+    """Forget the password of a control, also in the keyring; raises RuntimeError where that refuses, and
+    for one of the environment.
+    """
+    place = place_of(endpoint)
+    _known.entered.pop(place, None)
+    if _from_keyring(place):
+        try:
+            import_module("keyring").delete_password(SERVICE, place)
+        except Exception as error:  # each system's keyring has its own errors
+            raise RuntimeError(f"The keyring does not delete the password of {place}: {error}") from error
+    if os.environ.get(ENVIRONMENT):
+        raise RuntimeError(f"The password is in {ENVIRONMENT}, which this program cannot change.")
 
 
 def place_of(endpoint: Endpoint) -> str:

@@ -3,45 +3,18 @@
 from __future__ import annotations
 
 import platform
-from collections.abc import Mapping
-from html import escape
 from pathlib import Path
 
 from PySide6.QtCore import QUrl, qVersion
-from PySide6.QtGui import QAction, QDesktopServices, QKeySequence
-from PySide6.QtWidgets import QDialog, QFileDialog, QTextBrowser, QVBoxLayout
+from PySide6.QtGui import QDesktopServices
+from PySide6.QtWidgets import QFileDialog
 
 from amp_studio.files import write_atomic
 from amp_studio.trouble import last_details, log_folder
-from amp_studio.ui.base.menu_commands import commands
 from amp_studio.ui.base.questions import ask
 from amp_studio.ui.base.translated import tr
 from amp_studio.ui.window.studio_window import StudioWindow
 from amp_studio.version import __version__
-
-
-def show_keys(window: StudioWindow) -> None:
-    """List the keys of all actions, by the menus that they are in."""
-    dialog, page = QDialog(window), QTextBrowser()
-    dialog.setWindowTitle(tr("Keys"))
-    dialog.resize(560, 640)
-    page.setAccessibleName(tr("Keys"))
-    page.setHtml(keys_page(dict(commands(window.menuBar()))))
-    QVBoxLayout(dialog).addWidget(page)
-    dialog.show()
-
-
-def keys_page(actions: Mapping[str, QAction]) -> str:
-    """Return the page of keys: ``Menu › Name`` -> its action, of those that have keys."""
-    rows, head = [], ""
-    for path, action in actions.items():
-        keys = ", ".join(k.toString(QKeySequence.SequenceFormat.NativeText) for k in action.shortcuts())
-        menu, _, name = path.rpartition(" › ")
-        if keys:
-            rows += [f"<tr><td colspan=2><h3>{escape(menu)}</h3></td></tr>"] if menu != head else []
-            rows.append(f"<tr><td>{escape(name)}&nbsp;&nbsp;</td><td><b>{escape(keys)}</b></td></tr>")
-            head = menu
-    return f"<table>{''.join(rows)}</table>"
 
 
 def open_log_folder(_: StudioWindow) -> None:

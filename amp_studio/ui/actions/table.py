@@ -10,7 +10,6 @@ from functools import partial
 
 from PySide6.QtGui import QKeySequence
 
-from amp_studio.ui.base.theme import scheme
 from amp_studio.ui.base.translated import tr
 from amp_studio.ui.window.action import Action, ChoiceMenu, FilledMenu, Menu
 
@@ -344,14 +343,8 @@ def _view() -> Menu[PartsWindow]:
                     Action("filter.none", tr("&All Rows"), filters.show_all_rows, "Ctrl+0"),
                 ),
             ),
-            ChoiceMenu("view.theme", tr("Th&eme"), view.themes, lambda _: scheme().choice, view.choose_theme),
-            ChoiceMenu(
-                "view.language",
-                tr("La&nguage"),
-                view.languages,
-                lambda w: w.settings.language(),
-                view.choose_language,
-            ),
+            None,
+            Action("view.settings", tr("S&ettings…"), view.open_settings, "Ctrl+,", ""),
         ),
     )
 
@@ -490,7 +483,7 @@ def _help() -> Menu[PartsWindow]:
             Action(
                 "help.commands", tr("&Commands…"), lambda w: w.finder.box.begin(COMMANDS), "Ctrl+Shift+P", ""
             ),
-            Action("help.keys", tr("&Keys…"), help_menu.show_keys, needs=""),
+            Action("help.keys", tr("&Keys…"), view.open_keys, needs=""),
             Action("help.log", tr("Open &Log Folder"), help_menu.open_log_folder, needs=""),
             Action("help.report", tr("&Report a Problem…"), help_menu.report_problem, needs=""),
             None,

@@ -1,4 +1,4 @@
-"""What the view menu does: units of display and entry, control type, what is shown, theme and language;
+"""What the view menu does: units of display and entry, control type, what is shown, settings;
 the motion window.
 """
 
@@ -13,8 +13,7 @@ from amp_studio.files import ParameterFile
 from amp_studio.schema import Value, why_not_simulated
 from amp_studio.ui.base.loading import load
 from amp_studio.ui.base.task import in_background
-from amp_studio.ui.base.theme import apply_style, as_choice
-from amp_studio.ui.base.translated import LANGUAGES, tr
+from amp_studio.ui.base.translated import tr
 from amp_studio.ui.page.file_page import FilePage
 from amp_studio.ui.window.studio_window import StudioWindow
 
@@ -100,30 +99,19 @@ def to_table(window: StudioWindow) -> None:
         window.table_view.setFocus()
 
 
-# -- theme and language ------------------------------------------------------
+# -- settings ------------------------------------------------------------------
 
 
-def themes(_: StudioWindow) -> list[tuple[str, str]]:
-    """Return the themes with their names in the menu."""
-    return [("system", tr("&System")), ("light", tr("&Light")), ("dark", tr("&Dark"))]
+def open_settings(window: StudioWindow, page: str = "general") -> None:
+    """Open the settings at one of their pages."""
+    from amp_studio.ui.dialogs.settings_dialog import SettingsDialog
+
+    SettingsDialog(window, page).show()
 
 
-def choose_theme(window: StudioWindow, choice: str) -> None:
-    """Show every window in a theme at once, and keep the choice."""
-    theme = as_choice(choice)
-    apply_style(theme)
-    window.settings.keep_theme(theme)
-
-
-def languages(_: StudioWindow) -> list[tuple[str, str]]:
-    """Return the languages with their names in the menu."""
-    return [("system", tr("&System")), *((code, f"&{own}") for code, own in LANGUAGES.items())]
-
-
-def choose_language(window: StudioWindow, choice: str) -> None:
-    """Keep a language, which is that of the next start."""
-    window.settings.keep_language(choice)
-    window.show_status(tr("The language is another one when AMP Studio is started again."))
+def open_keys(window: StudioWindow) -> None:
+    """Open the settings at the list of all keys."""
+    open_settings(window, "keys")
 
 
 # -- motion --------------------------------------------------------------------

@@ -294,7 +294,7 @@ class FormDialog(QDialog):
         layout = QVBoxLayout(self)
         for label in (self.note, self.fault):
             label.setWordWrap(True)
-        for widget in (self.form, self.note, self.fault, self.buttons):
+        for widget in (self.note, self.form, self.fault, self.buttons):
             layout.addWidget(widget)
         self.note.setVisible(bool(note))
         self._is_touched = False
