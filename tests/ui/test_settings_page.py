@@ -1,4 +1,4 @@
-"""The one page of settings: each takes effect at once or says when."""
+"""The one page of settings: each takes effect at once, or the page names when."""
 
 from __future__ import annotations
 

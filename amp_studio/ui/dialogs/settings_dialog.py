@@ -35,7 +35,7 @@ _PLACE = Qt.ItemDataRole.UserRole
 
 
 class SettingsDialog(QDialog):
-    """The settings; each takes effect at once, and where it does not its page says when."""
+    """The settings; each takes effect at once, or its page names when."""
 
     def __init__(self, window: StudioWindow, page: str = "general") -> None:
         super().__init__(window)
