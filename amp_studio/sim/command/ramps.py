@@ -65,14 +65,17 @@ def leg(distance: float, feedrate: float, ramp: Ramp, entry: float = 0.0, leave:
     peak = feedrate
     if taken(peak) > distance:
         low, high = max(entry, leave), feedrate
+        # Rounding alone must not refuse a block that is exactly as long as its change of velocity.
         if taken(low) > distance * (1.0 + 1e-12):
             raise SimulationError(
                 f"A block of {distance:g} is too short to change the velocity from {entry * 60.0:g} to"
                 f" {leave * 60.0:g} a minute"
             )
+        # The way of both ramps grows with the peak between them, but not all kinds of ramp have a closed
+        # form for its inverse. The lower end is used: the ramps are then never longer than the block.
         for _ in range(BISECTIONS):
             middle = 0.5 * (low + high)
-            if middle in (low, high):
+            if middle in (low, high):  # no number lies between them
                 break
             low, high = (middle, high) if taken(middle) <= distance else (low, middle)
         peak = low
@@ -104,6 +107,8 @@ def exponential_pieces(
         pieces.append(piece)
         if given >= distance * (1.0 - 1e-12):
             break
+    # What a lag of time constant T has still to go when its input is 0 is the integral of v e^(-t/T), v T;
+    # it falls as e^(-t/T) and never ends, so it is cut where less than a count is left.
     left = velocity * ramp.time
     fades = ramp.time * math.log(max(left / max(count, 1e-9 * distance), 1.0))
     return [*pieces, Piece(fades, velocity, -velocity / ramp.time, 0.0, EXPONENTIAL, ramp.time)]

@@ -137,6 +137,7 @@ def fed(timing: Vector, time: float, share: float, wanted: float) -> tuple[float
     """Return the time of the command a servo period later, and its share of the feedrate,
     which goes towards the wanted one.
     """
+    # An override slows the time of the command: all pieces of the profile stay as they are. The share changes in a straight line, so the time is its trapezium, which is exact.
     most = timing[SHARE_RATE] * timing[SERVO_PERIOD]
     after = min(max(wanted, share - most), share + most)
     return time + 0.5 * (share + after) * timing[SERVO_PERIOD], after
@@ -194,6 +195,7 @@ def run(
     while True:
         start = sample * period
         if pushed > 0:
+            # The load is constant over a servo period: the mean of the recorded torque at both ends of it.
             now, later = min(sample, pushed - 1), min(sample + 1, pushed - 1)
             m[GRAVITY] = weight - 0.5 * (push[now] + push[later])
             before[GRAVITY] = after[GRAVITY] = m[GRAVITY]
@@ -201,6 +203,7 @@ def run(
         begun = moment
         command(profile, piece, begun, io)
         io[COMMAND_VELOCITY] *= share * timing[FORWARD]
+        # The chain rule of a command whose time runs slower: once for each derivative.
         io[COMMAND_ACCELERATION] *= share * share * timing[FORWARD]
         io[TIME], io[TORQUE] = start, torque
         io[POSITION] = counted(

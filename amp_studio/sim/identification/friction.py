@@ -86,6 +86,8 @@ def fit_friction(
         speed, acceleration, torque = slope, bend, _mean(torque, 1.0 / 6.0)
         taps = np.array([1.0, -2.0, 1.0]) / period**2
     noise = _noise(moved)
+    # The narrowest filter that is enough: a wider one has less noise, but blurs the reversals, where dry
+    # friction changes its sign, and leaves fewer rows that move in one direction.
     best = None
     for width in _widths(len(inner)):
         found = _filtered(width, inner, speed, acceleration, torque)

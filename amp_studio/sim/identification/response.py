@@ -147,6 +147,8 @@ def response_of_record(period: float, torque: Series, motion: Series, difference
     if len(torque) < LEAST_ROWS:
         raise SimulationError(f"The record has {len(torque)} rows; a response needs at least {LEAST_ROWS}")
     moved, driven = np.diff(motion, differences), torque[: len(torque) - differences]
+    # Welch: segments that overlap by half, each under a Hann window, which has its smallest weight where the
+    # next segment has its largest. Without averages the coherence would be 1 at each frequency.
     length = 2 * len(driven) // (SEGMENTS + 1)
     window = np.hanning(length)
     cross = np.zeros(length // 2 + 1, dtype=np.complex128)
@@ -157,8 +159,11 @@ def response_of_record(period: float, torque: Series, motion: Series, difference
         cross += np.conj(x) * y
         given, answered = given + np.abs(x) ** 2, answered + np.abs(y) ** 2
     frequency = np.asarray(np.fft.rfftfreq(length, period), dtype=np.float64)
+    # The first bin too is left out: the window spreads into it what is left of a drift.
     excited = (given > LEAST_EXCITATION * np.max(given)) & (frequency > 1.5 / (length * period))
     excited &= frequency < HIGHEST / period
     frequency, cross, given, answered = frequency[excited], cross[excited], given[excited], answered[excited]
+    # A difference of samples is a factor z - 1; divided out, the response is that of the motion itself. It
+    # was differenced because a position drifts, and a drift leaks into all frequencies of a segment.
     ahead = (np.exp(2j * np.pi * frequency * period) - 1.0) ** differences
     return coherent(frequency, cross / given / ahead, np.abs(cross) ** 2 / (given * answered))

@@ -86,6 +86,8 @@ class LinearModel(SampledLoop):
         """Return whether the loop is stable where it is cut:
         what is inside of it does not run away by itself.
         """
+        # An integrator has a pole at z = 1. Two of them together are found with an error of about the root of
+        # the rounding, 1.5e-8, so that a narrower bound would call them unstable.
         return bool(np.all(np.abs(np.linalg.eigvals(self.open)) < 1.0 + 1e-7))
 
     def is_stable(self, *, drift: bool = False) -> bool:
@@ -414,6 +416,8 @@ def _crossings(function: Callable[[Matrix], Matrix], grid: Matrix, halvings: int
 
 
 def _phase_margin(at: complex) -> float:
+    # The angle of L beyond -180 degrees, brought into -180 … 180: a negative margin is an unstable loop and
+    # must not be read as one of more than 180.
     return (math.degrees(math.atan2(at.imag, at.real)) + 180.0 + 180.0) % 360.0 - 180.0
 
 

@@ -187,6 +187,8 @@ def jacobian(sample: Callable[[Matrix], Matrix], rest: Matrix) -> Matrix:
 
 def exponential(matrix: Matrix) -> Matrix:
     """Return the exponential of a matrix by scaling, a Taylor series and squaring (Golub, Van Loan, 9.3)."""
+    # The norm (largest sum of a row) is brought to 1/16 at most: 13 terms of the series then leave a
+    # remainder of (1/16)^14 / 14!, 2e-28, which is nothing beside the rounding of a double.
     halvings = max(
         0, math.ceil(math.log2(max(float(np.abs(matrix).sum(axis=1).max(initial=0.0)), 1e-300))) + 4
     )
@@ -202,6 +204,8 @@ def exponential(matrix: Matrix) -> Matrix:
 
 def zero_order_hold(a: Matrix, b: Matrix, time: float) -> tuple[Matrix, Matrix]:
     """Return (phi, gamma) of dx/dt = a x + b u over a time in s with a constant u."""
+    # exp([[a, b], [0, 0]] t) is [[phi, gamma], [0, 1]] (Van Loan 1978). The formula a^-1 (phi - 1) b would
+    # need an inverse that a plant with a position does not have: it integrates, so a is singular.
     n, m = b.shape
     joined = np.zeros((n + m, n + m))
     joined[:n, :n], joined[:n, n:] = a, b

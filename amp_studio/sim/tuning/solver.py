@@ -207,6 +207,8 @@ def gains_of(trial: Tried) -> list[Gain]:
             continue
         present = float(value.value)
         low, high = trial.range_of(source.parameter)
+        # The sign of a gain is the wiring of a feedback: a search over both signs would try a loop that runs
+        # away, so only the size is sought, on the side of zero where it is.
         sign = -1.0 if present < 0.0 else 1.0
         most = min(LARGEST if high is None else high, source.largest) if sign > 0.0 else -(low or -LARGEST)
         least = max(low or 0.0, 0.0) if sign > 0.0 else 0.0

@@ -37,5 +37,7 @@ def decode_block(header: int, rest: bytes, *, crc: bool) -> tuple[int, bytes] | 
     length = LENGTHS[header]
     if len(rest) != length + 3 + crc or rest[0] ^ rest[1] != 0xFF:
         return None
+    # The complement has been checked first: the check at the end covers the content alone, so that a damaged
+    # number would put a good block in a wrong place.
     content = rest[2 : 2 + length]
     return (rest[0], content) if check_of(content, crc=crc) == rest[2 + length :] else None

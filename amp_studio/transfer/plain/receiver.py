@@ -71,6 +71,8 @@ class BlockReceiver:
                 continue
             if came is Came.END and self._is_end(is_repeated=is_first and number == 0):
                 return None
+            # Asked for again only when the line is quiet: what is still on its way of a damaged block may
+            # contain any byte, and one of them would be taken for the header of the next block.
             if came is Came.DAMAGED:
                 line.rest()
             if came is Came.NOTHING and is_first:
@@ -107,6 +109,7 @@ class BlockReceiver:
             return Came.NOTHING
         if header[0] == EOT:
             return Came.END
+        # Two in a row: a single CAN may be a byte that noise has changed.
         if header[0] == CAN and line.get(1, line.patience.gap) == bytes([CAN]):
             raise PlainFileError("the other end has given the transfer up")
         if header[0] not in LENGTHS:
