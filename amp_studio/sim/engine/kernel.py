@@ -137,7 +137,8 @@ def fed(timing: Vector, time: float, share: float, wanted: float) -> tuple[float
     """Return the time of the command a servo period later, and its share of the feedrate,
     which goes towards the wanted one.
     """
-    # An override slows the time of the command: all pieces of the profile stay as they are. The share changes in a straight line, so the time is its trapezium, which is exact.
+    # An override slows the time of the command: all pieces of the profile stay as they are. The share
+    # changes in a straight line over a period, so that its trapezium is the exact time.
     most = timing[SHARE_RATE] * timing[SERVO_PERIOD]
     after = min(max(wanted, share - most), share + most)
     return time + 0.5 * (share + after) * timing[SERVO_PERIOD], after
