@@ -55,7 +55,6 @@ if TYPE_CHECKING:
     from .load import DatabaseError, FactEntry, UnknownFamilyError, family_ids, read_entries
     from .machine_schema import MachineSchema, labelled
     from .model import (
-        AssumedFigure,
         AxisDeclaration,
         AxisField,
         AxisProfile,
