@@ -73,8 +73,11 @@ def main(arguments: list[str]) -> int:
     for source, has_number in in_code.items():
         if source not in known:
             english[new_id(source, english)] = [source, source] if has_number else source
+    before = texts_of("en", "window")
+    same = {key for key, text in english.items() if before.get(key) == text}
     for language in language_codes():
-        kept = {**texts_of(language, "window")}
+        # an id that was free again for another text must not bring its old words back
+        kept = {key: text for key, text in texts_of(language, "window").items() if key in same}
         content, path = updated(language, english, kept), FOLDER / f"{language}.toml"
         is_fresh = content == path.read_text("utf-8")
         missing = [] if language == "en" else [text for key, text in english.items() if not kept.get(key)]
