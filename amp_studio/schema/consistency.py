@@ -76,17 +76,26 @@ def faults_of_experience(plausible: Plausible, groups: tuple[Group, ...]) -> Ite
         for n, pattern in enumerate(patterns):
             if not any(fnmatchcase(name, pattern) for name in known):
                 yield (key, n), f"there is no parameter {quoted(pattern)}"
-    for key, names in (("smooth", plausible.smooth), ("axis_words", plausible.axis_words)):
-        for n, name in enumerate(names):
+    named: dict[str, tuple[tuple[str, ...], ...]] = {
+        "smooth": tuple((name,) for name in plausible.smooth),
+        "steps": tuple((name,) for name in plausible.steps),
+        "axis_words": tuple((name,) for name in plausible.axis_words),
+        "within": tuple((travel.low, travel.high, *travel.inside) for travel in plausible.within),
+        "same": plausible.same,
+        "twins": plausible.twins,
+        "ladders": plausible.ladders,
+        "quotients": tuple((one.of, one.over) for one in plausible.quotients),
+        "needs": tuple(plausible.needs.items()),
+        "not_above": tuple((one.limit, *one.are) for one in plausible.not_above),
+    }
+    for key, entries in named.items():
+        for n, name in ((n, name) for n, names in enumerate(entries) for name in names):
             if name not in known:
                 yield (key, n), f"there is no parameter {quoted(name)}"
-    for n, travel in enumerate(plausible.within):
-        for name in (travel.low, travel.high, *travel.inside):
+    for key, facts in (("usual", plausible.usual), ("equal_rows", plausible.equal_rows)):
+        for name in facts:
             if name not in known:
-                yield ("within", n), f"there is no parameter {quoted(name)}"
-    for name in plausible.usual:
-        if name not in known:
-            yield ("usual", name), f"there is no parameter {quoted(name)}"
+                yield (key, name), f"there is no parameter {quoted(name)}"
 
 
 def _in_family(family: Family, ids: set[str]) -> Iterator[Inconsistency]:

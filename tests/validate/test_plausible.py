@@ -14,6 +14,7 @@ from amp_studio.files import ParameterFile, open_file
 from amp_studio.files.example_files import examples_folder
 from amp_studio.schema import Address, Value
 from amp_studio.validate import Finding, Validator, explain, read_builder_rules
+from amp_studio.validate.plausible.relations import misfit
 from tests.campaigns import CAMPAIGN
 
 
@@ -150,8 +151,8 @@ def test_what_no_manual_bounds_has_a_range_of_experience(name: str, address: Add
 
 def test_a_point_of_a_cam_that_jumps_out_is_asked_about_and_a_corner_is_not() -> None:
     file = example("57c422b-label-press")
-    (finding,) = found(file, ("cam.time_points", "Y.5"), Value(141, "counts"))
-    assert finding.rule == "plausible.jump"
+    finding, drift = found(file, ("cam.time_points", "Y.5"), Value(141, "counts"))
+    assert (finding.rule, drift.rule) == ("plausible.jump", "plausible.not-closed")
     assert "between" in finding.message
     corner = example("57c422b-label-press")
     corner.set_many(
@@ -216,3 +217,80 @@ def test_a_value_out_of_its_range_is_not_asked_about_too() -> None:
     assert [f.rule for f in Validator(file).run() if ("tool.pocket_count", "") in f.causes] == [
         "schema.range"
     ]
+
+
+def rules(file: ParameterFile, *edits: tuple[Address, Value]) -> list[str]:
+    """Return the rules of experience after some edits, and that every order of looking finds the same."""
+    validator = Validator(file)
+    validator.run()
+    file.set_many(dict(edits), force="a test")
+    now = validator.update([address for address, _ in edits])
+    assert now == Validator(file).run()
+    return [f.rule for f in now if f.rule.startswith("plausible.")]
+
+
+def cam(steps: list[int]) -> list[str]:
+    edits = [(("cam.time_points", f"Y.{n}"), Value(step, "counts")) for n, step in enumerate(steps)]
+    file = example("57c422b-label-press")
+    return rules(file, (("cam.points", "Y"), Value(len(steps))), *edits)
+
+
+def test_a_time_cam_that_nearly_comes_back_drifts_and_one_that_feeds_does_not() -> None:
+    """Its values are relative changes of position (4-49): what is left at the end is added each time."""
+    out, back = [100, 300, 500, 300, 100], [-100, -300, -500, -300, -100]
+    assert "plausible.not-closed" not in cam(out + back + [0, 0])
+    assert "plausible.not-closed" in cam(out + back + [0, 10])
+    assert "plausible.not-closed" not in cam(out + out + back + [0, 0]), "a pilgrim step"
+    assert "plausible.not-closed" not in cam(out + out + [0, 0]), "a feed"
+
+
+def test_a_time_cam_that_turns_back_in_a_single_step_is_asked_about() -> None:
+    forward = [100, 200, 300, 400, 400, 400, 400, 300, 200, 100]
+    assert "plausible.turn-back" in cam([*forward[:8], -200, 100])
+    assert "plausible.turn-back" not in cam(forward)
+
+
+@pytest.mark.parametrize(
+    ("name", "address", "value", "rule"),
+    [
+        ("mill-1394", ("accdec.linear_acceleration", "4"), Value(2540.0, "deg/s2"), "plausible.unequal"),
+        ("mill-1394", ("jog.increment_third", "4"), Value(0.2, "deg"), "plausible.ladder"),
+        ("mill-1394", ("macro.type1_call", "9013"), Value("modal"), "plausible.needs"),
+        ("mill-1394", ("powerup.distance_mode", ""), Value("g91"), "plausible.usual"),
+        ("mill-1394", ("interrupt.trigger", "2"), Value("level"), "plausible.row"),
+        ("num-1060-mill", ("misc.potentiometer", "3"), Value(0, "%"), "plausible.row"),
+        ("num-1060-mill", ("qvn.axes", "7"), Value(4), "plausible.row"),
+        ("linuxcnc-mill", ("joint.min_limit", "0"), Value(-600.0, "mm"), "plausible.unequal"),
+        ("grblhal-router", ("axis.acceleration", "Z"), Value(20000.0, "mm/s2"), "plausible.quotient"),
+    ],
+)
+def test_what_belongs_together_and_does_not_fit_is_asked_about(
+    name: str, address: Address, value: Value, rule: str
+) -> None:
+    findings = found(example(name), address, value)
+    finding = next(f for f in findings if f.rule == rule)
+    assert (finding.severity, finding.page, finding.message[-12:]) == ("advice", None, "Is it meant?")
+    assert "ours, not the manual's" in finding.cited
+
+
+@pytest.mark.parametrize(
+    ("name", "address", "value"),
+    [
+        ("acromill-router", ("home.fast_speed", "X"), Value(300.0, "in/min")),
+        ("syntec-mill", ("jog.feedrate", "1"), Value(99900.0, "mm/min")),
+        ("57c422b-label-press", ("command.home_speed_low", "X"), Value(200000.0, "counts/s")),
+        ("linuxcnc-mill", ("joint.home_final_velocity", "0"), Value(400.0, "mm/s")),
+        ("grblhal-router", ("tool_change.seek_rate", ""), Value(9000.0, "mm/min")),
+    ],
+)
+def test_homing_and_jogging_above_rapid_are_asked_about(name: str, address: Address, value: Value) -> None:
+    file = example(name)
+    assert "plausible.above-rapid" in rules(file, (address, value))
+
+
+def test_a_ladder_that_ends_at_the_greatest_speed_is_one() -> None:
+    assert misfit([10, 50, 250, 1000, 5000]) is None
+    assert misfit([10, 100, 1000, 10000, 15000]) is None
+    assert misfit([1, 10, 20, 50, 100]) is None
+    assert misfit([10, 50, 500, 1000, 5000]) == 2
+    assert misfit([0.001, 0.01, 0.1, 1, 100]) == 4

@@ -12,12 +12,16 @@ class Usual(Model):
     """Unit -> the least and the greatest usual value; of each dimension one is enough."""
     among: tuple[float, ...] = ()
     """The usual values, where there are but a few."""
+    choices: tuple[str, ...] = ()
+    """The keys of the usual choices, ``yes`` and ``no`` of a yes/no."""
     also: tuple[float, ...] = ()
     """Values beside these that mean something else, as 0 for off."""
 
     def __post_init__(self) -> None:
-        if bool(self.between) == bool(self.among):
-            raise ValueError("what is usual is 'between' bounds in a unit, or 'among' a few values")
+        if sum(map(bool, (self.between, self.among, self.choices))) != 1:
+            raise ValueError(
+                "what is usual is 'between' bounds in a unit, 'among' a few values, or 'choices'"
+            )
         if any(low >= high for low, high in self.between.values()):
             raise ValueError("the least usual value is below the greatest")
 
@@ -33,6 +37,25 @@ class TravelSpan(Model):
     """Positions of the same axis."""
 
 
+class SpeedLimit(Model):
+    """Speeds that are not above another one of the same axis, or of every axis, unless a slip was made."""
+
+    limit: ParameterId
+    """The greatest speed, a rapid move as a rule."""
+    are: tuple[ParameterId, ...]
+    """Speeds of homing, jogging and probing."""
+
+
+class Quotient(Model):
+    """How many times another value of the same axis, or of any, a value is as a rule; without its sign."""
+
+    of: ParameterId
+    over: ParameterId
+    between: tuple[float, float]
+    """The least and greatest usual quotient in the canonical units: mm/min over mm/s2 is a sixtieth of
+    a second."""
+
+
 class Plausible(Model):
     """``plausible.yaml``: facts of experience, ours and not the manual's;
     what contradicts them is a recommendation.
@@ -46,6 +69,23 @@ class Plausible(Model):
     asked about where a slip explains it."""
     smooth: tuple[ParameterId, ...] = ()
     """Tables, part after part, whose values run without a single one that jumps out."""
+    steps: tuple[ParameterId, ...] = ()
+    """Tables, part after part, whose values are steps of one motion: as a rule it comes back to where it
+    began, or never turns back."""
+    equal_rows: dict[ParameterId, int] = {}
+    """Table of the control -> after how many rows its values repeat; as a rule no single row differs."""
+    same: tuple[tuple[ParameterId, ...], ...] = ()
+    """Parameters that as a rule have one value on one axis, as an acceleration and its deceleration."""
+    twins: tuple[tuple[ParameterId, ParameterId], ...] = ()
+    """Two parameters, one an axis and one a joint, that as a rule have one value; in the order of both."""
+    ladders: tuple[tuple[ParameterId, ...], ...] = ()
+    """Parameters that rise from one to the next, most often by one factor."""
+    not_above: tuple[SpeedLimit, ...] = ()
+    """Speeds, and what none of them is above."""
+    quotients: tuple[Quotient, ...] = ()
+    """Values against each other: speeds, the ramps to them, bands within bands."""
+    needs: dict[ParameterId, ParameterId] = {}
+    """Parameter -> the one without whose value it does nothing, where that one is active."""
     axis_words: tuple[ParameterId, ...] = ()
     """Words with a bit for each axis, in their order, that mean nothing for an axis that is not there."""
     within: tuple[TravelSpan, ...] = ()

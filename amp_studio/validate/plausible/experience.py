@@ -11,8 +11,10 @@ from amp_studio.validate.finding import Finding
 from .alike import ALIKE, Alike
 from .axis_words import NO_AXIS, AxisWords
 from .earlier import EARLIER, Earlier, EarlierValues
+from .relations import ABOVE, LADDER, NEEDS, QUOTIENT, UNEQUAL, Relations
 from .rows import ROW, EqualRows
 from .smooth import JUMP, SmoothTables
+from .steps import NOT_CLOSED, TURN_BACK, StepTables
 from .usual import USUAL, UsualValues
 from .within import OUTSIDE, WithinTravel
 
@@ -22,6 +24,13 @@ TITLES = {
     JUMP: "A value that jumps out of its table",
     ROW: "A row that is not like the others",
     NO_AXIS: "A bit of an axis that is not there",
+    NOT_CLOSED: "A motion that does not come back to where it began",
+    TURN_BACK: "A single step backwards",
+    UNEQUAL: "Values that are equal as a rule",
+    LADDER: "A value that does not fit between its neighbours",
+    QUOTIENT: "Two values far from each other",
+    NEEDS: "A value without another one that it needs",
+    ABOVE: "A speed above the rapid",
     OUTSIDE: "A position outside the travel",
     EARLIER: "A value that was another one by a slip's factor",
 }
@@ -33,8 +42,9 @@ class Experience:
 
     def __init__(self, file: ParameterFile, earlier: Sequence[Earlier] = ()) -> None:
         self._file = file
-        tables = SmoothTables(file), EqualRows(file)
-        self._parts = (Alike(file), UsualValues(file), *tables, AxisWords(file), WithinTravel(file))
+        tables = SmoothTables(file), StepTables(file), EqualRows(file)
+        words = AxisWords(file), WithinTravel(file), Relations(file)
+        self._parts = (Alike(file), UsualValues(file), *tables, *words)
         self._earlier = EarlierValues(file, earlier)
         self._found: tuple[Finding, ...] | None = None
         self._is_stale = True

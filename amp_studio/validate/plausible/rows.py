@@ -38,10 +38,11 @@ class EqualRows:
             if p.type in ("integer", "real")
             and not p.secret
             and p.access != "read"
-            and p.id not in file.schema.plausible.smooth
+            and p.id not in (*file.schema.plausible.smooth, *file.schema.plausible.equal_rows)
             and evaluation.scope((p.id, "")) == "global"
             and len(here.instances(p)) >= _LEAST
         )
+        self._equal = file.schema.plausible.equal_rows
         self._found: dict[str, Finding] = {}
 
     def look_at_all(self) -> None:
@@ -50,20 +51,42 @@ class EqualRows:
         for name in dict.fromkeys(address[0] for address in self._file.values):
             if name in self._tables:
                 self._look_at(name)
+            elif name in self._equal:
+                self._look_at_equal(name)
 
     def look_again(self, address: Address) -> bool:
         """Look at the table of one value again; returns whether anything is otherwise."""
         name = address[0]
-        if name not in self._tables:
+        if name not in self._tables and name not in self._equal:
             return False
         before = self._found.pop(name, None)
-        self._look_at(name)
+        if name in self._equal:
+            self._look_at_equal(name)
+        else:
+            self._look_at(name)
         return self._found.get(name) != before
 
-    def _look_at(self, name: str) -> None:
-        file, state, keys = self._file, self._file.evaluation.state, self._file.evaluation.keys
+    def _addresses(self, name: str) -> list[Address]:
+        file, state = self._file, self._file.evaluation.state
         instances = file.schema.on(file.machine).instances(file.schema.parameters[name])
-        addresses = [(name, i) for i in instances if (name, i) in file.values and state((name, i)).is_active]
+        return [(name, i) for i in instances if (name, i) in file.values and state((name, i)).is_active]
+
+    def _look_at_equal(self, name: str) -> None:
+        """Look at a table whose rows are equal as a rule, or repeat after a few."""
+        keys, every = self._file.evaluation.keys, self._equal[name]
+        addresses = self._addresses(name)
+        for first in range(every):
+            rows = addresses[first::every]
+            counts = Counter(keys[address] for address in rows)
+            alone = [address for address in rows if counts[keys[address]] == 1]
+            if len(alone) == 1 and len(rows) >= _LEAST and sorted(counts.values())[1] >= _OFTEN:
+                usual = counts.most_common(1)[0]
+                other = next(address for address in rows if keys[address] == usual[0])
+                slip = slip_between(keys[alone[0]], usual[0]) or "not"
+                self._found[name] = self._finding(alone[0], other, usual[1], slip)
+
+    def _look_at(self, name: str) -> None:
+        keys, addresses = self._file.evaluation.keys, self._addresses(name)
         counts = Counter(keys[address] for address in addresses)
         alone = [key for key, count in counts.items() if count == 1]
         if (

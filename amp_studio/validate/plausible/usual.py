@@ -75,9 +75,12 @@ class _Known:
 def _facts(schema: Schema) -> dict[str, _Known]:
     found = {}
     for parameter in schema.parameters.values():
-        if parameter.type not in ("integer", "real") or parameter.secret or parameter.access == "read":
-            continue
         usual = schema.plausible.usual.get(parameter.id)
+        is_choice = usual is not None and bool(usual.choices)
+        if parameter.type not in ("integer", "real") and not is_choice:
+            continue
+        if parameter.secret or parameter.access == "read":
+            continue
         spans = {
             dimension(unit): (canonical(low, unit), canonical(high, unit))
             for unit, (low, high) in (usual.between if usual else {}).items()
@@ -112,11 +115,7 @@ class UsualValues:
         facts, state = self._facts, self._file.evaluation.state
         for address, value in self._file.values.items():
             known = facts.get(address[0])
-            if (
-                known is None
-                or isinstance(value.value, (bool, str))
-                or (value.value, value.unit) in known.fine
-            ):
+            if known is None or (value.value, value.unit) in known.fine:
                 continue
             what = _doubt(known, value)
             if not what:
@@ -131,7 +130,7 @@ class UsualValues:
             return False
         before = self._found.pop(address, None)
         value = self._file.values.get(address)
-        if value is not None and not isinstance(value.value, (bool, str)):
+        if value is not None:
             what = _doubt(facts, value)
             if what and self._file.evaluation.state(address).is_active:
                 self._found[address] = self._finding(facts, address, value, what)
@@ -149,7 +148,10 @@ class UsualValues:
 
 def _doubt(facts: _Known, value: Value) -> str:
     """Return what is unusual about a number, in words; "" for nothing."""
-    number, usual = float(value.value), facts.usual
+    usual = facts.usual
+    if isinstance(value.value, (bool, str)):
+        return _doubt_of_choice(facts.parameter, usual, value.value) if usual is not None else ""
+    number = float(value.value)
     measures = dimension(value.unit)
     if usual is not None and number not in usual.also:
         if usual.among:
@@ -170,3 +172,11 @@ def _doubt(facts: _Known, value: Value) -> str:
     if number < 0 and not facts.signed and measures in _NEVER_NEGATIVE:
         return f"a negative {measures} has no meaning"
     return ""
+
+
+def _doubt_of_choice(parameter: Parameter, usual: Usual, value: bool | str) -> str:
+    """Return what is unusual about a choice, in words; "" for nothing."""
+    key = ("yes" if value else "no") if isinstance(value, bool) else value
+    if not usual.choices or key in usual.choices:
+        return ""
+    return f"usual is {' or '.join(c.label for c in parameter.choices or () if c.key in usual.choices)}"

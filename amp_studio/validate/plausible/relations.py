@@ -1,0 +1,255 @@
+"""Parameters that belong together: equal as a rule, rising by one factor, or below a greatest speed."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Sequence
+from functools import partial
+from typing import NamedTuple
+
+from amp_studio.files import ParameterFile
+from amp_studio.schema import Address, Quotient, canonical, dimension, show_value, unit_text, write_figure
+from amp_studio.validate.finding import Finding
+
+from .slip import slip_between
+
+UNEQUAL, LADDER, ABOVE = "plausible.unequal", "plausible.ladder", "plausible.above-rapid"
+QUOTIENT, NEEDS = "plausible.quotient", "plausible.needs"
+EQUAL_REASON = (
+    "ours, not the manual's: these are equal as a rule, and a slip parts them more often than a wish"
+)
+LADDER_REASON = "ours, not the manual's: steps of speeds and increments rise by one factor as a rule"
+ABOVE_REASON = "ours, not the manual's: homing and jogging are slower than a rapid move as a rule"
+QUOTIENT_REASON = "ours, not the manual's: on most machines these two are nearer to each other"
+NEEDS_REASON = "ours, not the manual's: the one does nothing without the other"
+_TWICE = (2.0, 0.5)
+_AGREE = 1.3
+"""Factors of a ladder that are one up to this."""
+_OFF = 1.9
+"""Times the factor of the rest from which a value does not belong in its ladder."""
+
+
+class _Seen(NamedTuple):
+    """One active value."""
+
+    address: Address
+    number: float | str | bool
+    measures: str
+
+
+class Relations:
+    """What belongs together in one file, as the facts of its family name it."""
+
+    def __init__(self, file: ParameterFile) -> None:
+        self._file, facts = file, file.schema.plausible
+        self._checks: list[Callable[[], list[Finding]]] = []
+        self._of: dict[str, list[int]] = {}
+        """Parameter -> the checks that read it."""
+        for names in facts.same:
+            self._add(names, partial(self._same, names))
+        for pair in facts.twins:
+            self._add(pair, partial(self._twins, pair))
+        for names in facts.ladders:
+            self._add(names, partial(self._ladder, names))
+        for quotient in facts.quotients:
+            self._add((quotient.of, quotient.over), partial(self._quotient, quotient))
+        for pair in facts.needs.items():
+            self._add(pair, partial(self._needs, pair))
+        for one in facts.not_above:
+            self._add((one.limit, *one.are), partial(self._above, one.limit, one.are))
+        self._found: list[list[Finding]] = [[] for _ in self._checks]
+
+    def _add(self, names: Sequence[str], check: Callable[[], list[Finding]]) -> None:
+        for name in names:
+            self._of.setdefault(name, []).append(len(self._checks))
+        self._checks.append(check)
+
+    def look_at_all(self) -> None:
+        """Make every check."""
+        self._found = [check() for check in self._checks]
+
+    def look_again(self, address: Address) -> bool:
+        """Make the checks of one value again; returns whether anything is otherwise."""
+        is_other = False
+        for n in self._of.get(address[0], ()):
+            found = self._checks[n]()
+            is_other |= found != self._found[n]
+            self._found[n] = found
+        return is_other
+
+    def findings(self) -> Iterator[Finding]:
+        """Yield what was found."""
+        for found in self._found:
+            yield from found
+
+    def _seen(self, name: str) -> dict[str, _Seen]:
+        """Return the active values of a parameter by instance, in the order of the schema."""
+        values, state = self._file.values, self._file.evaluation.state
+        schema, seen = self._file.schema, {}
+        for instance in schema.on(self._file.machine).instances(schema.parameters[name]):
+            value = values.get((name, instance))
+            if value is None or not state((name, instance)).is_active:
+                continue
+            number = (
+                value.value
+                if isinstance(value.value, bool | str)
+                else float(canonical(value.value, value.unit))
+            )
+            seen[instance] = _Seen((name, instance), number, dimension(value.unit))
+        return seen
+
+    def _rows(self, names: Sequence[str]) -> Iterator[list[_Seen]]:
+        """Yield the values of one instance that measure the same."""
+        columns = [self._seen(name) for name in names]
+        for instance in columns[0]:
+            row = [column[instance] for column in columns if instance in column]
+            if len({one.measures for one in row}) == 1:
+                yield row
+
+    def _same(self, names: Sequence[str]) -> list[Finding]:
+        found = []
+        for row in self._rows(names):
+            counts = [sum(other.number == one.number for other in row) for one in row]
+            alone = [one for one, count in zip(row, counts, strict=True) if count == 1]
+            if len(row) > 2 and len(alone) == 1 and max(counts) == len(row) - 1:
+                found.append(self._unequal(alone, next(one for one in row if one is not alone[0])))
+            elif len(row) == 2 and _is_slip(row[0].number, row[1].number):
+                found.append(self._unequal(row, None))
+        return found
+
+    def _twins(self, pair: tuple[str, str]) -> list[Finding]:
+        left, right = (list(self._seen(name).values()) for name in pair)
+        if len(left) != len(right):
+            return []
+        return [
+            self._unequal([a, b], None)
+            for a, b in zip(left, right, strict=True)
+            if a.measures == b.measures and a.number != b.number
+        ]
+
+    def _ladder(self, names: Sequence[str]) -> list[Finding]:
+        found = []
+        for row in self._rows(names):
+            numbers = [one.number for one in row if isinstance(one.number, float) and one.number > 0]
+            if len(numbers) == len(names) and (n := misfit(numbers)) is not None:
+                found.append(self._out_of_ladder(row, n))
+        return found
+
+    def _above(self, limit: str, names: Sequence[str]) -> list[Finding]:
+        limits, found = self._seen(limit), []
+        for one in (one for name in names for one in self._seen(name).values()):
+            own = limits.get(one.address[1])
+            all_of = [own] if own is not None else list(limits.values())
+            greatest = [each for each in all_of if each.measures == one.measures]
+            if not greatest or isinstance(one.number, bool | str):
+                continue
+            most = max(greatest, key=lambda each: float(each.number))
+            if 0 < float(most.number) < abs(one.number):
+                found.append(self._too_fast(one, most))
+        return found
+
+    def _quotient(self, fact: Quotient) -> list[Finding]:
+        found, others = [], self._seen(fact.over)
+        low, high = fact.between
+        for instance, one in self._seen(fact.of).items():
+            own = [others[instance]] if instance in others else list(others.values())
+            numbers = [
+                (abs(other.number), other)
+                for other in own
+                if isinstance(other.number, float)
+                and other.number
+                and other.measures.startswith("angular") == one.measures.startswith("angular")
+            ]
+            if not numbers or not isinstance(one.number, float) or not one.number:
+                continue
+            if not any(low * number <= abs(one.number) <= high * number for number, _ in numbers):
+                number, other = max(numbers, key=lambda pair: pair[0])
+                found.append(self._out_of_proportion(one, other, (low * number, high * number)))
+        return found
+
+    def _needs(self, pair: tuple[str, str]) -> list[Finding]:
+        name, needed = pair
+        values, evaluation = self._file.values, self._file.evaluation
+        here = self._file.schema.on(self._file.machine)
+        return [
+            Finding(
+                NEEDS,
+                "advice",
+                (one.address,),
+                f"{self._text(one)}, and {here.label((needed, instance))} is not set. Is it meant?",
+                compared=((needed, instance),),
+                reason=NEEDS_REASON,
+            )
+            for instance, one in self._seen(name).items()
+            if (needed, instance) not in values and evaluation.state((needed, instance)).is_active
+        ]
+
+    def _text(self, one: _Seen) -> str:
+        """Return ``Rapid (1) is 5 mm/min``, as every finding names a value."""
+        schema = self._file.schema
+        value = show_value(schema.parameters[one.address[0]], self._file.values[one.address])
+        return f"{schema.on(self._file.machine).label(one.address)} is {value}"
+
+    def _unequal(self, causes: Sequence[_Seen], other: _Seen | None) -> Finding:
+        texts = " and ".join(map(self._text, (*causes, *([other] if other else []))))
+        message = f"{texts}; as a rule they are equal. Is it meant?"
+        compared = (other.address,) if other else ()
+        addresses = tuple(one.address for one in causes)
+        return Finding(UNEQUAL, "advice", addresses, message, compared=compared, reason=EQUAL_REASON)
+
+    def _out_of_ladder(self, row: Sequence[_Seen], n: int) -> Finding:
+        beside = [row[m] for m in (n - 1, n + 1) if 0 <= m < len(row)]
+        texts = " and ".join(map(self._text, beside))
+        message = f"{self._text(row[n])} beside {texts}: the others rise by one factor. Is it meant?"
+        compared = tuple(one.address for one in beside)
+        return Finding(LADDER, "advice", (row[n].address,), message, compared=compared, reason=LADDER_REASON)
+
+    def _out_of_proportion(self, one: _Seen, other: _Seen, usual: tuple[float, float]) -> Finding:
+        unit = self._file.values[one.address].unit
+        low, high = (write_figure(float(f"{bound / canonical(1.0, unit):.2g}")) for bound in usual)
+        both = f"{self._text(one)}, and {self._text(other)}"
+        message = f"{both}: beside it usual is {low} to {high} {unit_text(unit)}".rstrip()
+        return Finding(
+            QUOTIENT,
+            "advice",
+            (one.address, other.address),
+            f"{message}. Is it meant?",
+            reason=QUOTIENT_REASON,
+        )
+
+    def _too_fast(self, one: _Seen, most: _Seen) -> Finding:
+        message = f"{self._text(one)}, and {self._text(most)}: it is faster than a rapid move. Is it meant?"
+        return Finding(
+            ABOVE, "advice", (one.address,), message, compared=(most.address,), reason=ABOVE_REASON
+        )
+
+
+def _is_slip(a: float | str | bool, b: float | str | bool) -> bool:
+    """Return whether one of two became the other by a slip, or was doubled."""
+    if isinstance(a, bool | str) or isinstance(b, bool | str):
+        return a != b
+    if a != b and b and any(abs(a / b - factor) < 1e-9 for factor in _TWICE):
+        return True
+    return bool(slip_between(a, b) or slip_between(b, a))
+
+
+def misfit(numbers: Sequence[float]) -> int | None:
+    """Return the place of the one value that does not rise by the factor of the others.
+
+    Without it every step must be nearly of one factor. The first and the last may be lower: a ladder of
+    speeds often begins with a creep speed and ends at the greatest speed of the axis.
+    """
+    last = len(numbers) - 1
+    for n in range(len(numbers)):
+        steps = [numbers[m + 1] / numbers[m] for m in range(last) if n not in (m, m + 1)]
+        if len(steps) < 2 or max(steps) > _AGREE * min(steps) or min(steps) <= 1:
+            continue
+        usual = (max(steps) * min(steps)) ** 0.5
+        if 0 < n < last:
+            across = numbers[n + 1] / numbers[n - 1]
+            if not usual**2 / _AGREE <= across <= usual**2 * _AGREE:
+                continue
+        wanted = numbers[n - 1] * usual if n else numbers[1] / usual
+        ratio = numbers[n] / wanted
+        if ratio >= _OFF or (ratio <= 1 / _OFF and 0 < n < last):
+            return n
+    return None

@@ -1,0 +1,118 @@
+"""A table of the steps of one motion: whether it comes back to where it began, or turns back once.
+
+A motion that runs again and again and ends a little beside its beginning drifts by as much each time; one
+that goes one way, but for a single step, has the sign of that step wrong.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from amp_studio.files import ParameterFile
+from amp_studio.schema import Address, Value, show_value
+from amp_studio.validate.finding import Finding
+
+NOT_CLOSED, TURN_BACK = "plausible.not-closed", "plausible.turn-back"
+REASON = (
+    "ours, not the manual's: a motion that runs again and again comes back to where it began, or goes one way"
+    " only"
+)
+_LEAST = 8
+"""Steps of a table from which its course is known."""
+_NEARLY = 0.25
+"""The part of the way that may be missing at its end in a motion that was meant to come back."""
+
+
+class _Motion:
+    """The steps of one table: sums and places of those forward and backward."""
+
+    def __init__(self, steps: dict[Address, float]) -> None:
+        self.steps = steps
+        self.forward = sum(step for step in steps.values() if step > 0)
+        self.backward = -sum(step for step in steps.values() if step < 0)
+        self.behind = {address for address, step in steps.items() if step < 0}
+        self.ahead = {address for address, step in steps.items() if step > 0}
+
+    def change(self, address: Address, step: float) -> None:
+        """Take another step."""
+        old = self.steps[address]
+        self.steps[address] = step
+        self.forward += max(step, 0.0) - max(old, 0.0)
+        self.backward += max(-step, 0.0) - max(-old, 0.0)
+        for places, belongs in ((self.ahead, step > 0), (self.behind, step < 0)):
+            (places.add if belongs else places.discard)(address)
+
+
+class StepTables:
+    """The tables of steps of one file, as the facts of its family name them."""
+
+    def __init__(self, file: ParameterFile) -> None:
+        self._file, self._names = file, frozenset(file.schema.plausible.steps)
+        self._motions: dict[Address, _Motion] = {}
+        """Parameter and axis -> its motion."""
+
+    def look_at_all(self) -> None:
+        """Look at every table."""
+        self._motions.clear()
+        if not self._names:
+            return
+        parts: dict[Address, dict[Address, float]] = {}
+        for address in self._file.addresses():
+            if address[0] in self._names and (step := self._step(address)) is not None:
+                parts.setdefault(_whole(address), {})[address] = step
+        self._motions = {whole: _Motion(steps) for whole, steps in parts.items()}
+
+    def look_again(self, address: Address) -> bool:
+        """Look at one step again; returns whether anything is otherwise."""
+        if address[0] not in self._names:
+            return False
+        step, motion = self._step(address), self._motions.get(_whole(address))
+        if step is None or motion is None or address not in motion.steps:
+            self.look_at_all()
+        else:
+            motion.change(address, step)
+        return True
+
+    def _step(self, address: Address) -> float | None:
+        value = self._file.values.get(address)
+        if value is None or isinstance(value.value, (bool, str)):
+            return None
+        return float(value.value) if self._file.evaluation.state(address).is_active else None
+
+    def findings(self) -> Iterator[Finding]:
+        """Yield each motion that nearly comes back, and each single step back."""
+        for whole, motion in self._motions.items():
+            if len(motion.steps) < _LEAST:
+                continue
+            fewer = min(motion.ahead, motion.behind, key=len)
+            most = max(motion.forward, motion.backward)
+            rest = motion.forward - motion.backward
+            if len(fewer) == 1 and len(motion.ahead) + len(motion.behind) >= _LEAST:
+                yield self._turning_back(next(iter(fewer)))
+            elif fewer and 1e-9 * most < abs(rest) <= _NEARLY * most:
+                yield self._not_closed(whole, motion, rest)
+
+    def _turning_back(self, address: Address) -> Finding:
+        schema = self._file.schema
+        text = show_value(schema.parameters[address[0]], self._file.values[address])
+        message = (
+            f"{schema.on(self._file.machine).label(address)} is {text}: the only step of its table in that"
+            " direction. Is it meant?"
+        )
+        return Finding(TURN_BACK, "advice", (address,), message, reason=REASON)
+
+    def _not_closed(self, whole: Address, motion: _Motion, rest: float) -> Finding:
+        parameter = self._file.schema.parameters[whole[0]]
+        first, last = next(iter(motion.steps)), next(reversed(motion.steps))
+        unit = self._file.values[last].unit
+        beside = show_value(parameter, Value(round(rest) if rest.is_integer() else rest, unit))
+        label = self._file.schema.on(self._file.machine).label(last)
+        message = (
+            f"{label}: the steps up to here lead to {beside} beside where they began; run again and again,"
+            " the axis drifts by as much each time. Is it meant?"
+        )
+        return Finding(NOT_CLOSED, "advice", (last,), message, compared=(first,), reason=REASON)
+
+
+def _whole(address: Address) -> Address:
+    return address[0], address[1].rpartition(".")[0]
