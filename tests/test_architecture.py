@@ -9,6 +9,7 @@ import itertools
 import os
 import re
 import shutil
+import string
 import subprocess
 import sys
 import textwrap
@@ -635,3 +636,29 @@ def test_the_formatter_decides(checkout: Path, folder: str) -> None:
     pragma = re.compile("# fmt" + ": (skip|off)")
     paths = sorted((checkout / folder).rglob("*.py"))
     assert [str(path) for path in paths if pragma.search(path.read_text("utf-8"))] == []
+
+
+def _texts_of(node: ast.expr) -> Iterator[str]:
+    """Yield the texts that a ``format`` is asked of, in the window inside ``tr(...)``."""
+    if isinstance(node, ast.Constant) and isinstance(node.value, str):
+        yield node.value
+    elif isinstance(node, ast.Call) and ast.unparse(node.func).rpartition(".")[2] == "tr":
+        yield from (text for argument in node.args for text in _texts_of(argument))
+    elif isinstance(node, ast.IfExp):
+        yield from _texts_of(node.body)
+        yield from _texts_of(node.orelse)
+
+
+def test_every_place_of_a_text_is_filled_in(checkout: Path) -> None:
+    """A ``format`` whose argument has another name than the place in the text ends in a KeyError on the screen."""
+    empty = [
+        f"{path.relative_to(checkout)}:{node.lineno}: {text}"
+        for path in sorted((checkout / "amp_studio").rglob("*.py"))
+        for node in nodes_of(path)
+        if isinstance(node, ast.Call) and isinstance(node.func, ast.Attribute) and node.func.attr == "format"
+        if all(keyword.arg for keyword in node.keywords)
+        for text in _texts_of(node.func.value)
+        for _, place, _, _ in string.Formatter().parse(text)
+        if place and place.isidentifier() and place not in {keyword.arg for keyword in node.keywords}
+    ]
+    assert empty == []

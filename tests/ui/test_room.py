@@ -87,7 +87,7 @@ def test_columns_with_nothing_to_say_are_not_shown(opened) -> None:
     view = window.table_view
     assert not window.table.has_numbers
     assert view._corner.number_width == 0
-    assert not window.table.shows_commands
+    assert not window.table.fact_columns
     assert "read by Save" in window.page.list_title.text(), "what holds for every row is said once"
 
 

@@ -25,7 +25,7 @@ MOST_FROZEN = 1 / 3
 """Share of the table that numbers and names have at most: what stays while the axes scroll."""
 _MOST_TEXT, _LEAST_TEXT = 300, 120
 """Width of a column of texts that anybody may have typed, which may be a page long."""
-_MOST_COMMAND = 300
+_MOST_FACT = 300
 
 
 @dataclass(frozen=True, slots=True)
@@ -67,10 +67,10 @@ def content_widths(table: ParameterTable, painter: CellPainter) -> ContentWidths
     short = [_widest(painter, column, slot, is_short=True) for column, slot in zip(looks, slots, strict=True)]
     if table.has_block:
         full[0] = short[0] = 1  # its cells lie across all columns
-    if table.shows_commands:
-        command = _widest_text([table.command(n) for n in range(len(table.rows))]) + 2 * GAP3
-        full.append(min(command, _MOST_COMMAND))
-        short.append(min(command, _LEAST_TEXT))
+    for column in table.fact_columns:
+        fact = _widest_text([column.title(), *(table.fact(n, column) for n in every)]) + 2 * GAP3
+        full.append(min(fact, _MOST_FACT))
+        short.append(min(fact, _LEAST_TEXT))
     return ContentWidths(_number_width(table), _names_width(table, every), full, short, slots, block)
 
 

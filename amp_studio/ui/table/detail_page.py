@@ -126,7 +126,7 @@ class DetailPage(Translated):
         unit = self._workspace.typed_unit(address)
         found = limits(file.evaluation, address, unit)
         if found is None:
-            return self.tr("no bounds printed, in {shown}").format(value_html=unit_text(unit)) if unit else ""
+            return self.tr("no bounds printed, in {shown}").format(shown=unit_text(unit)) if unit else ""
         sources = [s for s in (found.low_from, found.high_from) if s]
         text = sentence(found.text()) + "".join(
             self.tr(" (set by {name})").format(name=file.machine_schema.label(s)) for s in sources

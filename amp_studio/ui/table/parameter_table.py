@@ -20,6 +20,7 @@ from amp_studio.ui.base.translated import worded
 from amp_studio.ui.base.workspace import Workspace
 
 from .cell_look import CellLook, ShownValues, say_unit_once
+from .fact_columns import FACT_COLUMNS, FactColumn, reading_command
 
 Index = QModelIndex | QPersistentModelIndex
 AddressRole = Qt.ItemDataRole.UserRole + 1
@@ -78,8 +79,8 @@ class ParameterTable(QAbstractTableModel):
         self._filter: RowFilter | None = None
         self._unfiltered: list[list[Address]] | None = None
         """What ``unfiltered`` returns, until rows or columns may be others."""
-        self._commands: frozenset[str] = frozenset()
-        """The commands that make the control read the values of the rows; empty text where none is needed."""
+        self.fact_columns: list[FactColumn] = []
+        """The columns behind the values: those in which rows differ."""
         self._axis_heads: dict[str, tuple[str, str]] = {}
         """Column -> its head, until a value changes."""
         self._heads: dict[int, str] = {}
@@ -145,7 +146,7 @@ class ParameterTable(QAbstractTableModel):
         self.beginResetModel()
         self.columns = columns
         self.rows = self._rows(columns) if rows is None else rows
-        self._commands = frozenset(self.command(n) for n, row in enumerate(self.rows) if not row.section)
+        self.fact_columns = [c for c in FACT_COLUMNS if self.columns and len(self._facts(c)) > 1]
         self._forget_heads()
         self._axis_heads.clear()
         self._looks.clear()
@@ -215,19 +216,23 @@ class ParameterTable(QAbstractTableModel):
             *of_axes,
         ]
 
-    @property
-    def shows_commands(self) -> bool:
-        """Whether the last column shows the command that makes the control read a value:
-        where rows differ in it.
-        """
-        return bool(self.columns) and len(self._commands) > 1
+    def _facts(self, column: FactColumn) -> set[str]:
+        """Return what a column behind the values has of all rows."""
+        return {self.fact(row, column) for row in range(len(self.rows)) if not self.rows[row].section}
+
+    def fact(self, row: int, column: FactColumn) -> str:
+        """Return what a column behind the values has of a row; nothing of the head of a section."""
+        shown = self.rows[row]
+        return "" if shown.section else column.text(self.workspace.file.schema, shown.parameter)
 
     @property
     def common_command(self) -> str:
         """The command that makes the control read every row; empty where there is none, or not one for
         all.
         """
-        return next(iter(self._commands)) if len(self._commands) == 1 else ""
+        schema = self.workspace.file.schema
+        found = {reading_command(schema, row.parameter) for row in self.rows if not row.section}
+        return found.pop() if len(found) == 1 else ""
 
     @property
     def has_block(self) -> bool:
@@ -244,12 +249,6 @@ class ParameterTable(QAbstractTableModel):
     def has_numbers(self) -> bool:
         """Whether any row has a number; a family may have names alone."""
         return any(self.number(n) not in ("", _NO_NUMBER) for n in range(len(self.rows)))
-
-    def command(self, row: int) -> str:
-        """Return the command that makes the control read the values of a row."""
-        shown = self.rows[row]
-        effect = shown.parameter.effect or self.workspace.file.schema.family.effect
-        return effect.command or "" if effect.level == "command" and not shown.section else ""
 
     def address_at(self, row: int, column: int) -> Address | None:
         """Return the address a cell shows; None where the parameter has no such instance."""
@@ -323,7 +322,7 @@ class ParameterTable(QAbstractTableModel):
         return 0 if parent.isValid() else len(self.rows)
 
     def columnCount(self, parent: Index = QModelIndex()) -> int:  # noqa: B008  # Qt's own signature
-        return 0 if parent.isValid() else len(self.columns) + self.shows_commands
+        return 0 if parent.isValid() else len(self.columns) + len(self.fact_columns)
 
     def headerData(
         self, section: int, orientation: Qt.Orientation, role: int = Qt.ItemDataRole.DisplayRole
@@ -339,7 +338,7 @@ class ParameterTable(QAbstractTableModel):
         "Control")``.
         """
         if column >= len(self.columns):
-            return "", self.tr("Read by")
+            return "", self.fact_columns[column - len(self.columns)].title()
         name = self.columns[column]
         if name not in self._axis_heads:
             label = self.workspace.file.schema.family.scopes["global"].label
@@ -403,8 +402,9 @@ class ParameterTable(QAbstractTableModel):
     def data(self, index: Index, role: int = Qt.ItemDataRole.DisplayRole) -> Any:
         if not index.isValid():
             return None
-        if index.column() == len(self.columns):
-            return self.command(index.row()) if role == Qt.ItemDataRole.DisplayRole else None
+        if index.column() >= len(self.columns):
+            column = self.fact_columns[index.column() - len(self.columns)]
+            return self.fact(index.row(), column) if role == Qt.ItemDataRole.DisplayRole else None
         address = self.address_at(index.row(), index.column())
         return None if address is None else self._cell(address, role)
 

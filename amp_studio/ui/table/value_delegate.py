@@ -94,7 +94,7 @@ class ValueDelegate(QStyledItemDelegate):
                 is_selected=bool(state & QStyle.StateFlag.State_Selected),
                 is_hovered=bool(state & QStyle.StateFlag.State_MouseOver),
             )
-        elif column == len(self._table.columns):
+        elif column >= len(self._table.columns):
             super().paint(painter, option, index)
         else:
             self.painter.paint_background(painter, place, "panel")
