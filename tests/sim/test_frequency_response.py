@@ -13,7 +13,7 @@ from amp_studio import cli
 from amp_studio.files import open_file
 from amp_studio.sim import SimulationError, identify_response, machine_settings, simulate
 from amp_studio.sim.identification.machine_file import machine_for, machine_text, read_machine, write_machine
-from amp_studio.sim.identification.plant_fit import fit_plant
+from amp_studio.sim.identification.plant_fit import _Shape, fit_plant
 from amp_studio.sim.identification.response import coherent, response_of_text
 
 MILL = Path(__file__).parents[2] / "examples" / "mill-1394" / "MILL_1394.amp"
@@ -153,3 +153,17 @@ def test_a_chirp_is_answered_by_h1_within_three_percent(tmp_path: Path) -> None:
 def test_what_is_no_response_is_one_sentence(text: str, said: str) -> None:
     with pytest.raises(SimulationError, match=said):
         response_of_text(text)
+
+
+@pytest.mark.parametrize("at_load", [False, True])
+def test_the_slopes_of_the_fit_are_those_of_its_model(at_load: bool) -> None:
+    """The formula of each slope against differences of the logarithm, with two pairs."""
+    shape = _Shape("velocity", at_load, 2)
+    s = 2j * np.pi * np.geomspace(3.0, 300.0, 40)
+    there = np.array([4.0, 0.3, 1.5, 5.0, 0.2, -3.0, -3.5, 6.2, -0.4, -2.5, -3.0])
+    found = shape.slopes(there, s)
+    for n, row in enumerate(found):
+        aside = np.zeros_like(there)
+        aside[n] = 1e-5
+        more, less = shape.response(there + aside, s), shape.response(there - aside, s)
+        assert row == pytest.approx(np.log(more / less) / 2e-5, rel=1e-5, abs=1e-7)
