@@ -57,15 +57,15 @@ READERS = {
     "cli/checks/cache.py": "damaged results of checks",
     "cli/checks/formats.py": "",  # what the program itself has printed
     "cli/console.py": "odd values",
-    "cli/verbs/checks/diff.py": "damaged control image",
     "cli/verbs/checks/validate.py": "damaged parameter file",
-    "cli/verbs/controls/identify.py": "damaged control image",
     "cli/verbs/controls/upload.py": "damaged control image",
     "families/acromill/emulated/card_motion.py": "",  # what the emulated card itself has written
     "cli/out_of_range.py": "",  # whether somebody is at the terminal
     "cli/verbs/controls/send.py": "",  # carries any bytes as they are
     "cli/program.py": "odd command lines",
     "cli/screen.py": "",  # gives the streams, reads nothing
+    "control.py": "damaged control image",
+    "languages/catalogue.py": "",  # texts of the program itself
     "dossier.py": "",  # what the program itself has written for its other process
     "demo.py": "",  # whether there is a display
     "families/grblhal/driver.py": "damaged answers of a Grbl control",

@@ -18,8 +18,8 @@ UPLOADS = """
 import os, sys
 from pathlib import Path
 from amp_studio import cli
-from amp_studio.transfer.client import parameters
-parameters.fetch_image = lambda *_: b"what a control contains" * 100
+from amp_studio import control
+control.fetch_image = lambda *_, **__: b"what a control contains" * 100
 root = Path(sys.argv[1])
 for at in range(1, 100):
     folder, log = root / str(at), root / f"{at}.log"

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
@@ -56,7 +57,7 @@ def test_what_was_exported_once_comes_back_the_same_ever_after(path: Path, key: 
     again = export_file(once, tmp_path / "again", key, secrets=True).account
     assert again.rounded == ()
     if not first.account.not_representable:  # else what decides which values exist is not in the text
-        assert again == Account(len(once.values))
+        assert replace(again, format="") == Account(len(once.values))
 
 
 def test_a_register_gives_back_the_number_that_was_entered() -> None:

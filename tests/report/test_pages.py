@@ -14,8 +14,9 @@ import pytest
 from amp_studio.files import ParameterFile
 from amp_studio.files.notes import set_value_note
 from amp_studio.files.storage import save_file
-from amp_studio.report import Chapter, Contents, PrintedFigure, print_report
+from amp_studio.report import Contents, PrintedFigure, print_report
 from amp_studio.report.build import build_report
+from amp_studio.report.contents import Chapter
 from amp_studio.report.model import Listing, Report
 from amp_studio.report.output.pdf import render_pdf
 from amp_studio.report.rows import rows_of

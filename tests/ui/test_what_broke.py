@@ -10,7 +10,7 @@ import pytest
 from PySide6.QtCore import QEvent, QFile, Qt, QTimer
 from PySide6.QtGui import QGuiApplication
 from PySide6.QtTest import QTest
-from PySide6.QtWidgets import QApplication, QDialog, QWidget
+from PySide6.QtWidgets import QApplication, QComboBox, QDialog, QWidget
 from pytestqt.qtbot import QtBot
 
 from amp_studio.files import Merge, Project, ProjectInfo
@@ -102,7 +102,7 @@ def test_tab_down_tab_down_chooses_both_types_of_a_servo(window: MainWindow) -> 
     dialog = AxisDialog(window.workspace, "Configure servo", "1", window)
     dialog.ask_for(["servo.hardware_type", "servo.loop_type"])
     dialog.show()
-    dialog.axis_box.setFocus()
+    dialog.form.editor("axis", QComboBox).setFocus()
     for _ in range(2):
         QTest.keyClick(dialog.focusWidget(), Qt.Key.Key_Tab)
         QTest.keyClick(dialog.focusWidget(), Qt.Key.Key_Down)

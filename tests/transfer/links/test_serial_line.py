@@ -89,7 +89,7 @@ def test_flow_control_of_the_port_waits_for_xon_and_can_be_broken_off(
     link.write(b"before")
     assert os.read(port[0], 100) == b"before"
     os.write(port[0], XOFF)
-    monkeypatch.setattr(link, "_held_limit", 0.3)
+    monkeypatch.setattr(link, "_flow_limit", 0.3)
     with pytest.raises(LinkError, match=r"the other end has taken nothing for 0\.3 s"):
         link.write(bytes(100_000))
     assert len(looked) >= 3, "whoever waits can break it off"
@@ -183,11 +183,11 @@ def test_what_a_port_has_not_sent_yet_is_waited_for(monkeypatch: pytest.MonkeyPa
     link.drain()
     assert waiting == [0]
     waiting[:] = [5]
-    monkeypatch.setattr(link, "_held_limit", 0.1)
+    monkeypatch.setattr(link, "_flow_limit", 0.1)
     with pytest.raises(LinkError, match=r"has taken nothing for 0\.1 s"):
         link.drain()
     waiting[:] = [9, 9, 9, 5, 5, 0]
-    monkeypatch.setattr(link, "_held_limit", FLOW_LIMIT)
+    monkeypatch.setattr(link, "_flow_limit", FLOW_LIMIT)
     link.close()
     assert (waiting, flushed) == ([0], [])
     held = SerialLink(parse_endpoint("COM3?flow=rtscts"), Slow())
