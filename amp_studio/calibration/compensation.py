@@ -108,7 +108,7 @@ class Compensation:
     ``table``      its calibration table; None for none
     ``pages``      what is tuned at the machine besides
     ``follow``     values that the control changes by itself after one of them is changed: id -> (id,
-    choice or text)
+                   choice or text)
     """
 
     reversal: str = ""

@@ -45,10 +45,10 @@ class Measurement:
     ``unit``     of positions and errors: mm, deg or counts
     ``answers``  what was used, with what the file itself has answered
     ``assumed``  names of the answers that neither the file nor a person gave: to be asked before anything is
-    written
+                 written
     ``notes``    sentences that a person has to know
     ``is_circle``  runs are circles of a ball-bar: positions are degrees, errors those of the radius,
-    rising is counterclockwise
+                   rising is counterclockwise
     """
 
     runs: tuple[MeasuredRun, ...]

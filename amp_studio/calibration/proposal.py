@@ -42,7 +42,7 @@ class Wish:
     ``was_on``  whether the axis was measured with its compensation on; None for not answered
     ``circle``  which axis of a ball-bar's circle it is, "first" or "second"; "" for not answered
     ``input``, ``start``  as the control's screen asks them, "" for what the present table has,
-    else the usual one
+                          else the usual one
     """
 
     was_on: bool | None = None
@@ -60,7 +60,7 @@ class Proposal:
     ``settings``  the values to set
     ``before``    mean errors as measured, ``after`` as expected; ``True`` for the rising direction
     ``reversal``  lost motion that is compensated now and that is proposed;
-    None where there is nothing to propose
+                  None where there is nothing to propose
     """
 
     axis: str

@@ -19,7 +19,7 @@ class RawTable:
     """What a file contains, before units and sign are applied.
 
     ``is_circle``  positions are angles of a circle and the figures its radius less the nominal one: a
-    ball-bar
+                   ball-bar
     ``kind`` of the figures: measured, error or correction;
     ``unit`` and ``error_unit`` as far as the file names them.
     """

@@ -11,7 +11,7 @@ from typing import Literal
 from amp_studio.errors import AmpStudioError
 from amp_studio.schema import quoted
 
-from .description import MigrationQuestion
+from .description import AxisMeaning, MigrationQuestion
 
 GradeKind = Literal["exact", "approximate", "not_possible"]
 _STEP = Decimal("0.000001")
@@ -28,7 +28,7 @@ class Graded:
 
     ``key``, ``value``   of the new control, as they are written
     ``old``, ``new``     how either control behaves, and ``safe_side`` which of them is safe, of what is
-    approximate
+                         approximate
     ``loses``, ``do``    what the machine loses, and what to do, of what is not possible
     """
 
@@ -62,6 +62,12 @@ class WrittenMachine:
     asked: list[MigrationQuestion] = field(default_factory=list)
     less_safe: list[str] = field(default_factory=list)
     measure: list[str] = field(default_factory=list)
+
+    def grade(
+        self, axis: AxisMeaning, concept: str, outcome: GradeKind, *written: str, **reasons: str
+    ) -> None:
+        """Grade one concept of an axis; key, value and reasons as in ``Graded``."""
+        self.graded.append(Graded(axis.letter, concept, outcome, *written, **reasons))
 
     def answer(self, question: MigrationQuestion, answers: Mapping[str, str], form: str = ".*") -> str:
         """Return the answer to a question, "" where it is open;

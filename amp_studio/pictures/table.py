@@ -21,7 +21,7 @@ class CurveText:
 
     ``read``      letter of the axis, text -> the points; raises ValueError for a text that is no table
     ``write``     letter, points, the text before ("" for a new table), unit of a new one -> the text; raises
-    ValueError for
+                  ValueError for
                   points that the control does not take, with the reason
     ``unit``      text -> the unit of its figures; "" for that of the axis
     ``put_in``    points, point -> the points with one more; raises ValueError where none can be

@@ -72,7 +72,7 @@ class DescribedParameter:
     """One parameter as a control describes it; what it does not state is empty.
 
     ``number``  its own; ``base`` that of the first axis, by which it is known: the same for a parameter of
-    the control
+                the control
     ``axis``    the letter of its axis; ``name`` is without it, ``whole_name`` with it
     ``kind``    its type: boolean, bits, choice, integer, real or text
     ``labels``  of its choices or bits, in the order of what is stored; "" for one that is not used

@@ -32,22 +32,22 @@ class Registration:
 
     ``formulas``  a mapping of names to functions: the published formulas, for rules and calculators
     ``formats``   the text formats (``TextFormat``) the family alone has, in the order in which they are tried
-    on a text
+                  on a text
     ``drivers``   protocol name -> a ``DriverFactory``: ways to speak to a control, the usual one first
     ``contents``  first line of what a control contains -> the ``ContentKind`` class that reads it
     ``emulators`` protocol name -> an ``Emulate``: an emulated control that speaks it
     ``recognised``  a ``Recognised`` (transfer/driver.py): how its controls are known where nobody has named
-    their family
+                    their family
     ``law``       the servo law (``Law``) of its axes, for the simulator
     ``sheet``     how values are keyed in at its controls (``Keying``); without it the plain way
     ``curve``     how a compensation table that is one text is read and written (``CurveText`` of the room
-    pictures)
+                  pictures)
     ``compensation``  what it has against the errors of an axis, and what is tuned at the machine
-    (``Compensation``)
+                      (``Compensation``)
     ``describe``  description of a control -> its schema (``described``), for a family whose controls describe
-    themselves
+                  themselves
     ``migrate``   a machine description and answers -> what a control of the family gets (``WrittenMachine``
-    of the room meaning)
+                  of the room meaning)
     ``facts``     the folder of its facts; None where it is ``parameter_db/<family>``
     """
 

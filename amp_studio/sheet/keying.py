@@ -127,9 +127,9 @@ class Keying:
     ``title``   of the sheet
     ``obstacle`` the reason why a value cannot be keyed in at the control, "" where it can
     ``text``    what is keyed in for a value, which the screen shows afterwards; None where the manual prints
-    no form
+                no form
     ``stages``, ``stage``  the order in which values are keyed in where no rule needs another one: the stage
-    of a value by what the control contains before and after
+                           of a value by what the control contains before and after
     ``before``, ``after``  what a person does around it
     """
 

@@ -16,7 +16,7 @@ class SheetEntry:
     ``was``, ``keyed``  what the control's screen shows now (None if it is not known) and is to show
     ``meaning``  the value as the file gives it, if it is something else than what is keyed in
     ``order``    why it comes after another entry than its stage would have it, with the page; "" where
-    nothing needs that
+                 nothing needs that
     ``until``    what is broken from here on, and until which entry
     """
 

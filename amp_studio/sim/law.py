@@ -195,9 +195,9 @@ class Law:
     ``advise``     the family's own recommendations after a scenario
     ``own``        scenarios of the family alone, by name
     ``spindle``    spindle(values of the machine, its number) -> the spindle; None where no output to one is
-    printed
+                   printed
     ``tapping``    tapping(machine, spindle, gear, axis, pitch) -> how both follow each other; None where it
-    is not printed
+                   is not printed
     ``probing``    probing(values of the machine, axis, which cycle) -> how a probe is met
     ``machine_tests``  machine_tests(machine, axis) -> programs and procedures that try an axis out
     ``motion``     the facts of ``motion.yaml``, which `law_of` puts here

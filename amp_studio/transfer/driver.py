@@ -25,11 +25,11 @@ class Abilities:
 
     ``can_send``        it takes a download
     ``remembers``       it knows by itself what the control has contained before, and takes that back whatever
-    it is
+                        it is
     ``all_or_nothing``  a download that breaks off leaves the old content or the new one, never some of both
     ``maps_numbers``    a file of another schema of the family is sent as well: each parameter by its number
     ``lasting_states``  the states, in the control's own words, in which a write lasts; in any other its
-    driver refuses before
+                        driver refuses before
                         anything is written. Empty where the control keeps nothing without power;
                         None where no source states it
     """
@@ -63,7 +63,7 @@ class ControlIdentity:
     """What answers.
 
     ``signature``       of the schema it numbers its parameters by, in hexadecimal; "" where it does not name
-    one
+                        one
     ``axes``            their names, where it names them before it is read
     ``size``, ``sha256``  of what it contains: bytes and digest; None if that is known only once it is fetched
     ``in_estop``        None where there is no such state, or it cannot be asked
@@ -90,7 +90,7 @@ class Receipt:
     ``restart_needed``  whether a restart by hand makes it current, where it does not restart by itself
     ``notes``           sentences that the person has to know
     ``is_answered``     whether the control itself has answered that it took it; without,
-    only reading it back shows it
+                        only reading it back shows it
     """
 
     restarting: bool = False

@@ -21,7 +21,7 @@ class Exchange:
     ``progress``  is called for steps and silences
     ``cancel``    breaks off what waits; may be set from another thread
     ``keep``      where a copy of what is replaced is kept: its folder takes the copies, its stem begins their
-    names
+                  names
     ``record``    the file in whose folder the exchange is recorded
     ``notify``    is called with what does not end the exchange: that it could not be recorded
     """

@@ -55,7 +55,7 @@ class GrblContent:
     ``0.000,0.000,0.000``
     ``startup``       the start-up lines, by their number
     ``enumerations``  command -> the lines of its answer, for those of ENUMERATIONS that the control knows:
-    none for Grbl 1.1
+                      none for Grbl 1.1
     """
 
     identity: tuple[str, ...] = ()

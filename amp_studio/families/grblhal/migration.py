@@ -8,7 +8,6 @@ from collections.abc import Mapping
 from amp_studio.meaning import (
     AxisMeaning,
     Graded,
-    GradeKind,
     MachineMeaning,
     MigrationQuestion,
     WrittenMachine,
@@ -98,7 +97,7 @@ class _Settings:
             self.values[27] = not_above(number)
 
     def _axis(self, axis: AxisMeaning, n: int) -> None:
-        self._grade(
+        self.out.grade(
             axis,
             "kind",
             "approximate" if axis.turns else "exact",
@@ -119,12 +118,12 @@ class _Settings:
             self.values[100 + n] = not_above(number)
         if rapid := axis.number("rapid"):
             self.values[110 + n] = _thousandth(rapid)
-            self._grade(axis, "rapid", "exact", f"${110 + n}", self.values[110 + n])
+            self.out.grade(axis, "rapid", "exact", f"${110 + n}", self.values[110 + n])
         if ramp := axis.number("acceleration"):
             self.values[120 + n] = _thousandth(ramp)
             kind = axis.choice("ramp.kind") or "trapezoid"
             for concept in ("acceleration", "ramp.kind"):
-                self._grade(
+                self.out.grade(
                     axis,
                     concept,
                     "approximate",
@@ -137,7 +136,7 @@ class _Settings:
         self._travel(axis, n)
         self._home(axis, n)
         if (play := axis.number("backlash")) is not None:
-            self._grade(
+            self.out.grade(
                 axis,
                 "backlash",
                 "approximate",
@@ -159,7 +158,7 @@ class _Settings:
         if not limits or low is None or high is None:
             self.values[130 + n] = "0"
             for concept in ("travel.kind", "travel.low", "travel.high"):
-                self._grade(axis, concept, "exact", key, "0: no limit")
+                self.out.grade(axis, concept, "exact", key, "0: no limit")
             return
         at = min(max(home or 0.0, low), high)
         minus = (axis.number("home.search") or axis.number("home.towards") or 0.0) < 0.0
@@ -170,7 +169,7 @@ class _Settings:
             " home is lost, and home is 0"
         )
         for concept in ("travel.kind", "travel.low", "travel.high"):
-            self._grade(axis, concept, "approximate", key, self.values[130 + n], old, new, "the new one")
+            self.out.grade(axis, concept, "approximate", key, self.values[130 + n], old, new, "the new one")
         self.out.measure.append(
             f"{axis.letter}: every machine coordinate (G53, G28, work offsets) moves by {-at:g}, because home"
             " is 0"
@@ -180,11 +179,11 @@ class _Settings:
         search, leave = axis.number("home.search"), axis.number("home.leave")
         if search:
             self.values[190 + n] = _thousandth(min(abs(search), axis.number("rapid") or abs(search)), 1)
-            self._grade(axis, "home.search", "exact", f"$23, ${190 + n}", self.values[190 + n])
-        self._grade(axis, "home.towards", "exact", "$23", "a bit")
+            self.out.grade(axis, "home.search", "exact", f"$23, ${190 + n}", self.values[190 + n])
+        self.out.grade(axis, "home.towards", "exact", "$23", "a bit")
         if leave:
             self.values[180 + n] = _thousandth(min(abs(leave), axis.number("rapid") or abs(leave)), 1)
-            self._grade(
+            self.out.grade(
                 axis,
                 "home.leave",
                 "approximate",
@@ -195,7 +194,7 @@ class _Settings:
                 "neither",
             )
         for concept in ("home.coordinate", "home.offset"):
-            self._grade(
+            self.out.grade(
                 axis,
                 concept,
                 "approximate",
@@ -205,14 +204,14 @@ class _Settings:
                 "home is 0",
                 "neither: programs with G53 are to be changed",
             )
-        self._grade(
+        self.out.grade(
             axis,
             "home.kind",
             "not_possible",
             loses="the marker: home is where the switch is",
             do="a switch that repeats to the accuracy of the work",
         )
-        self._grade(
+        self.out.grade(
             axis,
             "home.second",
             "not_possible",
@@ -227,16 +226,16 @@ class _Settings:
             ("feed_forward", "feed-forward"),
             ("scale", "the feedback"),
         ):
-            self._grade(axis, concept, "not_possible", loses=f"{what}: {_OPEN_LOOP[0]}", do=_OPEN_LOOP[1])
-        self._grade(
+            self.out.grade(axis, concept, "not_possible", loses=f"{what}: {_OPEN_LOOP[0]}", do=_OPEN_LOOP[1])
+        self.out.grade(
             axis,
             "jerk",
             "not_possible",
             loses="the limited jerk",
             do="a build with jerk, or a lower acceleration",
         )
-        self._grade(axis, "jog", "not_possible", loses="the jog speeds", do="set them in the sender")
-        self._grade(
+        self.out.grade(axis, "jog", "not_possible", loses="the jog speeds", do="set them in the sender")
+        self.out.grade(
             axis,
             "rollover",
             "not_possible",
@@ -244,7 +243,7 @@ class _Settings:
             do="programs with absolute angles are to be changed",
         )
         if axis.number("feed.ceiling") is not None:
-            self._grade(
+            self.out.grade(
                 axis,
                 "feed.ceiling",
                 "not_possible",
@@ -286,23 +285,6 @@ class _Settings:
                     "neither",
                 )
             )
-
-    def _grade(
-        self,
-        axis: AxisMeaning,
-        concept: str,
-        outcome: GradeKind,
-        key: str = "",
-        value: str = "",
-        old: str = "",
-        new: str = "",
-        safe_side: str = "",
-        loses: str = "",
-        do: str = "",
-    ) -> None:
-        self.out.graded.append(
-            Graded(axis.letter, concept, outcome, key, value, old, new, safe_side, loses, do)
-        )
 
 
 def _thousandth(value: float, decimals: int = 3) -> str:

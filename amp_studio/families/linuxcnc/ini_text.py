@@ -56,7 +56,7 @@ class IniText:
     ``lines``     of each file, "" for the configuration itself
     ``entries``   in the order in which they are read
     ``last``      section -> its last line, where one more key belongs; of sections of the configuration
-    itself
+                  itself
     ``missing``   names of files that are included and not there
     """
 

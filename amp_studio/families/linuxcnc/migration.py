@@ -153,7 +153,7 @@ class _Migration:
             )
             self.ini.put("DISPLAY", "DEFAULT_LINEAR_VELOCITY", not_above(min(speeds) / 600.0))
         for axis in self.ordered:
-            self._grade(
+            self.out.grade(
                 axis,
                 "jog",
                 "approximate",
@@ -247,7 +247,7 @@ class _Migration:
                 if value is not None:
                     rows[base + place] = value
                     if concept == "home.second":
-                        self._grade(axis, concept, "exact", f"#{base + place}", f"{value:.6f}", word)
+                        self.out.grade(axis, concept, "exact", f"#{base + place}", f"{value:.6f}", word)
         return "".join(f"{number}\t{value:.6f}\n" for number, value in sorted(rows.items()))
 
     # -- one axis
@@ -257,13 +257,13 @@ class _Migration:
         joint, letter = self.axes[axis.instance], self.letters[axis.instance]
         j, a = f"JOINT_{joint}", f"AXIS_{letter}"
         self.ini.put(j, "TYPE", "ANGULAR" if axis.turns else "LINEAR", self._of(axis, "kind", "exact"))
-        self._grade(axis, "kind", "exact", f"[{j}]TYPE", "ANGULAR" if axis.turns else "LINEAR")
+        self.out.grade(axis, "kind", "exact", f"[{j}]TYPE", "ANGULAR" if axis.turns else "LINEAR")
         self._travel(axis, j, a)
         self._motion(axis, j, a)
         self._loop(axis, j, sign)
         self._home(axis, j, steps.get(letter))
         if axis.number("feed.ceiling") is not None:
-            self._grade(
+            self.out.grade(
                 axis,
                 "feed.ceiling",
                 "not_possible",
@@ -289,10 +289,10 @@ class _Migration:
             if kind == "limits" and value is not None:
                 for section in (j, a):
                     self.ini.put(section, key, rounded(value), self._of(axis, concept, "exact"))
-                self._grade(axis, concept, "exact", f"[{j}]{key}, [{a}]{key}", rounded(value))
+                self.out.grade(axis, concept, "exact", f"[{j}]{key}, [{a}]{key}", rounded(value))
             else:
-                self._grade(axis, concept, "exact", f"[{j}]{key}, [{a}]{key}", "left out")
-        self._grade(
+                self.out.grade(axis, concept, "exact", f"[{j}]{key}, [{a}]{key}", "left out")
+        self.out.grade(
             axis,
             "travel.kind",
             "exact",
@@ -307,7 +307,7 @@ class _Migration:
             )
         if (axis.turns and axis.number("rollover")) or kind == "modulo":
             self.ini.put(a, "WRAPPED_ROTARY", "1", self._of(axis, "rollover", "approximate"))
-            self._grade(
+            self.out.grade(
                 axis,
                 "rollover",
                 "approximate",
@@ -325,7 +325,7 @@ class _Migration:
                 self.ini.put(
                     section, "MAX_VELOCITY", not_above(rapid / 60.0), self._of(axis, "rapid", "exact")
                 )
-            self._grade(
+            self.out.grade(
                 axis, "rapid", "exact", f"[{j}]MAX_VELOCITY, [{a}]MAX_VELOCITY", not_above(rapid / 60.0)
             )
         else:
@@ -340,7 +340,7 @@ class _Migration:
                 )
             kind = axis.choice("ramp.kind") or "trapezoid"
             now = "a straight ramp with it in jogs, homing and G61; G64 has half of it"
-            self._grade(
+            self.out.grade(
                 axis,
                 "acceleration",
                 "approximate",
@@ -350,7 +350,7 @@ class _Migration:
                 now,
                 "the new one is gentler on paths",
             )
-            self._grade(
+            self.out.grade(
                 axis,
                 "ramp.kind",
                 "approximate",
@@ -366,7 +366,7 @@ class _Migration:
                 " MAX_ACCELERATION is there"
             )
         if axis.number("jerk"):
-            self._grade(
+            self.out.grade(
                 axis,
                 "jerk",
                 "not_possible",
@@ -379,7 +379,7 @@ class _Migration:
         if limit:
             for key in ("FERROR", "MIN_FERROR"):
                 self.ini.put(j, key, not_above(limit), self._of(axis, "error.limit", "exact"))
-            self._grade(axis, "error.limit", "exact", f"[{j}]FERROR, [{j}]MIN_FERROR", not_above(limit))
+            self.out.grade(axis, "error.limit", "exact", f"[{j}]FERROR, [{j}]MIN_FERROR", not_above(limit))
             self.out.measure.append(
                 f"{axis.letter}: greatest following error in a rapid move; then FERROR as narrow as it works"
             )
@@ -389,13 +389,13 @@ class _Migration:
             )
         if gain:
             self.ini.put(j, "P", not_above(gain), self._of(axis, "gain", "exact"))
-            self._grade(axis, "gain", "exact", f"[{j}]P", not_above(gain))
+            self.out.grade(axis, "gain", "exact", f"[{j}]P", not_above(gain))
         self.ini.put(j, "FF1", not_above(forward or 0.0), self._of(axis, "feed_forward", "exact"))
-        self._grade(axis, "feed_forward", "exact", f"[{j}]FF1", not_above(forward or 0.0))
+        self.out.grade(axis, "feed_forward", "exact", f"[{j}]FF1", not_above(forward or 0.0))
         self.ini.put(j, "MAX_OUTPUT", "0")
         if (play := axis.number("backlash")) is not None:
             self.ini.put(j, "BACKLASH", not_above(play), self._of(axis, "backlash", "approximate"))
-            self._grade(
+            self.out.grade(
                 axis,
                 "backlash",
                 "approximate",
@@ -409,7 +409,7 @@ class _Migration:
             value = f"{'-' if sign.startswith('-') else ''}{scale:.9g}" if sign in ("+", "-") else ""
             if value:
                 self.ini.put(j, "ENCODER_SCALE", value, self._of(axis, "scale", "exact"))
-            self._grade(axis, "scale", "exact", f"[{j}]ENCODER_SCALE", value or f"{scale:.9g}, sign open")
+            self.out.grade(axis, "scale", "exact", f"[{j}]ENCODER_SCALE", value or f"{scale:.9g}, sign open")
 
     def _home(self, axis: AxisMeaning, j: str, step: int | None) -> None:
         kind, search, leave = axis.choice("home.kind"), axis.number("home.search"), axis.number("home.leave")
@@ -418,7 +418,7 @@ class _Migration:
             search, leave = self._asked_speed(axis, towards)
         self._home_place(axis, j)
         if kind in ("", "none", "coded"):
-            self._grade(
+            self.out.grade(
                 axis,
                 "home.kind",
                 "not_possible",
@@ -430,7 +430,7 @@ class _Migration:
             self._home_speeds(axis, j, search, leave, alone=kind == "marker")
         else:
             for concept in ("home.search", "home.leave", "home.towards"):
-                self._grade(
+                self.out.grade(
                     axis,
                     concept,
                     "approximate",
@@ -448,7 +448,7 @@ class _Migration:
                 f"{axis.letter}: distance from the switch to the nearest marker; where it is behind, zero"
                 " moves by one turn of the encoder"
             )
-        self._grade(
+        self.out.grade(
             axis,
             "home.kind",
             "approximate" if nearest else "exact",
@@ -483,7 +483,7 @@ class _Migration:
         outcome: GradeKind = "exact" if within == at else "approximate"
         text = inwards_low(within) if within == low else inwards_high(within)
         self.ini.put(j, "HOME", text, self._of(axis, "home.coordinate", outcome))
-        self._grade(
+        self.out.grade(
             axis,
             "home.coordinate",
             outcome,
@@ -499,7 +499,7 @@ class _Migration:
             inwards_high(at if offset is None else offset),
             self._of(axis, "home.offset", "exact"),
         )
-        self._grade(
+        self.out.grade(
             axis, "home.offset", "exact", f"[{j}]HOME_OFFSET", inwards_high(at if offset is None else offset)
         )
 
@@ -518,7 +518,7 @@ class _Migration:
         )
         self.ini.put(j, "HOME_FINAL_VEL", not_above(abs(slow) / 60.0))
         limited = abs(search) > rapid
-        self._grade(
+        self.out.grade(
             axis,
             "home.search",
             "approximate" if limited else "exact",
@@ -528,8 +528,8 @@ class _Migration:
             "with the rapid speed",
             "the new one",
         )
-        self._grade(axis, "home.towards", "exact", f"[{j}]HOME_SEARCH_VEL", not_above(first / 60.0))
-        self._grade(
+        self.out.grade(axis, "home.towards", "exact", f"[{j}]HOME_SEARCH_VEL", not_above(first / 60.0))
+        self.out.grade(
             axis,
             "home.leave",
             "exact" if opposite else "approximate",
@@ -544,20 +544,3 @@ class _Migration:
         figure = axis.figures.get(concept)
         named = ", ".join(f"{s.param} {s.raw}" for s in figure.sources) if figure else ""
         return f"{named}: {outcome}" if named else ""
-
-    def _grade(
-        self,
-        axis: AxisMeaning,
-        concept: str,
-        outcome: GradeKind,
-        key: str = "",
-        value: str = "",
-        old: str = "",
-        new: str = "",
-        safe_side: str = "",
-        loses: str = "",
-        do: str = "",
-    ) -> None:
-        self.out.graded.append(
-            Graded(axis.letter, concept, outcome, key, value, old, new, safe_side, loses, do)
-        )

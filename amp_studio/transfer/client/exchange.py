@@ -48,10 +48,10 @@ class WantedContent:
     ``signature``  of the schema under which it was made
     ``expected``   the SHA-256 of what may be replaced; None for whatever is there
     ``known``      was fetched from this control before: it is not fetched again if the control states its
-    digest, as it must
+                   digest, as it must
                    for the commit too
     ``is_return``  the control has contained it before: one that remembers what it contained decides by itself
-    whether it takes it
+                   whether it takes it
     ``what``       the first word of the result
     """
 
@@ -73,10 +73,10 @@ class Outcome:
 
     ``at_control``  what the control contains now: the "old" content, the "new" one, "mixed", or "unknown"
     ``verified``    whether the new content was read back and is equal: all of it, or on a slow line its
-    digest and some of it
+                    digest and some of it
     ``written``     whether the control had to take anything
     ``kept``        where the image before it is kept, byte for byte; None when nothing was replaced or it was
-    empty
+                    empty
     ``restart``     "not needed"; "done" (the image is current); "needed" (by hand); "missed" (not come back)
     ``sha256``      of the image, in hexadecimal
     ``text``        all of it in one sentence or two

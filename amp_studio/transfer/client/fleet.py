@@ -110,7 +110,7 @@ class FleetRow:
     """One control in the table of results: how its exchange ended, in a word and in a sentence.
 
     ``ending``  "well"; "differs" of a comparison; "failed", and then ``state`` is what the control contains;
-    "not tried"
+                "not tried"
     """
 
     address: str

@@ -53,7 +53,7 @@ class Copy:
     ``fault``      why it cannot
     ``is_checked`` whether it was compared with a digest beside it
     ``is_kept``    whether it is what a control contained, byte for byte: an image,
-    or a parameter file beside its image
+                   or a parameter file beside its image
     ``path``       where it was read
     """
 

@@ -42,7 +42,7 @@ class RecordedExchange:
     ``control``   its address
     ``before``, ``after``  SHA-256 of what it contained, in hexadecimal; "" if not known
     ``state``     what it contains after it: "new", "old", "mixed", "defaults", "unknown"; "" where nothing
-    was to be sent
+                  was to be sent
     ``kept``      the copy of what it contained before; "" where nothing was replaced
     ``text``      how it ended
     ``changes``   (parameter, before, after) of what was sent; a secret is masked

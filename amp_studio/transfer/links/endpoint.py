@@ -36,7 +36,7 @@ class Endpoint:
     ``device``                  of serial
     ``baud`` (bit/s) to ``flow``  of serial and rfc2217; None where they are left to the protocol on the line
     ``ca``, ``fingerprint``     of tls: a file of certificates to trust, or the SHA-256 of the only one, in
-    hexadecimal
+                                hexadecimal
     ``security``                what is asked of who connects, where this is listened on
     ``protocol``                how it is spoken to; "" for the usual way of the control's family
     """
