@@ -175,10 +175,6 @@ class Validator:
         checks = (check for check in self._plan.checks if address in check.addresses)
         return tuple({check.rule.id: check.rule for check in checks}.values())
 
-    def prepare_edit(self) -> None:
-        """Work out what the first edit asks of the plan, where nobody waits for it."""
-        _ = self._plan.rule_readers, self._plan.range_readers
-
     def check_of(self, finding: Finding) -> RuleCheck | None:
         """Return the rule and the instance that a present finding is of; None for a range,
         a choice and the like.

@@ -26,6 +26,7 @@ from amp_studio.report.papers.form import form_paper
 from amp_studio.report.papers.paper import write_paper
 from amp_studio.report.templating.templates import TEMPLATES
 from amp_studio.schema import Value, family_ids, load_schema
+from amp_studio.validate.plausible import relations, steps
 
 EXAMPLES = {
     "9pc": "mill-1394/MILL_1394",
@@ -143,3 +144,24 @@ def test_a_german_report(tmp_path: Path, mill: ParameterFile, sort: Sort) -> Non
         assert "Freigegeben von" in text
         assert "Seite 2 von" in text
         assert not re.search(r"\b(Signatures|Contents|Findings|Belongs to)\b", text)
+
+
+def test_what_experience_finds_and_why_is_german_in_a_german_report() -> None:
+    """Sentences of the program about values that belong together, and their reasons."""
+    german = language_of("de")
+    one, two = "Homing Speed (X) is 5 mm/min", "Rapid (X) is 2 mm/min"
+    found = [
+        f"{one} and {two}; as a rule they are equal. Is it meant?",
+        f"{one} beside {two} and {two}: the others rise by one factor. Is it meant?",
+        f"{one} beside {two}: the others rise by one factor. Is it meant?",
+        f"{one}, and {two}: beside it usual is 3 to 4 mm/min. Is it meant?",
+        f"{one}, and {two}: it is faster than a rapid move. Is it meant?",
+        f"{one}, and Rapid (X) is not set. Is it meant?",
+        f"{one}: the only step of its table in that direction. Is it meant?",
+    ]
+    for sentence in map(german.message, found):
+        assert " is " not in sentence
+        assert sentence.endswith("Ist das so gewollt?")
+    reasons = [getattr(relations, name) for name in vars(relations) if name.endswith("_REASON")]
+    assert len(reasons) == 5
+    assert [t for t in (*reasons, steps.REASON) if german.title(t) == t] == []

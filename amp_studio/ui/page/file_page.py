@@ -7,7 +7,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable
 from functools import partial
 
-from PySide6.QtCore import QTimer, Signal
+from PySide6.QtCore import Signal
 from PySide6.QtGui import QAction
 from PySide6.QtWidgets import QVBoxLayout, QWidget
 
@@ -32,8 +32,6 @@ from .left_panel import LeftPanel
 
 CommitValue = Callable[[Workspace, Address, str], bool]
 """Sets a value of a file from typed text; returns whether it was set."""
-_QUIET_MS = 300
-"""After the first paint, and sooner than a person can have typed a value."""
 
 
 class FilePage(QWidget):
@@ -107,7 +105,6 @@ class FilePage(QWidget):
             self._emit_state
         )  # a step is on the stack only after it was made
         self.left.choose()
-        QTimer.singleShot(_QUIET_MS, self, workspace.validator.prepare_edit)
 
     def _emit_state(self, *_: object) -> None:
         self.changed.emit(self)
