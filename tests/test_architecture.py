@@ -30,8 +30,6 @@ from amp_studio import schema
 from amp_studio.formats import all_formats, formats_of
 from amp_studio.front_pages import listed
 from amp_studio.schema import Parameter, Rule, family_ids, load_schema, program
-from amp_studio.schema.load import compile_family
-from amp_studio.schema.machine_schema import number_of
 
 from .source_trees import nodes_of, tree_of
 
@@ -235,26 +233,15 @@ def contributing_examples(checkout: Path) -> dict[str, str]:
     return {re.match(r"\s*# (\S+)", block)[1]: textwrap.dedent(block) for block in blocks}
 
 
-def test_the_examples_of_contributing_are_facts_the_program_reads(checkout: Path, tmp_path: Path) -> None:
+def test_the_examples_of_contributing_are_facts_the_program_reads(checkout: Path) -> None:
     examples = contributing_examples(checkout)
     rules = examples.pop("parameter_db/9pc/rules/servo_position.yaml")
     parameter = examples.pop("parameter_db/9pc/groups/zone.yaml")
-    for path, text in examples.items():
-        (tmp_path / path).parent.mkdir(parents=True, exist_ok=True)
-        (tmp_path / path).write_text(text, encoding="utf-8")
-
     (rule,) = TypeAdapter(tuple[Rule, ...]).validate_python(YAML(typ="safe").load(rules))
     assert program(rule.check)
     (written,) = TypeAdapter(tuple[Parameter, ...]).validate_python(YAML(typ="safe").load(parameter))
     assert load_schema("9pc").parameters[written.id].numbers == written.numbers
     assert load_schema("9pc").parameters[written.id].ranges == written.ranges
-    compiled = compile_family(tmp_path / "parameter_db" / "57c422b")
-    numbers, axes = compiled.groups[0].parameters[0].numbers, compiled.family.scopes["axis"].instances
-    assert [number_of(numbers, k, axis) for k, axis in enumerate(axes)] == ["R10", "R2058"]
-    shown, held = compiled.groups[0].parameters[0], load_schema("57c422b").parameters
-    same = {"name", "scope", "numbers", "type", "quantity", "ranges", "storage", "page"}
-    assert all(getattr(held[shown.id], name) == getattr(shown, name) for name in same)
-    assert load_schema("57c422b").family.title == compiled.family.title
 
 
 def walks(checkout: Path) -> list[tuple[str, str]]:

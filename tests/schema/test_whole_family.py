@@ -19,10 +19,31 @@ from amp_studio.schema.registration import Registration, register, unregister
 
 CASES = Path(__file__).parents[1] / "validate"
 HOW = {"what": "what it is", "find": "how a user finds its value", "wrong": "what a wrong value does"}
+KINDS = {"groups": "group"}
+"""Folder of a family -> the kind of its files, where that is not the name of the folder."""
 
 
-def missing(schema: Schema, listed: list[str]) -> list[str]:
-    """Return what a family lacks, each as what is to be written and where;
+def kind_of(path: Path) -> str:
+    """Return which kind of facts a file of a family has: that of its folder, or its name at the top."""
+    is_at_top = (path.parent / "family.yaml").exists()
+    return path.stem if is_at_top else KINDS.get(path.parent.name, path.parent.name)
+
+
+def without_their_schema(folder: Path) -> list[str]:
+    """Return the files of a family whose first line does not name the schema that an editor checks them by."""
+    found = []
+    for path in sorted(folder.rglob("*.yaml")):
+        inside = path.relative_to(folder)
+        line = (
+            f"# yaml-language-server: $schema={'../' * len(inside.parts)}schemas/{kind_of(path)}.schema.json"
+        )
+        if path.read_text("utf-8").partition("\n")[0] != line:
+            found.append(f"{inside.as_posix()}: its first line: {line}")
+    return found
+
+
+def missing(schema: Schema, folder: Path, listed: list[str]) -> list[str]:
+    """Return what a family with its facts in ``folder`` lacks, each as what is to be written and where;
     ``listed`` are the families that editors know.
     """
     family = schema.family.family
@@ -42,6 +63,7 @@ def missing(schema: Schema, listed: list[str]) -> list[str]:
         found.append(
             f"tests/validate/rule_cases/{family}: what breaks each of its rules, and what just does not"
         )
+    found += without_their_schema(folder)
     if family not in listed:
         found.append("parameter_db/schemas: 'make schema' writes them with this family")
     return found
@@ -50,7 +72,8 @@ def missing(schema: Schema, listed: list[str]) -> list[str]:
 @pytest.mark.parametrize("family", family_ids())
 def test_a_family_has_what_it_must_have(family: str) -> None:
     project = json.loads((database_folder() / "schemas/project.schema.json").read_text("utf-8"))
-    assert missing(load_schema(family), project["properties"]["family"]["enum"]) == []
+    found = missing(load_schema(family), database_folder() / family, project["properties"]["family"]["enum"])
+    assert not found, "\n".join(found)
     assert load_schema(family).family.family == family, "the name of its folder"
 
 
@@ -72,7 +95,7 @@ def test_all_that_is_missing_is_listed_at_once(tmp_path: Path) -> None:
     )
     register(Registration("bare", facts=tmp_path / "bare"))
     try:
-        assert missing(load_schema("bare"), []) == [
+        assert missing(load_schema("bare"), tmp_path / "bare", []) == [
             "groups/general.yaml: general.example: help: find: how a user finds its value",
             "groups/general.yaml: general.example: help: wrong: what a wrong value does",
             (
@@ -80,6 +103,7 @@ def test_all_that_is_missing_is_listed_at_once(tmp_path: Path) -> None:
                 " of its rules"
             ),
             "tests/validate/rule_cases/bare: what breaks each of its rules, and what just does not",
+            "rules/general.yaml: its first line: # yaml-language-server: $schema=../../schemas/rules.schema.json",
             "parameter_db/schemas: 'make schema' writes them with this family",
         ]
     finally:
@@ -98,7 +122,7 @@ def test_the_frame_of_a_family_works_at_once(
     register(Registration("tiny", facts=tmp_path / "tiny"))
     path = tmp_path / "a.amp"
     try:
-        assert missing(load_schema("tiny"), ["tiny"]) == []
+        assert missing(load_schema("tiny"), tmp_path / "tiny", ["tiny"]) == []
         for arguments in (
             ["schema", "tiny"],
             ["show", "tiny", "P1"],
