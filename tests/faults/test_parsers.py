@@ -79,7 +79,6 @@ READERS = {
     "families/acromill/lines/terminal.py": "ACR terminal over a bad line, power off in the save",
     "families/grblhal/content.py": "damaged copies of Grbl settings",
     "families/grblhal/description.py": "damaged descriptions of a control",
-    "families/grblhal/formats/relatives.py": "damaged texts of controls",
     "families/grblhal/line.py": "damaged answers of a Grbl control",
     "families/linuxcnc/formats/ini.py": "damaged texts of controls",
     "meaning/facts.py": "",  # facts of the program itself

@@ -277,19 +277,67 @@ def test_headings_in_between_do_not_end_a_listing() -> None:
 OLD = (40.02, 40.02, 320, 30, 500, 500, 252, 255, 25, 0.05, 0.1, 25, 3, 0, 1, 0, 0, 0, 0, 25, 250, 100, 1)
 
 
-@pytest.mark.parametrize("keep", [False, True])
-def test_the_numbers_of_grbl_08_mean_other_settings_and_are_refused(keep: bool) -> None:
+def test_the_numbers_of_grbl_08_mean_other_settings_and_are_read_by_those_of_today() -> None:
     plain = "".join(f"${n}={value}\n" for n, value in enumerate(OLD))
-    for text in (
-        plain,
-        plain.replace("$0=40.02", "$0=250 (x, step/mm)").replace("0.05", "1").replace("=0.1\n", "=1\n"),
-    ):
-        with pytest.raises(FormatError, match=r"line 1, column 1: this is a listing of Grbl 0\.8"):
-            everything(text, keep_unknown=keep)
+    whole = plain.replace("$0=40.02", "$0=250 (x, step/mm)").replace("0.05", "1").replace("=0.1\n", "=1\n")
+    for text in (plain, whole, f"Grbl 0.8c ['$' for help]\n{plain.replace('.', '')}"):
+        found = everything(text)
+        assert found.machine == "grbl-0.9"
+        assert found.values["classic.pulse_time", ""].value == 30
+        assert found.values["axis.steps", "Z"] == Value(320.0, "steps/mm")
+        assert found.values["classic.idle_delay", ""].value == 255
+        assert ("axis.max_rate", "X") not in found.values
+        assert " ".join(key.split()[-1] for key in found.unknown) == "$4 $5 $6 $8 $10 $11 $12 $14 $18"
+        assert any("is for a Grbl 0.9 or newer, not for that control" in note for note in found.notes)
     assert everything(f"Old:\n{plain}\nNew:\n{CLASSIC}").machine == "grbl-1.1"
     assert (
         everything("$0=10 (step pulse, usec)\n$1=25\n$11=0.01\n").values["classic.idle_delay", ""].value == 25
     )
+
+
+def test_a_listing_of_which_only_the_age_shows_is_refused() -> None:
+    text = "".join(f"${n}={value}\n" for n, value in enumerate(OLD[:9])) + "$9=0.05\n"
+    for keep in (False, True):
+        with pytest.raises(FormatError, match=r"line 1, column 1: this is a listing of a Grbl before 0\.9g"):
+            everything(text.replace("=30\n", "=30.5\n"), keep_unknown=keep)
+
+
+EARLY_09 = """$0=250.000 (x, step/mm)
+$1=250.000 (y, step/mm)
+$2=320.000 (z, step/mm)
+$3=500.000 (x max rate, mm/min)
+$9=200.000 (x max travel, mm)
+$12=10 (step pulse, usec)
+$13=250.000 (default feed, mm/min)
+$14=192 (step port invert mask, int:11000000)
+$15=25 (step idle delay, msec)
+$16=0.050 (junction deviation, mm)
+$17=0.005 (arc tolerance, mm)
+$22=1 (soft limits, bool)
+$26=25.000 (homing feed, mm/min)
+"""
+
+
+@pytest.mark.parametrize("keep", [False, True])
+def test_the_remarks_of_an_early_grbl_09_decide_whatever_its_numbers_are(keep: bool) -> None:
+    found = everything(EARLY_09, keep_unknown=keep)
+    assert found.machine == "grbl-0.9"
+    got = {address: value.value for address, value in found.values.items()}
+    assert got == {
+        ("axis.steps", "X"): 250.0,
+        ("axis.steps", "Y"): 250.0,
+        ("axis.steps", "Z"): 320.0,
+        ("axis.max_rate", "X"): 500.0,
+        ("axis.max_travel", "X"): 200.0,
+        ("classic.pulse_time", ""): 10,
+        ("classic.idle_delay", ""): 25,
+        ("general.junction_deviation", ""): 0.05,
+        ("general.arc_tolerance", ""): 0.005,
+        ("limits.soft", ""): True,
+        ("homing.locate_rate", ""): 25.0,
+        ("build.axes", ""): "XYZ",
+    }
+    assert list(found.unknown) == ["Grbl 0.9b $13", "Grbl 0.9b $14"]
 
 
 # -- texts with the signs of a remark ----------------------------------------------------------------------

@@ -98,6 +98,15 @@ FORMS = {
     "table in quotes": each('"${n}","{v}","Step pulse"'),
     "table with tabs": each("${n}\t{v}\tStep pulse"),
     "table of Markdown": "| Setting | Value |\n|---|---|\n" + each("| ${n} | {v} | Step pulse, us |"),
+    "table with words before the value": (
+        "| $ | Name | Value | Unit |\n|---|---|---|---|\n"
+        + each("| ${n} | Step (pulse) time, $1=255 too | {v} | us | Set a bit (00000ZYX). $9=1 |")
+    ),
+    "lines of a table without words, as a browser copies them": each("${n};Step pulse;{v};us;At least 3"),
+    "two columns": each("${n} {v}"),
+    "two columns, and a remark": each("${n}   {v}   step pulse, us"),
+    "no sign": each("{n}={v}"),
+    "names of a sender's own file": "[Controller]\n" + each("grbl_{n} = {v}"),
     "decimal commas": each("{s}").replace(".", ","),
     "table with decimal commas": each("${n};{v}").replace(".", ","),
     "colours of a terminal": each("\x1b[32m{s}\x1b[0m"),

@@ -40,7 +40,8 @@ axes:
       cycle: 2
   y:
     steps_per_mm: 90.000
-  z: {steps_per_mm: 80.000}
+  z:
+    steps_per_mm: 80.000
 """
 BY_NAME = "$X/StepsPerMm=80.000\n$Y/StepsPerMm=81.000\n$Z/StepsPerMm=82.000\n$Stepper/Pulse=4\n$GCode/LaserMode=On\n$Spindle/Type=PWM\n"
 
@@ -73,6 +74,47 @@ def test_marlin_lists_rates_in_mm_per_second() -> None:
     }
     with pytest.raises(FormatError, match="in inches"):
         read(MARLIN.replace("G21", "G20"))
+
+
+@pytest.mark.parametrize(
+    ("rates", "expected"),
+    [
+        ("M566 X900 Y900\nM203 X18000 Y18000 Z900 ; RepRapFirmware", 18000.0),
+        ("M203 X18000 Y18000 Z900 ; maximum speeds (mm/min)", 18000.0),
+        ("M203 X300 Y300 Z15 ; maximum speeds (mm/sec)", 18000.0),
+        ("M203 X300 Y300 Z15", 18000.0),
+        ("M203 X18000 Y18000 Z900", None),
+    ],
+)
+def test_the_unit_of_a_rate_is_that_of_the_firmware_and_kept_as_text_where_nothing_shows_it(
+    rates: str, expected: float | None
+) -> None:
+    found = read(f"M92 X80.00 Y80.00 Z400.00\n{rates}\n")
+    assert number(found, "axis.steps", "X") == 80.0
+    assert number(found, "axis.max_rate", "X") == expected
+    assert found.unknown.get("M203") == (None if expected else "X18000 Y18000 Z900")
+
+
+def test_a_code_that_comes_again_or_has_words_is_kept_each_time() -> None:
+    found = read(MARLIN + 'echo:  M145 S0 H185\necho:  M145 S1 H240\necho:  M569 S1 X Y\nM558 P5 C"probe"\n')
+    assert [found.unknown[code] for code in ("M145", "M145 (2)", "M569", "M558")] == [
+        "S0 H185",
+        "S1 H240",
+        "S1 X Y",
+        'P5 C"probe"',
+    ]
+
+
+def test_fluidnc_in_a_letter_and_with_an_entry_twice_is_read_and_nothing_is_lost() -> None:
+    text = "Here it is:\n\n```yaml\n" + FLUIDNC.replace(
+        "  y:\n", "    max_rate_mm_per_min: 600.000 # slower\n  y:\n"
+    )
+    found = read(text + "```\nWhat is wrong with it?\n")
+    assert number(found, "axis.max_rate", "X") == 600.0
+    assert found.unknown["axes/x/max_rate_mm_per_min (earlier)"] == "5000.000"
+    assert found.unknown["axes/x/homing/cycle"] == "2"
+    without_axes = read("board: A\nstepping:\n  engine: RMT\n  idle_ms: 250\n")
+    assert number(without_axes, "classic.idle_delay") == 250
 
 
 def test_fluidnc_is_read_from_its_configuration_and_from_its_entries() -> None:

@@ -22,6 +22,7 @@ from amp_studio.formats import FormatError, ReadOptions, TextFormat, TextOffer, 
 from amp_studio.schema import Address, Schema, StorageError, Value, fault, quoted, short, unknown_name
 
 from .log import Log, LoggedListing, figure, is_listing, read_log
+from .older import OLDER, read_older
 from .relatives import Relative, is_relative, read_relative
 
 _STEPS = 100
@@ -38,15 +39,9 @@ def _recognises(text: str) -> bool:
 def _read(text: str, schema: Schema, options: ReadOptions) -> TextRead:
     relative = _relative(text)
     log = read_log(text) if relative is None else _log_of(relative)
-    listing = _chosen(log, options.listing)
-    if _is_of_grbl_08(listing):
-        raise FormatError(
-            "this is a listing of Grbl 0.8, whose numbers mean other settings ($0 is the steps of X, not the"
-            " pulse): it is not read. Read one of Grbl 0.9 or newer",
-            listing.first_line,
-            1,
-        )
-    fit = _machine(schema, log, listing, options.machine)
+    chosen = _chosen(log, options.listing)
+    listing, then = read_older(chosen, log.greeting) or (chosen, None)
+    fit = _machine(schema, log, listing, options.machine or (OLDER if then else ""))
     if fit.unreadable and not options.keep_unknown:
         raise _unreadable(listing, fit)
     found = TextRead(values=fit.values, machine=fit.machine)
@@ -55,19 +50,24 @@ def _read(text: str, schema: Schema, options: ReadOptions) -> TextRead:
     if relative is not None:
         found.unknown |= relative.kept
         found.notes.append(_account_of(relative))
+    if then is not None:
+        found.unknown |= then.kept
+        found.notes.append(str(then))
     found.unknown_lines = {f"${number}": listing.lines[number] for number in kept}
     if log.facts or log.greeting:
         found.extra[_IDENTITY] = ([log.greeting] if log.greeting else []) + [
             f"[{tag}:{fact}]" for tag, texts in log.facts.items() for fact in texts
         ]
-    found.notes += _notes(schema, log, listing, fit, options)
+    found.notes += _notes(schema, log, chosen, fit, options)
     return found
 
 
 def _offer(text: str, schema: Schema) -> TextOffer:
     relative = _relative(text)
     log = read_log(text) if relative is None else _log_of(relative)
-    fit = _machine(schema, log, _chosen(log, 0), "")
+    chosen = _chosen(log, 0)
+    listing, then = read_older(chosen, log.greeting) or (chosen, None)
+    fit = _machine(schema, log, listing, OLDER if then else "")
     return TextOffer(schema.family.family, tuple(map(_place, log.listings)), fit.machine)
 
 
@@ -95,16 +95,6 @@ def _account_of(relative: Relative) -> str:
     settings = ", ".join(f"${number}" for number in sorted(relative.settings))
     kept = f"; kept as text: {len(relative.kept)} entries" if relative.kept else ""
     return f"a {relative.name}: what it has in common with Grbl was read, {settings}{kept}"
-
-
-def _is_of_grbl_08(listing: LoggedListing) -> bool:
-    """Return whether a listing is of the time before the steps were $100: $8 to $10 are lengths there,
-    or a remark names them.
-    """
-    if max(listing.settings) > 22:
-        return False
-    fractions = [n for n in (9, 10) if re.fullmatch(r"0?\.\d*[1-9]\d*", figure(listing.settings.get(n, "")))]
-    return bool(fractions) or "/mm" in listing.remarks.get(0, "")
 
 
 def _chosen(log: Log, number: int) -> LoggedListing:
@@ -173,7 +163,7 @@ def _hint(log: Log, listing: LoggedListing) -> str:
         return "grbl-esp32"
     if {"NEWOPT", "FIRMWARE", "BOARD", "DRIVER"} & log.facts.keys() or greeting.startswith("grblhal"):
         return "grblhal"
-    if re.match(r"grbl v?0\.9", greeting) or any("usec" in remark for remark in listing.remarks.values()):
+    if re.match(r"grbl v?0\.[6-9]", greeting) or any("usec" in remark for remark in listing.remarks.values()):
         return "grbl-0.9"
     return ""
 

@@ -5,6 +5,9 @@ a forum or a person puts around them.
     [12:30:01] > $110=500                           time stamps, marks of a direction, names of programs
     $$ < $0=10; $1=25; ok                           a whole answer in one line
     "$110": "500.000",                              a table or an object of another program
+    | $110 | X-axis maximum rate | 500.000 | mm/min |    a table with words before the value
+    $110  500.000                                   two columns
+    110=500.000                                     no sign at all, as bCNC stores them (grbl_110 = 500.000)
     {"key": "$110", "value": "500.000", …}          an object for each setting, as UGS exports them
     ; [BOARD:T41U5XBB]                              what the control answers to $I, plain or as a remark
     Kleine CNC, 21.12.2015:                         a heading
@@ -25,7 +28,10 @@ MARK = "\ufeff"
 _ESCAPES = re.compile(r"\x1b\[[0-9;?]*[A-Za-z]|[\x00-\x08\x0b-\x1f\x7f\u200b-\u200f]")
 _NUMBER = r"[+-]?(?:[0-9]+(?:\.[0-9]*|,[0-9]+)?|[.,][0-9]+)"
 _SETTING = re.compile(r"\$(0|[1-9][0-9]{0,4})([\"'`*]{0,4})[ \t]*(:?=|[:|,;\t])[ \t]*")
-_BARE = re.compile(rf"(0|[1-9][0-9]{{0,2}})[ \t]*=[ \t]*({_NUMBER})[ \t]*(?:[(;].*)?")
+_BARE = re.compile(rf"(?:grbl_)?(0|[1-9][0-9]{{0,2}})[ \t]*=[ \t]*({_NUMBER})[ \t]*(?:[(;].*)?")
+_COLUMNS = re.compile(rf"\$(0|[1-9][0-9]{{0,4}})[ ]+({_NUMBER})(?:[ ]{{2,}}(.*)|[ ]?([(;#].*))?")
+_CELLS = "|;\t,"
+"""Signs between the cells of a table."""
 _AHEAD = re.compile(
     r"""(?:
       \[[^\]]{0,40}\]                                                  # [12:30:01], [PRB], [ $$ ]
@@ -140,7 +146,11 @@ class Log:
 
 def is_listing(text: str) -> bool:
     """Return whether a text is for the most part settings of a Grbl, or has at least a few of them."""
-    return "$" in text and any(_has_settings(_OBJECT.sub(_in_one_line, text), deep) for deep in (False, True))
+    if "$" not in text:
+        return {"100", "110"} <= {
+            found[1] for line in text.splitlines() if (found := _BARE.fullmatch(line.strip()))
+        }
+    return any(_has_settings(_OBJECT.sub(_in_one_line, text), deep) for deep in (False, True))
 
 
 def _has_settings(text: str, anywhere: bool) -> bool:
@@ -246,12 +256,18 @@ def _settings(whole: str, line: str, anywhere: bool) -> Iterator[_Piece]:
         if line == whole:
             yield int(found[1]), found[2], "", "", True
         return
+    if found := _COLUMNS.fullmatch(line):
+        yield int(found[1]), found[2], (found[3] or found[4] or "").strip("(;) "), "", False
+        return
     if anywhere:
         line = re.sub(r"^\([^)]*\)\s*", "", line)
     if _REMARK.match(line):
         return
     ahead = _SETTING.search(line) if anywhere else _SETTING.match(line)
     while ahead:
+        if ahead[3] in _CELLS and (value := _cell(line[ahead.end() :][:_LONGEST_VALUE], ahead[3])):
+            yield int(ahead[1]), value, "", "", False
+            return
         end = _END_OF_VALUE.search(line, ahead.end(), ahead.end() + _LONGEST_VALUE)
         stop = end.start() if end else len(line)
         following = _SETTING.search(line, ahead.end(), min(stop, ahead.end() + _LONGEST_VALUE))
@@ -277,6 +293,14 @@ def _settings(whole: str, line: str, anywhere: bool) -> Iterator[_Piece]:
         )
         yield int(ahead[1]), value, "" if following else line[stop:].strip("(;) \t"), rest, False
         ahead = following
+
+
+def _cell(cells: str, sign: str) -> str:
+    """Return the first cell of a table that is a number, behind words that name the setting or at once;
+    empty where there is none.
+    """
+    plain = (cell.strip("\"'`* \t") for cell in cells.split(sign)[:4])
+    return next((cell for cell in plain if re.fullmatch(_NUMBER, cell)), "")
 
 
 def _is_other(line: str) -> bool:

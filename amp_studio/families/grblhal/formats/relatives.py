@@ -1,6 +1,7 @@
 """Settings of firmware that is related to Grbl, by what it has in common with it.
 
     M203 X500.00 Y500.00 Z5.00 E25.00        Marlin, its answer to M503: mm/s
+    M203 X18000 Y18000 Z900 E3600            RepRapFirmware, its config.g: mm/min
     axes: {x: {steps_per_mm: 80.0, …}}       FluidNC, its configuration
     $/axes/x/steps_per_mm=80.000             FluidNC, an entry of it as the control shows it
     $X/StepsPerMm=80.000                     Grbl_ESP32 and FluidNC, settings by name ($S)
@@ -14,18 +15,30 @@ import re
 from collections.abc import Iterator
 from dataclasses import dataclass, field
 from decimal import Decimal
-from typing import Any
+from itertools import islice
 
 from amp_studio.formats import FormatError
-from amp_studio.schema import YamlError, read_yaml
 
 AXES = "XYZABC"
 _MARLIN = re.compile(r"^[^;\n]{0,40}?\bM(?:92|201|203)[ \t]+[XYZ][-+0-9.]", re.MULTILINE)
 _CODE = re.compile(r"(?:^|[\s:>])([MG][0-9]{1,3})((?:[ \t]+[A-Z][-+]?[0-9.]*)*)[ \t]*(?:;.*)?$")
-_WORD = re.compile(r"([A-Z])([-+]?[0-9]*\.?[0-9]+)")
-_OF_MARLIN = {"M92": (100, 1), "M203": (110, 60), "M201": (120, 1)}
-"""Code -> number of the first axis, and what its figure is times."""
-_FLUIDNC = re.compile(r"^[ \t]+steps_per_mm[ \t]*:", re.MULTILINE)
+_OTHER_CODE = re.compile(r"[^;\n]{0,40}?\b([MG][0-9]{1,3}(?:\.[0-9])?)[ \t]+([^;\n]+)")
+"""A code with words that are no numbers."""
+_WORD = re.compile(r"([A-Z])([-+]?[0-9]*\.?[0-9]+)?")
+_RATES = "M203"
+_OF_MARLIN = {"M92": 100, _RATES: 110, "M201": 120}
+"""Code -> number of the first axis."""
+_PER_SECOND = re.compile(r"(?:units|mm)/s(?:ec)?\b(?!\^?2)|^[^;\n]{0,40}\becho:", re.MULTILINE)
+_PER_MINUTE = re.compile(r"(?:units|mm)/min\b|^[ \t]*M(?:566|584)\b", re.MULTILINE)
+"""What shows the unit of M203: the remarks, ``echo:`` of Marlin, or codes that RepRapFirmware alone has."""
+_FASTEST = 2000
+"""mm/s of M203 that no machine has: without a remark it is mm/min, or another firmware."""
+_FLUIDNC = re.compile(
+    r"^[ \t]+steps_per_mm[ \t]*:"
+    r"|^stepping[ \t]*:[^\n]*\n(?:[ \t][^\n]*\n){0,8}?[ \t]+(?:idle_ms|pulse_us)[ \t]*:",
+    re.MULTILINE,
+)
+_ENTRY = re.compile(r"([ \t]*)([A-Za-z0-9_]+)[ \t]*:(?:[ \t]+(.*))?")
 _BY_NAME = re.compile(r"^[^$\n]{0,40}\$/?([A-Za-z][\w/]{2,80})=([^\r\n]*)$", re.MULTILINE)
 _OF_AXIS = {
     "steps_per_mm": 100,
@@ -98,32 +111,46 @@ def read_relative(text: str) -> Relative:
     if _MARLIN.search(text):
         return _marlin(text)
     if _FLUIDNC.search(text):
-        return _by_name("FluidNC", _entries_of_yaml(text))
+        return _by_name("FluidNC", _entries_of_fluidnc(text))
     name = "FluidNC" if "$/" in text else "Grbl_ESP32"
     return _by_name(name, ((key, value.strip()) for key, value in _BY_NAME.findall(text)))
 
 
 def _marlin(text: str) -> Relative:
-    found = Relative("Marlin (M503)")
+    is_per_minute = bool(_PER_MINUTE.search(text)) and not re.search(r"\becho:", text)
+    is_known = is_per_minute or bool(_PER_SECOND.search(text))
+    found = Relative("RepRapFirmware (config.g)" if is_per_minute else "Marlin (M503)")
     for n, line in enumerate(text.splitlines(), 1):
         code = _CODE.search(line)
         if code is None:
+            if other := _OTHER_CODE.match(line):
+                _keep(found, other[1], other[2].strip())
             continue
         if code[1] == "G20":
             raise FormatError("the listing is in inches: send G21 before M503", n)
         words = dict(_WORD.findall(code[2]))
-        if code[1] in _OF_MARLIN:
-            first, factor = _OF_MARLIN[code[1]]
+        is_doubtful = not is_known and any(float(figure or 0) > _FASTEST for figure in words.values())
+        if code[1] in _OF_MARLIN and not (code[1] == _RATES and is_doubtful):
+            factor = 60 if code[1] == _RATES and not is_per_minute else 1
             for k, axis in enumerate("XYZ"):
-                if axis in words:
-                    found.settings[first + k] = _plain(Decimal(words.pop(axis)) * factor)
-        elif code[1] == "M205" and "J" in words:
+                if words.get(axis):
+                    found.settings[_OF_MARLIN[code[1]] + k] = _plain(Decimal(words.pop(axis)) * factor)
+        elif code[1] == "M205" and words.get("J"):
             found.settings[11] = words.pop("J")
         elif code[1] == "M211" and words.get("S") in ("0", "1"):
             found.settings[20] = words.pop("S")
         if words and code[1] != "G21":
-            found.kept[code[1]] = " ".join(f"{letter}{figure}" for letter, figure in words.items())
+            _keep(found, code[1], " ".join(f"{letter}{figure}" for letter, figure in words.items()))
     return found
+
+
+def _keep(found: Relative, code: str, text: str) -> None:
+    """Keep the words of a code; those of one that comes again under its name and a number."""
+    name, count = code, 1
+    while name in found.kept:
+        count += 1
+        name = f"{code} ({count})"
+    found.kept[name] = text
 
 
 def _plain(number: Decimal) -> str:
@@ -131,10 +158,20 @@ def _plain(number: Decimal) -> str:
 
 
 def _by_name(name: str, entries: Iterator[tuple[str, str]]) -> Relative:
+    """Return the settings among entries; one that comes again has the later value, as the firmware takes it,
+    and the earlier one is kept as text.
+    """
     found = Relative(name)
+    came: dict[str, str] = {}
     for path, value in entries:
         number = _number_of(path.casefold())
-        if number is None or number in found.settings:
+        if path in came:
+            found.kept[f"{path} (earlier)"] = came[path]
+        elif number in found.settings:
+            found.kept[path] = value
+            continue
+        came[path] = value
+        if number is None:
             found.kept[path] = value
         else:
             found.settings[number] = {"true": "1", "false": "0", "on": "1", "off": "0"}.get(
@@ -150,17 +187,24 @@ def _number_of(path: str) -> int | None:
     return _OF_CONTROL.get(path)
 
 
-def _entries_of_yaml(text: str) -> Iterator[tuple[str, str]]:
-    try:
-        data = read_yaml(text).data
-    except YamlError as error:
-        raise FormatError(error.what, error.line) from None
-    yield from list(_flat("", data))[:_MOST]
+def _entries_of_fluidnc(text: str) -> Iterator[tuple[str, str]]:
+    """Yield path and value of each entry, as FluidNC reads its configuration, line by line
+    (Configuration/Tokenizer.cpp): other lines, as a forum has them around it, and what comes twice do not
+    matter.
+    """
+    open_keys: list[tuple[int, str]] = []
+    entries = (_ENTRY.fullmatch(line.expandtabs().rstrip()) for line in text.splitlines())
+    for entry in islice(filter(None, entries), _MOST):
+        indent, key, value = len(entry[1]), entry[2], _unquoted(entry[3] or "")
+        while open_keys and open_keys[-1][0] >= indent:
+            open_keys.pop()
+        if value:
+            yield "/".join([*(name for _, name in open_keys), key]), value
+        else:
+            open_keys.append((indent, key))
 
 
-def _flat(path: str, data: Any) -> Iterator[tuple[str, str]]:
-    if isinstance(data, dict):
-        for key, value in data.items():
-            yield from _flat(f"{path}/{key}" if path else str(key), value)
-    elif data is not None:
-        yield path, str(data)
+def _unquoted(value: str) -> str:
+    if quoted := re.match(r"([\"'])(.*?)\1", value):
+        return quoted[2]
+    return re.split(r"(?:^|\s)#", value, maxsplit=1)[0].strip()

@@ -1,0 +1,223 @@
+"""Listings of a Grbl before 0.9g, whose numbers mean other settings: ``$0`` is the steps of X, not the pulse.
+
+    $0=250.000 (x, step/mm)      Grbl 0.8 names each setting in a remark: the remark decides
+    $0=250.000                   without remarks the numbers of the release decide whose figures have a point
+
+What means the same today becomes a setting by its number of today. Kept as text is the rest: the default feed
+and seek, the acceleration of the path (each axis has its own today), segments of arcs, and the masks, whose
+bits are those of a port of the processor and not of the axes.
+
+Sources: ``report_grbl_settings`` of grbl/report.c (settings.c before 0.8) in grbl/grbl, of the branches v0_7
+and v0_8 and of the commits 2055e92 (0.9b), 3c3382f (0.9c) and 532c359 (0.9e).
+"""
+
+from __future__ import annotations
+
+import re
+from dataclasses import dataclass, field
+
+from amp_studio.formats import FormatError
+
+from .log import LoggedListing, figure
+
+OLDER = "grbl-0.9"
+"""The machine type that such a listing is read for."""
+_TODAY = {
+    "x": 100,
+    "y": 101,
+    "z": 102,
+    "rate.x": 110,
+    "rate.y": 111,
+    "rate.z": 112,
+    "accel.x": 120,
+    "accel.y": 121,
+    "accel.z": 122,
+    "travel.x": 130,
+    "travel.y": 131,
+    "travel.z": 132,
+    "pulse": 0,
+    "idle": 1,
+    "enable": 4,
+    "limits": 5,
+    "junction": 11,
+    "tolerance": 12,
+    "inches": 13,
+    "soft": 20,
+    "hard": 21,
+    "homing": 22,
+    "locate": 24,
+    "search": 25,
+    "debounce": 26,
+    "pulloff": 27,
+}
+"""Name in the tables below -> its number since Grbl 0.9g; the other names have none."""
+_WHOLE = {
+    "pulse",
+    "idle",
+    "enable",
+    "limits",
+    "inches",
+    "soft",
+    "hard",
+    "homing",
+    "debounce",
+    "mask",
+    "dirs",
+    "homing_dirs",
+    "corrections",
+    "decimals",
+    "auto",
+}
+"""Names whose figures are printed without a point."""
+_STEPS_RATES = "x y z rate.x rate.y rate.z accel.x accel.y accel.z travel.x travel.y travel.z pulse"
+_HOMING = "homing homing_dirs locate search debounce pulloff"
+_LAYOUTS = {
+    "0.7": ["x", "y", "z", "pulse", "feed", "seek", "segment", "mask", "accel", "junction"],
+    "0.8": (
+        "x y z pulse feed seek mask idle accel junction segment corrections decimals inches auto enable hard"
+        f" {_HOMING}"
+    ).split(),
+    "0.9b": (
+        f"{_STEPS_RATES} feed mask idle junction tolerance decimals inches auto enable soft hard {_HOMING}"
+    ).split(),
+    "0.9c": (
+        f"{_STEPS_RATES} feed mask dirs idle junction tolerance decimals inches auto enable limits soft hard"
+        f" {_HOMING}"
+    ).split(),
+    "0.9e": (
+        f"{_STEPS_RATES} mask dirs idle junction tolerance decimals inches auto enable limits soft hard"
+        f" {_HOMING}"
+    ).split(),
+}
+"""Release -> the names of its settings, from ``$0`` on."""
+_NAMED = {r"0\.7": "0.7", r"0\.8": "0.8", r"0\.9[ab]$": "0.9b", r"0\.9[cd]$": "0.9c", r"0\.9[ef]$": "0.9e"}
+"""What a control names itself -> the release that has the same numbers."""
+_REMARKS = {
+    r"[xyz], step/mm": "",
+    r"steps/mm [xyz]": "",
+    r"[xyz] (?:max rate|v_max)": "rate",
+    r"[xyz] accel": "accel",
+    r"[xyz] max travel": "travel",
+    r"step pulse|microseconds step pulse": "pulse",
+    r"step idle delay": "idle",
+    r"invert step enable|step enable invert": "enable",
+    r"invert limit pins|limit pins invert": "limits",
+    r"(?:cornering )?junction deviation": "junction",
+    r"arc tolerance": "tolerance",
+    r"report inches": "inches",
+    r"soft limits": "soft",
+    r"hard limits": "hard",
+    r"homing cycle": "homing",
+    r"homing feed": "locate",
+    r"homing seek": "search",
+    r"homing debounce": "debounce",
+    r"homing pull-off": "pulloff",
+}
+"""What a remark begins with -> the name; of an axis behind which its letter comes."""
+_BYTES = {1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 13, *range(14, 24), 26}
+"""Numbers below 29 whose figures have no point since 0.9g, in grblHAL too."""
+_LEAST, _LEAST_SETTINGS = 3, 8
+"""Remarks that name another setting than the number does today before all are believed; settings before a
+listing without remarks is taken for an older one."""
+
+
+@dataclass
+class OlderListing:
+    """A listing of an older Grbl by the numbers of today."""
+
+    name: str
+    """``Grbl 0.8``."""
+    numbers: dict[int, int]
+    """Number of then -> number of today, of what was read."""
+    kept: dict[str, str] = field(default_factory=dict)
+    """``Grbl 0.8 $4`` -> what it was: that has no setting of today."""
+
+    def __str__(self) -> str:
+        """Return the account of it."""
+        read = ", ".join(f"${then} as ${today}" for then, today in sorted(self.numbers.items()))
+        kept = f"; kept as text: {', '.join(self.kept)}" if self.kept else ""
+        return (
+            f"a listing of {self.name}, where the numbers mean other settings. What means the same today was"
+            f" read by its number of today, {read}{kept}. The result is for a Grbl 0.9 or newer, not for that"
+            " control"
+        )
+
+
+def read_older(listing: LoggedListing, greeting: str) -> tuple[LoggedListing, OlderListing] | None:
+    """Return a listing by the numbers of today, and the account of it; None where it is of today.
+
+    ``greeting`` is what the control wrote as it started.
+    """
+    release = found[1] if (found := re.search(r"\bgrbl v?(0\.[0-9]\w?)", greeting, re.IGNORECASE)) else ""
+    names = _by_remarks(listing) or _by_layout(listing, release)
+    if not names:
+        return None
+    then = OlderListing(
+        f"Grbl {release or _release_of(listing, names)}",
+        {n: _TODAY[m] for n, m in names.items() if m in _TODAY},
+    )
+    today = LoggedListing(heading=listing.heading)
+    for n in listing.settings:
+        if n in then.numbers:
+            today.put(then.numbers[n], figure(listing.settings[n]), listing.lines[n], "", "")
+        else:
+            remark = f" ({listing.remarks[n]})" if listing.remarks[n] else ""
+            then.kept[f"{then.name} ${n}"] = f"{listing.settings[n]}{remark}"
+    return today, then
+
+
+def _by_remarks(listing: LoggedListing) -> dict[int, str]:
+    """Return number -> name as the remarks have it; empty where few of them name another setting than the
+    number does today.
+    """
+    names = {n: name for n, remark in listing.remarks.items() if (name := _name_of(remark))}
+    return names if sum(_TODAY[name] != n for n, name in names.items()) >= _LEAST else {}
+
+
+def _name_of(remark: str) -> str:
+    for begins, name in _REMARKS.items():
+        if re.match(begins, remark, re.IGNORECASE):
+            axis = re.search(r"\b[xyz]\b", remark.casefold()) if "[xyz]" in begins else None
+            return ".".join(filter(None, (name, axis[0]))) if axis else name
+    return ""
+
+
+def _by_layout(listing: LoggedListing, release: str) -> dict[int, str]:
+    """Return number -> name by the numbers of the release that the control names, or of the one whose figures
+    have a point where these have one; empty where they could be of today. Raises FormatError where several
+    releases could have listed them.
+    """
+    texts = {n: figure(text) for n, text in listing.settings.items()}
+    named = next((key for letters, key in _NAMED.items() if re.match(letters, release)), "")
+    odd = sum("." in texts[n] for n in _BYTES & texts.keys())
+    is_whole = len(texts) >= _LEAST_SETTINGS and texts.keys() >= {0, 1, 2}
+    is_odd = any(name and _TODAY[name] != n for n, r in listing.remarks.items() for name in [_name_of(r)])
+    if not named and not is_odd and not (odd > 1 and is_whole):
+        return {}
+    fits = [
+        names
+        for names in (dict(enumerate(_LAYOUTS[key])) for key in ([named] if named else _LAYOUTS))
+        if texts.keys() <= names.keys() and not any("." in texts[n] and names[n] in _WHOLE for n in texts)
+    ]
+    for likelier in (
+        [names for names in fits if names.keys() == texts.keys()],
+        [names for names in fits if all(("." in texts[n]) != (names[n] in _WHOLE) for n in texts)],
+    ):
+        fits = [names for names in fits if names in likelier] or fits
+    if len(fits) > 1:
+        raise FormatError(
+            "this is a listing of a Grbl before 0.9g, whose numbers mean other settings ($0 is the steps of"
+            " X, not the pulse), and it does not show of which release: it is not read. Add the line with"
+            " which the control starts, Grbl 0.8c for example",
+            listing.first_line,
+            1,
+        )
+    return fits[0] if fits else {}
+
+
+def _release_of(listing: LoggedListing, names: dict[int, str]) -> str:
+    """Return the release that has these names at these numbers; one before 0.9g where there is none."""
+    for release, layout in _LAYOUTS.items():
+        if max(listing.settings) < len(layout) and all(layout[n] == name for n, name in names.items()):
+            return release
+    return "before 0.9g"
