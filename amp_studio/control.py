@@ -36,7 +36,7 @@ from amp_studio.transfer.client import (
     open_driver_at,
     record_look,
     restore_copy,
-    verify_content,
+    verify_at,
 )
 
 
@@ -125,9 +125,8 @@ class ConnectedControl:
         written but the record of exchanges, where there is one.
         """
         family = machine.schema.family.family
-        fetched = fetch_image(self.address, self.exchange, family=family)
+        found, fetched = verify_at(self.address, machine.file, self.exchange, family)
         self.sha256 = sha256(fetched).hexdigest()
-        found = verify_content(machine.file, fetched)
         exchange = replace(self.exchange, record=machine.source)
         record_look("verify", exchange, family, self.address, fetched, found.summary())
         return found

@@ -45,6 +45,7 @@ _ADDRESSES = (
     "tls://HOST:PORT      the same over TLS: ?ca=FILE.pem or ?fingerprint=sha256:… checks its certificate",
     "/dev/ttyUSB0, COM3   serial:/dev/ttyUSB0?baud=9600&bits=7&parity=even&stop=2&flow=xonxoff",
     "rfc2217://HOST:PORT  a serial port of a device server, with the same options",
+    "folder:PATH          a folder, or a file of it, that a control reads when it starts",
     "pty:                 (emulate only) make a terminal and print its name",
     "?protocol=NAME       how it is spoken to, where its family has several ways",
     "Passwords come from AMP_STUDIO_PASSWORD, the system's keyring, or a question at the terminal.",

@@ -100,6 +100,7 @@ if TYPE_CHECKING:
         TimeOf,
         TravelRoles,
         Usual,
+        WayToControl,
         WordUse,
         ZoneRole,
     )

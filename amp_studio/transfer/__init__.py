@@ -28,6 +28,7 @@ if TYPE_CHECKING:
         NotInEmergencyStopError,
         ProtocolMismatchError,
         TransferError,
+        WrongFamilyError,
     )
     from .exchange import QUIET, Exchange, Replacement
     from .image import ImageError, decode_image, encode_image, patch_image

@@ -9,9 +9,11 @@ control contains, or with success.
 from __future__ import annotations
 
 import re
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import ClassVar, Protocol, runtime_checkable
+
+from amp_studio.schema import Address, Value
 
 from .content import ContentKind
 from .errors import TransferError
@@ -145,6 +147,16 @@ class ReadsBackPartly(Protocol):
     @property
     def read_back(self) -> str:
         """How the last fetch was proven, in words; "" where every byte was read."""
+
+
+@runtime_checkable
+class ShowsValuesInUse(Protocol):
+    """A driver whose control reads its parameters when it starts, and shows which it uses since."""
+
+    def in_use(self, content: bytes) -> Mapping[Address, Value]:
+        """Return the values in use of those that the content sets, as the content has them where they are the
+        same as far as they are shown; empty where nothing runs. Raises TransferError.
+        """
 
 
 @runtime_checkable

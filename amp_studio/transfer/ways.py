@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 
-from amp_studio.schema import UnknownFamilyError, load_schema
+from amp_studio.schema import UnknownFamilyError, WayToControl, load_schema, registered_families
 
 HOUSE = "house"
 """The protocol in which a gateway is spoken to."""
@@ -19,12 +19,21 @@ def in_order_of_ways(family: str, own: Mapping[str, str], of_gateway: str) -> di
     return {**offered, **{name: place for name, place in own.items() if name not in offered}}
 
 
+def folder_protocols() -> Iterator[str]:
+    """Yield the protocols of all families whose controls read their parameters in a folder."""
+    for family in registered_families():
+        yield from (way.protocol for way in _ways(family) if way.way == "folder" and way.protocol)
+
+
 def _protocols(family: str) -> Iterator[str]:
     """Yield the protocols of the ways that the facts of a family list; none for one that is code alone."""
-    try:
-        ways = load_schema(family).family.ways
-    except UnknownFamilyError:
-        return
-    for each in ways:
+    for each in _ways(family):
         if each.way != "sheet":
             yield each.protocol or HOUSE
+
+
+def _ways(family: str) -> tuple[WayToControl, ...]:
+    try:
+        return load_schema(family).family.ways
+    except UnknownFamilyError:
+        return ()

@@ -211,8 +211,13 @@ CAMPAIGNS = (
     Campaign("odd values", partial(_damaged, texts.fuzz_entries), MANY, 50, 5_000),
     Campaign("damaged control image", _images, MANY, 100, 5_000),
     Campaign(
-        "damaged contents of NUM and ACR", partial(_damaged, own_contents.fuzz_contents), MANY, 100, 5_000
+        "damaged contents of NUM, ACR and LinuxCNC",
+        partial(_damaged, own_contents.fuzz_contents),
+        MANY,
+        100,
+        5_000,
     ),
+    Campaign("damaged pins of LinuxCNC", partial(_damaged, own_contents.fuzz_pins), MANY, 100, 5_000),
     Campaign(
         "damaged unloads of a NUM control", partial(_damaged, own_contents.fuzz_unloads), MANY, 200, 5_000
     ),

@@ -11,13 +11,15 @@ from pathlib import Path
 
 from amp_studio.families.acromill.emulated.card import AcrCard
 from amp_studio.families.acromill.lines.content import AcrContent
+from amp_studio.families.linuxcnc.control import running
+from amp_studio.families.linuxcnc.control.content import Configuration, ConfigurationContent
 from amp_studio.families.num.emulated.control import NumControl
 from amp_studio.families.num.lines.content import NumTableContent, content_of_table, words_of_table
 from amp_studio.families.num.lines.table_reader import TableReader
 from amp_studio.transfer.content import kind_of
 from amp_studio.transfer.emulated.line_device import DeviceSetup, LineDevice
 from amp_studio.transfer.emulated.memory import Memory
-from amp_studio.transfer.errors import ImageDamagedError
+from amp_studio.transfer.errors import ImageDamagedError, TransferError
 from amp_studio.transfer.image import ImageError
 
 from .own_protocols import TABLE
@@ -29,6 +31,13 @@ SCRIPT = (
     b" X\nNOTCH X(500, 50)\nPGAIN X0.00244\nFFACC X0.000000199\nBSC X0E.00325\nBSC X1E-.00250\nend 10\n"
 )
 CONTENT = b"NUM table 1\n" + TABLE
+CONFIGURATION = Configuration(
+    {
+        "": b"#INCLUDE joints.inc\n[EMC]\nMACHINE = mill\n[KINS]\nJOINTS = 1\n",
+        "joints.inc": b"[JOINT_0]\nFERROR = 1.5 # mm\nMAX_LIMIT = 8\n",
+    }
+).written()
+KINDS: dict[type, bytes] = {AcrContent: SCRIPT, NumTableContent: CONTENT, ConfigurationContent: CONFIGURATION}
 KEYS = (
     "load",
     "unload",
@@ -55,7 +64,7 @@ KEYS = (
 def _cases(seed: int, count: int) -> Iterator[bytes]:
     chance = random.Random(seed)
     for _ in range(count):
-        content = chance.choice((SCRIPT, CONTENT))
+        content = chance.choice((SCRIPT, CONTENT, CONFIGURATION))
         for _ in range(chance.choice((1, 1, 2, 4))):
             content = damaged(content, chance)
         yield content
@@ -64,21 +73,47 @@ def _cases(seed: int, count: int) -> Iterator[bytes]:
 def _look(content: bytes) -> None:
     """What is taken for a content means something, and is the same when it is written again."""
     kind = kind_of(content)
-    if not isinstance(kind, NumTableContent | AcrContent):
+    kept = KINDS.get(type(kind))
+    if kept is None:
         return
     file = kind.decode(content)
-    held = CONTENT if isinstance(kind, NumTableContent) else SCRIPT
-    kind.difference(content, held)
-    kind.difference(held, content)
+    kind.difference(content, kept)
+    kind.difference(kept, content)
     assert not kind.difference(kind.encode(file, content), content), (
         "it is written otherwise than it was read"
     )
-    kind.refit(content, held)
+    kind.refit(content, kept)
 
 
 def fuzz_contents(seed: int, count: int) -> list[str]:
-    """Read damaged contents of a NUM control and an ACR card."""
+    """Read damaged contents of a NUM control, an ACR card and the folder of a LinuxCNC."""
     return violations(_cases(seed, count), _look, (ImageError,))
+
+
+PINS = b"""Component Type Dir Value Name
+inihal float IN 1.5 ini.0.ferror
+inihal float IN 8 ini.0.max_limit
+motmod bit OUT TRUE joint.0.active
+motmod bit OUT TRUE joint.0.homed
+motmod float OUT 3.25 joint.0.pos-fb
+motmod float OUT 0 joint.0.f-error
+motmod float OUT 0 joint.0.vel-cmd
+motmod bit OUT TRUE motion.motion-enabled
+motmod float OUT 0 motion.current-vel
+"""
+
+
+def fuzz_pins(seed: int, count: int) -> list[str]:
+    """Read damaged answers of the program that shows the pins of LinuxCNC."""
+    chance = random.Random(seed)
+    file = Configuration.read(CONFIGURATION).file()
+
+    def look(data: bytes) -> None:
+        shown = running.pins_of(data.decode("latin-1"))
+        running.values_of(file, shown)
+        running.status_from(file, shown, "configuration")
+
+    return violations((damaged(PINS, chance) for _ in range(count)), look, (TransferError,))
 
 
 def _unload(data: bytes) -> None:

@@ -10,6 +10,10 @@ REGISTRATION = Registration(
     family="linuxcnc",
     formulas="amp_studio.families.linuxcnc.formulas:FORMULAS",
     formats=("amp_studio.families.linuxcnc.formats.ini:FORMAT",),
+    drivers={"configuration": "amp_studio.families.linuxcnc.control.driver:ConfigurationDriver.at"},
+    contents={
+        "LinuxCNC configuration 1": "amp_studio.families.linuxcnc.control.content:ConfigurationContent"
+    },
     law="amp_studio.families.linuxcnc.law:LAW",
     migrate="amp_studio.families.linuxcnc.migration:migrate",
 )

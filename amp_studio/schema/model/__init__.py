@@ -33,6 +33,7 @@ from .family import (
     Units,
     UnitScale,
     UnitSize,
+    WayToControl,
 )
 from .group import Group, GroupState
 from .motion import AssumedFigure, MotionFacts
@@ -163,6 +164,7 @@ __all__ = [
     "Units",
     "Usual",
     "ValueType",
+    "WayToControl",
     "WordUse",
     "ZoneRole",
 ]

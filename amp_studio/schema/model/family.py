@@ -172,18 +172,21 @@ def define_units(own: dict[str, OwnUnit]) -> dict[str, OwnUnit]:
 class WayToControl(Model):
     """One way in which parameters come into a control of the family, and out of it."""
 
-    way: Literal["sheet", "line", "gateway"]
-    """Keyed in by hand from a sheet; over a line to the control itself; through a program beside the control
-    that speaks the exchange protocol of AMP Studio (docs/protocols/exchange.md)."""
+    way: Literal["sheet", "line", "folder", "gateway"]
+    """Keyed in by hand from a sheet; over a line to the control itself; as files in a folder that the control
+    reads; through a program beside the control that speaks the exchange protocol of AMP Studio
+    (docs/protocols/exchange.md)."""
     protocol: Key | None = None
-    """The driver of a line, as its family registers it."""
+    """The driver of a line or a folder, as its family registers it."""
     what: str
     """What it is, in a sentence without its full stop."""
     page: Page | None = None
 
     def __post_init__(self) -> None:
-        if (self.way == "line") != (self.protocol is not None):
-            raise ValueError("'protocol' names the driver of a line: each line has one, and no other way has")
+        if (self.way in ("line", "folder")) != (self.protocol is not None):
+            raise ValueError(
+                "'protocol' names the driver of a line or a folder: each has one, and no other way has"
+            )
 
 
 class Area(Model):
@@ -241,7 +244,7 @@ class Family(Model):
     @property
     def has_line(self) -> bool:
         """Whether a way to speak to a control itself is published."""
-        return any(each.way == "line" for each in self.ways)
+        return any(each.protocol is not None for each in self.ways)
 
     @property
     def by_hand(self) -> str:

@@ -26,6 +26,6 @@ if TYPE_CHECKING:
     from .project_folder import FolderContent, FolderFile, folder_content
     from .record import RecordedExchange, read_exchanges, record_look
     from .status import StatusReader
-    from .verification import ImageComparison, completed, verify_content
+    from .verification import ImageComparison, completed, verify_at, verify_content
 else:
     __getattr__ = front_page(__name__)

@@ -26,9 +26,9 @@ from amp_studio.transfer.exchange import Exchange
 from amp_studio.transfer.links import parse_endpoint
 
 from .fleet import ExchangeOf, FleetResult, with_each
-from .parameters import fetch_image, sha256
+from .parameters import sha256
 from .record import RecordedExchange, file_of_exchange, read_exchanges, record_look
-from .verification import ImageComparison, verify_content
+from .verification import ImageComparison, verify_at
 
 _PUT = ("download", "restore")
 """Exchanges that put a file into a control."""
@@ -138,8 +138,7 @@ def drift_of_all(controls: Sequence[ControlWithFile], exchange_of: ExchangeOf) -
         known, file = by_address[address], opened[address]
         assert isinstance(file, ParameterFile)
         family = file.schema.family.family
-        content = fetch_image(address, exchange, family=family)
-        compared = verify_content(file, content)
+        compared, content = verify_at(address, file, exchange, family)
         drift = _drift(known, file, compared, sha256(content))
         beside = replace(exchange, record=known.path)
         record_look("verify", beside, family, address, content, compared.summary())
@@ -173,7 +172,7 @@ def _row(known: ControlWithFile, file: ParameterFile | str, found: FleetResult[D
 
 
 def _drift(known: ControlWithFile, file: ParameterFile, compared: ImageComparison, digest: str) -> Drift:
-    if compared.is_same:
+    if compared.agrees:
         return Drift(known, "same", compared.summary(), "", digest, file, compared)
     return Drift(known, "differs", compared.summary(), _since(known, digest), digest, file, compared)
 

@@ -12,7 +12,7 @@ from amp_studio.transfer.errors import NoConnectionError
 from amp_studio.transfer.exchange import QUIET, Exchange
 from amp_studio.transfer.links import Endpoint, LinkError, PasswordError, connect, parse_endpoint
 from amp_studio.transfer.waiting import Waiting
-from amp_studio.transfer.ways import HOUSE, PRINT_SHEET, in_order_of_ways
+from amp_studio.transfer.ways import HOUSE, PRINT_SHEET, folder_protocols, in_order_of_ways
 
 RECOGNISED, RECOGNISED_SERIAL = 0.3, 2.5
 """Seconds in which a control may answer by which it is known;
@@ -38,6 +38,10 @@ def open_driver(endpoint: Endpoint | str, family: str = "") -> ControlDriver:
     if not offered:
         raise ValueError(f"{load_schema(family).family.by_hand}: {PRINT_SHEET}")
     name = place.protocol or next(iter(offered))
+    if place.kind == "folder":
+        name = next((each for each in folder_protocols() if each in offered), "")
+        if not name:
+            raise ValueError(f"no control of {family} reads its parameters in a folder: {quoted(str(place))}")
     if name not in offered:
         of = f" of {family}" if family else ""
         raise ValueError(f"Unknown protocol {quoted(name)}{of}. Known: {', '.join(offered)}")
@@ -53,7 +57,7 @@ def open_driver_at(address: str, family: str = "", exchange: Exchange = QUIET) -
     where its password is not known; any other control that cannot be reached is left to the driver.
     """
     place = parse_endpoint(address)
-    if not family and not place.protocol:
+    if not family and not place.protocol and place.kind != "folder":
         try:
             place = replace(place, protocol=_recognise(place, exchange))
         except PasswordError as error:  # tried again it would be one more wrong guess

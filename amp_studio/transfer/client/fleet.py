@@ -15,9 +15,9 @@ from amp_studio.transfer.exchange import Exchange
 from amp_studio.transfer.links import parse_endpoint
 
 from .exchange import Outcome
-from .parameters import download_file, fetch_image, sha256
+from .parameters import download_file, sha256
 from .record import record_look
-from .verification import ImageComparison, verify_content
+from .verification import ImageComparison, verify_at
 
 MOST = 16
 """Controls with which is exchanged at once; the others wait."""
@@ -174,13 +174,12 @@ def verify_each(
     files = {address: file.copy() for address in addresses}
 
     def work(address: str, exchange: Exchange) -> tuple[ImageComparison, str]:
-        content = fetch_image(address, exchange, family=family)
-        compared = verify_content(files[address], content)
+        compared, content = verify_at(address, files[address], exchange, family)
         record_look("verify", exchange, family, address, content, compared.summary())
         return compared, sha256(content)
 
     found = with_each(
-        addresses, work, exchange_of, failed=lambda pair: not pair[0].is_same, stop_on_failure=stop_on_failure
+        addresses, work, exchange_of, failed=lambda pair: not pair[0].agrees, stop_on_failure=stop_on_failure
     )
     return [_compared(each) for each in found]
 
@@ -189,7 +188,7 @@ def _compared(found: FleetResult[tuple[ImageComparison, str]]) -> FleetRow:
     if found.result is None:
         return failed_row(found)
     compared, digest = found.result
-    if compared.is_same:
+    if compared.agrees:
         return FleetRow(found.address, "same", sha256=digest, text=compared.summary())
     return FleetRow(found.address, "differs", "differs", sha256=digest, text=compared.summary())
 

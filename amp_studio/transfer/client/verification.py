@@ -2,12 +2,18 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from contextlib import closing
+from dataclasses import dataclass, replace
 
 from amp_studio.files import Comparison, Difference, ParameterFile, compare
 from amp_studio.schema import Address, Value, same_value
 from amp_studio.transfer.content import kind_of
+from amp_studio.transfer.driver import ShowsValuesInUse
+from amp_studio.transfer.exchange import QUIET, Exchange
 from amp_studio.transfer.image import ImageError, head_of
+
+from .drivers import open_driver_at
+from .exchange import upload
 
 
 @dataclass(frozen=True)
@@ -30,6 +36,8 @@ class ImageComparison:
     ``unreadable``  why the control's image cannot be compared with the file, else ""
     ``missing``      what the file sets and the control does not have, in a sentence, else ""
     ``stays``       which bits of masks the file does not have, so that they were not compared, else ""
+    ``in_use``      what the program of the control uses otherwise since it was started, where it shows that:
+                    the value of the file beside the one in use
     ``is_whole``    whether every byte was compared; else a control shows some values coarser than they are
     ``outside``     what the file sets and no control of this kind keeps: it is neither sent nor compared
     """
@@ -43,10 +51,18 @@ class ImageComparison:
     outside: tuple[Address, ...] = ()
     is_whole: bool = True
     stays: str = ""
+    in_use: tuple[Difference, ...] = ()
+
+    @property
+    def agrees(self) -> bool:
+        """Whether the control contains the file and uses nothing else."""
+        return self.is_same and not self.in_use
 
     def summary(self) -> str:
         """Return how it came out in one sentence, and how much of the file was not compared."""
         text = self._summary()
+        if self.in_use:
+            text += f" The program that runs uses {len(self.in_use)} other values: start it again."
         if self.outside:
             text += f" {len(self.outside)} values of the file are not kept by this control."
         if self.stays:
@@ -76,6 +92,23 @@ class ImageComparison:
             f"All values are the same; only {' and '.join(parts)}"
             f" {'differ' if self.other_units else 'differs'}."
         )
+
+
+def verify_at(
+    address: str, file: ParameterFile, exchange: Exchange = QUIET, family: str = ""
+) -> tuple[ImageComparison, bytes]:
+    """Return how a file compares with the control at an address, and what that contains;
+    raises TransferError.
+    """
+    with closing(open_driver_at(address, family, exchange)) as driver:
+        fetched = upload(driver, exchange)
+        found = verify_content(file, fetched)
+        if not isinstance(driver, ShowsValuesInUse) or found.unreadable:
+            return found, fetched
+        used = driver.in_use(fetched).items()
+        pairs = [Difference(address, file.get(address), value) for address, value in used]
+        other = tuple(d for d in pairs if d.a is None or d.b is None or not same_value(d.a, d.b))
+        return replace(found, in_use=other), fetched
 
 
 def verify_content(file: ParameterFile, fetched: bytes) -> ImageComparison:

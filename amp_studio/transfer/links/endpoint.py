@@ -1,5 +1,5 @@
 """Where a control is reached: ``tcp://host:port``, ``serial:/dev/ttyUSB0?baud=9600&bits=7&parity=even``,
-``pty:``.
+``folder:/home/me/mill.ini``, ``pty:``.
 """
 
 from __future__ import annotations
@@ -18,14 +18,16 @@ from .security import Security
 from .serial_settings import DATA_BITS, FLOWS, PARITIES, STOP_BITS, Flow, Parity, SerialSettings
 
 FORMS = (
-    "tcp://host:port, tls://host:port, rfc2217://host:port, serial:/dev/ttyUSB0?baud=9600, COM3 "
-    "or pty: (emulate only)"
+    "tcp://host:port, tls://host:port, rfc2217://host:port, serial:/dev/ttyUSB0?baud=9600, COM3, "
+    "folder:NAME.ini or pty: (emulate only)"
 )
 
-LinkKind = Literal["tcp", "tls", "rfc2217", "serial", "pty"]
+LinkKind = Literal["tcp", "tls", "rfc2217", "serial", "folder", "pty"]
 
 LINE = ("baud", "bits", "parity", "stop", "flow")
 NETWORK = ("tcp", "tls", "rfc2217")
+FOLDER = "folder:"
+"""What is behind it is a path as it is, question marks too: the family of a folder has one protocol."""
 
 
 @dataclass(frozen=True)
@@ -33,7 +35,7 @@ class Endpoint:
     """One end of a line.
 
     ``host`` and ``port``       of tcp, tls and rfc2217
-    ``device``                  of serial
+    ``device``                  of serial; of folder the path of what the control reads
     ``baud`` (bit/s) to ``flow``  of serial and rfc2217; None where they are left to the protocol on the line
     ``ca``, ``fingerprint``     of tls: a file of certificates to trust, or the SHA-256 of the only one, in
                                 hexadecimal
@@ -56,6 +58,8 @@ class Endpoint:
     security: Security | None = field(default=None, repr=False, compare=False)
 
     def __str__(self) -> str:
+        if self.kind == "folder":
+            return self._place
         given = [(key, getattr(self, key)) for key in LINE]
         if self.fingerprint:
             given.append(("fingerprint", f"sha256:{self.fingerprint}"))
@@ -68,7 +72,7 @@ class Endpoint:
         if self.kind in NETWORK:
             host = f"[{self.host}]" if ":" in self.host else self.host
             return f"{self.kind}://{host}:{self.port}"
-        return f"serial:{self.device}" if self.kind == "serial" else "pty:"
+        return "pty:" if self.kind == "pty" else f"{self.kind}:{self.device}"
 
     def serial_settings(self) -> SerialSettings:
         """Return how the line is set; what was not given is usual."""
@@ -92,6 +96,8 @@ def parse_endpoint(text: str) -> Endpoint:
             return _network(text, kind)
     if text.startswith("serial:"):
         return _serial(text, text.removeprefix("serial:"))
+    if text.startswith(FOLDER):
+        return _folder(text)
     if _is_device(text) or re.match(r"com\d+(\?|$)", text, re.IGNORECASE):
         return _serial(text, text)
     if text.partition("?")[0] == "pty:":
@@ -104,7 +110,7 @@ def is_endpoint(text: str) -> bool:
     return (
         "://" in text
         or _is_device(text)
-        or re.match(r"serial:|pty:|com\d+(\?|$)", text, re.IGNORECASE) is not None
+        or re.match(r"serial:|folder:|pty:|com\d+(\?|$)", text, re.IGNORECASE) is not None
     )
 
 
@@ -152,6 +158,13 @@ def _serial(text: str, rest: str) -> Endpoint:
     if re.fullmatch(r"com\d+", device, re.IGNORECASE):
         device = device.upper()
     return Endpoint("serial", device=device, **_options(text, "a serial line", (*LINE, "protocol")))
+
+
+def _folder(text: str) -> Endpoint:
+    path = text.removeprefix(FOLDER)
+    if not path.strip() or not path.isprintable():
+        raise ValueError(f"{quoted(text)} names no file or folder: write folder:NAME.ini")
+    return Endpoint("folder", device=path)
 
 
 def _options(text: str, what: str, known: tuple[str, ...]) -> dict[str, Any]:

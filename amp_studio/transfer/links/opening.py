@@ -42,6 +42,8 @@ def connect(
         from .rfc2217 import connect_rfc2217
 
         return connect_rfc2217(endpoint, timeout, look, own_flow=own_flow)
+    if endpoint.kind == "folder":
+        raise LinkError(endpoint, "a folder is no line, and only a control that reads its files has one")
     raise LinkError(
         endpoint, "a pseudo terminal can only be listened on; connect to the serial: name it was given"
     )

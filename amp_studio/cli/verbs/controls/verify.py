@@ -62,18 +62,22 @@ def run(options: Options) -> int:
                 "sha256": control.sha256,
                 "unreadable": found.unreadable or None,
                 "absent": found.missing or None,
+                "in_use": [difference_json(file, d, options.secrets) for d in found.in_use],
                 "stays": found.stays or None,
                 "header": [asdict(d) for d in found.head],
                 "other_units": [difference_json(file, d, options.secrets) for d in found.other_units],
             }
         )
-        return int(not found.is_same)
+        return int(not found.agrees)
     if not found.unreadable:
         print_comparison(file, found.values, options.secrets)
     for difference in found.other_units:
+        print_difference(file, difference, options.secrets)
+    for difference in found.in_use:
+        print("in use since the start: ", end="")
         print_difference(file, difference, options.secrets)
     for head in found.head:
         print(f"{head.line} in the header: '{head.a}'  |  '{head.b}'")
     print(found.summary())
     print(f"sha256 {control.sha256}")
-    return int(not found.is_same)
+    return int(not found.agrees)

@@ -61,13 +61,11 @@ def _recognises(text: str) -> bool:
 
 
 def _read(text: str, schema: Schema, options: ReadOptions) -> TextRead:
-    text, encoding = _decoded(text)
-    newline = "crlf" if "\r\n" in text and "\n" not in text.replace("\r\n", "") else ""
-    text = text.replace("\r\n", "\n") if newline else text
+    text, encoding, newline = _plain(text)
 
     def beside(name: str) -> str | None:
         found = options.beside(name)
-        return None if found is None else _decoded(found)[0].replace("\r\n", "\n")
+        return None if found is None else _plain(found)[0]
 
     ini = read_ini(text, beside)
     machine = options.machine or _likely_machine(ini, schema)
@@ -88,19 +86,25 @@ def _read(text: str, schema: Schema, options: ReadOptions) -> TextRead:
     found.extra[_KIND] = {
         "lines": ini.lines[""],
         **({"encoding": encoding} if encoding != "utf-8" else {}),
-        **({"newline": newline} if newline else {}),
+        **({"newline": "crlf"} if newline == "\r\n" else {}),
         **({"included": included} if included else {}),
         **({"hal": sorted(hal)} if hal else {}),
     }
     return found
 
 
-def _decoded(text: str) -> tuple[str, str]:
-    """Return a text whose bytes were read one by one, and its encoding."""
+def _plain(text: str) -> tuple[str, str, str]:
+    """Return a text whose bytes were read one by one, its encoding, and what its lines end with.
+
+    Where only some lines end with a return, it stays in them.
+    """
     try:
-        return text.encode("latin-1").decode("utf-8"), "utf-8"
+        text, encoding = text.encode("latin-1").decode("utf-8"), "utf-8"
     except UnicodeError:
-        return text, "latin-1"
+        encoding = "latin-1"
+    if "\r\n" in text and "\n" not in text.replace("\r\n", ""):
+        return text.replace("\r\n", "\n"), encoding, "\r\n"
+    return text, encoding, "\n"
 
 
 def _name(ini: IniText) -> str:
@@ -230,6 +234,29 @@ def texts_of(file: ParameterFile) -> dict[str, str]:
     return {name: "\n".join(rows) for name, rows in edited.rows().items()}
 
 
+def contents_of(file: ParameterFile, before: Mapping[str, bytes]) -> dict[str, bytes]:
+    """Return the bytes of a configuration under "", and of each file beside it by its name.
+
+    ``before`` are those from which the lines of the file were read; one of which no value was changed is
+    returned as it is. Raises FormatError.
+    """
+    made = dict(before)
+    for name, text in texts_of(file).items():
+        plain, encoding, newline = _plain(before[name].decode("latin-1"))
+        if text != plain:
+            made[name] = _encoded(text, encoding).replace(b"\n", newline.encode())
+    return made
+
+
+def _encoded(text: str, encoding: str) -> bytes:
+    try:
+        return text.encode(encoding)
+    except UnicodeEncodeError as error:
+        raise FormatError(
+            f"'{error.object[error.start]}' is no sign of latin-1, in which this text is"
+        ) from None
+
+
 def _included(file: ParameterFile) -> dict[str, str]:
     kept = file.header.extra.get(_KIND)
     included = kept.get("included") if isinstance(kept, dict) else None
@@ -275,7 +302,7 @@ class _Edited:
         return rows
 
     def _value(self, row: _Row, address: Address, before: Value) -> None:
-        value, unit = self.file.get(address), _unit(self.file, address)
+        value, unit = self.file.get(address), unit_in(self.file, address)
         self.written.add(address)
         if value is None:
             self._drop(row.entry)
@@ -296,7 +323,8 @@ class _Edited:
             self.lines[entry.file][at] = None
 
 
-def _unit(file: ParameterFile, address: Address) -> str:
+def unit_in(file: ParameterFile, address: Address) -> str:
+    """Return the unit of a bare figure in the configuration of a file."""
     units = file.get((UNITS, ""))
     system = str(units.value) if units is not None and units.value in file.schema.family.units else "metric"
     return file.evaluation.unit(address, system)
@@ -307,7 +335,7 @@ def _new_line(file: ParameterFile, address: Address, value: Value) -> tuple[str,
     name = re.fullmatch(r"\[([^\]]+)\](.+)", file.machine_schema.number(address) or "")
     if name is None:
         return None
-    text = write_figure(file.schema.parameters[address[0]], value, _unit(file, address))
+    text = write_figure(file.schema.parameters[address[0]], value, unit_in(file, address))
     return (name[1], f"{name[2]} = {text}") if text else None
 
 
@@ -331,17 +359,12 @@ def _write(file: ParameterFile) -> str:
     included = _included(file)
     if changed := [name for name, text in texts.items() if name and text != included[name]]:
         raise FormatError(
-            f"a value of the included file {changed[0]} was changed: change it there, or send the whole"
-            " folder"
+            f"a value of the included file {changed[0]} was changed: change it there, or send the file to the"
+            " folder (download --to folder:NAME.ini)"
         )
     kept = file.header.extra.get(_KIND)
     encoding = str(kept.get("encoding", "utf-8")) if isinstance(kept, dict) else "utf-8"
-    try:
-        return texts[""].encode("latin-1" if encoding == "latin-1" else "utf-8").decode("latin-1")
-    except UnicodeEncodeError as error:
-        raise FormatError(
-            f"'{error.object[error.start]}' is no sign of latin-1, in which this text is"
-        ) from None
+    return _encoded(texts[""], "latin-1" if encoding == "latin-1" else "utf-8").decode("latin-1")
 
 
 def _newline(file: ParameterFile) -> str:

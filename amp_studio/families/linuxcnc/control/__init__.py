@@ -1,0 +1,3 @@
+"""The folder of a LinuxCNC as a control: its configuration with what it includes, and what a program that
+runs with it uses.
+"""
