@@ -5,8 +5,11 @@ how far it is wrong, and the overrun.
 from __future__ import annotations
 
 import math
+from dataclasses import dataclass
 
-from amp_studio.sim.axis.moving_axis import MovingAxis, Watch
+from amp_studio.sim.axis.motion import Motion
+from amp_studio.sim.axis.moving_axis import MovingAxis, Seen, Watch
+from amp_studio.sim.command.events import Ramp
 from amp_studio.sim.errors import SimulationError
 from amp_studio.sim.law import AxisLaw, BoundMachine
 from amp_studio.sim.model import assumptions
@@ -53,84 +56,139 @@ def run_probe(machine: BoundMachine, settings: Settings) -> Trace:
     latency = number(settings, "move.latency")
     if latency is not None and latency < 0.0:
         raise SimulationError("move.latency must not be negative", "move.latency")
-    own = latency is None
+    note = probing.latency_note if latency is None else "The latency is that of move.latency."
     wait = probing.latency if latency is None else latency
-    return _probed(axis, probing, speed, wait, settings, own=own)
+    return _probed(axis, _meeting(axis, probing, speed, wait, settings), note, settings)
 
 
-def _probed(
-    axis: AxisLaw, probing: Probing, speed: float, latency: float, settings: Settings, *, own: bool
-) -> Trace:
+@dataclass(frozen=True)
+class _Meeting:
+    """A probe that is to be met: places in u from the start."""
+
+    probing: Probing
+    speed: float
+    """u/s"""
+    latency: float
+    """s"""
+    ramp: Ramp
+    expected: float
+    sign: float
+    """1.0 or -1.0: the direction of the move."""
+    run_up: float
+    """From rest until the axis follows its command."""
+    touch: float | None
+    """Where the probe is; None for nowhere."""
+
+
+@dataclass(frozen=True)
+class _Outcome:
+    """What the axis did: places in u from the start."""
+
+    motion: Motion
+    seen: Seen | None
+    """The servo sample that saw the signal; None where none came."""
+    place: float
+    """Where the signal came; infinite for never."""
+    captured: float | None
+    """The position that the control took."""
+    beyond: float | None
+    """How far the axis went over the place of the signal."""
+
+
+def _meeting(axis: AxisLaw, probing: Probing, speed: float, latency: float, settings: Settings) -> _Meeting:
+    """Return where the probe is met; raises SimulationError for a place that is none."""
     ramp = probing.ramp or next(iter(axis.ramps.values()))
     run_up = speed * (
         5.0 * ramp.time
         + (speed / ramp.acceleration if ramp.acceleration else 0.0)
         + RUN_UP / axis.position_rate
     )
-    given = number(settings, "move.expected")
-    least = COUNTS * axis.machine.position_count
-    expected = probing.approach_distance + max(run_up * FARTHER, least) if given is None else given
+    expected = number(settings, "move.expected")
+    if expected is None:
+        least = COUNTS * axis.machine.position_count
+        expected = probing.approach_distance + max(run_up * FARTHER, least)
     if expected == 0.0:
         raise SimulationError("move.expected is 0; the probe must be somewhere else", "move.expected")
     sign = math.copysign(1.0, expected)
-    touch = _touch(settings, expected)
+    return _Meeting(probing, speed, latency, ramp, expected, sign, run_up, _touch(settings, expected))
+
+
+def _met(axis: AxisLaw, meeting: _Meeting) -> _Outcome:
+    """Move the axis against the probe and through what the cycle does then."""
+    probing, sign, speed, touch = meeting.probing, meeting.sign, meeting.speed, meeting.touch
     moving = MovingAxis(axis)
-    far = abs(expected) + (probing.band if math.isfinite(probing.band) else FARTHER * run_up)
+    far = abs(meeting.expected)
+    far += probing.band if math.isfinite(probing.band) else FARTHER * meeting.run_up
     if probing.approach and probing.approach_distance:
-        moving.to(sign * min(probing.approach_distance, abs(expected)), probing.approach, ramp)
-    seen = None
+        near = min(probing.approach_distance, abs(meeting.expected))
+        moving.to(sign * near, probing.approach, meeting.ramp)
     place = sign * math.inf if touch is None else touch
-    if probing.after == "goes on":
-        far = abs(place) + run_up if touch is not None else far
+    if probing.after == "goes on" and touch is not None:
+        far = abs(place) + meeting.run_up
     way = far - sign * moving.position
+    # A probe behind the end of the move is not met, but for what the axis still lags behind its command.
     if touch is not None and sign * touch > far + moving.behind(speed):
         place = sign * math.inf
+    seen = captured = None
     if not moving.is_over:
-        seen = moving.go(sign * speed, ramp, Watch(place, sign), way)
-    captured = None
+        seen = moving.go(sign * speed, meeting.ramp, Watch(place, sign), way)
     if seen is not None:
         # Between two samples the signal comes at its place, and the position is taken a latency later.
-        captured = place + sign * speed * latency
-        moving.advance(latency)
+        captured = place + sign * speed * meeting.latency
+        moving.advance(meeting.latency)
     if not moving.is_over:
-        moving.stop(ramp)
+        moving.stop(meeting.ramp)
     beyond = None if seen is None else moving.passed(place, sign)
-    if seen is not None and captured is not None and probing.after == "returns":
-        moving.to(captured, speed, ramp)
-    motion = moving.motion()
-    alarms = alarms_of(axis, motion)
-    inside = captured is not None and abs(captured - expected) <= probing.band
-    if probing.outside and not inside:
-        what = (
-            "No signal comes"
-            if captured is None
-            else f"The signal comes {value_text(abs(captured - expected), axis.unit)} from where it "
-            "is expected"
-        )
-        text = (
-            f"{what}; the band is {value_text(probing.band, axis.unit)} on both sides (page {probing.page})"
-        )
-        moment = float(motion.columns["time_s"][-1]) if seen is None else seen.time
-        alarms = (*alarms, Alarm(probing.outside, moment, text))
-    room = above_zero(settings, "move.overtravel")
-    if room is not None and beyond is not None and beyond > room:
-        text = (
-            f"The probe is pushed {value_text(beyond, axis.unit)} over, more than "
-            f"{value_text(room, axis.unit)}"
-        )
-        alarms = (*alarms, Alarm("PROBE OVERTRAVEL", seen.time if seen else 0.0, text))
+    if captured is not None and probing.after == "returns":
+        moving.to(captured, speed, meeting.ramp)
+    return _Outcome(moving.motion(), seen, place, captured, beyond)
+
+
+def _outside(axis: AxisLaw, meeting: _Meeting, outcome: _Outcome) -> tuple[Alarm, ...]:
+    """Return the alarm of a cycle that expects its signal within a band."""
+    probing, captured = meeting.probing, outcome.captured
+    off = math.inf if captured is None else abs(captured - meeting.expected)
+    if not probing.outside or (off <= probing.band and captured is not None):
+        return ()
+    what = "No signal comes"
+    if captured is not None:
+        what = f"The signal comes {value_text(off, axis.unit)} from where it is expected"
+    band = value_text(probing.band, axis.unit)
+    text = f"{what}; the band is {band} on both sides (page {probing.page})"
+    seen = outcome.seen
+    moment = float(outcome.motion.columns["time_s"][-1]) if seen is None else seen.time
+    return (Alarm(probing.outside, moment, text),)
+
+
+def _pushed_over(axis: AxisLaw, outcome: _Outcome, room: float | None) -> tuple[Alarm, ...]:
+    """Return the alarm of a probe that is pushed farther than it can be."""
+    if room is None or outcome.beyond is None or outcome.beyond <= room:
+        return ()
+    way, most = value_text(outcome.beyond, axis.unit), value_text(room, axis.unit)
+    moment = outcome.seen.time if outcome.seen else 0.0
+    return (Alarm("PROBE OVERTRAVEL", moment, f"The probe is pushed {way} over, more than {most}"),)
+
+
+def _probed(axis: AxisLaw, meeting: _Meeting, latency_note: str, settings: Settings) -> Trace:
+    outcome = _met(axis, meeting)
+    probing, speed, captured, motion = meeting.probing, meeting.speed, outcome.captured, outcome.motion
+    alarms = (
+        *alarms_of(axis, motion),
+        *_outside(axis, meeting, outcome),
+        *_pushed_over(axis, outcome, above_zero(settings, "move.overtravel")),
+    )
     result: dict[str, Figure] = {
         "speed": (speed * 60.0, f"{axis.unit}/min"),
-        "latency": (latency, "s"),
+        "latency": (meeting.latency, "s"),
         "captured_position": (captured, axis.unit),
-        "probe_error": (None if captured is None else abs(captured - place), axis.unit),
-        "overrun": (None if probing.after == "goes on" else beyond, axis.unit),
+        "probe_error": (None if captured is None else abs(captured - outcome.place), axis.unit),
+        "overrun": (None if probing.after == "goes on" else outcome.beyond, axis.unit),
         "band": (probing.band if math.isfinite(probing.band) else None, axis.unit),
-        "from_expected": (None if captured is None else captured - expected, axis.unit),
+        "from_expected": (None if captured is None else captured - meeting.expected, axis.unit),
         "stop_position": (float(motion.columns["position"][-1]), axis.unit),
         "time": (motion.command_end if not motion.stop else None, "s"),
     }
-    notes = [probing.latency_note if own else "The latency is that of move.latency."]
+    notes = [latency_note]
     for page, other in probing.alternatives.items():
         result[f"probe_error_{page.replace('-', '_').lower()}"] = (speed * other, axis.unit)
         notes.append(
@@ -148,7 +206,7 @@ def _probed(
         recommendations=(),
         assumptions=(*notes, *probing.notes, *assumptions(axis)),
         limits={},
-        move={"move.expected": expected},
+        move={"move.expected": meeting.expected},
     )
 
 

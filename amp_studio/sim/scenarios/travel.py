@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 import math
-from dataclasses import replace
+from dataclasses import dataclass, replace
 
 import numpy as np
 
+from amp_studio.sim.axis.motion import Motion
 from amp_studio.sim.axis.moves import feedrate_of
-from amp_studio.sim.axis.moving_axis import MovingAxis, Watch
+from amp_studio.sim.axis.moving_axis import MovingAxis, Seen, Watch
 from amp_studio.sim.command.events import Travel
 from amp_studio.sim.engine.kernel import STANDSTILL
 from amp_studio.sim.errors import SimulationError
@@ -38,9 +39,63 @@ SETTINGS = {
 }
 
 
+@dataclass(frozen=True)
+class _Approach:
+    """How an axis goes against a limit: u and u/s in the coordinates of the machine."""
+
+    travel: Travel
+    """With the zone as its limits, where one is asked for."""
+    feedrate: float
+    sign: float
+    """1.0 or -1.0."""
+    ramp: Ramp
+    name: str
+    edge: float
+    run_up: float
+    """From rest until the axis follows its command."""
+    start: float
+
+    @property
+    def limit(self) -> float:
+        """How far the limit is from the start."""
+        return self.edge - self.start
+
+
 def run_travel(axis: AxisLaw, settings: Settings) -> Trace:
     """Move an axis against the next limit in its way; raises SimulationError where there is none."""
     refuse_unknown(settings, SETTINGS)
+    approach = _approach(axis, settings)
+    travel, start = approach.travel, approach.start
+    course = MovingAxis(axis, coast=COAST if travel.coasts else 0.0)
+    seen = None if travel.refuses else _driven(course, approach, settings)
+    motion = course.motion()
+    columns = {key: each.copy() for key, each in per_minute(motion.columns).items()}
+    for key in ("command_position", "position", "measured_position"):
+        columns[key] += start
+    hard = number(settings, "move.hard_stop")
+    alarms = (
+        *(() if travel.coasts else alarms_of(axis, motion)),
+        *_refused(axis, approach),
+        *_hit(axis, hard, approach.sign, columns),
+        *_passed(axis, approach, seen),
+    )
+    return Trace(
+        scenario="travel",
+        axis=axis.axis,
+        model=axis.title,
+        columns=columns,
+        units=column_units(axis),
+        result=_figures(axis, approach, seen, motion, hard),
+        alarms=alarms,
+        recommendations=(),
+        assumptions=(*travel.notes, *([RUN_OUT] if travel.coasts else []), *assumptions(axis)),
+        limits={},
+        move={"move.start": start, "move.feedrate": approach.feedrate * 60.0},
+    )
+
+
+def _approach(axis: AxisLaw, settings: Settings) -> _Approach:
+    """Return how the axis goes against the next limit; raises SimulationError where there is none."""
     if axis.travel is None:
         raise SimulationError(f"What stops axis {axis.axis} at a limit of its travel is not printed")
     travel, feedrate = axis.travel(), feedrate_of(axis, settings)
@@ -57,92 +112,101 @@ def run_travel(axis: AxisLaw, settings: Settings) -> Trace:
         raise SimulationError(
             f"No limit of the travel is active in the way of axis {axis.axis} (page {travel.page})"
         )
-    if given is None:  # from inside of all limits
-        far = (sign > 0.0) != (zone is not None)  # a zone is met from outside
-        ends = [high if far else low for low, high in travel.limits.values()]
-        finite = [edge for edge in ends if math.isfinite(edge)]
-        if finite:
-            edge = min(finite, key=lambda each: sign * each)
-            found = next((name, edge) for name, edges in travel.limits.items() if edge in edges)
-    name, edge = found
+    if given is None:
+        found = _met_from_far(travel, sign, is_zone=zone is not None) or found
     run_up = feedrate * (
         5.0 * ramp.time
         + (feedrate / ramp.acceleration if ramp.acceleration else 0.0)
         + 5.0 / axis.position_rate
     )
+    name, edge = found
     start = edge - sign * run_up if given is None else given
-    course, limit = MovingAxis(axis, coast=COAST if travel.coasts else 0.0), edge - start
-    if travel.refuses:
-        seen = None
-    else:
-        slow = _slowed(travel, settings, sign, start, edge)
-        if slow is not None:
-            course.go(sign * feedrate, ramp, Watch(slow[0] - start, sign, device=True), abs(limit) + run_up)
-        rate = feedrate if slow is None else min(slow[1], feedrate)
-        seen = course.go(sign * rate, ramp, Watch(limit, sign, device=True), abs(limit) + run_up)
+    return _Approach(travel, feedrate, sign, ramp, name, edge, run_up, start)
+
+
+def _met_from_far(travel: Travel, sign: float, *, is_zone: bool) -> tuple[str, float] | None:
+    """Return the first limit that an axis meets which starts inside of all limits, or outside of a zone."""
+    # A limit of the travel is met at its far end, a forbidden zone at its near one.
+    is_high = (sign > 0.0) != is_zone
+    ends = ((name, high if is_high else low) for name, (low, high) in travel.limits.items())
+    finite = [end for end in ends if math.isfinite(end[1])]
+    return min(finite, key=lambda end: sign * end[1], default=None)
+
+
+def _driven(course: MovingAxis, approach: _Approach, settings: Settings) -> Seen | None:
+    """Drive the axis over its limit and let the control stop it; returns the sample that noticed it."""
+    travel, sign, ramp = approach.travel, approach.sign, approach.ramp
+    farthest = abs(approach.limit) + approach.run_up
+    rate = approach.feedrate
+    slow = _slowed(travel, settings, sign, approach.start, approach.edge)
+    if slow is not None:
+        course.go(sign * rate, ramp, Watch(slow[0] - approach.start, sign, device=True), farthest)
+        rate = min(slow[1], rate)
+    seen = course.go(sign * rate, ramp, Watch(approach.limit, sign, device=True), farthest)
     if seen is not None and travel.coasts:
         course.switch_off()
     elif seen is not None:
         course.stop(travel.stop or Ramp())
-    motion = course.motion()
-    columns = {key: each.copy() for key, each in per_minute(motion.columns).items()}
-    for key in ("command_position", "position", "measured_position"):
-        columns[key] += start
-    alarms = () if travel.coasts else alarms_of(axis, motion)
-    speed, code = None, travel.alarm
-    if sign < 0.0 and travel.alarm_negative:
-        code = travel.alarm_negative
-    if travel.refuses:
-        text = f"A move beyond {name}, {value_text(edge, axis.unit)}, is not begun (page {travel.page})"
-        alarms = (*alarms, Alarm(code, 0.0, text))
-    hard = number(settings, "move.hard_stop")
-    alarms = (*alarms, *_hit(axis, hard, sign, columns))
+    return seen
+
+
+def _refused(axis: AxisLaw, approach: _Approach) -> tuple[Alarm, ...]:
+    """Return the alarm of a control that does not begin a move beyond the limit."""
+    travel = approach.travel
+    if not travel.refuses:
+        return ()
+    end = value_text(approach.edge, axis.unit)
+    text = f"A move beyond {approach.name}, {end}, is not begun (page {travel.page})"
+    return (Alarm(_code(approach), 0.0, text),)
+
+
+def _passed(axis: AxisLaw, approach: _Approach, seen: Seen | None) -> tuple[Alarm, ...]:
+    """Return the alarm of a control that notices the limit once it is passed."""
+    if seen is None:
+        return ()
+    travel = approach.travel
+    how = "the command stops along its ramp" if travel.stop else "the command stops at once"
+    if travel.coasts:
+        how = "the loop is switched off"
+    end = value_text(approach.edge, axis.unit)
+    text = f"The axis has passed {approach.name}, {end} (page {travel.page}): {how}"
+    return (Alarm(_code(approach), seen.time, text),)
+
+
+def _code(approach: _Approach) -> str:
+    """Return the alarm of the limit in the direction of the move."""
+    is_negative = approach.sign < 0.0 and approach.travel.alarm_negative
+    return approach.travel.alarm_negative if is_negative else approach.travel.alarm
+
+
+def _figures(
+    axis: AxisLaw, approach: _Approach, seen: Seen | None, motion: Motion, hard: float | None
+) -> dict[str, Figure]:
+    """Return the figures of the result; those of a stop are None where the axis did not come to rest."""
+    travel, sign, edge = approach.travel, approach.sign, approach.edge
+    velocities, times = motion.columns["velocity"], motion.columns["time_s"]
+    speed = None
     if seen is not None:
-        at = int(np.searchsorted(motion.columns["time_s"], seen.time))
-        speed = abs(float(motion.columns["velocity"][min(at, len(motion.columns["velocity"]) - 1)]))
-        how = (
-            "the loop is switched off"
-            if travel.coasts
-            else "the command stops along its ramp"
-            if travel.stop
-            else "the command stops at once"
-        )
-        text = f"The axis has passed {name}, {value_text(edge, axis.unit)} (page {travel.page}): {how}"
-        alarms = (*alarms, Alarm(code, seen.time, text))
-    end = float(columns["position"][-1])
-    at_rest = (
-        abs(float(motion.columns["velocity"][-1])) < STANDSTILL
-        if travel.coasts
-        else motion.command_end is not None
-    )
-    reached = seen is not None and at_rest
+        at = min(int(np.searchsorted(times, seen.time)), len(velocities) - 1)
+        speed = abs(float(velocities[at])) * 60.0
+    # An axis whose loop is switched off has no command that ends: it is at rest when it stands still.
+    coasted = abs(float(velocities[-1])) < STANDSTILL
+    reached = seen is not None and (coasted if travel.coasts else motion.command_end is not None)
+    end = float(motion.columns["position"][-1]) + approach.start
+    time = motion.command_end if reached else None
+    error = np.abs(motion.columns["following_error"][motion.driven]).max()
     result: dict[str, Figure] = {
-        "feedrate": (feedrate * 60.0, f"{axis.unit}/min"),
+        "feedrate": (approach.feedrate * 60.0, f"{axis.unit}/min"),
         "limit": (edge, axis.unit),
-        "speed_at_limit": (None if speed is None else speed * 60.0, f"{axis.unit}/min"),
+        "speed_at_limit": (speed, f"{axis.unit}/min"),
         "stop_position": (end if reached or travel.refuses else None, axis.unit),
         "overrun": (sign * (end - edge) if reached else None, axis.unit),
-        "time": (
-            float(motion.columns["time_s"][-1]) if travel.coasts else motion.command_end if reached else None,
-            "s",
-        ),
-        "peak_following_error": (float(np.abs(columns["following_error"][motion.driven]).max()), axis.unit),
+        "time": (float(times[-1]) if travel.coasts else time, "s"),
+        "peak_following_error": (float(error), axis.unit),
     }
     if hard is not None:
         result["hard_stop_margin"] = (sign * (hard - end) if reached or travel.refuses else None, axis.unit)
-    return Trace(
-        scenario="travel",
-        axis=axis.axis,
-        model=axis.title,
-        columns=columns,
-        units=column_units(axis),
-        result=result,
-        alarms=alarms,
-        recommendations=(),
-        assumptions=(*travel.notes, *([RUN_OUT] if travel.coasts else []), *assumptions(axis)),
-        limits={},
-        move={"move.start": start, "move.feedrate": feedrate * 60.0},
-    )
+    return result
 
 
 def _slowed(
