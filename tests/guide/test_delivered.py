@@ -7,9 +7,10 @@ from pathlib import Path
 import pytest
 
 from amp_studio.files import ParameterFile, new_file, open_file
+from amp_studio.files.axis_abilities import why_axes_are_fixed
 from amp_studio.files.example_files import examples_folder
 from amp_studio.guide import present, progress
-from amp_studio.schema import Value, family_ids
+from amp_studio.schema import Value, family_ids, load_schema
 from amp_studio.validate import NOT_SET, Finding, Validator
 
 
@@ -22,8 +23,8 @@ def shown(file: ParameterFile) -> list[Finding]:
 @pytest.mark.parametrize("family", family_ids())
 def test_a_fresh_file_has_no_finding_with_axes_or_without(family: str) -> None:
     assert shown(new_file(family)) == []
-    axes = ["X", "Y"]
-    assert shown(new_file(family, None, axes if family not in ("57c422b", "grblhal") else ())) == []
+    axes = () if why_axes_are_fixed(load_schema(family)) else ("X", "Y")
+    assert shown(new_file(family, None, axes)) == []
 
 
 def test_what_is_as_delivered_has_its_steps() -> None:

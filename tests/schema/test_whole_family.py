@@ -16,6 +16,10 @@ from new_family import write_family
 from amp_studio.cli import run
 from amp_studio.schema import Schema, database_folder, family_ids, load_schema
 from amp_studio.schema.registration import Registration, register, unregister
+from tests.guide.test_delivered import test_a_fresh_file_has_no_finding_with_axes_or_without as fresh
+from tests.guide.test_steps import (
+    test_every_step_has_a_separate_title_and_a_page_where_an_order_is_printed as steps,
+)
 
 CASES = Path(__file__).parents[1] / "validate"
 HOW = {"what": "what it is", "find": "how a user finds its value", "wrong": "what a wrong value does"}
@@ -123,6 +127,8 @@ def test_the_frame_of_a_family_works_at_once(
     path = tmp_path / "a.amp"
     try:
         assert missing(load_schema("tiny"), tmp_path / "tiny", ["tiny"]) == []
+        fresh("tiny")
+        steps("tiny")
         for arguments in (
             ["schema", "tiny"],
             ["show", "tiny", "P1"],

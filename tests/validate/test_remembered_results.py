@@ -63,9 +63,11 @@ def test_machine_model_and_instance_are_told_apart() -> None:
 
 @pytest.mark.parametrize("family", FAMILIES)
 def test_a_file_that_comes_after_others_has_the_findings_of_one_that_comes_first(family: str) -> None:
-    random = Random(family)
+    breaking = [case for case in cases(family) if case.breaks]
+    if len({case.rule for case in breaking}) < 2:
+        pytest.skip("has no two rules")
     files = []
-    for case in random.sample([case for case in cases(family) if case.breaks], 2):
+    for case in Random(family).sample(breaking, 2):
         with case.machine.changed(case.given), case.machine.changed(case.breaks or {}):
             files.append(case.machine.file.copy())
     forget_all()
