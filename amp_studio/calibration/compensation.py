@@ -95,7 +95,7 @@ class TuningPage:
     page: str
     params: tuple[str, ...]
     note: str = ""
-    shown: tuple[str, ...] = ()
+    read_beside: tuple[str, ...] = ()
     """Parameters that are shown beside them and not changed here."""
 
 

@@ -62,37 +62,37 @@ def read_measurement(text: str, answers: MeasurementAnswers, usual_unit: str = "
     if "\0" in text:
         raise MeasurementError("this is no text with measured points")
     raw = renishaw.read(text, usual_unit) if renishaw.recognises(text) else _read_columns(text, answers)
-    assumed = []
-    unit = answers.unit or raw.unit or ("deg" if raw.is_circle else "")
-    if not unit:
-        unit = usual_unit
-        assumed.append("unit")
-    error_unit = answers.error_unit or raw.error_unit or (unit if raw.kind == "measured" else "")
-    if not error_unit:
-        error_unit = usual_unit if raw.is_circle else unit
-        assumed.append("error_unit")
-    sign = answers.sign
+    used, assumed = _settled(raw, answers, usual_unit)
+    runs = tuple(_in_base(run, raw.kind, used) for run in _with_directions(raw.runs))
+    base = "mm" if raw.is_circle else _BASE[used.unit]
+    return Measurement(runs, base, used, assumed, raw.notes, is_circle=raw.is_circle)
+
+
+def _settled(
+    raw: RawTable, answers: MeasurementAnswers, usual_unit: str
+) -> tuple[MeasurementAnswers, tuple[str, ...]]:
+    """Return units and sign of a table, and which of them neither it nor an answer names;
+    raises MeasurementError where they contradict each other.
+    """
+    named = {"unit": answers.unit or raw.unit or ("deg" if raw.is_circle else "")}
+    unit = named["unit"] or usual_unit
+    # What was measured beside a target is in the unit of the target.
+    named["error_unit"] = answers.error_unit or raw.error_unit or (unit if raw.kind == "measured" else "")
+    error_unit = named["error_unit"] or (usual_unit if raw.is_circle else unit)
+    named["sign"] = answers.sign
     if raw.kind != "error":
         known = "target-measured" if raw.kind == "correction" else "measured-target"
-        if sign and sign != known:
+        if answers.sign and answers.sign != known:
             raise MeasurementError(
-                f"the heads of the columns name {raw.kind} figures, which are {known}, not {sign}"
+                f"the heads of the columns name {raw.kind} figures, which are {known}, not {answers.sign}"
             )
-        sign = known
-    if not sign:
-        sign = SIGNS[0]
-        assumed.append("sign")
-    if raw.is_circle:
-        if _BASE[unit] != "deg" or _BASE[error_unit] != "mm":
-            raise MeasurementError("a circle has angles in deg and errors of its radius in mm, in or um")
-        used = MeasurementAnswers(unit, error_unit, sign, answers.decimal or DECIMALS[0])
-        runs = tuple(_in_base(run, raw.kind, used) for run in _with_directions(raw.runs))
-        return Measurement(runs, "mm", used, tuple(assumed), raw.notes, is_circle=True)
-    if _BASE[unit] != _BASE[error_unit]:
+        named["sign"] = known
+    if raw.is_circle and (_BASE[unit], _BASE[error_unit]) != ("deg", "mm"):
+        raise MeasurementError("a circle has angles in deg and errors of its radius in mm, in or um")
+    if not raw.is_circle and _BASE[unit] != _BASE[error_unit]:
         raise MeasurementError(f"positions in {unit} and errors in {error_unit} do not belong together")
-    used = MeasurementAnswers(unit, error_unit, sign, answers.decimal or DECIMALS[0])
-    runs = tuple(_in_base(run, raw.kind, used) for run in _with_directions(raw.runs))
-    return Measurement(runs, _BASE[unit], used, tuple(assumed), raw.notes)
+    used = MeasurementAnswers(unit, error_unit, named["sign"] or SIGNS[0], answers.decimal or DECIMALS[0])
+    return used, tuple(name for name, text in named.items() if not text)
 
 
 def _check(answers: MeasurementAnswers) -> None:
@@ -202,33 +202,9 @@ def _table(
     separator: str,
     notes: tuple[str, ...],
 ) -> RawTable:
-    if heads is None:
-        if len(rows[0][1]) != 2:
-            raise MeasurementError(
-                f"{len(rows[0][1])} columns without heads: name them in a line before, as position, run 1 +,"
-                " run 1 -",
-                rows[0][0],
-            )
-        heads = [Head("position", "", None), Head("error", "", None)]
+    heads = heads or _heads_of_two(rows[0])
     kinds = [head.kind for head in heads]
-    values = [n for n, kind in enumerate(kinds) if kind in ("measured", "error", "correction")]
-    if not values:  # a table of means alone
-        values = [n for n, kind in enumerate(kinds) if kind == "mean"]
-    at = next((n for n, kind in enumerate(kinds) if kind in ("position", "angle")), -1)
-    if kinds.count("position") + kinds.count("angle") != 1 or not values:
-        raise MeasurementError(
-            "the heads of the columns do not name one position and what was measured there: position, error"
-        )
-    used = {heads[n].kind for n in values}
-    if (
-        len(used) > 1
-    ):  # measured beside its error: the reading of the instrument is the one without a sign to guess
-        values = [n for n in values if kinds[n] == "measured"] or values
-        if len({kinds[n] for n in values}) > 1:
-            raise MeasurementError("columns of errors and of corrections: leave one of them")
-    units = {heads[n].unit for n in values}
-    if len(units) > 1:
-        raise MeasurementError("the columns of errors have several units")
+    at, values = _columns(heads)
 
     def cell(row: tuple[int, list[str]], column: int) -> Fraction:
         return number_of(row[1][column], decimal, separator, row[0])
@@ -241,20 +217,48 @@ def _table(
     else:
         runs = parted(figures[0])
     ignored = sum(kind == "" or (kind == "mean" and n not in values) for n, kind in enumerate(kinds))
-    if ignored:
-        notes = (
-            *notes,
-            (
-                f"{ignored} columns that are neither position nor error were not read"
-                if ignored > 1
-                else "1 column that is neither position nor error was not read"
-            ),
-        )
+    if ignored > 1:
+        notes = (*notes, f"{ignored} columns that are neither position nor error were not read")
+    elif ignored:
+        notes = (*notes, "1 column that is neither position nor error was not read")
     is_circle = kinds[at] == "angle"
     if is_circle and kinds[values[0]] == "measured":
         raise MeasurementError("a circle needs the error of its radius, not the radius: angle, deviation")
     kind = "error" if kinds[values[0]] == "mean" else kinds[values[0]]
     return RawTable(tuple(runs), kind, heads[at].unit, heads[values[0]].unit, notes, is_circle)
+
+
+def _heads_of_two(row: tuple[int, list[str]]) -> list[Head]:
+    """Return the heads of a table that has none; raises MeasurementError unless it has two columns."""
+    if len(row[1]) != 2:
+        raise MeasurementError(
+            f"{len(row[1])} columns without heads: name them in a line before, as position, run 1 +, run 1 -",
+            row[0],
+        )
+    return [Head("position", "", None), Head("error", "", None)]
+
+
+def _columns(heads: Sequence[Head]) -> tuple[int, list[int]]:
+    """Return the column of the position, and those of what was measured there, in one kind and unit;
+    raises MeasurementError where the heads do not name them.
+    """
+    kinds = [head.kind for head in heads]
+    values = [n for n, kind in enumerate(kinds) if kind in ("measured", "error", "correction")]
+    if not values:  # a table of means alone
+        values = [n for n, kind in enumerate(kinds) if kind == "mean"]
+    positions = [n for n, kind in enumerate(kinds) if kind in ("position", "angle")]
+    if len(positions) != 1 or not values:
+        raise MeasurementError(
+            "the heads of the columns do not name one position and what was measured there: position, error"
+        )
+    if len({kinds[n] for n in values}) > 1:
+        # Measured beside its error: the reading of the instrument is the one without a sign to guess.
+        values = [n for n in values if kinds[n] == "measured"] or values
+        if len({kinds[n] for n in values}) > 1:
+            raise MeasurementError("columns of errors and of corrections: leave one of them")
+    if len({heads[n].unit for n in values}) > 1:
+        raise MeasurementError("the columns of errors have several units")
+    return positions[0], values
 
 
 def _grouped(

@@ -8,7 +8,7 @@ the models. An error in a fact is reported with file and line.
 from __future__ import annotations
 
 import hashlib
-from collections.abc import Callable, Collection
+from collections.abc import Callable, Collection, Iterable
 from functools import cache, partial
 from pathlib import Path
 from typing import Any, NamedTuple, TypeVar
@@ -49,6 +49,7 @@ from .units import UNITS_FILE
 from .yaml_reader import KeyPath, YamlDocument
 
 T = TypeVar("T", bound=Model)
+D = TypeVar("D", bound=Model | None)
 _MOST_RULES = 2**20
 """Bytes of a file of rules; the largest of our own has 37,000."""
 _MOST_SLIPS = 9
@@ -143,57 +144,66 @@ def compile_family(folder: Path) -> Compiled:
     family = _read(folder / "family.yaml", Family)
     if odd := next((key for key in family.groups if len(key) > LONGEST), None):
         raise DatabaseError(folder / "family.yaml", 1, f"{quoted(odd)} is too long for the key of a group")
-    groups = tuple(_read(folder / "groups" / f"{key}.yaml", Group, family) for key in family.groups)
-    for key, group in zip(family.groups, groups, strict=True):
-        if group.key != key:
-            raise DatabaseError(folder / "groups" / f"{key}.yaml", 1, f"its key is {quoted(group.key)}")
+    groups = tuple(_group(folder / "groups" / f"{key}.yaml", family) for key in family.groups)
     rules = tuple(rule for path in _of(family, folder / "rules") for rule in _read(path, Rules).rules)
-    errata = tuple(e for path in _of(family, folder / "errata") for e in _read(path, Errata).errata)
-    tables = tuple(t for path in sorted(folder.glob("tables/*.yaml")) for t in _read(path, Tables).tables)
-    guides = tuple(g for path in sorted(folder.glob("guides/*.yaml")) for g in _read(path, Guides).guides)
-    order = folder / "commissioning.yaml"
-    commissioning = _read(order, Commissioning) if order.is_file() else None
-    if commissioning and (wrong := next(iter(faults_of_order(commissioning, groups)), None)):
-        raise DatabaseError(order, _parsed(order).line(wrong[0]), wrong[1])
-    drawn = folder / "pictures.yaml"
-    pictures = _read(drawn, PictureRoles) if drawn.exists() else PictureRoles()
-    if wrong := next(iter(faults_of_pictures(pictures, groups)), None):
-        raise DatabaseError(drawn, _parsed(drawn).line(wrong[0]), wrong[1])
-    programs = folder / "program.yaml"
-    program = _read(programs, ProgramWords) if programs.exists() else ProgramWords()
-    if wrong := next(iter(faults_of_program(program, groups)), None):
-        raise DatabaseError(programs, _parsed(programs).line(wrong[0]), wrong[1])
-    moving = folder / "motion.yaml"
-    motion = _read(moving, MotionFacts) if moving.exists() else NO_MOTION
-    if wrong := next(iter(faults_of_motion(motion, groups)), None):
-        raise DatabaseError(moving, _parsed(moving).line(wrong[0]), wrong[1])
-    experience = folder / "plausible.yaml"
-    plausible = _read(experience, Plausible) if experience.exists() else Plausible()
-    if wrong := next(iter(faults_of_experience(plausible, groups)), None):
-        raise DatabaseError(experience, _parsed(experience).line(wrong[0]), wrong[1])
-    fault = next(iter(faults_between(family, groups)), None)
-    if fault is not None:
+    further = FurtherFacts(
+        errata=tuple(e for path in _of(family, folder / "errata") for e in _read(path, Errata).errata),
+        tables=tuple(t for path in sorted(folder.glob("tables/*.yaml")) for t in _read(path, Tables).tables),
+        guides=tuple(g for path in sorted(folder.glob("guides/*.yaml")) for g in _read(path, Guides).guides),
+        messages=_messages(folder, groups, rules),
+        commissioning=_optional(folder / "commissioning.yaml", Commissioning, None, faults_of_order, groups),
+        pictures=_optional(
+            folder / "pictures.yaml", PictureRoles, PictureRoles(), faults_of_pictures, groups
+        ),
+        program=_optional(folder / "program.yaml", ProgramWords, ProgramWords(), faults_of_program, groups),
+        motion=_optional(folder / "motion.yaml", MotionFacts, NO_MOTION, faults_of_motion, groups),
+    )
+    plausible = _optional(folder / "plausible.yaml", Plausible, Plausible(), faults_of_experience, groups)
+    if fault := next(iter(faults_between(family, groups)), None):
         path = folder / (f"groups/{fault.group}.yaml" if fault.group else "family.yaml")
         raise DatabaseError(path, _parsed(path).line(fault.place), fault.what)
+    # What is written once for several parameters has reached them.
+    return Compiled(
+        family=family.model_copy(update={"choice_lists": {}, "bit_lists": {}}),
+        groups=tuple(group.model_copy(update={"states": (), "last_states": ()}) for group in groups),
+        rules=rules,
+        plausible=plausible,
+        further=record_text(further),
+    )
+
+
+def _group(path: Path, family: Family) -> Group:
+    """Return a group of a family; raises DatabaseError where it has not the key that its file is called."""
+    group = _read(path, Group, family)
+    if group.key != path.stem:
+        raise DatabaseError(path, 1, f"its key is {quoted(group.key)}")
+    return group
+
+
+def _optional(
+    path: Path,
+    model: type[T],
+    without: D,
+    faults: Callable[[T, tuple[Group, ...]], Iterable[tuple[KeyPath, str]]],
+    groups: tuple[Group, ...],
+) -> T | D:
+    """Return the facts of a file that a family need not have, checked against its groups;
+    ``without`` where there is none. Raises DatabaseError with the line of the first fault.
+    """
+    if not path.is_file():
+        return without
+    found = _read(path, model)
+    if wrong := next(iter(faults(found, groups)), None):
+        raise DatabaseError(path, _parsed(path).line(wrong[0]), wrong[1])
+    return found
+
+
+def _messages(folder: Path, groups: tuple[Group, ...], rules: tuple[Rule, ...]) -> tuple[Messages, ...]:
+    """Return the files of messages of a family, checked against its groups and rules."""
     messages = {path: _read(path, Messages) for path in sorted(folder.glob("messages/*.yaml"))}
     for path, place, what in faults_of_messages(messages, groups, rules):
         raise DatabaseError(path, _parsed(path).line(place), what)
-    # What is written once for several parameters has reached them.
-    family = family.model_copy(update={"choice_lists": {}, "bit_lists": {}})
-    groups = tuple(group.model_copy(update={"states": (), "last_states": ()}) for group in groups)
-    further = FurtherFacts(
-        errata=errata,
-        tables=tables,
-        guides=guides,
-        messages=tuple(messages.values()),
-        commissioning=commissioning,
-        pictures=pictures,
-        program=program,
-        motion=motion,
-    )
-    return Compiled(
-        family=family, groups=groups, rules=rules, plausible=plausible, further=record_text(further)
-    )
+    return tuple(messages.values())
 
 
 def _of(family: Family, folder: Path) -> list[Path]:

@@ -239,6 +239,12 @@ class Need(Model):
     page: Page
 
 
+def _is_shared(choices: tuple[Choice, ...], field: str) -> bool:
+    """Return whether two choices have the same key, label or code, as ``read_value`` compares them."""
+    words = [str(getattr(c, field)) for c in choices if getattr(c, field) is not None]
+    return len({" ".join(word.casefold().split()) for word in words}) != len(words)
+
+
 class Parameter(Model):
     """All facts of the database about one parameter."""
 
@@ -324,24 +330,28 @@ class Parameter(Model):
         return (self.scope,) if self.layouts is None else tuple(layout.scope for layout in self.layouts)
 
     def __post_init__(self) -> None:
-        if self.secret and self.type not in ("integer", "real", "text"):
-            raise ValueError("a secret is a number or a text")  # what shows choices and bits masks nothing
-        if self.first_axis is not None and self.type != "bits":
-            raise ValueError("first_axis belongs to a word of bits")
-        if self.type == "choice" and not self.choices:
-            raise ValueError("a choice parameter needs choices")
-        if self.type == "boolean" and (not self.choices or len(self.choices) != 2):
-            raise ValueError("a yes/no parameter needs its two choices, with keys 'yes' and 'no'")
-        if self.choices:
-            for field in ("key", "label", "code"):
-                words = [str(getattr(c, field)) for c in self.choices if getattr(c, field) is not None]
-                seen = [" ".join(word.casefold().split()) for word in words]  # as read_value compares them
-                if len(set(seen)) != len(seen):
-                    raise ValueError(f"two choices share a {field}")
-        if self.type == "boolean" and {c.key for c in self.choices or ()} != {"yes", "no"}:
-            raise ValueError("the choices of a yes/no parameter have the keys 'yes' and 'no'")
-        if isinstance(self.default, Default) and self.choices:
-            keys = {c.key for c in self.choices}
+        choices, keys = self.choices or (), {choice.key for choice in self.choices or ()}
+        is_yes_no = self.type == "boolean"
+        for is_wrong, what in (
+            # What shows choices and bits masks nothing.
+            (self.secret and self.type not in ("integer", "real", "text"), "a secret is a number or a text"),
+            (self.first_axis is not None and self.type != "bits", "first_axis belongs to a word of bits"),
+            (self.type == "choice" and not choices, "a choice parameter needs choices"),
+            (
+                is_yes_no and len(choices) != 2,
+                "a yes/no parameter needs its two choices, with keys 'yes' and 'no'",
+            ),
+            (
+                is_yes_no and keys != {"yes", "no"},
+                "the choices of a yes/no parameter have the keys 'yes' and 'no'",
+            ),
+        ):
+            if is_wrong:
+                raise ValueError(what)
+        for field in ("key", "label", "code"):
+            if _is_shared(choices, field):
+                raise ValueError(f"two choices share a {field}")
+        if isinstance(self.default, Default) and choices:
             for value in (self.default.value, *(self.default.instances or {}).values()):
                 if value not in keys:
                     raise ValueError(f"default {value!r} is not one of its choices")

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from collections.abc import Mapping
+from typing import TYPE_CHECKING, Any
 
 from amp_studio.cli import candidates
 from amp_studio.cli.arguments import JSON, PATH, SECRETS, TEXT
@@ -12,7 +13,8 @@ from amp_studio.cli.verb import Options, Verb, VerbArgument
 
 if TYPE_CHECKING:
     from amp_studio import MachineParameters
-    from amp_studio.schema import Address
+    from amp_studio.files import ParameterFile
+    from amp_studio.schema import Address, ResolvedAddress
 
 VERB = Verb(
     __doc__,
@@ -83,8 +85,7 @@ def _print_not_set(options: Options, machine: MachineParameters, only: set[Addre
 def run(options: Options) -> int:
     """Print values."""
     from amp_studio.cli.files.marked import marks_asked, with_marks
-    from amp_studio.report import state_name
-    from amp_studio.schema import ResolvedAddress, real_value, resolve_all, show_value, unit_text
+    from amp_studio.schema import ResolvedAddress, resolve_all
 
     machine = opened(options.path, options)
     file = machine.file
@@ -102,28 +103,31 @@ def run(options: Options) -> int:
         found = with_marks(machine, options.path, found, marks)
     for message in dict.fromkeys(message for m in found if (message := m.remark(file.schema))):
         note(message)
-    rows = []
-    for each in found:
-        address = each.address
-        rows.append(machine.row(each, secrets=options.secrets))
-        if each.bit is not None:
-            if not options.json:
-                shown = "not set" if rows[-1]["value"] is None else rows[-1]["value"]
-                print(f"{rows[-1]['param']} {rows[-1]['label']:40} {shown}")
-            continue
-        if not options.json:
-            mark = "" if rows[-1]["default"] else " *"
-            state = (
-                "" if rows[-1]["state"] == "in-force" else f"  (inactive: {state_name(rows[-1]['state'])})"
-            )
-            parameter = file.schema.parameters[address[0]]
-            shown = show_value(parameter, file.get(address), secrets=options.secrets)
-            if file.get(address) is None and rows[-1]["unit"]:
-                shown += f" (in {unit_text(rows[-1]['unit'])})"
-            real = real_value(file.evaluation, address, file.get(address))
-            shown += f" = {show_value(parameter, real)}" if real else ""
-            shown += f" ({rows[-1]['labels']})" if "labels" in rows[-1] else ""
-            print(f"{file.machine_schema.named(address):52} {shown}{mark}{state}")
+    rows = [machine.row(each, secrets=options.secrets) for each in found]
     if options.json:
         print_json({"values": rows})
+        return 0
+    for each, row in zip(found, rows, strict=True):
+        print(_line(file, each, row, secrets=options.secrets))
     return 0
+
+
+def _line(file: ParameterFile, each: ResolvedAddress, row: Mapping[str, Any], *, secrets: bool) -> str:
+    """Return the line of one value, or of one bit of a word."""
+    from amp_studio.report import state_name
+    from amp_studio.schema import real_value, show_value, unit_text
+
+    address = each.address
+    if each.bit is not None:
+        value = "not set" if row["value"] is None else row["value"]
+        return f"{row['param']} {row['label']:40} {value}"
+    parameter, entered = file.schema.parameters[address[0]], file.get(address)
+    text = show_value(parameter, entered, secrets=secrets)
+    if entered is None and row["unit"]:
+        text += f" (in {unit_text(row['unit'])})"
+    real = real_value(file.evaluation, address, entered)
+    text += f" = {show_value(parameter, real)}" if real else ""
+    text += f" ({row['labels']})" if "labels" in row else ""
+    text += "" if row["default"] else " *"
+    text += "" if row["state"] == "in-force" else f"  (inactive: {state_name(row['state'])})"
+    return f"{file.machine_schema.named(address):52} {text}"

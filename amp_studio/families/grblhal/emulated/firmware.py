@@ -28,6 +28,7 @@ OFFSETS = ("G54", "G55", "G56", "G57", "G58", "G59", "G59.1", "G59.2", "G59.3")
 POSITIONS = ("G28", "G30", "G92")
 UNKNOWN, NOT_IDLE, LOCKED, TOO_LONG, NO_HOMING, BAD_WORD = 3, 8, 9, 11, 5, 20
 TRAVEL_EXCEEDED, BAD_JOG, NO_FEED = 15, 16, 22
+SOFT_RESET = 0x18
 JOG_CANCEL = 0x85
 MOVING = ("Run", "Jog", "Home")
 _STATES = ("Idle", "Run", "Hold:0", "Door:0", "Alarm", "Check")
@@ -142,47 +143,58 @@ class Firmware:
             self._receive_byte(byte)
 
     def _receive_byte(self, byte: int) -> None:
-        sign = chr(byte)
-        if byte == 0x18:
-            self._line, self._is_deaf = "", True  # this build takes no setting after a soft reset
-            was = self._motion.state
-            if self._motion.cancel():  # motion_control.c ``mc_reset``: the position may be lost
-                self.state, self._unread = "Alarm", []
-                self._send("ALARM:6" if was == "Home" else "ALARM:3")
-            self._greet()
+        character = chr(byte)
+        if byte == SOFT_RESET:
+            self._soft_reset()
         elif byte == JOG_CANCEL:
             if self._motion.state == "Jog":
                 self._motion.cancel()
                 self.state = "Idle"
-        elif sign in "?!~" and not self._line.startswith("$"):
-            if sign == "!" and self._motion.state in ("Run", "Jog"):
-                self._motion.pause()
-                self.state = "Hold:0"
-            if sign == "~" and self.state == "Hold:0":
-                self._motion.resume()
-                self.state, unread, self._unread = "Idle", self._unread, []
-                for line in unread:
-                    self._answer_line(line)
-            if sign == "?":
-                self._send(self._status())
-        elif sign in "\r\n":
-            if not self._line and self._last_end not in ("", sign):
-                self._last_end = ""
-                return
-            self._last_end = sign
-            line, self._line = self._line, ""
-            if self.state in (*_SUSPENDED, "Home"):
-                self._unread.append(line)
-                return
-            if self.is_writing:
-                self._save()
-            self._answer_line(line)
+        elif character in "?!~" and not self._line.startswith("$"):
+            self._real_time(character)
+        elif character in "\r\n":
+            self._end_line(character)
         elif byte in (0x7F, 0x08) and not self.settings.is_classic:
             self._line = self._line[:-1]
         elif byte > (0x1F if self._line else 0x20) and byte < 0x80:
             limit = CLASSIC_LINE if self.settings.is_classic else LINE
             self._overflows = self._overflows or len(self._line) >= limit - 1
-            self._line = (self._line + sign)[: limit - 1]
+            self._line = (self._line + character)[: limit - 1]
+
+    def _soft_reset(self) -> None:
+        self._line, self._is_deaf = "", True  # this build takes no setting after a soft reset
+        was = self._motion.state
+        if self._motion.cancel():  # motion_control.c ``mc_reset``: the position may be lost
+            self.state, self._unread = "Alarm", []
+            self._send("ALARM:6" if was == "Home" else "ALARM:3")
+        self._greet()
+
+    def _real_time(self, command: str) -> None:
+        """Do a command that acts at once, whatever line is under way: report, feed hold or cycle start."""
+        if command == "?":
+            self._send(self._status())
+        elif command == "!" and self._motion.state in ("Run", "Jog"):
+            self._motion.pause()
+            self.state = "Hold:0"
+        elif command == "~" and self.state == "Hold:0":
+            self._motion.resume()
+            self.state, unread, self._unread = "Idle", self._unread, []
+            for line in unread:
+                self._answer_line(line)
+
+    def _end_line(self, end: str) -> None:
+        # The second character of CR LF ends no line; two equal ones end an empty one.
+        if not self._line and self._last_end not in ("", end):
+            self._last_end = ""
+            return
+        self._last_end = end
+        line, self._line = self._line, ""
+        if self.state in (*_SUSPENDED, "Home"):
+            self._unread.append(line)
+            return
+        if self.is_writing:
+            self._save()
+        self._answer_line(line)
 
     def _answer_line(self, line: str) -> None:
         overflows, self._overflows = self._overflows, False
@@ -231,10 +243,10 @@ class Firmware:
                 self._need_rest()
             self._send(*self._reports()[name]())
         elif not equals and name.isdigit() and not self.settings.is_classic:
-            shown = self.settings.named(int(name))
-            if shown is None:
+            setting = self.settings.named(int(name))
+            if setting is None:
                 raise RefusedError(53)
-            self._send(f"${shown.number}={shown.show()}")
+            self._send(f"${setting.number}={setting.show()}")
         elif name == "X":
             self.state = "Idle"
         elif equals and name == "J":
@@ -425,8 +437,8 @@ class Firmware:
     def _coordinates(self) -> Iterator[str]:
         inches = self.settings.all[13].value
         for name, text in self.offsets.items():
-            shown = ",".join(f"{float(part) / 25.4:.4f}" for part in text.split(",")) if inches else text
-            yield f"[{name}:{shown}]"
+            figures = ",".join(f"{float(part) / 25.4:.4f}" for part in text.split(",")) if inches else text
+            yield f"[{name}:{figures}]"
         zeros = ",".join(["0.0000" if inches else "0.000"] * len(self._axes))
         yield from (f"[TLO:{'0.000' if self.settings.is_classic else zeros}]", f"[PRB:{zeros}:0]")
 
