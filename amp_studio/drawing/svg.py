@@ -72,8 +72,8 @@ def scene_svg(scene: Scene, width: float = WIDTH, drawn: float = HEIGHT, *, note
     """Return the SVG text of a scene in a width and, without title and notes, a height in points;
     ``notes`` are under it.
     """
-    shown = sorted(scene.notes, key=lambda note: note.order) if notes else []
-    lines = [line for note in shown for line in _wrapped(("! " if note.wrong else "") + note.text)]
+    ordered = sorted(scene.notes, key=lambda note: note.order) if notes else []
+    lines = [line for note in ordered for line in _wrapped(("! " if note.wrong else "") + note.text)]
     height = HEAD + drawn + NOTE * len(lines) + (8.0 if lines else 0.0)
     frame = Placement.within(scene, width, drawn)
     parts = [

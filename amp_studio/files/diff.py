@@ -34,14 +34,14 @@ def in_one_unit(values: Sequence[Value | None], unit: str) -> list[Value | None]
     or different ones would look alike.
     """
     try:
-        shown = [_in_unit(value, unit) for value in values]
+        converted = [_in_unit(value, unit) for value in values]
     except UnitError:
         return list(values)
     for n, value in enumerate(values):
         for other in range(n):
-            if shown[n] == shown[other] and not same_value(value, values[other]):
+            if converted[n] == converted[other] and not same_value(value, values[other]):
                 return list(values)
-    return shown
+    return converted
 
 
 def _in_unit(value: Value | None, unit: str) -> Value | None:

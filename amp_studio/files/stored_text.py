@@ -63,7 +63,7 @@ def _single_text(parameter: Parameter, value: Value, *, turns: bool) -> str:
     unit = stored_unit(parameter, turns=turns)
     figure = to_figure(parameter, value, unit)
     kept = single(figure)
-    shown = f"{kept:.{storage.decimals or 0}f}"
-    if kept == float(shown):
+    rounded = f"{kept:.{storage.decimals or 0}f}"
+    if kept == float(rounded):
         return "" if kept == value.value and value.unit == unit else write_number(kept)
-    return f"{write_number(kept)}, shown as {shown}"
+    return f"{write_number(kept)}, shown as {rounded}"

@@ -88,11 +88,11 @@ class FileValues:
             if words_of(text):
                 yield Entry("value", text, address[0], (("value", text),), address[1])
         for note in all_notes(file):
-            shown = " ".join(note.text.split())
+            note_text = " ".join(note.text.split())
             if note.subject == "group" and any(group.key == note.about for group in file.schema.groups):
-                yield Entry("group", f"{note.label}: {shown}", note.about, (("note", shown),))
+                yield Entry("group", f"{note.label}: {note_text}", note.about, (("note", note_text),))
             elif (
                 note.subject == "value"
                 and (address := read_address(note.about)) in file.machine_schema.places
             ):
-                yield Entry("note", shown, address[0], (("note", shown),), address[1])
+                yield Entry("note", note_text, address[0], (("note", note_text),), address[1])

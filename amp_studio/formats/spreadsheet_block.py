@@ -205,7 +205,7 @@ def _span(text: str | None) -> int:
     )
 
 
-def _cell_text(shown: str, number: str | None) -> str:
+def _cell_text(cell: str, number: str | None) -> str:
     """Return what a cell means that shows a text and has a number too: the number,
     with the unit that is shown.
 
@@ -213,13 +213,13 @@ def _cell_text(shown: str, number: str | None) -> str:
     it stays a text.
     """
     if number is None or not re.fullmatch(r"[-+]?[0-9]*\.?[0-9]+(?:[eE][-+]?[0-9]+)?", number):
-        return shown
-    found = _SHOWN_NUMBER.match(shown)
+        return cell
+    found = _SHOWN_NUMBER.match(cell)
     if found is None:
-        return shown
-    unit = shown[found.end() :].strip()
+        return cell
+    unit = cell[found.end() :].strip()
     if re.match(r"[%\d:/.-]", unit):
-        return shown
+        return cell
     return f"{number} {unit}" if unit else number
 
 

@@ -98,12 +98,12 @@ class ValueReader:
     def _figure(self, address: Address, unit: str) -> DrawnValue:
         definition, value = self.file.schema.parameters[address[0]], self.file.get(address)
         unit, label = unit or self.unit(address), self.label(address)
-        shown = self._value_text(address, value)
+        value_text = self._value_text(address, value)
         if value is None:
-            return DrawnValue(address, label, None, unit, shown, "not set")
+            return DrawnValue(address, label, None, unit, value_text, "not set")
         state = self.evaluation.state(address)
         if not state.is_active:
-            return DrawnValue(address, label, None, unit, shown, f"inactive, {state.why}", inactive=True)
+            return DrawnValue(address, label, None, unit, value_text, f"inactive, {state.why}", inactive=True)
         number = self._number(address, value, unit)
         if number is None:
             return DrawnValue(
@@ -111,13 +111,13 @@ class ValueReader:
                 label,
                 None,
                 unit,
-                shown,
-                f"{shown} cannot be drawn in {unit or 'numbers'}",
+                value_text,
+                f"{value_text} cannot be drawn in {unit or 'numbers'}",
                 wrong=True,
             )
         wrong = fault(self.evaluation, address, value) or ""
         return DrawnValue(
-            address, label, number, unit, shown, wrong.removeprefix(f"{definition.name} "), bool(wrong)
+            address, label, number, unit, value_text, wrong.removeprefix(f"{definition.name} "), bool(wrong)
         )
 
     def _number(self, address: Address, value: Value, unit: str) -> float | None:

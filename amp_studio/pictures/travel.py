@@ -245,8 +245,10 @@ def _draw_box(
             if (0, k) in drags and (1, m) in drags:
                 (x, along_x), (y, along_y) = drags[0, k], drags[1, m]
                 pair = [row[0].figures[k], row[1].figures[m]]
-                label, shown = (", ".join(getattr(f, name) for f in pair if f) for name in ("label", "text"))
-                drawing.handles.append(Handle((x, y), (along_x, along_y), label, shown, second=True))
+                label, value_text = (
+                    ", ".join(getattr(f, name) for f in pair if f) for name in ("label", "text")
+                )
+                drawing.handles.append(Handle((x, y), (along_x, along_y), label, value_text, second=True))
 
 
 def _edge_drag(
@@ -315,9 +317,11 @@ def _name_travel(
 ) -> None:
     parts = []
     for ends, axis in zip(row, axes, strict=True):
-        shown = [figure.text for figure in ends.figures if figure is not None and figure.number is not None]
-        if shown:
-            parts.append(f"{figures.axis(axis)} {' to '.join(shown)}")
+        end_texts = [
+            figure.text for figure in ends.figures if figure is not None and figure.number is not None
+        ]
+        if end_texts:
+            parts.append(f"{figures.axis(axis)} {' to '.join(end_texts)}")
     if not parts:
         return
     left = _shown_edges(row[0], views[0])[0]

@@ -57,8 +57,8 @@ def _in_force(codes: ControlCodes) -> Iterator[PowerUpLine]:
     for value in codes.facts.values:
         for each in codes.whole(value.params):
             if file.evaluation.state(each).is_active:
-                shown = show_value(file.schema.parameters[each[0]], file.get(each))
-                yield PowerUpLine(value.name, "", shown, (each,), value.page)
+                text = show_value(file.schema.parameters[each[0]], file.get(each))
+                yield PowerUpLine(value.name, "", text, (each,), value.page)
 
 
 def _changes(codes: ControlCodes) -> Iterator[PowerUpLine]:

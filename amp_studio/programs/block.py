@@ -251,8 +251,8 @@ class BlockReader:
         if form is not None:
             choice = self.file.evaluation.canonical(form)
             if choice is None:
-                shown = self.file.schema.parameters[form[0]].name
-                assumed = f"any number of digits, as {shown} is not set"
+                parameter_name = self.file.schema.parameters[form[0]].name
+                assumed = f"any number of digits, as {parameter_name} is not set"
             elif isinstance(choice, str) and choice[:1].isdigit():
                 digits = digits_of(choice, self.is_inch())
         elif whole:

@@ -94,9 +94,11 @@ class ControlCodes:
                 continue
             params = [address, *((named, instance) for named in (facts.call, facts.program) if named)]
             program = evaluation.canonical((facts.program, instance)) if facts.program else instance
-            shown = f"{program:g}" if isinstance(program, float | int) else str(program or "?")
+            program_text = f"{program:g}" if isinstance(program, float | int) else str(program or "?")
             code = TypedWord(facts.letter, f"{number:g}", "").code
-            yield Call(code, shown, None if facts.call is None else kind == "modal", tuple(params), facts)
+            yield Call(
+                code, program_text, None if facts.call is None else kind == "modal", tuple(params), facts
+            )
 
     def whole(self, parameters: tuple[str, ...], axis: str = "") -> tuple[Address, ...]:
         """Return addresses of parameters: the one of an axis where they have axes, else the first."""

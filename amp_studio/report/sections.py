@@ -125,9 +125,9 @@ def _group_parts(file: ParameterFile, title: str, rows: list[ReportRow]) -> list
         return [Listing(title, tuple(rows), any(r.place for r in rows))]
     grids: list[Listing | Grid] = []
     for start in range(0, len(axes), _WIDEST_GRID):
-        shown = axes[start : start + _WIDEST_GRID]
-        lines = tuple(_lines(file, rows, shown, with_others=start == 0))
-        columns = tuple(Column(axis_label(file, axis), axis_note(file, axis)) for axis in shown)
+        listed = axes[start : start + _WIDEST_GRID]
+        lines = tuple(_lines(file, rows, listed, with_others=start == 0))
+        columns = tuple(Column(axis_label(file, axis), axis_note(file, axis)) for axis in listed)
         if lines:
             grids.append(Grid(title, columns, lines))
     return grids

@@ -68,9 +68,9 @@ def encode_image(file: ParameterFile) -> bytes:
     values = sorted((a for a in file.values if a in order), key=order.__getitem__)
     for address in values:
         number = here.number(address)
-        shown = "-" if number is None or here.is_disputed(address[0]) else number
+        number_text = "-" if number is None or here.is_disputed(address[0]) else number
         lines.append(
-            f"{shown}\t{written(address)}\t{_field(schema.parameters[address[0]], file.values[address])}"
+            f"{number_text}\t{written(address)}\t{_field(schema.parameters[address[0]], file.values[address])}"
         )
     lines.append(f"end {len(values)}")
     try:
@@ -232,8 +232,10 @@ def _value(schema: Schema, parameter: Parameter, entry: str, field: str) -> Valu
     """
     is_text = parameter.type in ("text", "format")
     if is_text != field.startswith("text:") or (len(field) > _LONGEST and parameter.type != "text"):
-        shown = MASKED if parameter.secret else f"'{_short(field)}'"
-        raise ImageError(f"the control image contains {_short(entry)} with {shown}, which is no value of it")
+        field_text = MASKED if parameter.secret else f"'{_short(field)}'"
+        raise ImageError(
+            f"the control image contains {_short(entry)} with {field_text}, which is no value of it"
+        )
     try:
         if is_text:
             return read_stored(schema, parameter, _unescaped(field[5:]))

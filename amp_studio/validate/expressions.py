@@ -198,8 +198,8 @@ def check_rule(rule: Rule, functions: Mapping[str, Callable[..., Any]]) -> Findi
         for name in sorted(named - set(functions)):
             raise RuleError(rule.id, f"{place} calls {quoted(name)}, which is no function")
         called |= named & set(functions)
-    shown = _check_names(rule)
-    spoken_of |= shown
+    printed_names = _check_names(rule)
+    spoken_of |= printed_names
     replaced = {used.set: f"({used.value}\n) != it" for used in rule.effective}
     blames = rule.blames or replaced or dict.fromkeys(list(rule.reads)[:1], "true")
     others = [
@@ -225,7 +225,7 @@ def check_rule(rule: Rule, functions: Mapping[str, Callable[..., Any]]) -> Findi
         tuple(_at_hand(rule, blames)),
         tuple(_at_hand(rule, compares)),
         tuple(sorted(called)),
-        frozenset(shown),
+        frozenset(printed_names),
     )
 
 

@@ -78,7 +78,7 @@ def names_of(content: GrblContent) -> dict[str, str]:
     }
 
 
-def _is_shown(writing: Writing, found: GrblContent, name: str, text: str, shown: str) -> bool:
+def _is_shown(writing: Writing, found: GrblContent, name: str, text: str, reported: str) -> bool:
     if name in PUT_BACK:
         return name not in offset_differences(writing.wanted, found)
-    return is_shown_as(text, shown) if name[1:].isdigit() else text == shown
+    return is_shown_as(text, reported) if name[1:].isdigit() else text == reported

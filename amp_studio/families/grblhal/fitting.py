@@ -104,9 +104,9 @@ def _set(
     file: ParameterFile, found: ParameterFile, address: Address, value: Value, target: Address | None
 ) -> list[Misfit]:
     parameter = file.schema.parameters[address[0]]
-    name, shown = file.machine_schema.label(address), show_value(parameter, value)
+    name, value_text = file.machine_schema.label(address), show_value(parameter, value)
     if target is None:
-        return [Misfit(name, shown, LACKING)]
+        return [Misfit(name, value_text, LACKING)]
     other = found.schema.parameters[target[0]]
     if other.type == parameter.type and not other.choices and other.type != "bits":
         found.set(target, value)
@@ -119,7 +119,7 @@ def _set(
     try:
         text = text_of_value(parameter, value, turns=file.evaluation.turns(address))
     except InvalidValueError as error:
-        return [Misfit(name, shown, str(error))]
+        return [Misfit(name, value_text, str(error))]
     return _set_text(found, target, name, text)
 
 

@@ -214,8 +214,8 @@ def _masked(copy: GrblContent, content: bytes, present: GrblContent, current: by
     for here, other in ((own, theirs), (theirs, own)):
         for number, bits in bits_beyond(here, other, axes_only=here is theirs).items():
             if number in settings:
-                shown = present.settings.get(number, "0") if here is own else "0"
-                settings[number] = with_bits(settings[number], bits, shown)
+                reported = present.settings.get(number, "0") if here is own else "0"
+                settings[number] = with_bits(settings[number], bits, reported)
     return settings
 
 
@@ -249,16 +249,16 @@ def _fitted(wanted: Mapping[int, str], present: GrblContent, known: Mapping[int,
     for number, text in wanted.items():
         if number not in settings and number not in comes:
             continue
-        shown = settings.get(number, "")
+        reported = settings.get(number, "")
         if number in known and known[number].type == PASSWORD and not text.strip("*"):
             continue  # a mask, not a password
-        if is_shown_as(text, shown) and _is_as_fine(text, shown):
+        if is_shown_as(text, reported) and _is_as_fine(text, reported):
             continue
         try:
             check_text(known.get(number), number, text, len(present.axes))
         except BoundsError as error:
             raise ImageError(str(error)) from None
-        settings[number] = _as_shown(text, shown)
+        settings[number] = _as_shown(text, reported)
     return _moved(settings, wanted, has_rates=bool(comes))
 
 
@@ -275,14 +275,14 @@ def _lacking_text(numbers: Sequence[int]) -> str:
     return f"the control does not have {named}{more}" if numbers else ""
 
 
-def _is_as_fine(text: str, shown: str) -> bool:
+def _is_as_fine(text: str, reported: str) -> bool:
     """Whether what is shown is all of it: of 0.0004 a control shows 0.000, and may contain either."""
-    return text == shown or is_same_number(text, shown)
+    return text == reported or is_same_number(text, reported)
 
 
-def _as_shown(text: str, shown: str) -> str:
+def _as_shown(text: str, reported: str) -> str:
     """Return a text in the form in which the control will show it, if it is the same number."""
-    decimals = decimals_of(shown)
+    decimals = decimals_of(reported)
     try:
         will_show = "" if decimals is None else shown_number(read_number(text), decimals)
         return (

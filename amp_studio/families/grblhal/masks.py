@@ -55,14 +55,14 @@ def bits_beyond(build: Build, other: Build, *, axes_only: bool = False) -> dict[
     return found
 
 
-def with_bits(text: str, bits: Mapping[int, str], shown: str) -> str:
+def with_bits(text: str, bits: Mapping[int, str], reported: str) -> str:
     """Return the text of a mask with these bits as another text has them;
     itself where one of them is no number.
     """
-    if not text.isdecimal() or not shown.isdecimal():
+    if not text.isdecimal() or not reported.isdecimal():
         return text
     mask = sum(1 << bit for bit in bits)
-    return str(int(text) & ~mask | int(shown) & mask)
+    return str(int(text) & ~mask | int(reported) & mask)
 
 
 def set_bits(text: str, bits: Mapping[int, str]) -> dict[int, str]:

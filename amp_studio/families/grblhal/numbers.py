@@ -78,21 +78,21 @@ def shown_number(value: float, decimals: int) -> str:
     return f"{'-' if value < 0 else ''}{whole}.{digits}"
 
 
-def decimals_of(shown: str) -> int | None:
+def decimals_of(reported: str) -> int | None:
     """Return with how many decimals a number is shown; None for a whole number or a text."""
-    found = re.fullmatch(r"-?\d+\.(\d*)", shown)
+    found = re.fullmatch(r"-?\d+\.(\d*)", reported)
     return len(found[1]) if found else None
 
 
-def is_shown_as(sent: str, shown: str) -> bool:
+def is_shown_as(sent: str, reported: str) -> bool:
     """Whether a control that shows a setting so may have got it so."""
-    if sent == shown or is_same_number(sent, shown):
+    if sent == reported or is_same_number(sent, reported):
         return True
-    decimals = decimals_of(shown)
+    decimals = decimals_of(reported)
     try:
         if decimals is None:
-            return re.fullmatch(r"\d+", shown) is not None and single(float(shown)) == read_number(sent)
-        return shown_number(read_number(sent), decimals) == shown
+            return re.fullmatch(r"\d+", reported) is not None and single(float(reported)) == read_number(sent)
+        return shown_number(read_number(sent), decimals) == reported
     except ValueError:
         return False
 

@@ -51,8 +51,10 @@ class Writing:
             if not left:
                 break
             self._round(line, left, progress)
-            shown = read_settings(line, self.present)
-            left = {n: text for n, text in self.wanted.settings.items() if not self._is_there(n, text, shown)}
+            reported = read_settings(line, self.present)
+            left = {
+                n: text for n, text in self.wanted.settings.items() if not self._is_there(n, text, reported)
+            }
         if self.others:
             self._write_others(line, progress)
 
@@ -64,8 +66,8 @@ class Writing:
             restart_needed=bool(waiting), notes=(*coarse, *waiting, *left_notes(self.wanted, self.present))
         )
 
-    def _is_there(self, number: int, text: str, shown: Mapping[int, str]) -> bool:
-        return is_shown_as(text, shown.get(number, ""))
+    def _is_there(self, number: int, text: str, reported: Mapping[int, str]) -> bool:
+        return is_shown_as(text, reported.get(number, ""))
 
     def _round(self, line: GrblLine, left: Mapping[int, str], progress: Progress) -> None:
         """Write settings; what is refused is tried again as long as another one was taken meanwhile."""
@@ -109,11 +111,11 @@ class Writing:
 
 
 def coarse_notes(
-    settings: Mapping[int, str], shown: Mapping[int, str], names: Mapping[int, str]
+    settings: Mapping[int, str], reported: Mapping[int, str], names: Mapping[int, str]
 ) -> Iterator[str]:
     """Yield a sentence for each setting that the control shows coarser than it keeps it."""
     for number, text in settings.items():
-        decimals = decimals_of(shown.get(number, ""))
+        decimals = decimals_of(reported.get(number, ""))
         if decimals is None:
             continue
         shows = shown_number(read_number(text), decimals)

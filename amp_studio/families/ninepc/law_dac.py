@@ -77,8 +77,8 @@ def columns(read: AxisParameters, drive: str, p: list[float], notes: list[str]) 
         first = samples.DAC + samples.DAC_FIGURES * len(found)
         p[first : first + samples.DAC_FIGURES] = [float(signal), volts / (divisor * unit), abs(volts)]
         found.append((f"dac_{channel.number}", "V"))
-        shown = f"{volts:g}", samples.MONITORS[signal][0], f"{divisor:g}", f"{unit:g}"
-        notes.append(NOTE.format(channel.number, *shown, f"{abs(volts):g}", channel.unit))
+        texts = f"{volts:g}", samples.MONITORS[signal][0], f"{divisor:g}", f"{unit:g}"
+        notes.append(NOTE.format(channel.number, *texts, f"{abs(volts):g}", channel.unit))
     p[samples.CHANNELS] = float(len(found))
     return found
 

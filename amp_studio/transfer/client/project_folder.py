@@ -72,5 +72,5 @@ def _file(path: Path, names: list[Path], backups: set[Path], exchange: RecordedE
         backup = None
     copies = [p for p in names if p.name.startswith(f"{path.stem}{BEFORE}")]
     images = {p.stem for p in copies if p.suffix == IMAGE}
-    shown = [p for p in copies if p.suffix == IMAGE or (p.suffix == ENDING and p.stem not in images)]
-    return FolderFile(path, backup if backup in backups else None, tuple(reversed(shown)), exchange)
+    listed = [p for p in copies if p.suffix == IMAGE or (p.suffix == ENDING and p.stem not in images)]
+    return FolderFile(path, backup if backup in backups else None, tuple(reversed(listed)), exchange)

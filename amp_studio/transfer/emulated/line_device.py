@@ -225,5 +225,5 @@ def _arm(memory: Memory, faults: Faults) -> None:
 
 def one_line(text: str) -> str:
     """Return a text, some of which may be a stranger's, as one short line that steers no terminal."""
-    shown = visible(text[: LONGEST_LINE + 1])
-    return shown if len(shown) <= LONGEST_LINE else shown[:LONGEST_LINE] + " …"
+    printable = visible(text[: LONGEST_LINE + 1])
+    return printable if len(printable) <= LONGEST_LINE else printable[:LONGEST_LINE] + " …"

@@ -78,8 +78,8 @@ def rows_of(hits: Sequence[Hit], actions: dict[str, QAction]) -> list[FindRow]:
     rows = []
     for kind, found in kinds.items():
         rows.append(FindRow(_head(kind)))
-        shown = found[: _MOST[kind]] if len(kinds) > 1 else found
-        rows += [_row(hit, actions.get(hit.key) if kind == "command" else None) for hit in shown]
+        listed = found[: _MOST[kind]] if len(kinds) > 1 else found
+        rows += [_row(hit, actions.get(hit.key) if kind == "command" else None) for hit in listed]
     return rows
 
 

@@ -247,5 +247,5 @@ class TextFormats(Translated):
         head = self.tr("{name}: {written} of {total} values go across as they are.").format(
             name=name, written=account.written, total=account.written + lost
         )
-        shown = [line if len(line) <= _LONGEST else f"{line[:_LONGEST]} …" for line in lines]
-        return ask(self.window, title, "\n\n".join([head, *shown]), yes, self.tr("Cancel")) == yes
+        short_lines = [line if len(line) <= _LONGEST else f"{line[:_LONGEST]} …" for line in lines]
+        return ask(self.window, title, "\n\n".join([head, *short_lines]), yes, self.tr("Cancel")) == yes

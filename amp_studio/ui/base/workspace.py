@@ -195,8 +195,8 @@ class Workspace(QObject):
         if value is None:
             return self.tr("Clear {name}").format(name=self.name_of(address))
         parameter = self.file.schema.parameters[address[0]]
-        shown = show_value(parameter, value, secrets=False)
-        text = self.tr("Set {name} to {value}").format(name=self.name_of(address), value=shown)
+        value_text = show_value(parameter, value, secrets=False)
+        text = self.tr("Set {name} to {value}").format(name=self.name_of(address), value=value_text)
         return f"{text} ({expression})" if expression and not parameter.secret else text
 
     def do(self, text: str, operation: Callable[[], object]) -> bool:

@@ -60,13 +60,13 @@ class Comparisons(QObject):
         """
         page = self.window.page_in_front
         workspace = page.workspace
-        shown = self.open(page)
+        opened = self.open(page)
         if workspace.is_dirty:
-            shown.use(B, shown.sources.as_saved())
+            opened.use(B, opened.sources.as_saved())
         elif backup_path(workspace.path).is_file():
-            shown.start(B, shown.sources.backup)
+            opened.start(B, opened.sources.backup)
         else:
-            shown.start(B, shown.sources.defaults)
+            opened.start(B, opened.sources.defaults)
 
     def with_disk(self, page: FilePage) -> None:
         """Merge with the file on disk, which another program has changed, from what was saved before;
@@ -77,26 +77,26 @@ class Comparisons(QObject):
     def _with_disk(self, page: FilePage) -> None:
         workspace = page.workspace
         on_disk = in_background(self.window, self.tr("Opening"), lambda: open_file(workspace.path))
-        shown = self.open(page)
+        opened = self.open(page)
         try:
-            base, disk = shown.sources.as_saved(), shown.sources.on_disk(on_disk.file)
+            base, disk = opened.sources.as_saved(), opened.sources.on_disk(on_disk.file)
         except ValueError:
-            shown.close()
+            opened.close()
             raise
         workspace.acknowledge(on_disk)
-        chosen = {**shown.chosen, B: disk}
-        shown.show_merge({**chosen, BASE: base} if workspace.is_dirty else chosen)
+        chosen = {**opened.chosen, B: disk}
+        opened.show_merge({**chosen, BASE: base} if workspace.is_dirty else chosen)
 
     def with_path(self, page: FilePage, path: Path) -> None:
         """Compare with another file, or with a backup or a copy of what a control contained."""
-        shown = self.open(page)
-        make = shown.sources.other_file if path.suffix.lower() == ENDING else shown.sources.kept_copy
-        shown.start(B, lambda: shown.sources.from_copy(make, path))
+        opened = self.open(page)
+        make = opened.sources.other_file if path.suffix.lower() == ENDING else opened.sources.kept_copy
+        opened.start(B, lambda: opened.sources.from_copy(make, path))
 
     def with_control(self, page: FilePage, image: bytes, address: str) -> None:
         """Compare with what was just read from a control; raises ImageError, ValueError."""
-        shown = self.open(page)
-        shown.use(B, shown.sources.of_content(page.workspace.file.copy(), image, address))
+        opened = self.open(page)
+        opened.use(B, opened.sources.of_content(page.workspace.file.copy(), image, address))
 
     def open(self, page: FilePage) -> MergeWindow:
         """Open the window on a file, which is both of its sources at first."""
@@ -104,7 +104,7 @@ class Comparisons(QObject):
 
         sources = MergeSources(page.workspace)
         others = partial(self._others, page)
-        shown = MergeWindow(
+        opened = MergeWindow(
             page.workspace,
             sources,
             lambda: sources.offers(
@@ -116,10 +116,10 @@ class Comparisons(QObject):
             partial(self._save_result, page),
             self.window,
         )
-        shown.went_to.connect(page.go_to)
-        shown.merged.connect(partial(self._merged, page))
-        shown.show()
-        return shown
+        opened.went_to.connect(page.go_to)
+        opened.merged.connect(partial(self._merged, page))
+        opened.show()
+        return opened
 
     def _others(self, page: FilePage) -> list[Workspace]:
         return [each.workspace for each in self.window.tabs.pages() if each is not page]

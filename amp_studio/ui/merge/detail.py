@@ -69,8 +69,8 @@ class Line(QLabel):
     def paintEvent(self, event: QPaintEvent) -> None:
         painter = QPainter(self)
         painter.setPen(colour(self._colour_name))
-        shown = QFontMetrics(self.font()).elidedText(self.text(), Qt.TextElideMode.ElideRight, self.width())
-        painter.drawText(self.rect(), Qt.AlignmentFlag.AlignVCenter | Qt.AlignmentFlag.AlignLeft, shown)
+        elided = QFontMetrics(self.font()).elidedText(self.text(), Qt.TextElideMode.ElideRight, self.width())
+        painter.drawText(self.rect(), Qt.AlignmentFlag.AlignVCenter | Qt.AlignmentFlag.AlignLeft, elided)
 
 
 _TOKENS: dict[str, Token] = {"error": "error", "warning": "warn", "advice": "rec"}
@@ -143,13 +143,13 @@ class MergeDetail(QFrame):
         """Show a row, or that none is selected."""
         self._row = row
         can = row is not None and row.kind != "same"
-        shown: list[QWidget] = [
+        widgets: list[QWidget] = [
             *self.buttons.values(),
             *self.values.values(),
             *self.notes.values(),
             self.other,
         ]
-        for widget in shown:
+        for widget in widgets:
             widget.setVisible(can)
         if row is None:
             self.title.setText("")

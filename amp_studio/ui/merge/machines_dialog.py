@@ -108,9 +108,9 @@ class MachinesDialog(QDialog):
         self.table = self._make_table()
         self.empty, self.count = QLabel(), QLabel()
         self.empty.setAlignment(Qt.AlignmentFlag.AlignCenter)
-        self.shown = QStackedWidget()
-        self.shown.addWidget(self.empty)
-        self.shown.addWidget(self.table)
+        self.stack = QStackedWidget()
+        self.stack.addWidget(self.empty)
+        self.stack.addWidget(self.table)
         self.export_button, close = QPushButton(self.tr("&Export…")), QPushButton(self.tr("&Close"))
         self.export_button.clicked.connect(self.export)
         close.clicked.connect(self.close)
@@ -152,7 +152,7 @@ class MachinesDialog(QDialog):
         column = QVBoxLayout(right)
         column.setContentsMargins(GAP2, 0, 0, 0)
         column.addLayout(above)
-        column.addWidget(self.shown)
+        column.addWidget(self.stack)
         parts = QSplitter()
         parts.addWidget(left)
         parts.addWidget(right)
@@ -253,11 +253,11 @@ class MachinesDialog(QDialog):
             self.bar.hide()
         self.model.show_lines(lines, self._names(), [machine.path for machine in chosen])
         self._same = same
-        room = self.shown.width() - _ROW_HEAD - GAP3
+        room = self.stack.width() - _ROW_HEAD - GAP3
         head, mode = self.table.horizontalHeader(), QHeaderView.ResizeMode
         head.setSectionResizeMode(mode.Stretch if room >= _COLUMN * len(chosen) else mode.Interactive)
         self.empty.setText(self.tr("Nothing differs."))
-        self.shown.setCurrentWidget(self.table if lines else self.empty)
+        self.stack.setCurrentWidget(self.table if lines else self.empty)
         self.export_button.setEnabled(True)
         self._show_summary()
 
@@ -265,7 +265,7 @@ class MachinesDialog(QDialog):
         self.model.show_lines((), (), ())
         self.count.clear()
         self.empty.setText(why)
-        self.shown.setCurrentWidget(self.empty)
+        self.stack.setCurrentWidget(self.empty)
 
     def _names(self) -> list[str]:
         return machine_names([machine.path.stem for machine in self._compared])

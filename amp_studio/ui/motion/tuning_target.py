@@ -120,7 +120,7 @@ class ControlTarget(TuningTarget):
         self._waiting: dict[Address, Value | None] = {}
         self._done: list[tuple[str, dict[Address, Value | None], dict[Address, Value | None]]] = []
         self._undone: list[tuple[str, dict[Address, Value | None], dict[Address, Value | None]]] = []
-        self._shown = self._copy()
+        self._present = self._copy()
 
     def _copy(self) -> ParameterFile:
         assert self.live.file is not None
@@ -132,7 +132,7 @@ class ControlTarget(TuningTarget):
     @property
     def file(self) -> ParameterFile:
         """What the control contains as it was last read, with what is to be sent."""
-        return self._shown
+        return self._present
 
     @property
     def may_edit(self) -> bool:
@@ -222,5 +222,5 @@ class ControlTarget(TuningTarget):
         self.notified.emit(f"{outcome.text} {takes}")
 
     def _show(self, addresses: list[Address]) -> None:
-        self._shown = self._copy()
+        self._present = self._copy()
         self.changed.emit(addresses)

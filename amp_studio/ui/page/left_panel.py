@@ -100,12 +100,12 @@ class LeftPanel(QWidget):
     def set_project_tree(self, tree: QWidget) -> None:
         """Show a widget as the project."""
         old = self._sides["project"]
-        shown = old is self._stack.currentWidget()
+        is_current = old is self._stack.currentWidget()
         self._sides["project"] = tree
         self._stack.addWidget(tree)
         self._stack.removeWidget(old)
         old.deleteLater()
-        if shown:
+        if is_current:
             self.show_side("project")
 
     def choose(self) -> None:

@@ -176,8 +176,8 @@ class ParameterTable(QAbstractTableModel):
             self._needed = dict.fromkeys(c for p in self.asked for row in self._layout(p) for c in row.cells)
         columns = list(self._needed)
         if not self.all_axes and file.schema.family.fits_axes:
-            shown = set(shown_axes(file))
-            columns = [c for c in columns if c == CONTROL or c in shown]
+            listed = set(shown_axes(file))
+            columns = [c for c in columns if c == CONTROL or c in listed]
         return sorted(columns, key=lambda column: column != CONTROL)
 
     def _rows(self, columns: list[str]) -> list[TableRow]:
@@ -185,14 +185,14 @@ class ParameterTable(QAbstractTableModel):
         self._unfiltered = None
         known = [row for p in self.asked for row in self._layout(p)]
         exists, here = self.values.exists, set(columns)
-        shown = known
+        listed = known
         if not self.hidden_too:
-            shown = [row for row in known if any(c in here and exists(a) for c, a in row.cells.items())]
-        self.hidden_rows = len(known) - len(shown)
+            listed = [row for row in known if any(c in here and exists(a) for c, a in row.cells.items())]
+        self.hidden_rows = len(known) - len(listed)
         if self._filter is not None:
             wanted = self._filter
-            shown = [row for row in shown if wanted(row, [a for c, a in row.cells.items() if c in here])]
-        return self._with_sections(shown)
+            listed = [row for row in listed if wanted(row, [a for c, a in row.cells.items() if c in here])]
+        return self._with_sections(listed)
 
     def _with_sections(self, rows: list[TableRow]) -> list[TableRow]:
         groups = self.workspace.file.schema.group_of
@@ -222,8 +222,8 @@ class ParameterTable(QAbstractTableModel):
 
     def fact(self, row: int, column: FactColumn) -> str:
         """Return what a column behind the values has of a row; nothing of the head of a section."""
-        shown = self.rows[row]
-        return "" if shown.section else column.text(self.workspace.file.schema, shown.parameter)
+        line = self.rows[row]
+        return "" if line.section else column.text(self.workspace.file.schema, line.parameter)
 
     @property
     def common_command(self) -> str:
@@ -260,8 +260,8 @@ class ParameterTable(QAbstractTableModel):
         """Return the cell of an address, invalid when it is not shown."""
         for n, row in enumerate(self.rows):
             if row.cells and row.parameter.id == address[0]:
-                for column, shown in row.cells.items():
-                    if shown == address and column in self.columns:
+                for column, cell in row.cells.items():
+                    if cell == address and column in self.columns:
                         return self.index(n, self.columns.index(column))
         return QModelIndex()
 
@@ -372,13 +372,13 @@ class ParameterTable(QAbstractTableModel):
             found = self._heads[row] = self._name(self.rows[row])
         return found
 
-    def _name(self, shown: TableRow) -> str:
-        if shown.section or not shown.instance:
-            return shown.section or shown.parameter.name
-        place = worded(self.workspace.file.machine_schema.instance_label(next(iter(shown.cells.values()))))
-        if CONTROL not in shown.cells:
+    def _name(self, line: TableRow) -> str:
+        if line.section or not line.instance:
+            return line.section or line.parameter.name
+        place = worded(self.workspace.file.machine_schema.instance_label(next(iter(line.cells.values()))))
+        if CONTROL not in line.cells:
             place = place.rpartition(", ")[2]  # the column is the axis
-        return f"{shown.parameter.name}, {place}" if place else shown.parameter.name
+        return f"{line.parameter.name}, {place}" if place else line.parameter.name
 
     def number(self, row: int) -> str:
         """Return the number of a row: that of its first value that exists, if it belongs to this

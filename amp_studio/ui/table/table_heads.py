@@ -84,13 +84,13 @@ class RowHeads(QHeaderView):
         painter.setFont(letters)
         painter.setPen(colour("text" if colour_name == "text" else "dim"))
         key = colour_name, text, place.width()
-        shown = self._elided.get(key)
-        if shown is None:
+        elided = self._elided.get(key)
+        if elided is None:
             if len(self._elided) > _MOST_REMEMBERED:
                 self._elided.clear()
-            shown = metrics.elidedText(text, Qt.TextElideMode.ElideMiddle, place.width())
-            self._elided[key] = shown
-        painter.drawText(place, _LEFT, shown)
+            elided = metrics.elidedText(text, Qt.TextElideMode.ElideMiddle, place.width())
+            self._elided[key] = elided
+        painter.drawText(place, _LEFT, elided)
 
 
 class AxisHeads(QHeaderView):
@@ -126,9 +126,9 @@ class AxisHeads(QHeaderView):
             letters.setWeight(letters.Weight.DemiBold)
             painter.setFont(letters)
             painter.setPen(colour("text"))
-            shown = QFontMetrics(letters).elidedText(letter, Qt.TextElideMode.ElideRight, place.width())
-            painter.drawText(place, _LEFT, shown)
-            place.setLeft(place.left() + QFontMetrics(letters).horizontalAdvance(shown) + 6)
+            elided = QFontMetrics(letters).elidedText(letter, Qt.TextElideMode.ElideRight, place.width())
+            painter.drawText(place, _LEFT, elided)
+            place.setLeft(place.left() + QFontMetrics(letters).horizontalAdvance(elided) + 6)
         small = font("caption")
         painter.setFont(small)
         painter.setPen(colour("dim"))

@@ -255,15 +255,15 @@ class WelcomePage(QWidget):
         for n in range(self.list.count()):
             item = self.list.item(n)
             item.setHidden(text.casefold() not in f"{item.data(ROW).spoken()} {item.data(KEY)}".casefold())
-        shown = any(not self.list.item(n).isHidden() for n in range(self.list.count()))
+        is_any_listed = any(not self.list.item(n).isHidden() for n in range(self.list.count()))
         self.filter.setVisible(self.list.count() > 0)
-        self.none.setVisible(not shown)
+        self.none.setVisible(not is_any_listed)
         self.none.setText(
             self.tr("No recent file has '{text}' in its name, folder or machine.").format(text=text)
             if self.list.count()
             else self.tr("No file has been opened yet. Begin with an example, or with a new file.")
         )
-        self.list.setVisible(shown)
+        self.list.setVisible(is_any_listed)
         self.list.fit()
 
     def _offer_session(self) -> None:

@@ -214,11 +214,11 @@ def is_there(path: Path) -> bool:
 def on_screen(place: QRect, screens: list[QRect]) -> QRect:
     """Return the nearest rectangle on the screen that shows most of it, not larger than that screen."""
 
-    def shown(screen: QRect) -> int:
+    def common_area(screen: QRect) -> int:
         common = screen.intersected(place)
         return common.width() * common.height() if common.isValid() else 0
 
-    screen = max(screens, key=shown)
+    screen = max(screens, key=common_area)
     width = min(max(place.width(), _LEAST[0]), screen.width())
     height = min(max(place.height(), _LEAST[1]), screen.height())
     left = min(max(place.left(), screen.left()), screen.right() + 1 - width)

@@ -91,8 +91,8 @@ class MainToolBar(QToolBar):
         self.units.offer([(system, words.get(system, system), "") for system in systems])
         self.units.setEnabled(workspace is not None)
         self._units_action.setVisible(len(systems) > 1)
-        shown = workspace is not None and not workspace.as_entered
-        self.units.show_choice(workspace.file.header.units if workspace and shown else None)
+        is_converted = workspace is not None and not workspace.as_entered
+        self.units.show_choice(workspace.file.header.units if workspace and is_converted else None)
 
     def _choose(self, system: str) -> None:
         workspace = self._window.workspace

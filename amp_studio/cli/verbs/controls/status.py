@@ -62,10 +62,10 @@ def text(status: ControlStatus) -> str:
     for axis in status.axes:
         figures = [("", axis.position, axis.unit), ("following error", axis.following_error, axis.unit)]
         figures.append(("velocity", axis.velocity, f"{axis.unit}/s"))
-        shown = [
+        texts = [
             f"{name} {_number(value)} {unit}".strip() for name, value, unit in figures if value is not None
         ]
-        lines.append(f"  {axis.axis}  {', '.join((*shown, *axis.states))}")
+        lines.append(f"  {axis.axis}  {', '.join((*texts, *axis.states))}")
     lines += [f"  {name} {_number(value)}" for name, value in status.values.items()]
     for fault in status.faults:
         where = f" of axis {fault.axis}" if fault.axis else ""
