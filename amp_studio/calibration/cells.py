@@ -32,14 +32,14 @@ def lines_of(text: str) -> list[tuple[int, str]]:
     kept = []
     for n, line in enumerate(lines, 1):
         if len(line) > LONGEST_LINE:
-            raise MeasurementError(f"the line has more than {LONGEST_LINE} signs", n)
+            raise MeasurementError(f"the line has more than {LONGEST_LINE} characters", n)
         if line.strip() and not _COMMENT.match(line):
             kept.append((n, line.replace("\u2212", "-")))
     return kept
 
 
 def separator_of(line: str, decimal: str) -> str:
-    """Return what separates the cells of a line: a sign, or "" for blanks."""
+    """Return what separates the cells of a line: a character, or "" for blanks."""
     if ";" in line:
         return ";"
     if "\t" in line.strip():

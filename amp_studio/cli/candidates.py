@@ -108,8 +108,8 @@ def assignments(named: str, current: str) -> Iterator[str]:
     """Yield parameters with ``=``, and behind it the values of a choice that can be typed without quotes."""
     from amp_studio.schema import label_of
 
-    name, sign, _ = current.partition("=")
-    if not sign:
+    name, equals, _ = current.partition("=")
+    if not equals:
         yield from (f"{param}=" for param in parameters(named, current))
         return
     for file in _files(named):

@@ -28,7 +28,11 @@ def answer(words: Sequence[str], breaks: str) -> None:
     if not typed:
         return
     *before, current = typed
-    begin = max((current.rfind(sign) for sign in breaks), default=-1) + 1 if words[:1] == ["--line"] else 0
+    begin = (
+        max((current.rfind(character) for character in breaks), default=-1) + 1
+        if words[:1] == ["--line"]
+        else 0
+    )
     for found in dict.fromkeys(_found(before, current)):
         if found.startswith(current):
             print(found[begin:])

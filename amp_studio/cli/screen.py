@@ -13,7 +13,7 @@ from typing import TextIO
 
 
 class Screen(io.TextIOWrapper):
-    """A standard stream that shows steering signs instead of passing them on; only line ends and tabs
+    """A standard stream that shows control characters instead of passing them on; only line ends and tabs
     pass.
     """
 
@@ -21,7 +21,7 @@ class Screen(io.TextIOWrapper):
     """Whether the present line of the terminal is one that the next replaces."""
 
     def write(self, text: str) -> int:
-        """Write a text with its steering signs made visible."""
+        """Write a text with its control characters made visible."""
         return super().write(_printable(text))
 
     def overwrite(self, text: str, *, last: bool) -> None:

@@ -44,7 +44,7 @@ SAMPLE = 22.0
 _BETWEEN = 6.0
 """Between a sample and its name; two of them between names."""
 _HALF = 6.0
-"""Half the side of a handle or of a sign, and a bit."""
+"""Half the side of a handle or of a symbol, and a bit."""
 
 
 @dataclass(frozen=True)
@@ -158,9 +158,9 @@ class _Placing:
         self._width, self._height = width, height
         self.placed: list[Label] = []
         self.left_out: list[tuple[Point, str]] = []
-        signs = [*(h.at for h in frame.scene.handles), *(d.at for d in frame.scene.dots)]
-        self._signs = [
-            Box(x - _HALF, y - _HALF, 2 * _HALF, 2 * _HALF) for x, y in (frame.at(at) for at in signs)
+        symbols = [*(h.at for h in frame.scene.handles), *(d.at for d in frame.scene.dots)]
+        self._symbols = [
+            Box(x - _HALF, y - _HALF, 2 * _HALF, 2 * _HALF) for x, y in (frame.at(at) for at in symbols)
         ]
 
     def _box(self, x: float, base: float, text: Text, value: str, align: _Align) -> Box:
@@ -175,12 +175,12 @@ class _Placing:
         top = min(box.top, self._height - self._line)
         return Box(max(left, 2.0), max(top, 0.0), box.width, box.height)
 
-    def _is_free(self, box: Box, *, signs: bool = False) -> bool:
+    def _is_free(self, box: Box, *, symbols: bool = False) -> bool:
         if box.left + box.width > self._width or box.top + box.height > self._height:
             return False
         if any(label.box.overlaps(box) for label in self.placed):
             return False
-        return not (signs and any(sign.overlaps(box) for sign in self._signs))
+        return not (symbols and any(symbol.overlaps(box) for symbol in self._symbols))
 
     # -- scales --------------------------------------------------------------------
 
@@ -263,16 +263,16 @@ class _Placing:
         The name of a line goes far away rather than without its value, that of an area stays near.
         """
         if not text.value and not any(letter.isalpha() for letter in text.text):
-            found = self._found(text, point, "", 0, signs=False)  # a figure belongs to its point
+            found = self._found(text, point, "", 0, symbols=False)  # a figure belongs to its point
             return self._label(text, point, found, "")
         is_area = text.anchor in ("above", "inside", "corner")
         tries = [(text.value, _NEAR, True), ("", _NEAR, True), (text.value, _FAR, True)]
-        for value, far, signs in (
+        for value, far, symbols in (
             *(tries if is_area else tries[::2]),
             (text.value, _FAR, False),
             ("", _FAR, False),
         ):
-            found = self._found(text, point, value, far, signs=signs)
+            found = self._found(text, point, value, far, symbols=symbols)
             if found is not None:
                 return self._label(text, point, found, value)
         return None
@@ -285,15 +285,17 @@ class _Placing:
         leader = (point, end) if far > _LED else None
         return Label(box, text.text, value, bool(text.value), text.sort, text.address, leader)
 
-    def _found(self, text: Text, point: Point, value: str, far: int, *, signs: bool) -> Box | None:
+    def _found(self, text: Text, point: Point, value: str, far: int, *, symbols: bool) -> Box | None:
         """Return the first free place of a text within so many lines; where it belongs at all, first."""
         around = self._around(text, point, value, far)
         first = self._kept_inside(next(around))
-        if self._is_free(first, signs=signs):  # most are free where they belong: no other place is asked for
+        if self._is_free(
+            first, symbols=symbols
+        ):  # most are free where they belong: no other place is asked for
             return first
         places = [(box, self._kept_inside(box)) for box in around]
         for box in (*(box for box, kept in places if kept == box), *(kept for _, kept in places)):
-            if self._is_free(box, signs=signs):
+            if self._is_free(box, symbols=symbols):
                 return box
         return None
 
@@ -307,8 +309,8 @@ class _Placing:
             for align, dx, dy in _OTHERS:
                 yield self._box(point[0] + dx, point[1] + dy, text, value, align)
         for lines in range(1, far + 1):
-            for sign in _turns(point[1] > 0.5 * self._height):
-                base = point[1] + sign * lines * self._line + 4.0
+            for symbol in _turns(point[1] > 0.5 * self._height):
+                base = point[1] + symbol * lines * self._line + 4.0
                 for align, dx in _SIDES:
                     yield self._box(point[0] + dx, base, text, value, align)
 

@@ -116,7 +116,7 @@ class FilledArea:
 
 @dataclass(frozen=True)
 class Dot:
-    """A sign of fixed size at a point."""
+    """A symbol of fixed size at a point."""
 
     at: Point
     kind: DotKind = "point"

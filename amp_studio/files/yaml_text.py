@@ -14,13 +14,13 @@ from amp_studio.schema import KeyPath, Span, YamlDocument, typed_scalar
 
 _BREAK = re.compile("\r\n|\n|\r")
 _LONGEST_KEY = 1000
-"""A key may have 1024 signs unless it is marked by ``?``."""
+"""A key may have 1024 characters unless it is marked by ``?``."""
 
 # -- one value
 
 _PRINTABLE = re.compile("[^\x00-\x1f\x7f-\x9f\u2028\u2029\ud800-\udfff\ufeff\ufffe\uffff]+")
 _PLAIN = re.compile(r"(?:[^\s\-?:,\[\]{}#&*!|>'\"%@`=<~]|-(?=[^\s\-]))(?:.*[^\s:])?")
-"""It begins with no sign that means something, and ends with none."""
+"""It begins with no character that means something, and ends with none."""
 _LOOKS_OTHERWISE = re.compile(
     r"\.\.\.|[-+]?[0-9_.,:]*[0-9][0-9_.,:]*(?:[eE][-+]?[0-9]+)?|[0-9]{4}-[0-9]{1,2}-.*"
 )
@@ -45,7 +45,7 @@ def scalar_text(value: Any) -> str:
 
 
 def _is_plain(text: str) -> bool:
-    """Return whether a text needs no quotes: it has no sign that means something, and is read as a text."""
+    """Return whether a text needs no quotes: no character of it means something, and it is read as a text."""
     if not _PRINTABLE.fullmatch(text) or not _PLAIN.fullmatch(text) or ": " in text or " #" in text:
         return False
     return isinstance(typed_scalar(text), str) and not _LOOKS_OTHERWISE.fullmatch(text)
@@ -57,8 +57,8 @@ def _double_quoted(text: str) -> str:
     )
 
 
-def _escape(sign: str) -> str:
-    code = ord(sign)
+def _escape(character: str) -> str:
+    code = ord(character)
     return f"\\x{code:02X}" if code < 0x100 else f"\\u{code:04X}" if code < 0x10000 else f"\\U{code:08X}"
 
 

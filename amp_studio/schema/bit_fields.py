@@ -99,10 +99,10 @@ def _with_entry(parameter: Parameter, word: int, entry: str) -> int | None:
                 f"{field.label} of {parameter.name} has {field.width} bits: write '{field.label}: …'"
             )
         return word | 1 << field.bit
-    for sign in re.finditer("[:=]", entry):
-        fields = _called(parameter, entry[: sign.start()])
+    for separator in re.finditer("[:=]", entry):
+        fields = _called(parameter, entry[: separator.start()])
         if fields:
-            return with_field(_only(parameter, entry, fields), word, entry[sign.end() :])
+            return with_field(_only(parameter, entry, fields), word, entry[separator.end() :])
     return None
 
 

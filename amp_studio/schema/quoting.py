@@ -1,4 +1,4 @@
-"""How a message repeats what somebody wrote: short, and without a sign that a terminal would obey."""
+"""How a message repeats what somebody wrote: short, and without a character that a terminal would obey."""
 
 from __future__ import annotations
 
@@ -8,10 +8,10 @@ LONGEST = 60
 
 
 def quoted(text: str) -> str:
-    """Return ``'text'`` for a message, cut to ``LONGEST`` signs, every sign of it visible."""
+    """Return ``'text'`` for a message, cut to ``LONGEST`` characters, every one of them visible."""
     return f"'{short(text)}'"
 
 
 def short(text: str) -> str:
-    """Return a text for a message, cut to ``LONGEST`` signs, every sign of it visible."""
+    """Return a text for a message, cut to ``LONGEST`` characters, every one of them visible."""
     return visible(text if len(text) <= LONGEST else text[: LONGEST - 1] + "…")

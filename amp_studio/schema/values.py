@@ -100,7 +100,7 @@ def _decimal(digits: str, exponent: str) -> str:
                 raise InvalidValueError(f"{quoted(digits)} is not a number")
             digits = digits.replace(",", "")
         elif re.fullmatch(r"[+-]?[1-9]\d{0,2},\d{3}", digits):
-            ways = [digits.replace(",", sign) + exponent for sign in ("", ".")]
+            ways = [digits.replace(",", point) + exponent for point in ("", ".")]
             raise InvalidValueError(
                 f"'{digits}{exponent}' can be read two ways: write {ways[0]} or {ways[1]}"
             )
@@ -172,7 +172,7 @@ def _checked_text(parameter: Parameter, value: Value, found: str) -> Value:
         raise InvalidValueError(f"{parameter.name} is a number, and {quoted(found)} is none")
     if len(found) > LONGEST_TEXT:
         raise InvalidValueError(
-            f"{parameter.name} has {len(found):,} signs, and {LONGEST_TEXT:,} are the most"
+            f"{parameter.name} has {len(found):,} characters, and {LONGEST_TEXT:,} are the most"
         )
     if odd := _UNWRITABLE.search(found):
         raise InvalidValueError(
@@ -371,7 +371,7 @@ def _number_text(parameter: Parameter, value: Value) -> str:
 
 
 def show_value(parameter: Parameter, value: Value | None, *, secrets: bool = False) -> str:
-    """Write a value for a person: as ``write_value`` with the unit's proper signs; ``not set`` without one.
+    """Write a value for a person: as ``write_value`` with the unit's proper symbol; ``not set`` without one.
 
     A secret is masked unless ``secrets`` asks for it in clear.
     """

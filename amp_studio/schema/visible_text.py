@@ -1,4 +1,4 @@
-"""Text from a file or a control, made safe to show: signs that steer a terminal become visible."""
+"""Text from a file or a control, made safe to show: characters that steer a terminal become visible."""
 
 from __future__ import annotations
 
@@ -10,12 +10,12 @@ _STEERING = (
     "\ud800-\udfff\ufeff\ufff9-\ufffb\U000110bd\U000110cd\U00013430-\U00013438\U0001bca0-\U0001bca3"
     "\U0001d173-\U0001d17a\U000e0001\U000e0020-\U000e007f]"
 )
-"""Unicode's categories Cc, Cf, Cs, Zl and Zp: control signs, marks of writing direction, line separators,
-surrogates."""
+"""Unicode's categories Cc, Cf, Cs, Zl and Zp: control characters, marks of writing direction,
+line separators, surrogates."""
 
 
 def visible(text: str, keep: str = "") -> str:
-    r"""Return a text with every steering sign written as JSON writes it (``\u001b``); those in ``keep`` stay.
+    r"""Return a text with every control character as JSON writes it (``\u001b``); those in ``keep`` stay.
 
     A JSON document stays the same document.
     """

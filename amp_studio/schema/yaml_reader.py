@@ -45,7 +45,7 @@ class Span(NamedTuple):
     """Of the key, or of the item of a list."""
     value: int
     end: int
-    """Behind the last sign of the value."""
+    """Behind the last character of the value."""
     is_flow: bool
     """Whether it is written in ``{}`` or ``[]``."""
 
@@ -96,7 +96,7 @@ def read_yaml(
     """
     text = text.removeprefix("\ufeff")
     if len(text) > LARGEST:
-        raise YamlError(f"is too large: {len(text):,} signs, and {LARGEST:,} are the most")
+        raise YamlError(f"is too large: {len(text):,} characters, and {LARGEST:,} are the most")
     if odd := _UNREADABLE.search(text):
         raise YamlError(
             f"is not readable: the sign U+{ord(odd[0]):04X} has no place in it", _line_at(text, odd.start())
@@ -245,7 +245,7 @@ def text_scalar(text: str) -> str | None:
 def typed_scalar(text: str) -> Any:
     """Return None, a truth value, a number or a text, as the core schema of YAML 1.2 has it.
 
-    A number that is not finite or has more than 40 signs stays the text it is.
+    A number that is not finite or has more than 40 characters stays the text it is.
     """
     if text in _NULLS:
         return None

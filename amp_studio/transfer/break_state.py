@@ -34,12 +34,12 @@ def state_after_break(
 def _by_numbers(name: str) -> tuple[object, ...]:
     """Order P9N2 before P10N0."""
     parts, digits = [], ""
-    for sign in f"{name} ":
-        if sign.isdigit():
-            digits += sign
+    for character in f"{name} ":
+        if character.isdigit():
+            digits += character
             continue
         if digits:
             parts.append((1, int(digits), ""))
             digits = ""
-        parts.append((0, 0, sign))
+        parts.append((0, 0, character))
     return tuple(parts)

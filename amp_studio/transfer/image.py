@@ -44,12 +44,14 @@ _LONGEST = 200
 _SHOWN = 60
 """Signs of a damaged line that a message shows."""
 
-_CONTROL_SIGN = re.compile(r"[\x00-\x08\x0b-\x1f\x7f-\x9f]")  # none but TAB and the line feed are in an image
-_PLAIN_SIGN = re.compile(r"[\x00-\x1f\x7f-\x9f\\]")
+_CONTROL_CHARACTER = re.compile(
+    r"[\x00-\x08\x0b-\x1f\x7f-\x9f]"
+)  # none but TAB and the line feed are in an image
+_ESCAPED_CHARACTER = re.compile(r"[\x00-\x1f\x7f-\x9f\\]")
 _ESCAPE = re.compile(r"\\(?:x([0-9a-f]{2})|(.))", re.DOTALL)
 _ADDRESS = re.compile(r"[a-z][a-z0-9_]*\.[a-z][a-z0-9_.]*(?:@[A-Za-z0-9.]+)?")
 _LETTERS = {"\\": "\\", "\n": "n", "\t": "t"}
-_SIGNS = {letter: sign for sign, letter in _LETTERS.items()}
+_CHARACTERS = {letter: character for character, letter in _LETTERS.items()}
 
 
 class ImageError(AmpStudioError, ValueError):
@@ -68,9 +70,9 @@ def encode_image(file: ParameterFile) -> bytes:
     values = sorted((a for a in file.values if a in order), key=order.__getitem__)
     for address in values:
         number = here.number(address)
-        number_text = "-" if number is None or here.is_disputed(address[0]) else number
+        label = "-" if number is None or here.is_disputed(address[0]) else number
         lines.append(
-            f"{number_text}\t{written(address)}\t{_field(schema.parameters[address[0]], file.values[address])}"
+            f"{label}\t{written(address)}\t{_field(schema.parameters[address[0]], file.values[address])}"
         )
     lines.append(f"end {len(values)}")
     try:
@@ -133,10 +135,9 @@ def _split(image: bytes) -> tuple[dict[str, str], list[tuple[str, str]]]:
         raise ImageError("this is not a control image")
     if len(lines) < 8 or lines[-1] != "" or not lines[-2].startswith("end "):
         raise ImageError("the control image has been cut off")
-    if found := _CONTROL_SIGN.search(text):
-        raise ImageError(
-            f"line {text.count(chr(10), 0, found.start()) + 1} of the control image contains a control sign"
-        )
+    if found := _CONTROL_CHARACTER.search(text):
+        line = text.count("\n", 0, found.start()) + 1
+        raise ImageError(f"line {line} of the control image contains a control character")
     head = {}
     for number, (key, line) in enumerate(zip(_HEAD, lines[1:6], strict=True), 2):
         if not line.startswith(f"{key} "):
@@ -205,12 +206,12 @@ def _short(text: str) -> str:
 
 
 def _escaped(text: str) -> str:
-    return _PLAIN_SIGN.sub(lambda m: "\\" + _LETTERS.get(m[0], f"x{ord(m[0]):02x}"), text)
+    return _ESCAPED_CHARACTER.sub(lambda m: "\\" + _LETTERS.get(m[0], f"x{ord(m[0]):02x}"), text)
 
 
 def _unescaped(text: str) -> str:
     """Return the text that was escaped; what is no escape becomes something that is not written so."""
-    return _ESCAPE.sub(lambda m: chr(int(m[1], 16)) if m[1] else _SIGNS.get(m[2], m[2]), text)
+    return _ESCAPE.sub(lambda m: chr(int(m[1], 16)) if m[1] else _CHARACTERS.get(m[2], m[2]), text)
 
 
 def _code(choice: Choice) -> str:

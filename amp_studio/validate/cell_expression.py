@@ -75,7 +75,7 @@ _TOKEN = re.compile(
     re.VERBOSE,
 )
 _BEHIND = re.compile(rf"\s*({_UNIT})")
-_SIGNS = {"×": "*", "·": "*", "÷": "/", "−": "-"}
+_OPERATORS = {"×": "*", "·": "*", "÷": "/", "−": "-"}
 _LOOKS_LIKE = re.compile(r"[\d)\"'\w°]\s*[-+*/×÷−·]\s*[\d(\"'#.A-Za-z]|^\s*[-+−]?\s*\(")
 _ONE_VALUE = re.compile(rf"[-+]?[0-9][0-9.,]*(?:[eE][-+]?[0-9]+)?\s*(?:{_UNIT})?")
 """A number with its unit, right or wrong: ``10 mm/min`` is no division."""
@@ -216,7 +216,7 @@ class _Reader:
                 pieces.append(self._plain_name(piece, self._referred(piece)))
             else:
                 depth += {"(": 1, ")": -1}.get(piece, 0)
-                pieces.append(_SIGNS.get(piece, piece))
+                pieces.append(_OPERATORS.get(piece, piece))
         return " ".join(pieces)
 
     def _plain_name(self, text: str, quantity: _Quantity) -> str:

@@ -34,8 +34,8 @@ _STEP = 3
 """Cost of a step; one is the copying of a number, some 50 ns."""
 _CALL = 30
 """Cost of a call out of the engine."""
-_PATTERN_SIGN = 200
-"""Cost of a sign of a pattern: it is compiled at each call."""
+_PATTERN_CHARACTER = 200
+"""Cost of a character of a pattern: it is compiled at each call."""
 
 _CALLED = {
     "decimal": "a number",
@@ -205,7 +205,7 @@ class ExpressionCheck:
         states = 1 + len(node.value)
         for _, least, most in re.findall(r"(\{)\s*(\d+)\s*,?\s*(\d*)", node.value):
             states = min(states * max(1, int(least[:9]), int(most[:9] or 0)), LARGEST)
-        return min(_PATTERN_SIGN * states, LARGEST) + given[0].length
+        return min(_PATTERN_CHARACTER * states, LARGEST) + given[0].length
 
     def _over(self, node: Node) -> tuple[Worth, int]:
         """Return what a macro over a list gives and costs: its body once for each item."""
@@ -237,14 +237,14 @@ class ExpressionCheck:
 
     def _arithmetic(self, node: Node, parts: list[Worth]) -> Worth:
         kinds = {part.kind for part in parts} - {"any", "null"}
-        sign = "-" if node.kind == "negative" else node.kind
-        if sign == "+" and kinds == {"list"}:
+        operator = "-" if node.kind == "negative" else node.kind
+        if operator == "+" and kinds == {"list"}:
             return list_worth(sum(p.length for p in parts), any_of([p.item for p in parts if p.item]))
-        if sign == "+" and kinds == {"text"}:
+        if operator == "+" and kinds == {"text"}:
             return text_worth(sum(p.length for p in parts))
         if kinds == {"decimal", "whole"}:
             self._slip(f"{quoted(node.text)} {_mixed(node, parts)}")
-        elif sign == "%" and "decimal" in kinds:
+        elif operator == "%" and "decimal" in kinds:
             self._slip(f"'%' takes whole numbers only: write mod({', '.join(p.text for p in node.parts)})")
         elif len(kinds) > 1 or not kinds <= {"decimal", "whole"}:
             odd = next(
@@ -258,7 +258,7 @@ class ExpressionCheck:
                 else ""
             )
             self._slip(
-                f"{quoted(odd[0].text)} is {_CALLED[odd[1].kind]}, and '{sign}' cannot use it here{hint}"
+                f"{quoted(odd[0].text)} is {_CALLED[odd[1].kind]}, and '{operator}' cannot use it here{hint}"
             )
         if kinds == {"whole"}:
             return WHOLE

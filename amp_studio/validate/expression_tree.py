@@ -117,15 +117,15 @@ def _tokens(text: str) -> list[_Token]:
 
 
 def _unreadable(text: str, at: int) -> str:
-    sign = text[at]
-    if sign in _OPERATORS:
-        return f"'{sign}' is no operator: write {_OPERATORS[sign]}"
-    if sign in "'\"":
+    character = text[at]
+    if character in _OPERATORS:
+        return f"'{character}' is no operator: write {_OPERATORS[character]}"
+    if character in "'\"":
         return (
             f"the text that begins with {quoted(text[at : at + 20])} has no end in its line, or a \\ that"
             " means nothing"
         )
-    return f"{quoted(sign)} has no place in an expression"
+    return f"{quoted(character)} has no place in an expression"
 
 
 def quoted(text: str) -> str:
@@ -146,17 +146,17 @@ class _ExpressionParser:
     def _next(self) -> _Token:
         return self._tokens[self._at]
 
-    def _accept(self, *signs: str) -> str:
-        """Take one of these signs, if it is the next one; return it, or nothing."""
+    def _accept(self, *operators: str) -> str:
+        """Take one of these operators, if it is the next one; return it, or nothing."""
         token = self._next
-        if token.text in signs and token.kind in ("sign", "name"):
+        if token.text in operators and token.kind in ("sign", "name"):
             self._at += 1
             return token.text
         return ""
 
-    def _need(self, sign: str, where: str) -> None:
-        if not self._accept(sign):
-            raise ExpressionError(f"'{sign}' is missing{where}{self._place()}")
+    def _need(self, operator: str, where: str) -> None:
+        if not self._accept(operator):
+            raise ExpressionError(f"'{operator}' is missing{where}{self._place()}")
 
     def _place(self) -> str:
         token = self._next
@@ -204,12 +204,12 @@ class _ExpressionParser:
     def _both(self) -> Node:
         return self._chain("&&", self._relation)
 
-    def _chain(self, sign: str, operand: Callable[[], Node]) -> Node:
+    def _chain(self, operator: str, operand: Callable[[], Node]) -> Node:
         start = self._next.start
         parts = [operand()]
-        while self._accept(sign):
+        while self._accept(operator):
             parts.append(operand())
-        return parts[0] if len(parts) == 1 else self._node(sign, start, tuple(parts))
+        return parts[0] if len(parts) == 1 else self._node(operator, start, tuple(parts))
 
     def _relation(self) -> Node:
         return self._binary(("==", "!=", "<", "<=", ">", ">=", "in"), self._sum)
@@ -220,21 +220,21 @@ class _ExpressionParser:
     def _product(self) -> Node:
         return self._binary(("*", "/", "%"), self._unary)
 
-    def _binary(self, signs: tuple[str, ...], operand: Callable[[], Node]) -> Node:
+    def _binary(self, operators: tuple[str, ...], operand: Callable[[], Node]) -> Node:
         start = self._next.start
         node = operand()
-        while sign := self._accept(*signs):
-            node = self._node(sign, start, (node, operand()))
+        while operator := self._accept(*operators):
+            node = self._node(operator, start, (node, operand()))
         return node
 
     def _unary(self) -> Node:
         start, count = self._next.start, 0
-        sign = self._next.text
-        while sign in ("!", "-") and self._accept(sign):
+        operator = self._next.text
+        while operator in ("!", "-") and self._accept(operator):
             count += 1
         node = self._member()
         for _ in range(count):
-            node = self._node("!" if sign == "!" else "negative", start, (node,))
+            node = self._node("!" if operator == "!" else "negative", start, (node,))
         return node
 
     def _member(self) -> Node:

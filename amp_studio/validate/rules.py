@@ -288,8 +288,8 @@ class RuleChecks:
             inch = unit.replace("mm", "in", 1)
             if inch != unit and (self._file.header.units == "inch" or inch in entered):
                 found, unit = convert(float(found), unit, inch), inch
-        number, sign = write_figure(found), unit_text(unit)
-        return f"{number}{sign}" if sign == "°" else f"{number} {sign}".rstrip()
+        number, unit_name = write_figure(found), unit_text(unit)
+        return f"{number}{unit_name}" if unit_name == "°" else f"{number} {unit_name}".rstrip()
 
     def _fix(self, check: RuleCheck, given: _Given) -> tuple[Setting, ...]:
         """Return what the rule would change; nothing if it would not help.

@@ -242,7 +242,7 @@ def test_a_target_twice_in_a_run_is_refused() -> None:
         ("position,error 1 [mm],error 2 [um]\n0,0,0\n1,1,1\n", "several units"),
         ("position [deg],error [mm]\n0,0\n1,1\n", "do not belong together"),
         ("0,0\n100,\0\n", "no text"),
-        ("0,0\n" + "1" * 10_001, "more than 10000 signs"),
+        ("0,0\n" + "1" * 10_001, "more than 10000 characters"),
     ],
 )
 def test_what_cannot_be_read_is_named_with_its_line(text: str, named: str) -> None:

@@ -105,7 +105,7 @@ def test_a_length_is_no_angle() -> None:
         ("time (s),velocity (mm/s),torque (%)\n0,1e999,2\n", "line 2: "),
         ("time (s),velocity (mm/s),torque (%)\n0,1,٣\n", "is no number"),
         ('time (s),velocity (mm/s),torque (%)\n0,"1,2\n', "is no line of a table"),
-        ("x" * 20_000, "more than 10000 signs"),
+        ("x" * 20_000, "more than 10000 characters"),
     ],
 )
 def test_what_is_not_a_record_or_can_be_read_in_two_ways_is_refused(text: str, words: str) -> None:

@@ -248,7 +248,7 @@ def exchange_with_hostile_control(seed: int, folder: Path) -> list[str]:
     if at_control == "unknown" and not hostile.heard_commit:
         faults.append("said it is not known, and no commit was asked for")
     if not text.replace("\n", "").isprintable() or len(text) > 1_500:
-        faults.append(f"steering signs or too much text: {text[:200]!r}")
+        faults.append(f"control characters or too much text: {text[:200]!r}")
     if clock.now > LONGEST:
         faults.append(f"it took {clock.now:.0f} s")
     if longest > 2.3:

@@ -68,8 +68,8 @@ def mill(entry: str = "", line: str = "") -> bytes:
         ("1301\thome.calibration@1\t5 mm", "which would be written '1300 home.calibration@1 5 mm'"),
         ("home.calibration@1\t5 mm", "line .* .home.calibration@1. is not number, address and value"),
         ("1300\thome.calibration@1\t5 mm\t", "line .* .home.calibration@1. is not number, address and value"),
-        ("1300\thome.calibration@1\t5\x1b[2J mm", "line .*control sign"),
-        ("1300\thome.calibration@1\t5 mm\r", "line .*control sign"),
+        ("1300\thome.calibration@1\t5\x1b[2J mm", "line .*control character"),
+        ("1300\thome.calibration@1\t5 mm\r", "line .*control character"),
     ],
 )
 def test_a_damaged_number_names_its_entry(line: str, said: str) -> None:
@@ -144,7 +144,7 @@ def test_a_code_of_thousands_of_digits_is_no_code(digits: int) -> None:
         ("family", "family ", "family '', which is not known"),
         ("family", "family 9PC", "family '9PC', which is not known"),
         ("revision", "revision a\\", "'revision a\\\\', which would be written"),
-        ("revision", "revision \x00", "line 6 .*control sign"),
+        ("revision", "revision \x00", "line 6 .*control character"),
         ("application", "application\tMill", "line 5 of the control image is not its application"),
         ("signature", "signature ", "another schema"),
     ],
@@ -171,7 +171,7 @@ def test_a_text_is_escaped_as_it_is_written(text: str) -> None:
     "text", ["", " ", "a\\", "\\n", "a\nb", "a\tb", "\r", "\x1b[2J", "\x85", "\u2028", "=1+1", "é", "\x00"]
 )
 def test_any_text_of_a_file_comes_back_from_its_image(text: str) -> None:
-    """What a file can hold is carried, without a control sign on the line."""
+    """What a file can hold is carried, without a control character on the line."""
     file = small("syntec")
     file.values["axis.name", "1"] = Value(text)
     file.header.revision = text

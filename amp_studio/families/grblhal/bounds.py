@@ -28,7 +28,7 @@ def check_text(setting: Setting | None, number: int, text: str, axes: int) -> No
     """
     name = f"${number} {setting.name}" if setting else f"${number}"
     if not text.isascii() or not text.isprintable():
-        raise BoundsError(f"{name} takes plain ASCII signs only")
+        raise BoundsError(f"{name} takes plain ASCII characters only")
     if (setting is None or setting.type == DECIMAL) and not _NUMBER.fullmatch(text):
         raise BoundsError(f"{name} takes a number, not '{text[:40]}'")
     if setting is None:
@@ -60,7 +60,7 @@ def _bounds(setting: Setting, axes: int) -> tuple[int, int]:
         return 0, len(setting.labels) - 1
     # Whether it is kept in 8, 16 or 32 bits is not enumerated: what is shown is what there is certainly room
     # for.
-    digits = sum(sign in "#0" for sign in setting.format) or 5
+    digits = sum(character in "#0" for character in setting.format) or 5
     high = int(setting.most) if setting.most.isdecimal() else min(10**digits - 1, 65_535)
     return int(setting.least) if setting.least.isdecimal() else 0, high
 

@@ -39,7 +39,7 @@ ENUMERATIONS = ("$EG", "$ES", "$ESH", "$EA", "$EE")
 """How a grblHAL control describes itself: groups, settings, settings with help, alarms, errors."""
 
 _SECTIONS = ("$I", "$$", "$#", "$N", *ENUMERATIONS)
-_CONTROL_SIGN = re.compile(r"[\x00-\x08\x0b-\x1f\x7f-\x9f]")
+_CONTROL_CHARACTER = re.compile(r"[\x00-\x08\x0b-\x1f\x7f-\x9f]")
 _SETTING = re.compile(r"\$(0|[1-9]\d{0,4})=(.*)")
 _NAMED = re.compile(r"\[([A-Z][A-Z0-9. ]*):(.*)\]")
 _STARTUP = re.compile(r"\$N(\d)=(.*)")
@@ -138,9 +138,9 @@ def _sections(data: bytes) -> dict[str, list[str]]:
         raise ImageError("this is not a copy of Grbl settings")
     if lines[-1] != "" or lines[-2] != f"end {len(lines) - 2}":
         raise ImageError("the copy of the settings has been cut off")
-    if found := _CONTROL_SIGN.search(text):
+    if found := _CONTROL_CHARACTER.search(text):
         number = text.count("\n", 0, found.start()) + 1
-        raise ImageError(f"line {number} of the copy of the settings contains a control sign")
+        raise ImageError(f"line {number} of the copy of the settings contains a control character")
     sections: dict[str, list[str]] = {}
     here = None
     for number, line in enumerate(lines[1:-2], 2):

@@ -260,12 +260,12 @@ def _bound(text: str, rest: str) -> str:
 
 
 def _lines(text: str) -> str:
-    r"""Return a help without control signs; ``\n`` becomes a new line."""
+    r"""Return a help without control characters; ``\n`` becomes a new line."""
     return "\n".join(map(_text, text.split("\\n")))[:_LONGEST].strip()
 
 
 def _text(text: str) -> str:
-    """Return a text of one line without control signs."""
+    """Return a text of one line without control characters."""
     plain = re.sub(
         r"[\x00-\x1f\x7f-\x9f\u2028-\u202e\u2066-\u2069\ufeff\ufffe\uffff\ud800-\udfff]", " ", text
     )

@@ -147,5 +147,5 @@ def _matches(lines: list[str], form: re.Pattern[str], what: str) -> list[tuple[i
 
 
 def _clean(text: str) -> str:
-    """Return a line without control signs, which a damaged line has; tabs of ``$ESH`` stay."""
+    """Return a line without control characters, which a damaged line has; tabs of ``$ESH`` stay."""
     return re.sub(r"[\x00-\x08\x0a-\x1f\x7f-\x9f]", "\N{REPLACEMENT CHARACTER}", text)

@@ -80,7 +80,7 @@ _LOST = (
     " of the gains are lost with the figures of the manual (sections 4.5 to 4.9), and the two printed"
     " programs (pages 4-48, 5-5) make well damped loops with these."
 )
-_SIGNS = (
+_DIRECTION_NOTE = (
     "The bits of Drive Setup are lost with figure 4.2: polarity is taken to fit, and {0} because Velocity"
     " Gain is {1} (page 5-3)."
 )
@@ -191,7 +191,7 @@ def _parameters(read: AxisParameters, machine: Machine, current: bool) -> tuple[
     p[loop.CLAMP] = read.within(ids.max_voltage, 0.005, 10.0) * loop.WORDS_PER_VOLT
     notes = [_LOST.format(*scales)]
     kind = "a current reference is simulated" if current else "a velocity reference is simulated"
-    notes.append(_SIGNS.format(kind, f"{read.number(ids.gain_velocity):g}"))
+    notes.append(_DIRECTION_NOTE.format(kind, f"{read.number(ids.gain_velocity):g}"))
     notes += [_DEADBAND] * (p[loop.DEADBAND] != 0.0) + [_MATCHED] * (not current) + [_S_CURVE]
     if any(
         read.optional(ids[f"output_linearization_{side}"]) not in (None, -1.0)

@@ -151,7 +151,7 @@ def _heads(lines: _Lines) -> tuple[dict[str, int], list[tuple[str, str]], str, _
     numbers.
     """
     for place, (n, line) in enumerate(lines[:_HEAD_WITHIN]):
-        separator = next((sign for sign in ";\t," if sign in line), ",")
+        separator = next((character for character in ";\t," if character in line), ",")
         cells = _cells(line, separator, n)
         names = [_name_and_unit(cell) for cell in cells]
         found = _kinds([name for name, _ in names])
@@ -170,7 +170,7 @@ def named_columns(text: str, wanted: Mapping[str, str]) -> dict[str, tuple[int, 
     in the first line of a text that names one; {} where none does.
     """
     for n, line in enumerate(text.splitlines()[:_HEAD_WITHIN], 1):
-        separator = next((sign for sign in ";\t," if sign in line), ",")
+        separator = next((character for character in ";\t," if character in line), ",")
         heads = [_name_and_unit(cell) for cell in _cells(line, separator, n)]
         found = {
             name: (place, heads[place][1])
@@ -282,7 +282,7 @@ def read_number_table(text: str, used: Sequence[int]) -> list[Series]:
     if len(lines) > MOST_ROWS:
         raise SimulationError(f"{len(lines)} lines are too many: {MOST_ROWS} at most")
     for place, (n, line) in enumerate(lines):
-        separator = next((sign for sign in ";\t," if sign in line), ",")
+        separator = next((character for character in ";\t," if character in line), ",")
         cells = _cells(line, separator, n)
         if len(cells) > max(used) and not _NUMBER.fullmatch(cells[used[0]].replace(",", ".")):
             return _columns(lines[place + 1 :], used, len(cells), separator)
@@ -291,7 +291,7 @@ def read_number_table(text: str, used: Sequence[int]) -> list[Series]:
 
 def _cells(line: str, separator: str, number: int) -> list[str]:
     if len(line) > _LONGEST_LINE:
-        raise SimulationError(f"line {number}: it has more than {_LONGEST_LINE} signs")
+        raise SimulationError(f"line {number}: it has more than {_LONGEST_LINE} characters")
     try:
         (cells,) = csv.reader([line], delimiter=separator, strict=True)
     except (csv.Error, ValueError) as error:
@@ -303,7 +303,7 @@ def _cells(line: str, separator: str, number: int) -> list[str]:
 
 def _columns(lines: _Lines, used: Sequence[int], width: int, separator: str) -> list[Series]:
     """Return the used columns as numbers; raises SimulationError for a cell that is none, or may be two."""
-    signs: dict[str, int] = {}
+    first_lines: dict[str, int] = {}
     columns: list[list[float]] = [[] for _ in used]
     for n, line in lines:
         cells = _cells(line, separator, n)
@@ -316,9 +316,9 @@ def _columns(lines: _Lines, used: Sequence[int], width: int, separator: str) -> 
             raise SimulationError(f"line {n}: {len(cells)} cells, and {width} heads{hint}")
         for column, place in zip(columns, used, strict=True):
             cell = cells[place].replace("\u2212", "-")
-            for sign in ".,":
-                if sign in cell:
-                    signs.setdefault(sign, n)
+            for character in ".,":
+                if character in cell:
+                    first_lines.setdefault(character, n)
             text = cell.replace(",", ".")
             if len(text) > 40 or not _NUMBER.fullmatch(text):
                 raise SimulationError(
@@ -328,10 +328,10 @@ def _columns(lines: _Lines, used: Sequence[int], width: int, separator: str) -> 
             if not abs(number) < LARGEST:
                 raise SimulationError(f"line {n}: {cell[:40]} is too large: below 10^12 are read")
             column.append(number)
-    if len(signs) > 1:
+    if len(first_lines) > 1:
         raise SimulationError(
-            f"line {signs[',']} has a decimal comma and line {signs['.']} a decimal point: write all numbers"
-            " in one way"
+            f"line {first_lines[',']} has a decimal comma and line {first_lines['.']} a decimal point:"
+            " write all numbers in one way"
         )
     return [np.array(column) for column in columns]
 

@@ -104,7 +104,7 @@ def _heads(text: str) -> dict[str, int]:
     empty where none does.
     """
     for line in text.splitlines()[:60]:
-        separator = next((sign for sign in ";\t," if sign in line), ",")
+        separator = next((character for character in ";\t," if character in line), ",")
         cells = [" ".join(cell.strip().strip("\"'").casefold().split()) for cell in line.split(separator)]
         found = {}
         for name, pattern in _HEADS.items():

@@ -132,7 +132,7 @@ def _line(
         try:
             yield line, link
         except (PlainFileError, KeyboardInterrupt):
-            if is_block:  # in a raw text it would be two more signs
+            if is_block:  # in a raw text it would be two more characters
                 line.give_up()
             raise
 

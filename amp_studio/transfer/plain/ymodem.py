@@ -76,7 +76,9 @@ def file_name(name: str) -> str:
     nothing that is hidden or special.
     """
     last = re.split(r"[/\\]", name)[-1]
-    last = "".join(sign if sign.isprintable() else "_" for sign in _UNSUITABLE.sub("_", last)).strip(" .")
+    last = "".join(
+        character if character.isprintable() else "_" for character in _UNSUITABLE.sub("_", last)
+    ).strip(" .")
     return last[:LONGEST_NAME] or "file"
 
 

@@ -28,9 +28,9 @@ def sentence(text: str) -> str:
 
     The sentences of the program are in the language of the window; a rule has the words of its facts.
     """
-    sign = tr(".", "decimal sign")
+    point = tr(".", "decimal sign")
     sentence = message_in_words(text)
-    return sentence if sign == "." else _NUMBER.sub(lambda found: found[0].replace(".", sign), sentence)
+    return sentence if point == "." else _NUMBER.sub(lambda found: found[0].replace(".", point), sentence)
 
 
 def show_value(parameter: Parameter, value: Value | None, *, secrets: bool = False) -> str:

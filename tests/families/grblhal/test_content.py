@@ -64,7 +64,7 @@ def test_a_grbl_that_says_nothing_of_its_axes_has_as_many_as_its_offsets() -> No
         ("$130=200.000", "130=200.000", "'130=200.000', which is not a setting"),
         ("$N1=", "$M1=", "'$M1=G21', which is not a start-up line"),
         ("[G28:", "[TLO:", "which is not an offset"),
-        ("$0=5.0", "$0=5\x1b", "line 8 of the copy of the settings contains a control sign"),
+        ("$0=5.0", "$0=5\x1b", "line 8 of the copy of the settings contains a control character"),
         ("$0=5.0", "$00=5.0", "which is not a setting"),
     ],
 )

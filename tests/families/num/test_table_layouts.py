@@ -99,7 +99,7 @@ def test_an_end_without_a_line_of_its_own_is_taken_too(num: Schema) -> None:
         ({"job_reference": "12"}, "the job reference '12' is not of eight digits"),
         ({"comment": "9"}, "the comment behind the job reference"),
         ({"comment": "\n"}, "the comment behind the job reference"),
-        ({"end": "LF XON"}, "XON is not one of the signs CR, LF, XOFF"),
+        ({"end": "LF XON"}, "XON is not one of the characters CR, LF, XOFF"),
         ({"words": {"P4": "t3n4"}}, "'P4: t3n4' is not type and number of words"),
         ({"lines": ["P9N0"]}, "'P9N0' is no line of a table"),
     ],

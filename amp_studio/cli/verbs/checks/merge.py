@@ -125,11 +125,11 @@ def _settle(merge: Merge, texts: list[str]) -> None:
     from amp_studio.schema import field_at, quoted, resolve_address
 
     for text in texts:
-        param, sign, name = text.rpartition("=")
+        param, equals, name = text.rpartition("=")
         side = SIDES.get(name.strip())
         if side is None:
             raise UsageError(f"{quoted(name.strip())} is no side: {', '.join(SIDES)}")
-        if not sign:
+        if not equals:
             merge.take(side, merge.conflicts)
             continue
         found = resolve_address(merge.a.evaluation, param.strip())

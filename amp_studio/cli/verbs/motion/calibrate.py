@@ -248,8 +248,8 @@ def _error(
 
 
 def _pair(text: str) -> tuple[Fraction, Fraction]:
-    at, sign, figure = text.partition("=")
-    if not sign:
+    at, equals, figure = text.partition("=")
+    if not equals:
         raise UsageError(f"{text[:40]} is not POSITION=FIGURE")
     return _number(at), _number(figure)
 

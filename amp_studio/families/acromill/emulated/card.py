@@ -1,4 +1,4 @@
-"""An emulated ACR card behind its terminal: a prompt, an echo of every sign,
+"""An emulated ACR card behind its terminal: a prompt, an echo of every character,
 a line obeyed at its end (page 91).
 
 What the guide does not show is marked "assumed" here and in docs/protocols/acr-terminal.md.
@@ -16,7 +16,7 @@ from .card_motion import WORDS, CardMotion
 from .settings import COMMANDS_LISTED, CardSettings, CommandError
 
 BANNER = ("ACR8000 (c) 1993-1998 by AMCS Inc.", "Version 1.17.08 CARD 0")
-LONGEST = 128  # signs of a line; more are neither taken nor echoed (assumed)
+LONGEST = 128  # characters of a line; more are neither taken nor echoed (assumed)
 PIECE = 256
 BACKSPACE, DELETE, RETURN = 0x08, 0x7F, 0x0D
 COMMANDS = "power, patch COMMAND, echo on|off, home AXES, mdi G28 X1, stop, status, quit"
@@ -43,13 +43,13 @@ class AcrCard:
         self.motion.advance(duration)
 
     def answer(self) -> bytes:
-        """Return the next signs to be sent."""
+        """Return the next characters to be sent."""
         piece = bytes(self._out[:PIECE])
         del self._out[:PIECE]
         return piece
 
     def receive(self, data: bytes) -> None:
-        """Take signs as they are typed."""
+        """Take characters as they are typed."""
         for byte in data:
             if byte == RETURN:
                 self._obey()
@@ -61,9 +61,9 @@ class AcrCard:
                 self._line.append(byte)
                 self._echo(bytes((byte,)))
 
-    def _echo(self, signs: bytes) -> None:
+    def _echo(self, characters: bytes) -> None:
         if self._echoes:
-            self._out += signs
+            self._out += characters
 
     def _obey(self) -> None:
         line, self._line = self._line.decode("ascii"), bytearray()
@@ -140,7 +140,7 @@ class AcrCard:
             case "stop", "":
                 self.motion.stop()
             case "status", "":
-                return f"P{self._program:02d} {len(self._line)} signs of a line; {self.motion.status()}"
+                return f"P{self._program:02d} {len(self._line)} characters of a line; {self.motion.status()}"
             case _:
                 raise ValueError(f"no command: {COMMANDS}")
         return visible(line)

@@ -3,7 +3,7 @@
 
 ``{i}`` is the instance, ``{k}`` its place from 0, ``{n}`` its number, ``{v}`` the value of the parameter that
 names the command, and
-``{other.id}`` that of another one. Blanks between signs may be there or not (``TLM X 2``, ``TLM X4``,
+``{other.id}`` that of another one. Blanks between characters may be there or not (``TLM X 2``, ``TLM X4``,
 page 115).
 """
 

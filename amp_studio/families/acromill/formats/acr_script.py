@@ -44,9 +44,10 @@ from .acr_command import Command, CommandArgument, CommandSetting, commands_of, 
 FAMILY = "acromill"
 _KIND = "acr"
 _HEAD = "REM ACR command script"
-_SIGNS = "cp437"
-"""Commands are plain ASCII; of other signs, which a remark may contain, every byte comes back as it was."""
-_MARK = "\ufeff".encode().decode(_SIGNS)
+_CODE_PAGE = "cp437"
+"""Commands are plain ASCII; of other characters, which a remark may contain, every byte comes back as it
+was."""
+_MARK = "\ufeff".encode().decode(_CODE_PAGE)
 _MARK_SEEN_AS_LATIN = "\ufeff".encode().decode("latin-1")
 _UNITS = re.compile(r"\s*REM\s+units\s+(\S+)\s*", re.IGNORECASE)
 _REMARK = re.compile(r"\s*(REM\b.*)?", re.IGNORECASE | re.DOTALL)
@@ -188,7 +189,7 @@ def _lines(text: str, commands: list[Command], words: set[str]) -> Iterator[_Scr
     for n, row in enumerate(text.removeprefix(_MARK).removeprefix(_MARK_SEEN_AS_LATIN).split("\n"), 1):
         line = _ScriptLine(n, row.rstrip("\r"))
         if len(line.text) > _LONGEST_LINE:
-            line.fault = FormatError(f"the line is longer than {_LONGEST_LINE} signs", n)
+            line.fault = FormatError(f"the line is longer than {_LONGEST_LINE} characters", n)
         elif not _REMARK.fullmatch(line.text):
             try:
                 line.arguments = list(_arguments(line, commands))
@@ -349,7 +350,9 @@ def _write(file: ParameterFile) -> str:
     layout = kept(file, _KIND)
     if layout is None:
         name = " ".join(
-            f"{_HEAD} of {file.header.name or 'a machine'}".encode(_SIGNS, "replace").decode(_SIGNS).split()
+            f"{_HEAD} of {file.header.name or 'a machine'}".encode(_CODE_PAGE, "replace")
+            .decode(_CODE_PAGE)
+            .split()
         )
         return "\n".join([name, *units, *rows.values(), ""])
     return "\n".join(_filled(file, layout, rows, units if system != default_system(file.schema) else []))
@@ -454,7 +457,7 @@ def _unit_remark(file: ParameterFile, text: str, system: str) -> str:
 
 
 def _with_values(file: ParameterFile, line: _ScriptLine, system: str) -> str:
-    """Return a line of a script with the values of now, every other sign as it was;
+    """Return a line of a script with the values of now, every other character as it was;
     empty where none of them is set.
     """
     text, is_any = line.text, False
@@ -482,5 +485,13 @@ def _newline_of(file: ParameterFile) -> str:
 
 
 FORMAT = TextFormat(
-    "acr", "ACR command script", ".acr", _recognises, _read, _write, _SIGNS, _NEWLINE, newline_of=_newline_of
+    "acr",
+    "ACR command script",
+    ".acr",
+    _recognises,
+    _read,
+    _write,
+    _CODE_PAGE,
+    _NEWLINE,
+    newline_of=_newline_of,
 )

@@ -66,7 +66,7 @@ SAVES = 6  # times a setting is looked for and saved again where the line broke 
 SAVE_WAIT = 30.0  # seconds ESAVE may take
 CAN_BE_OFF = ("LOPASS", "NOTCH")
 AXES = "XYZABCUV"
-SHOWN = 60  # signs of the card's words in a message
+SHOWN = 60  # characters of the card's words in a message
 
 _FIGURE = r"[+-]?(?:[0-9]+(?:\.[0-9]*)?|\.[0-9]+)(?:E[+-]?[0-9]{1,2})?"
 _FIGURES = re.compile(rf"\(?\s*({_FIGURE})(?:\s*,\s*({_FIGURE}))?\s*\)?", re.IGNORECASE)

@@ -22,10 +22,10 @@ from amp_studio.transfer import (
 )
 from amp_studio.transfer.links import Link, LinkError
 
-LONGEST = 160  # signs of half a line that somebody may have left
+LONGEST = 160  # characters of half a line that somebody may have left
 TRIES = 8  # of one line
 ECHO_WAIT = 1.5  # seconds until the echo of a line begins
-ECHO_GAP = 0.4  # seconds between two signs of an echo: one that was lost does not come any more
+ECHO_GAP = 0.4  # seconds between two characters of an echo: one that was lost does not come any more
 PROMPT_WAIT = 1.5  # seconds until the prompt comes back
 ANSWER_WAIT = (
     20.0  # seconds an answer may take that goes on; a table of 1,000 positions takes 13 at 9600 bit/s

@@ -110,7 +110,7 @@ class LoggedListing:
 
     def text_of(self, number: int, texts: Container[int]) -> str:
         """Return the value of a setting that is a text, as those of ``texts`` are:
-        it may contain the signs that begin a remark.
+        it may contain the characters that begin a remark.
 
         Where no figure has a remark there are none; else one begins behind a blank.
         """

@@ -119,17 +119,17 @@ class NumControl:
         if self._parity != "none" and self._with_parity(byte & 0x7F) != byte:
             self._fail("a character with a parity error")
             return
-        sign = byte & 0x7F if self._parity != "none" else byte
+        character = byte & 0x7F if self._parity != "none" else byte
         if not self._has_begun:
-            self._has_begun = sign == ord("%")  # what comes before the table is its leader (assumed)
+            self._has_begun = character == ord("%")  # what comes before the table is its leader (assumed)
             if not self._has_begun:
                 return
-        if sign == XOFF:
+        if character == XOFF:
             self._end()
-        elif sign == ord("\n"):
+        elif character == ord("\n"):
             self._whole_line()
-        elif sign != ord("\r") or self._line.endswith(b"\r"):
-            self._line.append(sign)
+        elif character != ord("\r") or self._line.endswith(b"\r"):
+            self._line.append(character)
             if len(self._line) > LONGEST + 3:
                 self._fail("a line without an end")
 

@@ -23,7 +23,7 @@ Cells = dict[Word, str]
 Heads = Mapping[int, tuple[int, int]]
 """Parameter -> type and number of its words."""
 _NAMES = {"CR": "\r", "LF": "\n", "XOFF": XOFF, "SUB": "\x1a", "NUL": "\0"}
-_SIGNS = {sign: name for name, sign in _NAMES.items()}
+_CHARACTERS = {character: name for name, character in _NAMES.items()}
 _HEAD = re.compile(r"t([0-24-9])n([1-9][0-9]{0,3})")
 _BLOCK = re.compile(r"P([0-9]{1,4})N([0-9]{1,4})(:?)(?: ([0-9]{1,2})|#([ -~]*))")
 
@@ -101,7 +101,10 @@ class TableLayout:
                 "the comment behind the job reference contains more than ASCII or begins with a digit"
             )
         layout = cls(
-            reference, comment, _signs(entries.get("line_end", "LF")), _signs(entries.get("end", ""))
+            reference,
+            comment,
+            _characters(entries.get("line_end", "LF")),
+            _characters(entries.get("end", "")),
         )
         layout.old_headers = entries.get("headers") == "old"
         words, lines = entries.get("words"), entries.get("lines")
@@ -115,15 +118,15 @@ class TableLayout:
         return layout
 
 
-def _named(signs: str) -> str:
-    return " ".join(_SIGNS[sign] for sign in signs)
+def _named(characters: str) -> str:
+    return " ".join(_CHARACTERS[character] for character in characters)
 
 
-def _signs(names: object) -> str:
+def _characters(names: object) -> str:
     try:
         return "".join(_NAMES[name] for name in str(names).split())
     except KeyError as error:
-        raise FormatError(f"{error.args[0]} is not one of the signs {', '.join(_NAMES)}") from None
+        raise FormatError(f"{error.args[0]} is not one of the characters {', '.join(_NAMES)}") from None
 
 
 def _block(line: str) -> Placed:

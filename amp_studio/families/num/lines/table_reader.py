@@ -60,18 +60,18 @@ class TableReader:
             # The job reference has eight digits: one of 0, 3, 5, 6 or 9, or the ";" with its length, shows
             # odd parity.
             self.parity = "odd"
-            if any(with_parity(sign, "odd") != sign for sign in self.table):
+            if any(with_parity(character, "odd") != character for character in self.table):
                 raise self._damaged("a character with a parity error")
         if self.parity != "none" and with_parity(byte & 0x7F, self.parity) != byte:
             raise self._damaged("a character with a parity error")
-        sign = byte & 0x7F if self.parity != "none" else byte
-        if sign == XON:
+        character = byte & 0x7F if self.parity != "none" else byte
+        if character == XON:
             return
-        if sign == XOFF:
+        if character == XOFF:
             self.is_whole = True
-        if sign > 0x7E or (sign < 0x20 and sign not in (0x0A, 0x0D, XOFF)):
-            raise self._damaged(f"the byte {sign:02X}, which is in no table")
-        self.table.append(sign)
+        if character > 0x7E or (character < 0x20 and character not in (0x0A, 0x0D, XOFF)):
+            raise self._damaged(f"the byte {character:02X}, which is in no table")
+        self.table.append(character)
         if len(self.table) > LARGEST:
             raise ImageDamagedError(f"the table has no end: {LARGEST} bytes have come without Xoff")
 
@@ -80,9 +80,9 @@ class TableReader:
         return ImageDamagedError(f"the table has arrived damaged: {what} in line {line}")
 
 
-def with_parity(sign: int, parity: Parity) -> int:
+def with_parity(character: int, parity: Parity) -> int:
     """Return a character of seven bits as it goes over the line."""
     if parity == "none":
-        return sign
-    is_odd = sign.bit_count() % 2 == 1
-    return sign | (0x80 if is_odd == (parity == "even") else 0)
+        return character
+    is_odd = character.bit_count() % 2 == 1
+    return character | (0x80 if is_odd == (parity == "even") else 0)

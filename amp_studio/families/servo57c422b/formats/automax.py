@@ -31,18 +31,18 @@ from .basic_text import BasicLine, BasicStatement, read_lines
 from .registers import NumberInRegisters, Registers, RegisterValues, Written, contents_of, registers_of
 from .word_text import read_word, write_hexadecimal
 
-_SIGNS = "cp437"
-"""What DOS files are written in; every byte of theirs is a sign of it."""
+_CODE_PAGE = "cp437"
+"""What DOS files are written in; every byte of theirs is a character of it."""
 
 
 def _remark(file: ParameterFile, registers: Registers, address: Address) -> str:
-    """Return ``Command Velocity (X axis), 160000 counts/s`` in signs that a DOS file has."""
+    """Return ``Command Velocity (X axis), 160000 counts/s`` in characters that a DOS file has."""
     message = f"{registers.label(address)}, {show_value(registers.parameter(address), file.get(address))}"
     return _in_signs(message)
 
 
 def _in_signs(text: str) -> str:
-    return " ".join(text.encode(_SIGNS, "replace").decode(_SIGNS).split())
+    return " ".join(text.encode(_CODE_PAGE, "replace").decode(_CODE_PAGE).split())
 
 
 def _number(registers: Registers, of: NumberInRegisters) -> str:
@@ -127,7 +127,7 @@ def _message(one: Written) -> str:
 
 
 def _lines(text: str) -> list[str]:
-    """Return the lines of a DOS file, without the sign that ends it."""
+    """Return the lines of a DOS file, without the character that ends it."""
     return [line.removesuffix("\r") for line in text.rstrip("\x1a").split("\n")]
 
 
@@ -299,6 +299,8 @@ def _setting(statement: BasicStatement, variables: Variables) -> Written:
 
 
 TABLE = TextFormat(
-    "registers", "AutoMax register table", ".reg", _is_table, _read_table, _write_table, _SIGNS, "\r\n"
+    "registers", "AutoMax register table", ".reg", _is_table, _read_table, _write_table, _CODE_PAGE, "\r\n"
 )
-TASK = TextFormat("basic", "AutoMax BASIC task", ".bas", _is_task, _read_task, _write_task, _SIGNS, "\r\n")
+TASK = TextFormat(
+    "basic", "AutoMax BASIC task", ".bas", _is_task, _read_task, _write_task, _CODE_PAGE, "\r\n"
+)

@@ -101,7 +101,7 @@ def read_lines(text: str) -> Iterator[BasicLine]:
             first = n
         begun.append(line)
         if sum(map(len, begun)) > LONGEST_LINE:
-            raise FormatError(f"the line is longer than {LONGEST_LINE} signs", first)
+            raise FormatError(f"the line is longer than {LONGEST_LINE} characters", first)
         if line.rstrip().endswith("&") and not _ends_in_remark(line):
             continue
         if "".join(begun).strip():
