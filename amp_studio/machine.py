@@ -160,7 +160,7 @@ class MachineParameters:
         called with which parameter a number means that is printed for several.
         Raises AssignmentError, RangeError.
         """
-        return self.file.set_many(self._read(values, notify), force=force)
+        return self.file.set_checked(self._read(values, notify), force=force)
 
     def with_values(self, values: NewValues, *, notify: Notify = lambda _message: None) -> MachineParameters:
         """Return a copy with these values, to try them: they may be out of range, and this machine and its

@@ -11,7 +11,7 @@ from measure import Measure, timed
 from amp_studio.files import open_file
 from amp_studio.find import Finder
 from amp_studio.find.entries import entries_of
-from amp_studio.find.index import Index
+from amp_studio.find.index import SearchIndex
 from amp_studio.schema import family_ids, load_schema
 
 QUESTIONS = (
@@ -29,7 +29,7 @@ def measures(full: Path, times: int) -> Iterator[Measure]:
     largest = max(family_ids(), key=lambda name: len(load_schema(name).parameters))
     schema = load_schema(largest)
     machine = schema.family.default_machine
-    yield Measure(f"index of {largest}", timed(lambda: Index(entries_of(schema, machine)), times), 0.2)
+    yield Measure(f"index of {largest}", timed(lambda: SearchIndex(entries_of(schema, machine)), times), 0.2)
     file = open_file(full).file
     finder = Finder(file.schema, file.machine, file)
     typed = [text[:n] for text in QUESTIONS for n in range(1, len(text) + 1)]

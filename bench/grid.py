@@ -114,7 +114,7 @@ def _number(table: Any) -> tuple[str, str]:
             try:
                 for text in ("1", "2"):
                     trial = file.copy()
-                    trial.set_many({address: trial.read(address, text)})
+                    trial.set_checked({address: trial.read(address, text)})
             except ValueError:
                 continue
             return address

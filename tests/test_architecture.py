@@ -320,7 +320,6 @@ def test_a_class_or_alias_has_a_name_that_no_other_has(checkout: Path) -> None:
                 continue
             if name[0].isupper() and not name.isupper():
                 places.setdefault(name, []).append(path.relative_to(checkout).as_posix())
-    del places["Setting"]  # what grblHAL calls its parameters, and what a fix sets
     assert {name: where for name, where in places.items() if len(where) > 1} == {}
 
 

@@ -147,7 +147,9 @@ NAME_WORDS = {
 }
 """Words that no identifier has as a part: what is defined with one was renamed after the field's word."""
 NAME_PARTS = ("answer_once", "no_more")
-FUNCTION_NAMES = {"take", "look", "leave", "shown"}
+WHOLE_NAMES = {"shown", "set_many", "all_axes", "Index", "Place", "Cell", "Setting"}
+"""No identifier has one of these as its whole name: each had several meanings."""
+FUNCTION_NAMES = {"take", "look", "leave"}
 """No private function has one of these as its whole name: it names what it does or returns."""
 ALLOWED_NAMES = {
     ("amp_studio/families/acromill/formulas/geometry.py", "wear"): "the wear offset of a tool",
@@ -157,6 +159,7 @@ ALLOWED_NAMES = {
     ("amp_studio/schema/model/documents.py", "says"): "a key of the facts",
     ("amp_studio/schema/model/parameter.py", "says"): "a key of the facts",
     ("amp_studio/schema/model/family.py", "absent_when"): "a key of the facts",
+    ("amp_studio/schema/model/family.py", "shown"): "a key of the facts",
     ("amp_studio/transfer/emulated/record.py", "incarnation"): "a key of control.json",
     ("amp_studio/transfer/house/message.py", "incarnation"): "the frozen protocol names it so",
 }
@@ -182,7 +185,8 @@ def banned_names_in(source: str) -> set[str]:
         name = defined.removesuffix("()")
         words = {word.casefold() for word in re.findall("[A-Z]?[a-z0-9]+|[A-Z]+", name)}
         is_function = name != defined and name.startswith("_") and name.strip("_") in FUNCTION_NAMES
-        if is_function or words & NAME_WORDS or any(part in name for part in NAME_PARTS):
+        is_vague = is_function or name.strip("_") in WHOLE_NAMES
+        if is_vague or words & NAME_WORDS or any(part in name for part in NAME_PARTS):
             found.add(name)
     return found
 
@@ -203,6 +207,8 @@ def test_an_identifier_uses_the_words_of_the_field() -> None:
         ("class MeantFigure: ...", {"MeantFigure"}),
         ("def no_more(held): ...", {"no_more", "held"}),
         ("def _take(self): ...", {"_take"}),
+        ("class Place: ...", {"Place"}),
+        ("for _shown, is_shown in rows: ...", {"_shown"}),
         ("self._ink, take = 1, 2", {"_ink"}),
         ("why_not = taken('what is meant')", set()),
     ],

@@ -41,12 +41,12 @@ def name_axes(file: ParameterFile, names: Sequence[str]) -> list[Change]:
     if instances and len(names) > len(instances):
         raise AxisError(f"{len(names)} axes are too many: {file.schema.family.name} has {len(instances)}")
     if declared is None:
-        return file.set_many(_typed(file, names))
+        return file.set_checked(_typed(file, names))
     if declared.is_fixed and tuple(n.upper() for n in names) == instances:
         return []
     _may_choose(file)
     if declared.letters:
-        return file.set_many(_lettered(file, declared, [name.upper() for name in names]))
+        return file.set_checked(_lettered(file, declared, [name.upper() for name in names]))
     if declared.least > len(names):
         raise AxisError(f"{file.schema.family.name} has {declared.least} or more axes (page {declared.page})")
     wanted: dict[Address, Value | None] = {}
@@ -65,7 +65,7 @@ def name_axes(file: ParameterFile, names: Sequence[str]) -> list[Change]:
         ),
     )
     with file.step() as changes:
-        file.set_many(wanted)
+        file.set_checked(wanted)
         _each_name_once(file, instances[: len(names)])
         _declare_groups(file, declared)
     return changes
@@ -143,12 +143,12 @@ def rename_axis(file: ParameterFile, axis: str, name: str) -> list[Change]:
     declared = file.schema.family.declared_axes
     with file.step() as changes:
         if declared is not None:
-            file.set_many(_named(file, declared, axis, name))
+            file.set_checked(_named(file, declared, axis, name))
             _each_name_once(file, [axis])
         else:
             address = (axis_profile(file).name, axis)
             try:
-                file.set_many({address: file.read(address, name)})
+                file.set_checked({address: file.read(address, name)})
             except InvalidValueError as error:
                 raise AxisError(str(error)) from None
     return changes
@@ -199,7 +199,7 @@ def _add_typed(file: ParameterFile, name: str, place: str, free: list[str]) -> N
         _make_room(file, place, free)
     # What it is wired to is not known: not set, the axis is there and a finding asks for it.
     fit = dict.fromkeys([(profile.fitted_by, place)] if profile.fitted_by else [])
-    file.set_many({**_of_type(file, profile, place, name), **fit})
+    file.set_checked({**_of_type(file, profile, place, name), **fit})
 
 
 def _make_room(file: ParameterFile, place: str, free: list[str]) -> None:
@@ -226,7 +226,7 @@ def _add_flagged(file: ParameterFile, declared: AxisDeclaration, name: str, at: 
         )
     if place in taken:
         raise AxisError(f"the input {place} serves a spindle or a handwheel")
-    file.set_many({**_named(file, declared, place, name), **_flagged(file, declared, {place: True})})
+    file.set_checked({**_named(file, declared, place, name), **_flagged(file, declared, {place: True})})
     _each_name_once(file, [place])
     return place
 
@@ -234,15 +234,17 @@ def _add_flagged(file: ParameterFile, declared: AxisDeclaration, name: str, at: 
 def _add_last(file: ParameterFile, declared: AxisDeclaration, name: str, at: str | None) -> str:
     instances, fitted = axis_instances(file), fitted_axes(file)
     if declared.any_letters:
-        file.set_many(_lettered(file, declared, [*fitted, name.upper()]))
+        file.set_checked(_lettered(file, declared, [*fitted, name.upper()]))
         return name.upper()
     place = instances[len(fitted)]
     if at not in (None, place):
         raise AxisError(f"{file.schema.family.name} has the first axes in order: the next one is {place}")
     if declared.letters:
-        file.set_many(_lettered(file, declared, [*fitted, name.upper()]))
+        file.set_checked(_lettered(file, declared, [*fitted, name.upper()]))
         return place
-    file.set_many({**_named(file, declared, place, name), (str(declared.count), ""): Value(len(fitted) + 1)})
+    file.set_checked(
+        {**_named(file, declared, place, name), (str(declared.count), ""): Value(len(fitted) + 1)}
+    )
     _each_name_once(file, [place])
     return place
 
@@ -259,7 +261,7 @@ def delete_axis(file: ParameterFile, axis: str) -> list[Change]:
     declared = file.schema.family.declared_axes
     with file.step() as changes:
         if profile := file.schema.family.axes:
-            file.set_many(_unfitted(profile, axis))
+            file.set_checked(_unfitted(profile, axis))
             reset_axis(file, axis)
         elif declared is not None:
             _remove(file, declared, axis)
@@ -272,11 +274,13 @@ def _remove(file: ParameterFile, declared: AxisDeclaration, axis: str) -> None:
     if axis not in fitted:
         raise AxisError(f"axis {axis} is not there")
     if declared.flags:
-        file.set_many({**_without_letter(file, declared, axis), **_flagged(file, declared, {axis: False})})
-        file.set_many({a: v for a, v in bits_of_axes(file, {axis: False}).items() if file.get(a) is not None})
+        file.set_checked({**_without_letter(file, declared, axis), **_flagged(file, declared, {axis: False})})
+        file.set_checked(
+            {a: v for a, v in bits_of_axes(file, {axis: False}).items() if file.get(a) is not None}
+        )
         return
     if declared.any_letters:
-        file.set_many(_lettered(file, declared, [name for name in fitted if name != axis]))
+        file.set_checked(_lettered(file, declared, [name for name in fitted if name != axis]))
         return
     if axis != fitted[-1]:
         raise AxisError(
@@ -286,7 +290,7 @@ def _remove(file: ParameterFile, declared: AxisDeclaration, axis: str) -> None:
         raise AxisError(f"{file.schema.family.name} has {declared.least} or more axes (page {declared.page})")
     count = {(str(declared.count), ""): Value(len(fitted) - 1)} if declared.count else {}
     listed = {(str(declared.letters), ""): Value("".join(fitted[:-1]))} if declared.letters else {}
-    file.set_many({**count, **listed})
+    file.set_checked({**count, **listed})
 
 
 def reset_axis(file: ParameterFile, axis: str) -> None:
@@ -387,4 +391,4 @@ def _declare_groups(file: ParameterFile, declared: AxisDeclaration) -> None:
     most = max((int(group.rpartition(" ")[2]) for group in used), default=0)
     present = file.evaluation.canonical((declared.group_count, ""))
     if most > (present if isinstance(present, float) else 0):
-        file.set_many({(declared.group_count, ""): Value(most)})
+        file.set_checked({(declared.group_count, ""): Value(most)})

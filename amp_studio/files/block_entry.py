@@ -76,7 +76,7 @@ def _tried(
     wanted = {a: cell.new for a, cell in cells.items() if cell.changes}
     while wanted:
         try:
-            file.copy().set_many(wanted)
+            file.copy().set_checked(wanted)
             break
         except RangeError as error:
             for address, problem in error.faults.items():

@@ -44,7 +44,7 @@ class Typed(NamedTuple):
     value: Value | None
 
 
-Choice = Side | Typed
+MergeChoice = Side | Typed
 
 
 @dataclass(frozen=True, slots=True)
@@ -98,7 +98,7 @@ class Merge:
         self.base = None if base is None else by_schema(base, a.schema)
         self.rows: tuple[Row, ...] = tuple(self._rows())
         """Every row, those that are the same too, in the manual's order."""
-        self._choices: dict[RowId, Choice] = {}
+        self._choices: dict[RowId, MergeChoice] = {}
 
     def _sources(self) -> dict[Side, ParameterFile]:
         sources: dict[Side, ParameterFile] = {"a": self.a, "b": self.b}
@@ -172,11 +172,11 @@ class Merge:
     # -- the result ------------------------------------------------------------
 
     @property
-    def choices(self) -> Mapping[RowId, Choice]:
+    def choices(self) -> Mapping[RowId, MergeChoice]:
         """What was chosen, by row; any other row has its default."""
         return self._choices
 
-    def choose(self, row: Row, choice: Choice | None) -> None:
+    def choose(self, row: Row, choice: MergeChoice | None) -> None:
         """Take a side for a row, or a typed value; None goes back to what it was without a choice."""
         if choice is None:
             self._choices.pop(row.id, None)
@@ -189,7 +189,7 @@ class Merge:
             if row.kind != "same":
                 self.choose(row, side)
 
-    def choice(self, row: Row) -> Choice | None:
+    def choice(self, row: Row) -> MergeChoice | None:
         """Return what the result takes; None for a conflict that nobody has settled."""
         chosen = self._choices.get(row.id)
         if chosen is not None:

@@ -252,14 +252,14 @@ class ParameterFile:
             self.values[change.address] = change.new
         self.forced.pop(change.address, None)
         self.revision += 1
-        self.evaluation.changed(change.address)
+        self.evaluation.forget_dependents(change.address)
         self._notify(change)
 
     def _notify(self, change: Change) -> None:
         for listener in list(self._listeners):
             listener(change)
 
-    def set_many(self, wanted: Mapping[Address, Value | None], force: str = "") -> list[Change]:
+    def set_checked(self, wanted: Mapping[Address, Value | None], force: str = "") -> list[Change]:
         """Set several values, all or none.
 
         Ranges are checked after all of them are in, so that a pair that bounds
@@ -309,8 +309,8 @@ class ParameterFile:
     def step(self) -> Iterator[list[Change]]:
         """Make changes as one step and collect them; an error takes all of them back, with marks and header.
 
-        This is the only place that takes an edit back: ``set_many``, the desktop's steps and the trial of a
-        fix are made of it.
+        This is the only place that takes an edit back: ``set_checked``, the desktop's steps
+        and the trial of a fix are made of it.
         """
         before, changes = Marks.of(self), list[Change]()
         stop = self.listen(changes.append)

@@ -55,7 +55,7 @@ def _settled(file: ParameterFile, address: Address, problem: str, by: str, promp
         if text is None:
             continue
         try:
-            file.set_many({address: file.read(address, text)})
+            file.set_checked({address: file.read(address, text)})
         except (InvalidValueError, RangeError) as error:
             prompt.refused(str(error))
         else:

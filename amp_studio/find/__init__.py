@@ -10,7 +10,7 @@ from amp_studio.front_pages import front_page
 if TYPE_CHECKING:
     from .entries import Entry, HitKind
     from .finder import Finder, Hit, elsewhere, index_of
-    from .index import Index
+    from .index import SearchIndex
     from .marks import MARKS, Mark, ValueMarks, noted, rows_of_file
     from .message_links import LinkedParameter, LinkedRule, MessagePage, message_page
     from .synonyms import prepare_synonyms

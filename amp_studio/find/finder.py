@@ -19,7 +19,7 @@ from amp_studio.schema import (
 
 from .entries import Entry, HitKind, Where, entries_of
 from .file_values import FileValues, asked_number
-from .index import Index, Match
+from .index import Match, SearchIndex
 from .places import place_of
 from .synonyms import meanings, nearest_synonym
 from .words import words_of
@@ -60,11 +60,11 @@ class Hit:
 
 
 @lru_cache(maxsize=16)
-def index_of(schema: Schema, machine: str) -> Index:
+def index_of(schema: Schema, machine: str) -> SearchIndex:
     """Return the index of a family on a machine type: made once, in 0.1 s, and safe to be made in a
     thread.
     """
-    return Index(entries_of(schema, machine))
+    return SearchIndex(entries_of(schema, machine))
 
 
 class Finder:
@@ -75,9 +75,9 @@ class Finder:
     ) -> None:
         self.schema, self.machine, self.file = schema, machine, file
         self._here = schema.on(machine)
-        self._commands = Index(commands)
+        self._commands = SearchIndex(commands)
         self._values: FileValues | None = None
-        self._texts = Index(())
+        self._texts = SearchIndex(())
 
     def forget_values(self) -> None:
         """Read the values and notes of the file again at the next question, after an edit."""
@@ -161,7 +161,7 @@ class Finder:
             return []
         if self._values is None:
             self._values = FileValues(file)
-            self._texts = Index(self._values.entries(file))
+            self._texts = SearchIndex(self._values.entries(file))
         number = asked_number(query)
         found: dict[str, list[Address]] = {}
         for address in self._values.having(number) if number is not None else ():

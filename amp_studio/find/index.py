@@ -47,7 +47,7 @@ def _title(entry: Entry) -> str:
     return next((text for where, text in entry.texts if where in ("name", "text", "choice")), entry.title)
 
 
-class Index:
+class SearchIndex:
     """Words -> the entries that have them."""
 
     def __init__(self, entries: Iterable[Entry]) -> None:

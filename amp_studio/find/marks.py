@@ -13,7 +13,7 @@ from typing import Literal, get_args
 
 from amp_studio.files import ParameterFile
 from amp_studio.schema import Address, Value, read_address, same_value
-from amp_studio.validate import NOT_SET, Finding, not_set
+from amp_studio.validate import NOT_SET, Finding, addresses_not_set
 
 Mark = Literal[
     "not-set",
@@ -54,7 +54,7 @@ class ValueMarks:
     def take_findings(self, findings: Iterable[Finding]) -> None:
         """Take what a check found now."""
         found = tuple(findings)
-        self.not_set = frozenset(not_set(found))
+        self.not_set = frozenset(addresses_not_set(found))
         self.caused = frozenset(a for f in found if f.rule != NOT_SET for a in f.causes)
 
     def forget(self, addresses: Collection[Address]) -> None:

@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     from .findings.lines import finding_json, finding_parts, finding_text, suppressed_text
     from .language import language_of
     from .model import Danger, ExchangeLine, PrintedFigure
-    from .output.pdf import Place, SetReport, typeset
+    from .output.pdf import PrintedPlace, SetReport, typeset
     from .papers.check_list import OpenValue, build_check_list, open_value, write_check_list
     from .papers.differences import (
         SIDE_BY_SIDE,

@@ -238,7 +238,7 @@ class Evaluation:
 
     # -- changes ---------------------------------------------------------------
 
-    def changed(self, address: Address) -> None:
+    def forget_dependents(self, address: Address) -> None:
         """Forget what depended on one address."""
         self.keys.pop(address, None)
         if address == (self.schema.family.machine_parameter, ""):

@@ -136,8 +136,8 @@ def _split(image: bytes) -> tuple[dict[str, str], list[tuple[str, str]]]:
     if len(lines) < 8 or lines[-1] != "" or not lines[-2].startswith("end "):
         raise ImageError("the control image has been cut off")
     if found := _CONTROL_CHARACTER.search(text):
-        line = text.count("\n", 0, found.start()) + 1
-        raise ImageError(f"line {line} of the control image contains a control character")
+        number = text.count("\n", 0, found.start()) + 1
+        raise ImageError(f"line {number} of the control image contains a control character")
     head = {}
     for number, (key, line) in enumerate(zip(_HEAD, lines[1:6], strict=True), 2):
         if not line.startswith(f"{key} "):

@@ -8,7 +8,7 @@ from amp_studio.files import ParameterFile
 from amp_studio.schema import Address, Value
 
 from .checks import Checks
-from .plan import Place, Plan
+from .plan import FindingPlace, Plan
 
 _SAMPLES = 12
 _HALVINGS, _NEAR = 32, 1e-4
@@ -29,7 +29,7 @@ class AllowedByRules:
         readers = plan.rule_readers.get(address, ())
         self._rules = [check for check in readers if check.rule.severity != "advice"]
         self._is_whole = file.schema.parameters[address[0]].type == "integer"
-        self._tried: dict[float, frozenset[Place]] = {}
+        self._tried: dict[float, frozenset[FindingPlace]] = {}
 
     def around(self, low: float, high: float, near: Iterable[float]) -> tuple[float, float] | None:
         """Return the ends of the part of ``low`` to ``high`` around the first of ``near``
@@ -59,7 +59,9 @@ class AllowedByRules:
             self._end(points[place + 1 :], start, good, hopeless),
         )
 
-    def _end(self, points: list[float], start: float, good: set[float], hopeless: frozenset[Place]) -> float:
+    def _end(
+        self, points: list[float], start: float, good: set[float], hopeless: frozenset[FindingPlace]
+    ) -> float:
         """Return where the good values end on one side of a good one."""
         inside = start
         for outside in points:
@@ -68,7 +70,7 @@ class AllowedByRules:
             inside = outside
         return inside
 
-    def _between(self, inside: float, outside: float, hopeless: frozenset[Place]) -> float:
+    def _between(self, inside: float, outside: float, hopeless: frozenset[FindingPlace]) -> float:
         for _ in range(_HALVINGS):
             middle = self._value((inside + outside) / 2)
             if middle in (inside, outside):
@@ -82,7 +84,7 @@ class AllowedByRules:
     def _value(self, x: float) -> float:
         return round(x) if self._is_whole else x
 
-    def _broken(self, x: float) -> frozenset[Place]:
+    def _broken(self, x: float) -> frozenset[FindingPlace]:
         if x not in self._tried:
             self._file.set(self._address, Value(x, self._unit))
             self._checks.look_again()

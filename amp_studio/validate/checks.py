@@ -8,7 +8,7 @@ from amp_studio.files import ParameterFile
 from amp_studio.schema import ACTIVE, Address, Key
 
 from .finding import Finding
-from .plan import Place, Plan
+from .plan import FindingPlace, Plan
 from .ranges import ValueChecks
 from .rules import RuleChecks
 
@@ -37,7 +37,7 @@ class Checks:
         self._values.look_again()
         self.rules.look_again()
 
-    def of_all(self, plan: Plan) -> Iterator[tuple[Place, Finding]]:
+    def of_all(self, plan: Plan) -> Iterator[tuple[FindingPlace, Finding]]:
         """Yield all that is wrong, and where it is filed: what a full run finds."""
         file, order, evaluation = self._file, plan.order, self._file.evaluation
         keys, known = evaluation.keys, evaluation.known_states()

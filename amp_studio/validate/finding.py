@@ -15,7 +15,7 @@ OWN_FAULT = "rules.unusable"
 """The rule that findings about a builder's rules themselves belong to."""
 
 
-class Setting(NamedTuple):
+class AddressedValue(NamedTuple):
     """One value of one parameter."""
 
     address: Address
@@ -31,11 +31,11 @@ class Finding:
     causes: tuple[Address, ...]
     """What is wrong, worst first."""
     message: str
-    fix: tuple[Setting, ...] = ()
+    fix: tuple[AddressedValue, ...] = ()
     page: str | None = None
     safe: bool = False
     """Its suggested fix cannot change motion."""
-    effective: tuple[Setting, ...] = ()
+    effective: tuple[AddressedValue, ...] = ()
     """What the control really uses instead of the values in the file."""
     compared: tuple[Address, ...] = ()
     """What the causes were compared with: they need not be wrong themselves."""
@@ -66,6 +66,6 @@ class Finding:
         return f"page {self.page}" if self.page and not self.is_own else self.page or ""
 
 
-def not_set(findings: Iterable[Finding]) -> tuple[Address, ...]:
+def addresses_not_set(findings: Iterable[Finding]) -> tuple[Address, ...]:
     """Return the active addresses without a value among what was found: a state of the file."""
     return tuple(address for finding in findings if finding.rule == NOT_SET for address in finding.causes)

@@ -35,7 +35,7 @@ def apply_fixes(validator: Validator, wanted: Callable[[Finding], bool]) -> list
         finding = validator.first_fix(wanted)
         if finding is None:
             break
-        changes = validator.file.set_many({setting.address: setting.value for setting in finding.fix})
+        changes = validator.file.set_checked({setting.address: setting.value for setting in finding.fix})
         done += [Fixed(change, finding.rule) for change in changes]
         validator.recheck([change.address for change in changes])
     validator.findings()  # what is suppressed, too

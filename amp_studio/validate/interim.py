@@ -15,7 +15,7 @@ from amp_studio.schema import Address, Value
 from .builder_rules import NO_RULES, BuilderRules, sort_out
 from .checks import Checks
 from .finding import Finding
-from .plan import Place, make_plan
+from .plan import FindingPlace, make_plan
 
 _SHOWN = ("error", "warning")
 
@@ -54,7 +54,7 @@ class Interim:
         kept, _, _ = sort_out(tuple(new), self._own.suppressions, self.file.evaluation)
         return {finding.key: finding for finding in kept if finding.key not in before}
 
-    def checks_of(self, address: Address) -> frozenset[Place]:
+    def checks_of(self, address: Address) -> frozenset[FindingPlace]:
         """Return the checks that can come to something else when a value changes."""
         return self._plan.asked_by((address,))
 
@@ -62,7 +62,7 @@ class Interim:
         self._plan = make_plan(self.file.schema, self.file.machine, self._own.rules)
         self._checks = Checks(self.file, self._own.places)
         self._checks.look_again()
-        self._filed: dict[Place, Finding] = dict(_of_weight(self._checks.of_all(self._plan)))
+        self._filed: dict[FindingPlace, Finding] = dict(_of_weight(self._checks.of_all(self._plan)))
 
     def _look_at(self, address: Address) -> list[Finding]:
         """Ask again what reads an address; return what is found there."""
@@ -80,5 +80,5 @@ class Interim:
         return list(now.values())
 
 
-def _of_weight(found: Iterable[tuple[Place, Finding]]) -> Iterable[tuple[Place, Finding]]:
+def _of_weight(found: Iterable[tuple[FindingPlace, Finding]]) -> Iterable[tuple[FindingPlace, Finding]]:
     return (pair for pair in found if pair[1].severity in _SHOWN)

@@ -28,7 +28,7 @@ from amp_studio.schema import (
 from .expressions import Expressions, RuleError, check_rule, is_list
 from .functions import rule_functions
 
-Place = Address | int
+FindingPlace = Address | int
 """Where a finding is filed: under the value that is wrong,
 or under the place of the rule's check in the plan."""
 
@@ -174,7 +174,7 @@ class Plan:
                 readers.setdefault(address, []).append(check)
         return {a: tuple(c) for a, c in readers.items()}
 
-    def asked_by(self, addresses: Iterable[Address]) -> frozenset[Place]:
+    def asked_by(self, addresses: Iterable[Address]) -> frozenset[FindingPlace]:
         """Return the checks that can come to something else when these values change."""
         return frozenset().union(*map(self._asked.__getitem__, addresses))
 
@@ -183,13 +183,13 @@ class Plan:
         return _AskedBy(self)
 
 
-class _AskedBy(dict[Address, frozenset[Place]]):
+class _AskedBy(dict[Address, frozenset[FindingPlace]]):
     """Address -> the places of the checks that must run again when it changes."""
 
     def __init__(self, plan: Plan) -> None:
         self._plan = plan
 
-    def __missing__(self, address: Address) -> frozenset[Place]:
+    def __missing__(self, address: Address) -> frozenset[FindingPlace]:
         plan = self._plan
         rules = (check.place for check in plan.rule_readers.get(address, ()))
         found = self[address] = frozenset((*plan.range_readers.get(address, ()), *rules))

@@ -26,7 +26,7 @@ from amp_studio.schema import (
     unit_text,
 )
 
-from .finding import Finding, Setting
+from .finding import AddressedValue, Finding
 
 _NEAR = 0.1
 """Part of a bound by which a value may miss it for the bound to be a fix:
@@ -186,7 +186,7 @@ class ValueChecks:
         parameter = self._facts[address[0]].parameter
         allowed = mended is not None and mended != value
         allowed = allowed and not parameter.secret  # a password that nobody chose locks everybody out
-        fix = (Setting(address, mended),) if mended is not None and allowed else ()
+        fix = (AddressedValue(address, mended),) if mended is not None and allowed else ()
         forced = (
             f" It was forced {with_local_times(self._file.forced[address])}."
             if address in self._file.forced

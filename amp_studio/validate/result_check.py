@@ -6,7 +6,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from amp_studio.files import Choice, Merge, Row, Typed
+from amp_studio.files import Merge, MergeChoice, Row, Typed
 from amp_studio.schema import same_value
 
 from .builder_rules import NO_RULES, BuilderRules
@@ -47,7 +47,7 @@ class ResultCheck:
         self.new = new_findings(self._before, found)
         return True
 
-    def with_choice(self, row: Row, choice: Choice) -> list[Finding]:
+    def with_choice(self, row: Row, choice: MergeChoice) -> list[Finding]:
         """Return the findings about a parameter in the result if that were chosen for it."""
         if row.id.part != "value":
             return []

@@ -33,7 +33,7 @@ from amp_studio.schema import (
 
 from .blame import about
 from .builder_rules import LONGEST_TEXT
-from .finding import OWN_FAULT, Finding, Setting
+from .finding import OWN_FAULT, AddressedValue, Finding
 from .functions import rule_functions
 from .plan import Listed, RuleCheck
 
@@ -291,7 +291,7 @@ class RuleChecks:
         number, unit_name = write_figure(found), unit_text(unit)
         return f"{number}{unit_name}" if unit_name == "°" else f"{number} {unit_name}".rstrip()
 
-    def _fix(self, check: RuleCheck, given: _Given) -> tuple[Setting, ...]:
+    def _fix(self, check: RuleCheck, given: _Given) -> tuple[AddressedValue, ...]:
         """Return what the rule would change; nothing if it would not help.
         Whether it does harm is for a trial.
         """
@@ -301,7 +301,7 @@ class RuleChecks:
 
     def _set(
         self, check: RuleCheck, given: _Given, assignments: tuple[tuple[str, Expression], ...]
-    ) -> Iterator[Setting]:
+    ) -> Iterator[AddressedValue]:
         """Yield what the rule sets, if that is another value than the present one; no secret goes
         elsewhere.
         """
@@ -312,9 +312,9 @@ class RuleChecks:
                 continue
             value = self._value(address, self._result(check, given, expression))
             if value is not None and value != self._file.values.get(address):
-                yield Setting(address, value)
+                yield AddressedValue(address, value)
 
-    def _mends(self, check: RuleCheck, given: _Given, fix: tuple[Setting, ...]) -> bool:
+    def _mends(self, check: RuleCheck, given: _Given, fix: tuple[AddressedValue, ...]) -> bool:
         """Return whether the rule is satisfied with its own suggested fixes,
         which were rounded as the parameter needs it.
         """

@@ -22,8 +22,8 @@ from amp_studio.schema import Address, canonical, dimension
 
 from .builder_rules import BuilderRules, sort_out
 from .checks import Checks
-from .finding import SEVERITIES, Finding, Setting
-from .plan import Place, Plan, RuleCheck, make_plan
+from .finding import SEVERITIES, AddressedValue, Finding
+from .plan import FindingPlace, Plan, RuleCheck, make_plan
 
 MOST_STEPS = 20_000_000
 """That a builder's rules may take in all trials of a file: about a second."""
@@ -41,7 +41,7 @@ class _Tried(NamedTuple):
     """
 
     is_good: bool
-    asked: frozenset[Place] | None
+    asked: frozenset[FindingPlace] | None
     """Besides the check of the finding itself; None if that is every check."""
     brings: str = ""
     """The message of a warning that comes up instead."""
@@ -59,9 +59,9 @@ class Trials:
         self._file: ParameterFile | None = None
         """The copy; made for the first trial."""
         self._checks: Checks
-        self._tried: dict[Place, _Tried] = {}
+        self._tried: dict[FindingPlace, _Tried] = {}
 
-    def changed(self, addresses: Iterable[Address], asked: Iterable[Place]) -> None:
+    def follow_edits(self, addresses: Iterable[Address], asked: Iterable[FindingPlace]) -> None:
         """Take over values that changed, and forget the trials
         that the checks ``asked`` again have a part in.
         """
@@ -78,7 +78,7 @@ class Trials:
                     del self._tried[place]
 
     def offered(
-        self, place: Place, finding: Finding, filed: Mapping[Place, tuple[object, Finding]]
+        self, place: FindingPlace, finding: Finding, filed: Mapping[FindingPlace, tuple[object, Finding]]
     ) -> Finding:
         """Return a finding of those that are ``filed`` with its fix, or without if that is not good."""
         if not finding.fix:
@@ -92,14 +92,14 @@ class Trials:
             return replace(finding, fix=(), safe=False)
         return replace(finding, brings=tried.brings, safe=False) if tried.brings else finding
 
-    def _is_leap(self, setting: Setting) -> bool:
+    def _is_leap(self, setting: AddressedValue) -> bool:
         """Return whether a fix makes so little of a speed that another value must be wrong."""
         old, new = self._original.values.get(setting.address), setting.value
         if old is None or dimension(old.unit) not in _SPEEDS or not old.value or not new.value:
             return False
         return abs(canonical(float(new.value), new.unit) / canonical(float(old.value), old.unit)) < _LEAP
 
-    def too_many(self, filed: Mapping[Place, tuple[object, Finding]]) -> frozenset[Place]:
+    def too_many(self, filed: Mapping[FindingPlace, tuple[object, Finding]]) -> frozenset[FindingPlace]:
         """Return the findings that have a fix too many: trying it would ask a builder's rules for too long.
 
         Those of the manual's rules come first, then a builder's in the order of his file.
@@ -115,19 +115,21 @@ class Trials:
                 beyond.add(place)
         return frozenset(beyond)
 
-    def _steps(self, place: Place) -> int:
+    def _steps(self, place: FindingPlace) -> int:
         """Return what a check of a builder's rule costs; those of the manual's are not counted."""
         cost = self._own.costs.get(self._check(place).rule.id) if isinstance(place, int) else None
         return 0 if cost is None else _ASKED + cost
 
-    def _try(self, place: Place, finding: Finding, filed: Mapping[Place, tuple[object, Finding]]) -> _Tried:
+    def _try(
+        self, place: FindingPlace, finding: Finding, filed: Mapping[FindingPlace, tuple[object, Finding]]
+    ) -> _Tried:
         file = self._file
         if file is None:
             file = self._file = self._original.copy()
             self._checks = Checks(file, self._own.places)
         before = Marks.of(file)
         try:
-            changes = file.set_many({setting.address: setting.value for setting in finding.fix})
+            changes = file.set_checked({setting.address: setting.value for setting in finding.fix})
         except RangeError as error:
             asked = self._plan.asked_by(setting.address for setting in finding.fix)
             return _Tried(False, self._bad_by(finding, error.faults, asked))
@@ -138,9 +140,9 @@ class Trials:
 
     def _judge(
         self,
-        place: Place,
+        place: FindingPlace,
         finding: Finding,
-        filed: Mapping[Place, tuple[object, Finding]],
+        filed: Mapping[FindingPlace, tuple[object, Finding]],
         changes: list[Change],
     ) -> _Tried:
         if not self._checks.fit:
@@ -162,7 +164,9 @@ class Trials:
                 brings = found.message
         return _Tried(True, asked, brings)
 
-    def _bad_by(self, mended: Finding, places: Iterable[Place], asked: frozenset[Place]) -> frozenset[Place]:
+    def _bad_by(
+        self, mended: Finding, places: Iterable[FindingPlace], asked: frozenset[FindingPlace]
+    ) -> frozenset[FindingPlace]:
         """Return the checks that leave a fix bad while they, and that of the finding itself,
         are not asked again.
 
@@ -176,12 +180,12 @@ class Trials:
             return asked
         return frozenset(places)
 
-    def _found(self, place: Place) -> bool:
+    def _found(self, place: FindingPlace) -> bool:
         if isinstance(place, int):
             return self._checks.rules.is_broken(self._check(place))
         return self._checks.of_value(place) is not None
 
-    def _finding(self, place: Place) -> Finding:
+    def _finding(self, place: FindingPlace) -> Finding:
         found = (
             self._checks.rules.finding(self._check(place))
             if isinstance(place, int)
@@ -203,7 +207,7 @@ class Trials:
         return not any(sort_out((found,), suppressions, self._file.evaluation)[0] for found in bad)
 
     def _is_good_on_another_machine(
-        self, mended: Finding, filed: Mapping[Place, tuple[object, Finding]]
+        self, mended: Finding, filed: Mapping[FindingPlace, tuple[object, Finding]]
     ) -> bool:
         """Judge a fix that makes another machine type of it, where other checks are asked."""
         assert self._file is not None

@@ -12,7 +12,7 @@ from .allowed import AllowedByRules
 from .builder_rules import NO_RULES, BuilderRules, Suppressed, sort_out
 from .checks import Checks
 from .finding import SEVERITIES, Finding
-from .plan import Place, Plan, RuleCheck, make_plan
+from .plan import FindingPlace, Plan, RuleCheck, make_plan
 from .plausible import Earlier, Experience
 from .trial import Trials
 
@@ -44,7 +44,7 @@ class Validator:
         self._not_set: set[Address] = set()
         self._not_set_findings: list[tuple[_Order, Finding]] | None = None
         """What is reported about them, until they change."""
-        self._filed: dict[Place, tuple[_Order, Finding]] = {}
+        self._filed: dict[FindingPlace, tuple[_Order, Finding]] = {}
         self._checks_of: dict[Hashable, RuleCheck] | None = None
         """Key of a finding -> the check it is of, until the findings change."""
         self._prepare()
@@ -99,7 +99,7 @@ class Validator:
                 checks[check.place] = check
         self._check(addresses, checks.values())
         self._experience.look_again(edited)
-        self._trials.changed(edited, (*addresses, *checks))
+        self._trials.follow_edits(edited, (*addresses, *checks))
 
     def first_fix(self, wanted: Callable[[Finding], bool]) -> Finding | None:
         """Return the first of the present ``findings`` that is ``wanted`` and has a fix;

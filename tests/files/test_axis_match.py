@@ -46,7 +46,7 @@ def test_axes_of_a_num_are_matched_by_the_letters_that_its_file_gives_them() -> 
 
 def test_a_mark_of_a_value_out_of_range_and_a_note_go_with_their_axis() -> None:
     mill, other = (new_file("9pc", "mill", axes) for axes in (["X", "Y"], ["Y", "X"]))
-    other.set_many({("feedrate.rapid", "1"): Value(1e9, "mm/min")}, force="on site")
+    other.set_checked({("feedrate.rapid", "1"): Value(1e9, "mm/min")}, force="on site")
     other.header.value_notes = {"feedrate.rapid@1": "measured", "control.type": "old"}
     found = matched_by_letter(other, mill).file
     assert found.forced == {("feedrate.rapid", "2"): "on site"}

@@ -137,7 +137,7 @@ def test_an_axis_that_begins_to_turn_brings_its_angles() -> None:
     base = new_file("9pc", "mill", ["X"])
     base.set(CALIBRATION, Value(5.0, "mm"))
     theirs = base.copy()
-    theirs.set_many({TYPE: Value("rotary")})
+    theirs.set_checked({TYPE: Value("rotary")})
     merged, conflicts = merge(base, base.copy(), theirs)
     assert ([], Value(5.0, "deg")) == (conflicts, merged.get(CALIBRATION))
     assert theirs.values == merged.values
@@ -146,7 +146,7 @@ def test_an_axis_that_begins_to_turn_brings_its_angles() -> None:
 def test_a_mark_of_force_comes_with_the_value() -> None:
     base = new_file("9pc", "mill", ["X"])
     theirs = base.copy()
-    theirs.set_many({CALIBRATION: Value(1e7, "mm")}, force="by them")
+    theirs.set_checked({CALIBRATION: Value(1e7, "mm")}, force="by them")
     merged, _ = merge(base, base.copy(), theirs)
     assert ({CALIBRATION: "by them"}, Value(1e7, "mm")) == (merged.forced, merged.get(CALIBRATION))
 

@@ -268,7 +268,7 @@ def test_the_work_of_a_killed_program_is_offered_and_can_be_taken(left: Path) ->
         assert set(EXPECTED) == set(found.changes)
         assert (True, getpass.getuser()) == (found.fits, found.who)
         assert re.match(r"20\d\d-\d\d-\d\dT\d\d:\d\d:\d\d", found.when)
-        document.file.set_many({change.address: change.new for change in found.changes})
+        document.file.set_checked({change.address: change.new for change in found.changes})
         document.save()
         assert document.find_unsaved() is not None, "taken or not, it waits for an answer"
         document.discard_unsaved()

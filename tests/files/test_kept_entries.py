@@ -171,7 +171,7 @@ def test_comments_below_a_section_that_goes_stay() -> None:
 
 def test_marks_of_force_are_kept_through_a_save(small: Path) -> None:
     opened = open_file(small)
-    opened.file.set_many(
+    opened.file.set_checked(
         {("home.calibration", "1"): Value(1e6, "mm")}, force="on a day by a test: 'quoted' # sign"
     )
     save_file(opened.file, small, opened.digest)

@@ -122,7 +122,7 @@ def test_header_entries_keys_of_others_and_marks_come_with_the_side_that_changed
     a.header.revision = "3.1"
     b.header.notes, b.header.extra = "new spindle", {"shop": {"bay": 7}}
     b.unknown["future.thing"] = "5"
-    b.set_many({CALIBRATION: Value(1e7, "mm")}, force="on site")
+    b.set_checked({CALIBRATION: Value(1e7, "mm")}, force="on site")
     result = Merge(a, b, base).result()
     assert (result.header.revision, result.header.notes) == ("3.1", "new spindle")
     assert result.header.extra == {"shop": {"bay": 7}}
@@ -136,7 +136,7 @@ def test_an_axis_that_begins_to_turn_in_the_result_takes_lengths_of_the_other_si
     base = new_file("9pc", "mill", ["X"])
     a, b = base.copy(), base.copy()
     a.set(CALIBRATION, Value(7.0, "mm"))
-    b.set_many({TYPE: Value("rotary")})
+    b.set_checked({TYPE: Value("rotary")})
     merge = Merge(a, b, base)
     merge.take("a", merge.open_conflicts)
     assert merge.result().get(CALIBRATION) == Value(7.0, "deg")

@@ -133,17 +133,17 @@ def test_an_instance_is_called_by_its_number_or_by_name_and_axis(mill: Parameter
 
 
 def test_a_pair_that_bounds_each_other_moves_together(mill: ParameterFile) -> None:
-    mill.set_many({POSITIVE: Value(10.0, "mm"), NEGATIVE: Value(-10.0, "mm")})
-    changes = mill.set_many({POSITIVE: Value(100.0, "mm"), NEGATIVE: Value(50.0, "mm")})
+    mill.set_checked({POSITIVE: Value(10.0, "mm"), NEGATIVE: Value(-10.0, "mm")})
+    changes = mill.set_checked({POSITIVE: Value(100.0, "mm"), NEGATIVE: Value(50.0, "mm")})
     assert [change.address for change in changes] == [POSITIVE, NEGATIVE]
-    changes = mill.set_many({POSITIVE: Value(-50.0, "mm"), NEGATIVE: Value(-100.0, "mm")})
+    changes = mill.set_checked({POSITIVE: Value(-50.0, "mm"), NEGATIVE: Value(-100.0, "mm")})
     assert (Value(-50.0, "mm"), Value(-100.0, "mm")) == (mill.get(POSITIVE), mill.get(NEGATIVE))
 
 
 def test_a_pair_that_crosses_is_refused_with_both_reasons(mill: ParameterFile) -> None:
     before = dict(mill.values)
     with pytest.raises(RangeError) as refused:
-        mill.set_many({POSITIVE: Value(1.0, "mm"), NEGATIVE: Value(2.0, "mm")})
+        mill.set_checked({POSITIVE: Value(1.0, "mm"), NEGATIVE: Value(2.0, "mm")})
     assert {POSITIVE, NEGATIVE} == set(refused.value.faults)
     assert "set by 1330 Negative Software Overtravel" in refused.value.faults[POSITIVE]
     assert before == mill.values
@@ -155,7 +155,7 @@ def test_one_fault_among_many_changes_nothing_at_all(mill: ParameterFile) -> Non
     with pytest.raises(
         RangeError, match=r"Home Calibration 1e\+06 mm is outside|Home Calibration 1000000 mm is outside"
     ):
-        mill.set_many(
+        mill.set_checked(
             {
                 ("control.type", ""): Value("lathe"),
                 ("axis.type", "2"): Value("rotary"),
@@ -177,14 +177,14 @@ def test_a_range_that_another_change_of_the_same_step_moves_counts_as_moved(mill
     """Excess Error: 214.1 mm on a slide, 1440 degrees on a spindle (page 7-20)."""
     excess = ("servo.excess_error", "1")
     with pytest.raises(RangeError):
-        mill.set_many({excess: Value(1000.0, "deg")})
-    mill.set_many({excess: Value(1000.0, "deg"), ("axis.type", "1"): Value("spindle")})
+        mill.set_checked({excess: Value(1000.0, "deg")})
+    mill.set_checked({excess: Value(1000.0, "deg"), ("axis.type", "1"): Value("spindle")})
     assert Value(1000.0, "deg") == mill.get(excess)
 
 
 def test_an_axis_that_changes_its_type_takes_its_values_along(mill: ParameterFile) -> None:
     mill.set(CALIBRATION, Value(3.5, "mm"))
-    changes = mill.set_many({("axis.type", "1"): Value("rotary")})
+    changes = mill.set_checked({("axis.type", "1"): Value("rotary")})
     assert Value(3.5, "deg") == mill.get(CALIBRATION)
     assert Change(CALIBRATION, Value(3.5, "mm"), Value(3.5, "deg")) in changes
     for change in reversed(changes):
@@ -196,25 +196,25 @@ def test_an_axis_that_changes_its_type_takes_its_values_along(mill: ParameterFil
 
 
 def test_a_forced_value_is_taken_and_marked(mill: ParameterFile) -> None:
-    mill.set_many({CALIBRATION: Value(1e6, "mm"), POSITIVE: Value(5.0, "mm")}, force="by a test")
+    mill.set_checked({CALIBRATION: Value(1e6, "mm"), POSITIVE: Value(5.0, "mm")}, force="by a test")
     assert Value(1e6, "mm") == mill.get(CALIBRATION)
     assert mill.forced == {CALIBRATION: "by a test"}, "what is in range needs no mark"
 
 
 def test_the_mark_goes_when_the_value_is_changed_or_fits_again(mill: ParameterFile) -> None:
-    mill.set_many({CALIBRATION: Value(1e6, "mm")}, force="by a test")
-    mill.set_many({CALIBRATION: Value(1.0, "mm")})
+    mill.set_checked({CALIBRATION: Value(1e6, "mm")}, force="by a test")
+    mill.set_checked({CALIBRATION: Value(1.0, "mm")})
     assert mill.forced == {}
-    mill.set_many({NEGATIVE: Value(5.0, "mm")}, force="by a test")
+    mill.set_checked({NEGATIVE: Value(5.0, "mm")}, force="by a test")
     assert mill.forced == {NEGATIVE: "by a test"}
-    mill.set_many({POSITIVE: Value(10.0, "mm"), NEGATIVE: Value(5.0, "mm")})
+    mill.set_checked({POSITIVE: Value(10.0, "mm"), NEGATIVE: Value(5.0, "mm")})
     assert mill.forced == {}, "the other bound has moved: the same value is in range now"
 
 
 def test_a_refused_step_leaves_the_marks_as_they_were(mill: ParameterFile) -> None:
-    mill.set_many({CALIBRATION: Value(1e6, "mm")}, force="by a test")
+    mill.set_checked({CALIBRATION: Value(1e6, "mm")}, force="by a test")
     with pytest.raises(RangeError):
-        mill.set_many({CALIBRATION: Value(1.0, "mm"), POSITIVE: Value(-1e9, "mm")})
+        mill.set_checked({CALIBRATION: Value(1.0, "mm"), POSITIVE: Value(-1e9, "mm")})
     assert mill.forced == {CALIBRATION: "by a test"}
     assert Value(1e6, "mm") == mill.get(CALIBRATION)
 
@@ -223,21 +223,21 @@ def test_whoever_listens_hears_of_a_mark_though_the_value_stands(mill: Parameter
     mill.set(CALIBRATION, Value(1e6, "mm"))
     told: list[Change] = []
     mill.listen(told.append)
-    assert mill.set_many({CALIBRATION: Value(1e6, "mm")}, force="by a test") == []
+    assert mill.set_checked({CALIBRATION: Value(1e6, "mm")}, force="by a test") == []
     assert told == [Change(CALIBRATION, Value(1e6, "mm"), Value(1e6, "mm"))]
     assert mill.forced == {CALIBRATION: "by a test"}
 
 
 def test_the_mark_stays_when_the_axis_begins_to_turn(mill: ParameterFile) -> None:
-    mill.set_many({CALIBRATION: Value(1e6, "mm")}, force="by a test")
-    mill.set_many({("axis.type", "1"): Value("rotary")})
+    mill.set_checked({CALIBRATION: Value(1e6, "mm")}, force="by a test")
+    mill.set_checked({("axis.type", "1"): Value("rotary")})
     assert (Value(1e6, "deg"), {CALIBRATION: "by a test"}) == (mill.get(CALIBRATION), mill.forced)
 
 
 def test_a_code_nobody_knows_needs_force(mill: ParameterFile) -> None:
     with pytest.raises(RangeError, match="77 is no code of Axis Type"):
-        mill.set_many({("axis.type", "1"): Value("raw:77")})
-    mill.set_many({("axis.type", "1"): Value("raw:77")}, force="by a test")
+        mill.set_checked({("axis.type", "1"): Value("raw:77")})
+    mill.set_checked({("axis.type", "1"): Value("raw:77")}, force="by a test")
     assert Value("raw:77") == mill.get(("axis.type", "1"))
 
 
@@ -269,7 +269,7 @@ def test_a_step_is_done_whole_or_not_at_all(wanted) -> None:
     before = dict(file.values)
     faults = {}
     try:
-        file.set_many(values)
+        file.set_checked(values)
     except RangeError as refused:
         faults = refused.faults
     assert file.values == (before if faults else before | values)
@@ -306,7 +306,7 @@ def test_what_is_no_address_and_what_is_no_value_is_refused_at_once(
 ) -> None:
     file = new_file("9pc", "mill", ["X"])
     before = dict(file.values)
-    for change in (file.set, lambda a, v: file.set_many({a: v}), lambda a, v: file.take({a: v})):
+    for change in (file.set, lambda a, v: file.set_checked({a: v}), lambda a, v: file.take({a: v})):
         with pytest.raises(error, match=re.escape(text)):
             change(address, value)
     assert file.values == before

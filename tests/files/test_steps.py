@@ -17,7 +17,7 @@ def mill() -> ParameterFile:
     """Return a mill with a value, and one that was forced out of its range."""
     file = ParameterFile(load_schema("9pc"))
     file.set(HOME, Value(2.0, "mm"))
-    file.set_many({ZONE: Value(9)}, force="on Monday")
+    file.set_checked({ZONE: Value(9)}, force="on Monday")
     return file
 
 
@@ -43,7 +43,7 @@ def test_a_step_inside_a_step_is_taken_back_by_itself(mill: ParameterFile) -> No
     with mill.step() as changes:
         mill.set(HOME, Value(5.0, "mm"))
         with pytest.raises(RangeError):
-            mill.set_many({ZONE: Value(8)})
+            mill.set_checked({ZONE: Value(8)})
     assert (mill.get(HOME), mill.get(ZONE), mill.forced) == (Value(5.0, "mm"), Value(9), {ZONE: "on Monday"})
     assert changes[0] == Change(HOME, Value(2.0, "mm"), Value(5.0, "mm"))
 
@@ -51,7 +51,7 @@ def test_a_step_inside_a_step_is_taken_back_by_itself(mill: ParameterFile) -> No
 def test_a_step_can_be_taken_back_and_made_again(mill: ParameterFile) -> None:
     before = Marks.of(mill)
     with mill.step() as changes:
-        mill.set_many({ZONE: Value(2), HOME: None})
+        mill.set_checked({ZONE: Value(2), HOME: None})
     after = Marks.of(mill)
 
     mill.take_back(changes, before)

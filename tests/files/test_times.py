@@ -49,7 +49,9 @@ def test_only_times_of_a_text_are_changed() -> None:
 
 def test_the_finding_of_a_forced_value_shows_when_in_local_time() -> None:
     file = ParameterFile(load_schema("9pc"))
-    file.set_many({("zone.group_count", ""): Value(9)}, force="on 2026-11-22T18:21:04+00:00 by 'set --force'")
+    file.set_checked(
+        {("zone.group_count", ""): Value(9)}, force="on 2026-11-22T18:21:04+00:00 by 'set --force'"
+    )
     (finding,) = [f for f in Validator(file).run() if f.rule == "schema.range"]
     assert finding.message.endswith("It was forced on 2026-11-22 20:21 by 'set --force'.")
     assert file.forced == {("zone.group_count", ""): "on 2026-11-22T18:21:04+00:00 by 'set --force'"}

@@ -21,7 +21,7 @@ def example(name: str, **values: str) -> ParameterFile:
 
 def changed(file: ParameterFile, values: dict[str, str]) -> ParameterFile:
     """Set values of a file by their addresses."""
-    file.set_many(read_assignments(file, values.items()))
+    file.set_checked(read_assignments(file, values.items()))
     return file
 
 

@@ -42,7 +42,7 @@ def first_mill() -> ParameterFile:
     file = with_servos(["X", "Y", "Z", "B", "S"])
     file.set(("home.calibration", "1"), Value(12.5, "mm"))
     file.set(("home.calibration", "2"), Value(-0.1, "in"))
-    file.set_many(
+    file.set_checked(
         {("servo.gain_break_point", "1"): Value(999999.0, "mm")}, force="by J. Fitter on 2026-07-01"
     )
     file.set(("servo.inposition_band", "2"), None)

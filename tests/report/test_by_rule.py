@@ -7,7 +7,7 @@ from dataclasses import replace
 from amp_studio.files import new_file
 from amp_studio.report import finding_groups, fix_lines, fix_text
 from amp_studio.schema import Value
-from amp_studio.validate import NOT_SET, Setting, Validator, not_set
+from amp_studio.validate import NOT_SET, AddressedValue, Validator, addresses_not_set
 
 AXES = ["X", "Y", "Z", "B", "S"]
 
@@ -29,7 +29,7 @@ def test_values_that_are_not_set_are_no_finding_of_a_rule() -> None:
     findings = validator.run()
     assert [finding.rule for finding in findings] == [NOT_SET]
     assert finding_groups(validator, findings) == ()
-    assert len(not_set(findings)) == 921
+    assert len(addresses_not_set(findings)) == 921
 
 
 def test_values_out_of_range_are_one_group_for_each_parameter() -> None:
@@ -39,7 +39,7 @@ def test_values_out_of_range_are_one_group_for_each_parameter() -> None:
         ("servo.excess_error", "2"): Value(2e6, "mm"),
         ("feedrate.rapid", "1"): Value(1e9, "mm/min"),
     }
-    file.set_many(wanted, force="on a day")
+    file.set_checked(wanted, force="on a day")
     validator = Validator(file)
     ranges = [g for g in finding_groups(validator, validator.run()) if g.findings[0].rule == "schema.range"]
     assert sorted((group.findings[0].causes[0][0], group.axes) for group in ranges) == [
@@ -65,5 +65,5 @@ def test_a_fix_of_a_secret_does_not_show_it() -> None:
     validator = Validator(file)
     hardware = finding_groups(validator, validator.run())[0].fixable[0]
     instance = file.machine_schema.instances(secret)[0]
-    shown = fix_lines(file, replace(hardware, fix=(Setting((secret.id, instance), Value(65)),)))
+    shown = fix_lines(file, replace(hardware, fix=(AddressedValue((secret.id, instance), Value(65)),)))
     assert "65" not in shown[0].split(":", 1)[1]

@@ -70,7 +70,7 @@ class Machine:
     def set(self, name: str, value: Value) -> None:
         """Set one value and say so."""
         self.values[read_address(name)] = value
-        self.evaluation.changed(read_address(name))
+        self.evaluation.forget_dependents(read_address(name))
 
 
 @pytest.fixture

@@ -168,6 +168,6 @@ def test_inputs_end_at_31_without_expansion_modules() -> None:
     address = file.find("io.g27_input")
     assert file.get(address) == Value(-1), "Disable"
     with pytest.raises(ValueError, match="outside -1 to 31"):
-        file.set_many({address: Value(32)})
+        file.set_checked({address: Value(32)})
     file.set(("control.io_expansion_modules", ""), Value(1))
-    file.set_many({address: Value(64)})
+    file.set_checked({address: Value(64)})

@@ -276,7 +276,7 @@ def test_after_any_edits_the_situation_is_that_of_a_fresh_one(changes) -> None:
             values.pop(address, None)
         else:
             values[address] = value
-        kept.changed(address)
+        kept.forget_dependents(address)
         assert seen(Evaluation(schema, values.get, control)) == seen(kept), address
 
 

@@ -162,7 +162,7 @@ def test_lengths_are_in_blu_and_in_nothing_else_where_nobody_knows_how_long_one_
 
 
 def test_speeds_are_degrees_on_an_axis_that_turns(mill: ParameterFile) -> None:
-    mill.set_many({("axis.type", "3"): Value("rotary2")})
+    mill.set_checked({("axis.type", "3"): Value("rotary2")})
     assert mill.evaluation.unit(("feed.rapid", "2"), "metric") == "mm/min"
     assert mill.evaluation.unit(("feed.rapid", "3"), "metric") == "deg/min"
 

@@ -24,7 +24,7 @@ from tests.guide.test_steps import (
 CASES = Path(__file__).parents[1] / "validate"
 HOW = {"what": "what it is", "find": "how a user finds its value", "wrong": "what a wrong value does"}
 KINDS = {"groups": "group"}
-"""Folder of a family -> the kind of its files, where that is not the name of the folder."""
+"""Folder of a family -> the kind of its files, unless it is the name of the folder."""
 
 
 def kind_of(path: Path) -> str:

@@ -161,8 +161,8 @@ def faults(plant: Plant) -> Iterator[str]:
         yield f"keeps level {solved.level} where the grid keeps all of the aim"
     yield from _worse(solved)
     again = solve(tried(plant.with_gains(solved.numbers)), AIMS["normal"])
-    if again.changed:
-        yield f"a second run changes {dict(again.changed)} after {dict(solved.numbers)}"
+    if again.to_change:
+        yield f"a second run changes {dict(again.to_change)} after {dict(solved.numbers)}"
     if solved.level == 0:
         for inertia in (0.5, 0.7, 1.4, 2.0):
             missing = _other(solved.after, inertia, 2.0).lacks(SOUND)

@@ -319,7 +319,7 @@ def odd_control(start_control: Start, path: Path) -> Control:
     """Return a control that contains a value out of range."""
     control = start_control()
     file = open_file(path).file
-    file.set_many({EXCESS: Value(1e6, "mm")}, force="on a day")
+    file.set_checked({EXCESS: Value(1e6, "mm")}, force="on a day")
     parameters.download_file(file, control.address, Exchange(keep=path.parent / "odd"))
     return control
 

@@ -128,7 +128,7 @@ def test_an_operation_that_fails_puts_marks_and_facts_back(workspace: Workspace,
     assert workspace.file.forced == {CALIBRATION: "on a day"}
 
     def fail() -> None:
-        workspace.file.set_many({CALIBRATION: Value(1.0, "mm"), EXCESS: Value(-1e9, "mm")}, force="later")
+        workspace.file.set_checked({CALIBRATION: Value(1.0, "mm"), EXCESS: Value(-1e9, "mm")}, force="later")
         workspace.file.header.notes = "half done"
         assert workspace.file.forced == {EXCESS: "later"}
         raise ValueError("no")

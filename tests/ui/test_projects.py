@@ -180,7 +180,7 @@ def test_all_files_are_checked_and_a_finding_is_shown_in_its_file(
     window: MainWindow, project: Project
 ) -> None:
     with Document.open(project.path("second")) as second:
-        second.file.set_many({EXCESS: Value(1e9, "mm")}, force="by a test")
+        second.file.set_checked({EXCESS: Value(1e9, "mm")}, force="by a test")
         second.save()
     project.path("third").write_text("family: 9pc\n", encoding="utf-8")
     action(window, "Check All Files").trigger()

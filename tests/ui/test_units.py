@@ -124,6 +124,6 @@ def test_options_stay_when_another_file_is_opened(window: MainWindow, path) -> N
 
     window.files.open_path(other)
 
-    assert window.table.all_axes
+    assert window.table.shows_every_axis
     assert window.workspace.as_entered
     assert len(window.menus.menu("view.units").actions()) == 2

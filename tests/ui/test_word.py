@@ -92,7 +92,7 @@ def test_bits_that_only_have_a_number_show_it(module: MainWindow) -> None:
 def test_a_point_of_a_table_is_one_row_for_both_axes(module: MainWindow) -> None:
     points = {("cam.points", axis): Value(3) for axis in "XY"}
     words = {("cam.mode", axis): Value(1) for axis in "XY"}
-    module.workspace.file.set_many(points | words)
+    module.workspace.file.set_checked(points | words)
     module.go_to(("cam.time_points", "Y.2"))
     table = module.table
     row = table.index_of(("cam.time_points", "Y.2")).row()

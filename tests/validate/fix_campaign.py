@@ -96,7 +96,7 @@ def broken_promises(file: ParameterFile, own: BuilderRules = NO_RULES) -> tuple[
     offered = [finding for finding in before if finding.fix]
     for finding in offered:
         twin = file.copy()
-        twin.set_many(
+        twin.set_checked(
             {setting.address: setting.value for setting in finding.fix}
         )  # raises if one is not allowed
         said += unkept(finding, before, Validator(twin, own).run())

@@ -192,7 +192,7 @@ def remake(file: ParameterFile, random: Random) -> None:
         for pattern, choices in recipe.free:
             if address[0] == pattern and random.random() < 0.5:
                 wanted[address] = Value(random.choice(choices), value.unit)
-    file.set_many(wanted, force="a plausible machine")
+    file.set_checked(wanted, force="a plausible machine")
     file.forced.clear()
 
 

@@ -21,7 +21,7 @@ from amp_studio.files import ParameterFile, new_file, open_file
 from amp_studio.files.example_files import examples_folder
 from amp_studio.schema import Address, Value, family_ids
 from amp_studio.schema.expression import canonical_value
-from amp_studio.validate import Finding, Setting, Validator
+from amp_studio.validate import AddressedValue, Finding, Validator
 
 HERE = Path(__file__).parent
 FAMILIES = tuple(f for f in family_ids() if (HERE / "sound_machines" / f / "machines.yaml").is_file())
@@ -60,7 +60,7 @@ def change(file: ParameterFile, texts: Change) -> list[Address]:
     for name, text in ((one, text) for several, text in texts.items() for one in each(several)):
         address = file.find(name)
         wanted[address] = None if text is None else value_of(file, address, str(text))
-    file.set_many(wanted, force="by a test")
+    file.set_checked(wanted, force="by a test")
     return list(wanted)
 
 
@@ -210,7 +210,7 @@ class Case:
         pieces = [self.message] if isinstance(self.message, str) else self.message
         return all(any(piece in finding.message for finding in found) for piece in pieces)
 
-    def _are(self, texts: Change, settings: Iterable[Setting]) -> bool:
+    def _are(self, texts: Change, settings: Iterable[AddressedValue]) -> bool:
         """Return whether settings are the values written, but for the last digits of a number."""
         wanted = {
             a: str(text) for name, text in texts.items() for a in map(self.machine.file.find, each(name))

@@ -141,7 +141,7 @@ def edit(file: ParameterFile, history: list[Change], random: Random) -> None:
             retype_axis(file, axis, random.choice([choice.key for choice in types]))
         case "force":
             with contextlib.suppress(InvalidValueError):
-                file.set_many({address: fitting(schema, parameter, random)}, force="by a test")
+                file.set_checked({address: fitting(schema, parameter, random)}, force="by a test")
         case "units":
             file.header.units = random.choice(list(schema.family.units))
         case "machine" if schema.family.machine_parameter:

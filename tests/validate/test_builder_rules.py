@@ -14,8 +14,8 @@ from amp_studio.report import finding_text, why_text
 from amp_studio.schema import Value, load_schema
 from amp_studio.schema.yaml_reader import read_yaml
 from amp_studio.validate import (
+    AddressedValue,
     Finding,
-    Setting,
     Validator,
     explain,
     read_builder_rules,
@@ -62,7 +62,7 @@ def test_a_machine_builder_adds_rules(mill, path: Path) -> None:
     own = of(validator.run(), "builder.rapid")
     assert len(own) == 7
     assert own[0].message == "Rapid 12000 mm/min is more than the screws of this machine bear."
-    assert own[0].fix == (Setting(RAPID, Value(10000.0, "mm/min")),)
+    assert own[0].fix == (AddressedValue(RAPID, Value(10000.0, "mm/min")),)
     mill.set(RAPID, Value(10000.0, "mm/min"))
     assert len(of(validator.update([RAPID]), "builder.rapid")) == 6
     assert of(Validator(mill).run(), "builder.rapid") == [], "another validator does not know it"
@@ -440,7 +440,7 @@ def test_the_page_about_rules_of_your_own_shows_a_file_that_works(
     lathe.set(RAPID, Value(20000.0, "mm/min"))
     (finding,) = of(Validator(lathe, own).run(), "works.lathe-rapid")
     assert finding.message == "Rapid of axis 1 is 20000 mm/min; our lathes are built for 15000 mm/min."
-    assert finding.fix == (Setting(RAPID, Value(15000.0, "mm/min")),)
+    assert finding.fix == (AddressedValue(RAPID, Value(15000.0, "mm/min")),)
     assert of(Validator(machine("mill"), own).run(), "works.lathe-rapid") == []
 
 

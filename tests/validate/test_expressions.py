@@ -98,7 +98,7 @@ def test_a_list_that_is_only_counted_is_never_copied_into_the_engine(monkeypatch
     validator.run()
     for number in (300001.0, 20.0):  # above and within what the encoder inputs take
         seen.clear()
-        file.set_many({("cam.time_points", "Y.3"): Value(number, "counts")}, force="a slip")
+        file.set_checked({("cam.time_points", "Y.3"): Value(number, "counts")}, force="a slip")
         found = validator.update([("cam.time_points", "Y.3")])
         assert ("57c422b.cam.speed-encoder" in {f.rule for f in found}) is (number > 1e5)
     assert any(isinstance(value, bytes) for value in seen)

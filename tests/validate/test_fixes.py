@@ -145,7 +145,7 @@ def test_an_edit_elsewhere_takes_an_offer_away_and_gives_it_back(mill) -> None:
 
 
 def test_a_trial_leaves_the_file_and_whoever_listens_alone(mill) -> None:
-    mill.set_many({RAPID: mm(250000.0)}, force="by a test")
+    mill.set_checked({RAPID: mm(250000.0)}, force="by a test")
     told: list[object] = []
     mill.listen(told.append)
     values, forced = dict(mill.values), dict(mill.forced)
@@ -303,7 +303,7 @@ def damaged(file: ParameterFile, seed: int, times: int) -> ParameterFile:
 def test_fixes_made_together_are_those_of_a_full_check_before_each(machine, seed) -> None:
     one, other, each = damaged(machine("lathe"), seed, 60), damaged(machine("lathe"), seed, 60), []
     while finding := next((f for f in Validator(one).run() if f.fix), None):
-        changes = one.set_many({setting.address: setting.value for setting in finding.fix})
+        changes = one.set_checked({setting.address: setting.value for setting in finding.fix})
         each += [Fixed(change, finding.rule) for change in changes]
     validator = Validator(other)
     validator.run()
@@ -315,8 +315,10 @@ def test_a_fix_that_is_made_has_few_others_tried_again(mill, monkeypatch) -> Non
     file, tried = damaged(mill, 2, 400), []
     validator = Validator(file)
     validator.run()
-    set_many = ParameterFile.set_many
-    monkeypatch.setattr(ParameterFile, "set_many", lambda *given: tried.append(given) or set_many(*given))
+    set_checked = ParameterFile.set_checked
+    monkeypatch.setattr(
+        ParameterFile, "set_checked", lambda *given: tried.append(given) or set_checked(*given)
+    )
     done = apply_fixes(validator, lambda _: True)
     assert len(done) > 40
     assert len(tried) < 3 * len(done), "a trial for each, and some of those that are not good"

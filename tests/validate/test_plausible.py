@@ -26,7 +26,7 @@ def found(file: ParameterFile, address: Address, value: Value) -> list[Finding]:
     """Return what experience finds after one edit; a full run finds the same."""
     validator = Validator(file)
     assert [f for f in validator.run() if f.rule.startswith("plausible.")] == []
-    file.set_many({address: value}, force="a slip")
+    file.set_checked({address: value}, force="a slip")
     now = [f for f in validator.update([address]) if f.rule.startswith("plausible.")]
     assert now == [f for f in Validator(file).run() if f.rule.startswith("plausible.")]
     return now
@@ -155,7 +155,7 @@ def test_a_point_of_a_cam_that_jumps_out_is_asked_about_and_a_corner_is_not() ->
     assert (finding.rule, drift.rule) == ("plausible.jump", "plausible.not-closed")
     assert "between" in finding.message
     corner = example("57c422b-label-press")
-    corner.set_many(
+    corner.set_checked(
         {("cam.time_points", f"Y.{n}"): Value(min(n, 16) * 100, "counts") for n in range(32)},
         force="a corner",
     )
@@ -193,7 +193,7 @@ def test_what_decides_which_axes_there_are_is_a_reason_to_look_at_all() -> None:
         (("view.number_of_axes", ""), Value(2)),
         (("view.number_of_axes", ""), Value(3)),
     ):
-        file.set_many({address: value}, force="a test")
+        file.set_checked({address: value}, force="a test")
         assert validator.update([address]) == Validator(file).run()
 
 
@@ -213,7 +213,7 @@ def test_what_is_meant_is_suppressed_as_any_finding(tmp_path: Path) -> None:
 
 def test_a_value_out_of_its_range_is_not_asked_about_too() -> None:
     file = example("mill-1394")
-    file.set_many({("tool.pocket_count", ""): Value(-24)}, force="a slip")
+    file.set_checked({("tool.pocket_count", ""): Value(-24)}, force="a slip")
     assert [f.rule for f in Validator(file).run() if ("tool.pocket_count", "") in f.causes] == [
         "schema.range"
     ]
@@ -223,7 +223,7 @@ def rules(file: ParameterFile, *edits: tuple[Address, Value]) -> list[str]:
     """Return the rules of experience after some edits, and that every order of looking finds the same."""
     validator = Validator(file)
     validator.run()
-    file.set_many(dict(edits), force="a test")
+    file.set_checked(dict(edits), force="a test")
     now = validator.update([address for address, _ in edits])
     assert now == Validator(file).run()
     return [f.rule for f in now if f.rule.startswith("plausible.")]

@@ -6,7 +6,7 @@ import pytest
 from findings import found, the
 
 from amp_studio.schema import Address, Value
-from amp_studio.validate import Finding, Setting, Validator
+from amp_studio.validate import AddressedValue, Finding, Validator
 
 RAPID = ("feedrate.rapid", "1")
 CUTTING = ("feedrate.max_cutting", "1")
@@ -20,7 +20,7 @@ def test_a_value_out_of_range_is_an_error_with_its_range_page_and_fix(mill) -> N
         severity="error",
         causes=(("home.g28_speed", "1"),),
         message="G28 Home Speed 10161 mm/min is outside 0 to 10160 mm/min.",
-        fix=(Setting(("home.g28_speed", "1"), Value(10160.0, "mm/min")),),
+        fix=(AddressedValue(("home.g28_speed", "1"), Value(10160.0, "mm/min")),),
         page="5-16",
     )
 
@@ -36,7 +36,7 @@ def test_a_range_is_checked_in_the_unit_of_entry(mill) -> None:
     mill.set(("home.g28_speed", "1"), Value(400.0001, "in/min"))
     finding = the(mill, "schema.range")
     assert finding.message == "G28 Home Speed 400.0001 in/min is outside 0 to 400 in/min."
-    assert finding.fix == (Setting(("home.g28_speed", "1"), Value(400.0, "in/min")),)
+    assert finding.fix == (AddressedValue(("home.g28_speed", "1"), Value(400.0, "in/min")),)
 
 
 def test_a_bound_that_another_parameter_sets_is_named(mill) -> None:
@@ -46,7 +46,7 @@ def test_a_bound_that_another_parameter_sets_is_named(mill) -> None:
         finding.message == "Maximum Cutting Feedrate 12000.00001 mm/min is outside 0 to 12000 mm/min "
         "(set by 1203 Rapid Feedrate for Positioning, 12000 mm/min)."
     )
-    assert finding.fix == (Setting(CUTTING, Value(12000.0, "mm/min")),)
+    assert finding.fix == (AddressedValue(CUTTING, Value(12000.0, "mm/min")),)
 
 
 def test_a_bound_that_moves_is_noticed(mill) -> None:
@@ -115,7 +115,7 @@ def test_a_value_in_a_unit_that_measures_something_else_is_an_error(
     mill.set(address, value)
     finding = the(mill, "schema.range")
     assert finding.message == said
-    assert finding.fix == (Setting(address, mended),), "the control knows the figure only"
+    assert finding.fix == (AddressedValue(address, mended),), "the control knows the figure only"
 
 
 def test_an_axis_that_turns_wants_degrees(mill) -> None:
@@ -133,7 +133,7 @@ def test_the_lead_of_a_spindle_is_a_length_and_one_in_degrees_is_offered_as_the_
     mill.set(("servo.lead_screw_pitch", "1"), Value(2.54, "deg"))
     finding = next(f for f in found(mill, "schema.range") if f.causes[0][0] == "servo.lead_screw_pitch")
     assert finding.message == "Lead Screw Thread Pitch 2.54° should be in mm here."
-    assert finding.fix == (Setting(("servo.lead_screw_pitch", "1"), Value(2.54, "mm")),)
+    assert finding.fix == (AddressedValue(("servo.lead_screw_pitch", "1"), Value(2.54, "mm")),)
 
 
 def test_a_lead_becomes_an_angle_on_an_axis_made_rotary_and_a_length_again_on_a_spindle(mill) -> None:
@@ -154,7 +154,7 @@ def test_a_fix_that_would_be_wrong_too_is_not_offered(mill) -> None:
 
 
 def test_a_value_set_out_of_range_on_purpose_says_so(mill) -> None:
-    mill.set_many({EXCESS: Value(500.0, "mm")}, force="by J. Fitter on 2026-07-01")
+    mill.set_checked({EXCESS: Value(500.0, "mm")}, force="by J. Fitter on 2026-07-01")
     assert (
         the(mill, "schema.range").message
         == "Excess Error 500 mm is outside 0 to 214.1 mm. It was forced by J. Fitter on 2026-07-01."

@@ -11,7 +11,7 @@ from amp_studio.files import new_file
 from amp_studio.report import finding_json, finding_text
 from amp_studio.schema import Address, InvalidValueError, Rule, Value
 from amp_studio.schema.expression import Circumstances, Decision, program
-from amp_studio.validate import SEVERITIES, BuilderRules, Setting, Validator
+from amp_studio.validate import SEVERITIES, AddressedValue, BuilderRules, Validator
 
 RAPID = ("feedrate.rapid", "1")
 CUTTING = ("feedrate.max_cutting", "1")
@@ -108,8 +108,8 @@ def test_a_finding_of_a_rule_has_its_values_page_and_fix(mill) -> None:
         " rapid moves end in E-Stop with EXCESS FOLLOWING ERROR. The smallest sensible value is 13.2 mm."
     )
     assert (finding.page, finding.severity, finding.safe) == ("7-20", "error", False)
-    suppression_stays_off = Setting(("servo.feedrate_suppression", "1"), Value(13.2, "mm"))
-    assert finding.fix == (Setting(EXCESS, Value(13.2, "mm")), suppression_stays_off)
+    suppression_stays_off = AddressedValue(("servo.feedrate_suppression", "1"), Value(13.2, "mm"))
+    assert finding.fix == (AddressedValue(EXCESS, Value(13.2, "mm")), suppression_stays_off)
 
 
 def test_an_inch_file_is_told_in_inches_and_mended_in_the_unit_of_the_value(mill) -> None:
@@ -117,7 +117,9 @@ def test_an_inch_file_is_told_in_inches_and_mended_in_the_unit_of_the_value(mill
     mill.set(EXCESS, Value(0.4, "in"))
     finding = the(mill, "9pc.servo.excess-below-following-error")
     assert "trails its command by 0.472441 in, more than Excess Error 0.4 in allows" in finding.message
-    assert finding.fix == (Setting(EXCESS, Value(0.51969, "in")),), "five decimals, as the parameter has them"
+    assert finding.fix == (AddressedValue(EXCESS, Value(0.51969, "in")),), (
+        "five decimals, as the parameter has them"
+    )
 
 
 def test_a_figure_is_told_in_the_inches_of_the_values_it_comes_from(mill) -> None:
@@ -163,7 +165,7 @@ def test_what_the_control_uses_instead_is_said_in_the_unit_of_the_value(mill) ->
     mill.set(("feedrate.rapid", "2"), Value(2540.0, "mm/min"))
     validator = Validator(mill, BuilderRules((own,)))
     (finding,) = (f for f in validator.run() if f.rule == "own.clamp" and f.addresses == (RAPID,))
-    assert finding.effective == (Setting(RAPID, Value(100.0, "in/min")),)
+    assert finding.effective == (AddressedValue(RAPID, Value(100.0, "in/min")),)
     assert finding.fix == ()
     assert "effective value: 1203 Rapid Feedrate for Positioning = 100 in/min" in finding_text(mill, finding)
     assert finding_json(mill, finding)["effective"] == [{"param": "1203", "value": "100 in/min"}]

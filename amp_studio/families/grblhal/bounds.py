@@ -8,7 +8,18 @@ import re
 
 from amp_studio.errors import AmpStudioError
 
-from .description import AXES, BOOLEAN, CHOICE, DECIMAL, IPV4, MASK, PASSWORD, SWITCHED_MASK, TEXT, Setting
+from .description import (
+    AXES,
+    BOOLEAN,
+    CHOICE,
+    DECIMAL,
+    IPV4,
+    MASK,
+    PASSWORD,
+    SWITCHED_MASK,
+    TEXT,
+    DescribedSetting,
+)
 from .numbers import LARGEST, read_number
 
 CLASSIC = {0: 255, 1: 255, 2: 255, 3: 255, 10: 255, 23: 255, 26: 65_535}
@@ -21,7 +32,7 @@ class BoundsError(AmpStudioError, ValueError):
     """A text that a setting would not store as what it means; one clear sentence."""
 
 
-def check_text(setting: Setting | None, number: int, text: str, axes: int) -> None:
+def check_text(setting: DescribedSetting | None, number: int, text: str, axes: int) -> None:
     """Refuse a text that the setting would not store as it is; raises BoundsError.
 
     ``setting`` is None where the control does not describe it: a Grbl 1.1.
@@ -48,7 +59,7 @@ def check_text(setting: Setting | None, number: int, text: str, axes: int) -> No
             raise BoundsError(f"{name} takes {low} to {high}, not {text[:40]}")
 
 
-def _bounds(setting: Setting, axes: int) -> tuple[int, int]:
+def _bounds(setting: DescribedSetting, axes: int) -> tuple[int, int]:
     """Return the smallest and the largest whole number that a setting stores."""
     if setting.type == BOOLEAN:
         return 0, 1
@@ -65,7 +76,7 @@ def _bounds(setting: Setting, axes: int) -> tuple[int, int]:
     return int(setting.least) if setting.least.isdecimal() else 0, high
 
 
-def _check_decimal(setting: Setting, name: str, text: str) -> None:
+def _check_decimal(setting: DescribedSetting, name: str, text: str) -> None:
     least, most = setting.least or "0", setting.most
     try:
         number = read_number(text)

@@ -32,8 +32,8 @@ from .description import (
     MASK,
     PASSWORD,
     SWITCHED_MASK,
+    DescribedSetting,
     Description,
-    Setting,
     description_of,
     read_description,
 )
@@ -146,7 +146,7 @@ class _Maker:
 
     # -- settings --------------------------------------------------------------
 
-    def _axis(self, setting: Setting) -> str:
+    def _axis(self, setting: DescribedSetting) -> str:
         """Return the letter of the axis that a setting is of; empty for a setting of the control."""
         letter, dash, _ = setting.name.partition("-axis ")
         group = self.described.groups.get(setting.group)
@@ -155,7 +155,7 @@ class _Maker:
             return letter if self.axes.index(letter) == setting.number % 10 else ""
         return ""
 
-    def _group(self, setting: Setting) -> DescribedGroup:
+    def _group(self, setting: DescribedSetting) -> DescribedGroup:
         """Return the group of a setting: a group inside another one is a section of that."""
         order = self._order.get(setting.group, len(self._order))
         if self._axis(setting):
@@ -171,7 +171,7 @@ class _Maker:
             return DescribedGroup(key, parent.name, group.name, order)
         return DescribedGroup(key, group.name, order=order)
 
-    def _parameter(self, setting: Setting) -> DescribedParameter:
+    def _parameter(self, setting: DescribedSetting) -> DescribedParameter:
         axis, kind, unit = self._axis(setting), _TYPES.get(setting.type, "text"), _unit_of(setting)
         further = (
             f"In {setting.unit}." if setting.unit and not unit else "",
@@ -224,7 +224,7 @@ def _number(text: str, kind: str) -> float | None:
     return float(text) if kind in ("integer", "real") else None
 
 
-def _unit_of(setting: Setting) -> str:
+def _unit_of(setting: DescribedSetting) -> str:
     """Return the unit of a setting; that of a straight axis in place of degrees. Empty where it is not
     known.
     """

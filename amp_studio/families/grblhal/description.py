@@ -59,7 +59,7 @@ _LINE = re.compile(r"\[([A-Z ]+):(.*)\]")
 
 
 @dataclass(frozen=True)
-class Setting:
+class DescribedSetting:
     """One setting, as ``$ES`` lists it."""
 
     number: int
@@ -98,7 +98,7 @@ class Description:
     facts: dict[str, str] = field(default_factory=dict)
     """``VER``, ``BOARD``, ``DRIVER`` … -> the text behind it."""
     groups: dict[int, SettingGroup] = field(default_factory=dict)
-    settings: dict[int, Setting] = field(default_factory=dict)
+    settings: dict[int, DescribedSetting] = field(default_factory=dict)
     helps: dict[int, str] = field(default_factory=dict)
     alarms: dict[int, str] = field(default_factory=dict)
     errors: dict[int, str] = field(default_factory=dict)
@@ -189,7 +189,7 @@ def _read_setting(found: Description, _tag: str, rest: str) -> None:
         raise DescriptionError(f"the setting '{short(rest)}' has the type {short(kind)}, which is not known")
     if restart not in ("0", "1") or zero not in ("0", "1"):
         raise DescriptionError(f"the setting '{short(rest)}' does not end with two marks, 0 or 1")
-    setting = Setting(
+    setting = DescribedSetting(
         _number(number, rest),
         _number(group, rest),
         _text(name) or f"Setting {number}",

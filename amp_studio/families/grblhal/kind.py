@@ -21,7 +21,7 @@ from amp_studio.transfer import ImageError
 
 from .bounds import BoundsError, check_text
 from .content import GrblContent, read_content, write_content
-from .description import PASSWORD, Setting, description_of, read_description
+from .description import PASSWORD, DescribedSetting, description_of, read_description
 from .fitting import Misfit, build_of, fit_to
 from .masks import Build, MaskBits, bits_beyond, named_bits, with_bits
 from .numbers import decimals_of, is_same_number, is_shown_as, read_number, shown_number, written_number
@@ -131,7 +131,7 @@ class GrblContentKind:
         return ", ".join(differing[:_SHOWN] + more)
 
 
-def described(content: bytes) -> Mapping[int, Setting]:
+def described(content: bytes) -> Mapping[int, DescribedSetting]:
     """Return number -> what the control describes of a setting; nothing of one that does not."""
     try:
         return read_description(content).settings
@@ -233,7 +233,9 @@ def _coming(wanted: Mapping[int, str], present: GrblContent) -> set[int]:
     return {n for n in PER_AXIS_RATES if has_rates and n % 10 < len(present.axes)}
 
 
-def _fitted(wanted: Mapping[int, str], present: GrblContent, known: Mapping[int, Setting]) -> dict[int, str]:
+def _fitted(
+    wanted: Mapping[int, str], present: GrblContent, known: Mapping[int, DescribedSetting]
+) -> dict[int, str]:
     """Return the settings of a control after these are written; raises ImageError."""
     settings = dict(present.settings)
     comes = _coming(wanted, present)

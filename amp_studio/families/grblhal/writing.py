@@ -15,7 +15,7 @@ from itertools import chain
 from amp_studio.transfer import Progress, Receipt, SentValues
 
 from .content import GrblContent
-from .description import Setting
+from .description import DescribedSetting
 from .kind import HOMING
 from .line import GrblLine, GrblRefusalError
 from .numbers import decimals_of, is_shown_as, read_number, shown_number
@@ -33,7 +33,11 @@ class Writing:
     """
 
     def __init__(
-        self, wanted: GrblContent, present: GrblContent, known: Mapping[int, Setting], sent: SentValues
+        self,
+        wanted: GrblContent,
+        present: GrblContent,
+        known: Mapping[int, DescribedSetting],
+        sent: SentValues,
     ) -> None:
         self.wanted, self.present, self._known = wanted, present, known
         self.names = {number: setting.name for number, setting in known.items()}
@@ -127,7 +131,7 @@ def coarse_notes(
             )
 
 
-def restart_notes(settings: Mapping[int, str], known: Mapping[int, Setting]) -> list[str]:
+def restart_notes(settings: Mapping[int, str], known: Mapping[int, DescribedSetting]) -> list[str]:
     """Return a sentence about the settings that become active only when the control is switched on again."""
     waiting = [f"${n} {known[n].name}" for n in settings if n in known and known[n].needs_restart]
     if not waiting:

@@ -10,7 +10,7 @@ from amp_studio.files import ParameterFile, axis_letter
 from amp_studio.report.axes import axis_label, scope_of
 from amp_studio.report.wording import joined_places, severity_name
 from amp_studio.schema import Address, show_value
-from amp_studio.validate import Finding, Setting, Suppressed
+from amp_studio.validate import AddressedValue, Finding, Suppressed
 
 from .lines import finding_text
 from .note import Note
@@ -115,7 +115,7 @@ def _label(file: ParameterFile, address: Address, is_first: bool, is_last: bool)
     return here.label(address) if is_first else here.instance_label(address)
 
 
-def _settings(file: ParameterFile, settings: Sequence[Setting]) -> Iterable[str]:
+def _settings(file: ParameterFile, settings: Sequence[AddressedValue]) -> Iterable[str]:
     """Yield ``1300, 2300 Home Calibration = 0 mm`` for each parameter and new value."""
     wanted: dict[tuple[str, str], list[Address]] = {}
     for setting in settings:

@@ -10,7 +10,7 @@ from dataclasses import dataclass
 from amp_studio.files import ParameterFile, axis_letter
 from amp_studio.report.axes import scope_of
 from amp_studio.schema import MASKED, Severity, Value, show_value
-from amp_studio.validate import NOT_SET, Finding, Setting, Validator, rule_title
+from amp_studio.validate import NOT_SET, AddressedValue, Finding, Validator, rule_title
 
 
 @dataclass(frozen=True, slots=True)
@@ -102,15 +102,15 @@ def fix_lines(file: ParameterFile, finding: Finding) -> tuple[str, ...]:
     )
 
 
-def _on(file: ParameterFile, setting: Setting) -> str:
+def _on(file: ParameterFile, setting: AddressedValue) -> str:
     axis = setting.address[1]
     return f" ({axis_letter(file, axis) or axis})" if scope_of(file, setting.address) == "axis" else ""
 
 
-def _value_text(file: ParameterFile, setting: Setting) -> str:
+def _value_text(file: ParameterFile, setting: AddressedValue) -> str:
     return _value(file, setting, setting.value)
 
 
-def _value(file: ParameterFile, setting: Setting, value: Value | None) -> str:
+def _value(file: ParameterFile, setting: AddressedValue, value: Value | None) -> str:
     parameter = file.schema.parameters[setting.address[0]]
     return MASKED if parameter.secret else show_value(parameter, value)

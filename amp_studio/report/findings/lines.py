@@ -10,7 +10,7 @@ from typing import Any
 from amp_studio.files import ParameterFile
 from amp_studio.report.wording import severity_name
 from amp_studio.schema import MASKED, Address, Parameter, Value, write_value
-from amp_studio.validate import Finding, Setting, Suppressed
+from amp_studio.validate import AddressedValue, Finding, Suppressed
 
 
 def finding_json(file: ParameterFile, finding: Finding) -> dict[str, Any]:
@@ -29,7 +29,7 @@ def finding_json(file: ParameterFile, finding: Finding) -> dict[str, Any]:
     }
 
 
-def _setting_json(file: ParameterFile, setting: Setting) -> dict[str, Any]:
+def _setting_json(file: ParameterFile, setting: AddressedValue) -> dict[str, Any]:
     parameter = file.schema.parameters[setting.address[0]]
     param = file.machine_schema.short(setting.address)
     if parameter.secret:

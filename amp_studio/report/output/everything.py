@@ -8,7 +8,7 @@ from amp_studio.report.model import Report, ReportRow
 from amp_studio.schema import write_figure
 
 from .table_csv import HEADS, line_of
-from .workbook import Cell, WorkbookSheet, workbook
+from .workbook import WorkbookCell, WorkbookSheet, workbook
 
 
 def render_json(report: Report) -> bytes:
@@ -94,7 +94,7 @@ def render_workbook(report: Report) -> bytes:
     return workbook([*sheets, WorkbookSheet("Machine", ("", ""), about)])
 
 
-def _number(text: str, row: ReportRow) -> Cell:
+def _number(text: str, row: ReportRow) -> WorkbookCell:
     """Return a number as a number, if the cell then reads as the same text."""
     if not row.is_number:
         return text

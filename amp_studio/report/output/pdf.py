@@ -70,7 +70,7 @@ def _breakable(text: str) -> str:
 
 
 @dataclass(frozen=True, slots=True)
-class Place:
+class PrintedPlace:
     """Where a value is in a report: the page, counted from 1, and points from its left and its upper edge."""
 
     page: int
@@ -88,11 +88,11 @@ class SetReport:
     marks: str
     """What Typst knows of the marks at the values, as JSON."""
 
-    def places(self) -> dict[Address, Place]:
+    def places(self) -> dict[Address, PrintedPlace]:
         """Return where each value is; a project's template can leave them out."""
         found = json.loads(self.marks)
         return {
-            (anchor.rpartition("@")[0], anchor.rpartition("@")[2]): Place(page, x, y)
+            (anchor.rpartition("@")[0], anchor.rpartition("@")[2]): PrintedPlace(page, x, y)
             for anchor, page, x, y in (found[0] if found else ())
         }
 

@@ -11,7 +11,7 @@ import zipfile
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 
-Cell = str | float | int | None
+WorkbookCell = str | float | int | None
 
 _FORBIDDEN = re.compile(r"[\[\]:*?/\\]")
 _MOST_NAME = 31
@@ -26,7 +26,7 @@ class WorkbookSheet:
 
     title: str
     heads: tuple[str, ...]
-    rows: Sequence[Sequence[Cell]]
+    rows: Sequence[Sequence[WorkbookCell]]
 
 
 def workbook(sheets: Iterable[WorkbookSheet]) -> bytes:

@@ -7,7 +7,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from datetime import datetime
 
-from amp_studio.files import Choice, Merge, ParameterFile, Row, RowGroup, Side, Typed, in_one_unit
+from amp_studio.files import Merge, MergeChoice, ParameterFile, Row, RowGroup, Side, Typed, in_one_unit
 from amp_studio.report.axes import place_of
 from amp_studio.schema import Value, show_value, visible
 
@@ -53,7 +53,7 @@ def _named(merge: Merge, row: Row) -> tuple[str, str, str]:
 
 
 def _values(
-    merge: Merge, row: Row, sides: tuple[Side, ...], choice: Choice | None, result: ParameterFile
+    merge: Merge, row: Row, sides: tuple[Side, ...], choice: MergeChoice | None, result: ParameterFile
 ) -> tuple[str, ...]:
     """Return the values of a row in one unit, and that of the result in words."""
     has = result.get(row.address) if row.id.part == "value" else merge.result_of(row)

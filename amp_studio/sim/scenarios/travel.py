@@ -189,7 +189,7 @@ def _figures(
     if seen is not None:
         at = min(int(np.searchsorted(times, seen.time)), len(velocities) - 1)
         speed = abs(float(velocities[at])) * 60.0
-    # An axis whose loop is switched off has no command that ends: it is at rest when it stands still.
+    # An axis whose loop is switched off has no command that ends: only its velocity shows it at rest.
     coasted = abs(float(velocities[-1])) < STANDSTILL
     reached = seen is not None and (coasted if travel.coasts else motion.command_end is not None)
     end = float(motion.columns["position"][-1]) + approach.start

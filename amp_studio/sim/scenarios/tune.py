@@ -125,7 +125,7 @@ def _notes(solved: Solved, slowest: float, others: Sequence[Trial]) -> list[str]
         sentences.append(f"No gains keep all of it: {'; '.join(LATER[: solved.level])}.")
     if solved.level == len(levels):
         sentences.append(f"{why_not_sound(solved.after.loops)}. {NONE_SOUND}")
-    elif not solved.changed:
+    elif not solved.to_change:
         sentences.append(NOTHING)
     if math.isfinite(slowest):
         names = ", ".join(other.axis.axis for other in others)

@@ -69,14 +69,16 @@ def sounder(trial: Tried) -> Solved:
 
 def gain_recommendations(trial: Tried, solved: Solved, why: str = "") -> tuple[Recommendation, ...]:
     """Return the gains that change, each with what all of them together give."""
-    if not solved.changed:
+    if not solved.to_change:
         return ()
     loops = solved.after.loops
     assumed = " on the assumed machine" if trial.axis.assumed else ""
-    gives = f"{'all gains together' if len(solved.changed) > 1 else 'with it'} {figures_text(loops)}{assumed}"
+    gives = (
+        f"{'all gains together' if len(solved.to_change) > 1 else 'with it'} {figures_text(loops)}{assumed}"
+    )
     found: list[Recommendation] = []
     for gain in solved.gains:
-        number = solved.changed.get(gain.parameter)
+        number = solved.to_change.get(gain.parameter)
         old = trial.value(gain.parameter)
         if number is None or old is None:
             continue

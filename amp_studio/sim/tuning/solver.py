@@ -181,7 +181,7 @@ class Solved:
     """Index of what is kept in `levels_of`; as many as there are where even the last is not."""
 
     @property
-    def changed(self) -> Mapping[str, float]:
+    def to_change(self) -> Mapping[str, float]:
         """The numbers that are others than the present ones."""
         present = {gain.parameter: gain.present for gain in self.gains}
         return {name: number for name, number in self.numbers.items() if number != present[name]}

@@ -83,7 +83,7 @@ class Trial:
             wanted[address] = Value(int(number) if isinstance(old.value, int) else number, old.unit)
         before = {address: self._file.get(address) for address in wanted}
         try:
-            self._file.set_many(wanted)
+            self._file.set_checked(wanted)
             return self._bind(self._file)
         except (RangeError, SimulationError):
             return None

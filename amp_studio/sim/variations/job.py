@@ -170,7 +170,7 @@ class _Axes:
         }
         before = {address: self.file.get(address) for address in wanted}
         try:
-            self.file.set_many(wanted)
+            self.file.set_checked(wanted)
             return bind_axis(self.file, self.law, self.job.axis, {**self.model, **model}), own, None
         finally:
             for address, value in before.items():

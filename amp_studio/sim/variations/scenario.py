@@ -95,8 +95,8 @@ def _gain_map(trial: Trial, move: Settings, figure: str, way: Way) -> Trace:
         return trace
     solved = solve(trial, NORMAL)
     named = {each.address[0] for each in varied if each.address}
-    others = {name: number for name, number in solved.changed.items() if name not in named}
-    if not solved.sound or not solved.changed:
+    others = {name: number for name, number in solved.to_change.items() if name not in named}
+    if not solved.sound or not solved.to_change:
         return trace
     varied = _two_gains(trial, solved.numbers)
     points = points_of(varied, None, 1)

@@ -64,7 +64,7 @@ class LiveTuning:
         TransferError.
         """
         wanted = self._present().copy()
-        wanted.set_many(values)
+        wanted.set_checked(values)
         return self._send(lambda current: self._driver.encode(wanted, current), "tune", exchange)
 
     def put_back(self, exchange: Exchange = QUIET) -> Outcome:

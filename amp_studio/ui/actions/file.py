@@ -281,7 +281,7 @@ class Files(Translated):
         changes = {c.address: c.new for c in unsaved.changes}
 
         def recover() -> None:
-            file.set_many(changes, force="recovered from unsaved work")
+            file.set_checked(changes, force="recovered from unsaved work")
             vars(file.header).update(unsaved.header)
 
         workspace.do(self.tr("Recover unsaved work"), recover)

@@ -9,7 +9,7 @@ from PySide6.QtCore import QTimer
 from PySide6.QtGui import QAction, QGuiApplication
 from PySide6.QtWidgets import QMessageBox
 
-from amp_studio.find import Entry, Finder, Hit, Index, elsewhere, index_of, prepare_synonyms
+from amp_studio.find import Entry, Finder, Hit, SearchIndex, elsewhere, index_of, prepare_synonyms
 from amp_studio.report import facts
 from amp_studio.schema import family_ids, load_schema
 from amp_studio.ui.base.menu_commands import commands
@@ -55,7 +55,7 @@ class FindSearch(Translated):
         self._soon.timeout.connect(self._index)
         self.box.entered.connect(self._index)
         self._commands: dict[str, QAction] = {}
-        self._menu = Index(())
+        self._menu = SearchIndex(())
         self._families: tuple[Finder, ...] | None = None
         """The families without a file, once somebody has asked for a message without one."""
         self._is_read = False
@@ -184,7 +184,7 @@ class FindSearch(Translated):
         self._is_read = True
         able = [(name, action) for name, action in commands(self.window.menuBar()) if action.isEnabled()]
         self._commands = {str(n): action for n, (_, action) in enumerate(able)}
-        self._menu = Index(
+        self._menu = SearchIndex(
             Entry("command", name, str(n), (("name", name),)) for n, (name, _) in enumerate(able)
         )
 

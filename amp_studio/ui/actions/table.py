@@ -279,7 +279,7 @@ def _view() -> Menu[PartsWindow]:
                 tr("Show Un&fitted Axes"),
                 view.show_columns,
                 "Ctrl+U",
-                is_on=lambda w: w.table.all_axes if w.table else None,
+                is_on=lambda w: w.table.shows_every_axis if w.table else None,
             ),
             Action(
                 "view.hidden",

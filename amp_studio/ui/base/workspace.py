@@ -134,7 +134,7 @@ class Workspace(QObject):
 
     def edit(self, text: str, wanted: Mapping[Address, Value | None], force: str = "") -> bool:
         """Change values as one undoable step; raises RangeError, and then nothing is changed."""
-        return self.do(text, lambda: self.file.set_many(wanted, force))
+        return self.do(text, lambda: self.file.set_checked(wanted, force))
 
     def entered(self, address: Address, text: str) -> Entered:
         """Read what a person typed for an address, a value or an expression; raises InvalidValueError."""

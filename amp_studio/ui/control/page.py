@@ -713,7 +713,7 @@ class ControlPage(QWidget):
             if not row.is_fixed
         }
         if kept:
-            file.set_many(kept, force=self.tr("kept at the control"))
+            file.set_checked(kept, force=self.tr("kept at the control"))
         session.send(file, workspace.path)
 
     def _write_one(self) -> None:

@@ -11,6 +11,7 @@ from PySide6.QtCore import QAbstractItemModel, QEvent, QModelIndex, QPoint, QRec
 from PySide6.QtGui import QColor, QFont, QFontMetrics, QMouseEvent, QPainter, QPen
 from PySide6.QtWidgets import QStyle, QStyledItemDelegate, QStyleOptionViewItem, QTreeView
 
+from amp_studio.ui.base.model_index import ModelIndex
 from amp_studio.ui.base.theme import (
     FINDING_ROW,
     GAP,
@@ -28,7 +29,7 @@ from amp_studio.ui.base.theme import (
 )
 from amp_studio.ui.base.translated import worded
 
-from .model import FindingsModel, Index
+from .model import FindingsModel
 
 Part = Literal["fix", "why", "go", "more"]
 _WIDEST_FIX, _WIDEST_RULE, _PAGE, _MORE, _INDENT = 300, 320, 76, 22, 22
@@ -61,7 +62,7 @@ class FindingsDelegate(QStyledItemDelegate):
 
     # -- where everything is ---------------------------------------------------------
 
-    def _layout(self, rect: QRect, index: Index) -> _Layout:
+    def _layout(self, rect: QRect, index: ModelIndex) -> _Layout:
         small, text = QFontMetrics(self._small), QFontMetrics(self._text)
         is_rule = not index.internalId()
         right, line = rect.right() - GAP, min(rect.height(), FINDING_ROW if is_rule else ROW)
@@ -102,7 +103,7 @@ class FindingsDelegate(QStyledItemDelegate):
     def _tag_width(self, axis: str) -> int:
         return max(18, QFontMetrics(self._small).horizontalAdvance(axis) + 10)
 
-    def sizeHint(self, option: QStyleOptionViewItem, index: Index) -> QSize:
+    def sizeHint(self, option: QStyleOptionViewItem, index: ModelIndex) -> QSize:
         """Return the height that the words need in the present width of the list."""
         is_rule = not index.internalId()
         width = self._view.viewport().width() - _INDENT * (1 if is_rule else 2)
@@ -114,7 +115,7 @@ class FindingsDelegate(QStyledItemDelegate):
 
     # -- painting --------------------------------------------------------------------
 
-    def paint(self, painter: QPainter, option: QStyleOptionViewItem, index: Index) -> None:
+    def paint(self, painter: QPainter, option: QStyleOptionViewItem, index: ModelIndex) -> None:
         place, group = self._layout(option.rect, index), self._model.group(index)
         is_rule = not index.internalId()
         painter.save()

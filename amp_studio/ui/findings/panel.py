@@ -7,7 +7,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import replace
 
-from PySide6.QtCore import QModelIndex, QPersistentModelIndex, QPoint, QRect, Qt, Signal
+from PySide6.QtCore import QModelIndex, QPoint, QRect, Qt, Signal
 from PySide6.QtGui import QContextMenuEvent, QKeyEvent, QPainter, QPalette, QResizeEvent
 from PySide6.QtWidgets import (
     QAbstractItemView,
@@ -25,16 +25,15 @@ from PySide6.QtWidgets import (
 
 from amp_studio.report import delivered_text, finding_axes
 from amp_studio.ui.base.modal import pop_up
+from amp_studio.ui.base.model_index import ModelIndex
 from amp_studio.ui.base.theme import FINDING_ROW, GAP2, colour, font, icon, paint_icon, scheme, severity_icon
 from amp_studio.ui.base.translated import counted, worded
 from amp_studio.ui.base.workspace import Workspace
 from amp_studio.ui.forms.segment import Segment, chip
-from amp_studio.validate import NOT_SET, SEVERITIES, Finding, not_set
+from amp_studio.validate import NOT_SET, SEVERITIES, Finding, addresses_not_set
 
 from .delegate import FindingsDelegate, Part
 from .model import FindingsModel
-
-Index = QModelIndex | QPersistentModelIndex
 
 
 class _View(QTreeView):
@@ -53,7 +52,7 @@ class _View(QTreeView):
         self.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
         self.setTabKeyNavigation(False)
 
-    def drawRow(self, painter: QPainter, option: QStyleOptionViewItem, index: Index) -> None:
+    def drawRow(self, painter: QPainter, option: QStyleOptionViewItem, index: ModelIndex) -> None:
         if index == self.currentIndex():
             painter.fillRect(option.rect, colour("selbg" if self.hasFocus() else "selidle"))
         if not index.internalId() and index.row():
@@ -209,7 +208,7 @@ class FindingsPanel(QWidget):
         """Say in one line what there is where nothing is found."""
         dim, link = colour("dim").name(), colour("sel").name()
         text = f'<span style="color:{dim}">{self.tr("none in this file")}'
-        if count := len(not_set(self._workspace.findings)):
+        if count := len(addresses_not_set(self._workspace.findings)):
             text += " · " + self.tr("{number} active parameters are not set").format(number=count)
             text += f'</span> <a style="color:{link}" href="unset">{self.tr("Show")}</a>'
         self.summary.setText(text)
@@ -313,7 +312,7 @@ class FindingsPanel(QWidget):
     def _count(self, reached: list[Finding], waiting: int, suppressed: int) -> None:
         for severity, made in self.chips.items():
             number = sum(f.severity == severity for f in reached) - (
-                severity == "advice" and bool(not_set(reached))
+                severity == "advice" and bool(addresses_not_set(reached))
             )
             made.setText(str(number))
             made.setVisible(number > 0)
@@ -331,7 +330,7 @@ class FindingsPanel(QWidget):
 
     def _say_why_empty(self, number: int) -> None:
         shade, link = colour("dim").name(), colour("sel").name()
-        count = len(not_set(self._workspace.findings))
+        count = len(addresses_not_set(self._workspace.findings))
         if number > (1 if count else 0):
             text = self.tr("No findings with these filters.")
             text += f' <a style="color:{link}" href="all">{self.tr("Show all")}</a>'

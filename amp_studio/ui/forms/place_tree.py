@@ -4,10 +4,11 @@ its findings and how many values it has open.
 
 from __future__ import annotations
 
-from PySide6.QtCore import QModelIndex, QPersistentModelIndex, QRect, QSize, Qt, Signal
+from PySide6.QtCore import QRect, QSize, Qt, Signal
 from PySide6.QtGui import QFontMetrics, QKeyEvent, QPainter, QPalette
 from PySide6.QtWidgets import QStyle, QStyledItemDelegate, QStyleOptionViewItem, QTreeWidget
 
+from amp_studio.ui.base.model_index import ModelIndex
 from amp_studio.ui.base.theme import (
     GAP,
     GAP2,
@@ -20,7 +21,6 @@ from amp_studio.ui.base.theme import (
     severity_mark,
 )
 
-Index = QModelIndex | QPersistentModelIndex
 _USER = Qt.ItemDataRole.UserRole
 KEY, PICTURE, COUNTS, RIGHT, TOKEN = (Qt.ItemDataRole(_USER + n) for n in range(5))
 """What an item is; its icon (name and ink); its findings (severity, how many); the text at its right;
@@ -46,7 +46,7 @@ class PlaceTree(QTreeWidget):
         self.setFrameShape(QTreeWidget.Shape.NoFrame)
         self.setItemDelegate(_PlaceDelegate(self))
 
-    def drawBranches(self, painter: QPainter, rect: QRect, index: Index) -> None:
+    def drawBranches(self, painter: QPainter, rect: QRect, index: ModelIndex) -> None:
         """Paint the ground as far as the left edge, and the caret of a place that has others below it."""
         painter.fillRect(rect, colour(_background(self, index, self._is_hovered(index))))
         if self.selectionModel().isSelected(index):
@@ -56,7 +56,7 @@ class PlaceTree(QTreeWidget):
             side = QRect(rect.right() - self.indentation() + 1, rect.top(), self.indentation(), rect.height())
             paint_icon(painter, side.adjusted(3, 7, -3, -7), caret, colour("dim"))
 
-    def _is_hovered(self, index: Index) -> bool:
+    def _is_hovered(self, index: ModelIndex) -> bool:
         return self.indexAt(self.viewport().mapFromGlobal(self.cursor().pos())) == index
 
     def keyPressEvent(self, event: QKeyEvent) -> None:
@@ -68,7 +68,7 @@ class PlaceTree(QTreeWidget):
             super().keyPressEvent(event)
 
 
-def _background(tree: QTreeWidget, index: Index, is_hovered: bool) -> Token:
+def _background(tree: QTreeWidget, index: ModelIndex, is_hovered: bool) -> Token:
     if tree.selectionModel().isSelected(index):
         return "selbg" if tree.hasFocus() else "selidle"
     return "hover" if is_hovered else "panel"
@@ -81,10 +81,10 @@ class _PlaceDelegate(QStyledItemDelegate):
         super().__init__(tree)
         self._tree = tree
 
-    def sizeHint(self, option: QStyleOptionViewItem, index: Index) -> QSize:
+    def sizeHint(self, option: QStyleOptionViewItem, index: ModelIndex) -> QSize:
         return QSize(120, ROW)
 
-    def paint(self, painter: QPainter, option: QStyleOptionViewItem, index: Index) -> None:
+    def paint(self, painter: QPainter, option: QStyleOptionViewItem, index: ModelIndex) -> None:
         painter.save()
         place: QRect = option.rect
         is_hovered = bool(option.state & QStyle.StateFlag.State_MouseOver)

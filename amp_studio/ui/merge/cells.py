@@ -12,7 +12,7 @@ from amp_studio.ui.base.translated import tr
 from amp_studio.ui.table.cell_look import grouped
 
 
-class Cell(NamedTuple):
+class MergeCell(NamedTuple):
     """A value as it is painted: the number or the text, and the unit (of a mask its number) apart."""
 
     text: str
@@ -28,12 +28,12 @@ class Cell(NamedTuple):
 
 def cells_of(
     merge: Merge, row: Row, values: Sequence[Value | None], *, units: str | None, secrets: bool
-) -> list[Cell]:
+) -> list[MergeCell]:
     """Return the cells of the values of one row; ``units`` is a unit system,
     None for the unit of the first value that has one.
     """
     if row.id.part != "value":
-        return [Cell("–" if value is None else visible(str(value.value))) for value in values]
+        return [MergeCell("–" if value is None else visible(str(value.value))) for value in values]
     parameter = merge.a.schema.parameters[row.address[0]]
     own = next((value.unit for value in values if value is not None and value.unit), None)
     if own is not None:
@@ -42,22 +42,22 @@ def cells_of(
     return [_cell(parameter, value, masked=masked) for value in values]
 
 
-def _cell(parameter: Parameter, value: Value | None, *, masked: bool) -> Cell:
+def _cell(parameter: Parameter, value: Value | None, *, masked: bool) -> MergeCell:
     if value is None:
-        return Cell(tr("not set"))
+        return MergeCell(tr("not set"))
     if masked:
-        return Cell(MASKED)
+        return MergeCell(MASKED)
     if isinstance(value.value, (str, bool)) or not value.unit:
         return _bare_cell(parameter, value)
     bare = show_value(parameter, Value(value.value), secrets=True)
-    return Cell(grouped(bare), unit_text(value.unit))
+    return MergeCell(grouped(bare), unit_text(value.unit))
 
 
-def _bare_cell(parameter: Parameter, value: Value) -> Cell:
+def _bare_cell(parameter: Parameter, value: Value) -> MergeCell:
     """Return how a value without a unit is painted: a mask by the names of its bits,
     a number in groups of digits.
     """
     text = show_value(parameter, value, secrets=True)
     if parameter.bits and isinstance(value.value, int) and value.value >= 0:
-        return Cell(labels_of_word(parameter, value.value), f"0x{value.value:X}", text)
-    return Cell(text if parameter.secret or parameter.choices else grouped(text))
+        return MergeCell(labels_of_word(parameter, value.value), f"0x{value.value:X}", text)
+    return MergeCell(text if parameter.secret or parameter.choices else grouped(text))

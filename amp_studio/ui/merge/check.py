@@ -6,7 +6,7 @@ import threading
 
 from PySide6.QtCore import QObject, QTimer, Signal
 
-from amp_studio.files import Choice, Merge, Row
+from amp_studio.files import Merge, MergeChoice, Row
 from amp_studio.ui.base.task import Task, TaskProgress
 from amp_studio.ui.base.workspace import Workspace
 from amp_studio.validate import Finding, ResultCheck, Validator
@@ -89,6 +89,6 @@ class MergeCheck(QObject):
         """Return the errors and warnings that the file would get; none while they are not known."""
         return [f for f in self._found.new if f.severity != "advice"] if self._found else []
 
-    def of_choice(self, row: Row, choice: Choice) -> list[Finding] | None:
+    def of_choice(self, row: Row, choice: MergeChoice) -> list[Finding] | None:
         """Return the findings about a row if that were chosen; None while they are not known."""
         return self._found.with_choice(row, choice) if self._found else None

@@ -4,17 +4,7 @@ edits the result.
 
 from __future__ import annotations
 
-from PySide6.QtCore import (
-    QAbstractItemModel,
-    QEvent,
-    QModelIndex,
-    QObject,
-    QPersistentModelIndex,
-    QRect,
-    QSize,
-    Qt,
-    Signal,
-)
+from PySide6.QtCore import QAbstractItemModel, QEvent, QObject, QRect, QSize, Qt, Signal
 from PySide6.QtGui import QFont, QFontMetrics, QKeyEvent, QPainter
 from PySide6.QtWidgets import (
     QAbstractItemDelegate,
@@ -29,11 +19,11 @@ from PySide6.QtWidgets import (
 )
 
 from amp_studio.files import Row, RowGroup, Typed
+from amp_studio.ui.base.model_index import ModelIndex
 from amp_studio.ui.base.theme import ROW, SMALL_ICON, Token, colour, font, paint_icon
 
 from .model import AXIS, BASE, NAME, RESULT, SIDES, A, B, MergeModel
 
-Index = QModelIndex | QPersistentModelIndex
 _LEFT = 10
 _MARK = 24
 """Room for the circle of a side."""
@@ -55,12 +45,12 @@ class MergeDelegate(QStyledItemDelegate):
         self._head = QFont(self._small)
         self._head.setWeight(QFont.Weight.DemiBold)
 
-    def sizeHint(self, option: QStyleOptionViewItem, index: Index) -> QSize:
+    def sizeHint(self, option: QStyleOptionViewItem, index: ModelIndex) -> QSize:
         return QSize(40, ROW)
 
     # -- painting --------------------------------------------------------------------
 
-    def paint(self, painter: QPainter, option: QStyleOptionViewItem, index: Index) -> None:
+    def paint(self, painter: QPainter, option: QStyleOptionViewItem, index: ModelIndex) -> None:
         painter.save()
         place = QRect(option.rect)
         row, group = self._model.row_at(index), self._model.group_at(index)
@@ -197,7 +187,7 @@ class MergeDelegate(QStyledItemDelegate):
 
     # -- editing the result ------------------------------------------------------------
 
-    def createEditor(self, parent: QWidget, option: QStyleOptionViewItem, index: Index) -> QWidget:
+    def createEditor(self, parent: QWidget, option: QStyleOptionViewItem, index: ModelIndex) -> QWidget:
         row = self._model.row_at(index)
         field = QLineEdit(parent)
         field.setAccessibleName(self.tr("Result"))
@@ -213,12 +203,12 @@ class MergeDelegate(QStyledItemDelegate):
                 field.setCompleter(completer)
         return field
 
-    def setEditorData(self, editor: QWidget, index: Index) -> None:
+    def setEditorData(self, editor: QWidget, index: ModelIndex) -> None:
         if isinstance(editor, QLineEdit):
             editor.setText(str(index.data(Qt.ItemDataRole.EditRole) or ""))
             editor.selectAll()
 
-    def setModelData(self, editor: QWidget, model: QAbstractItemModel, index: Index) -> None:
+    def setModelData(self, editor: QWidget, model: QAbstractItemModel, index: ModelIndex) -> None:
         row = self._model.row_at(index)
         if isinstance(editor, QLineEdit) and row is not None and editor.isModified():
             try:

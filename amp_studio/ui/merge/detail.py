@@ -22,7 +22,7 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
-from amp_studio.files import Choice, Row, Side, Typed
+from amp_studio.files import MergeChoice, Row, Side, Typed
 from amp_studio.ui.base.figures import sentence
 from amp_studio.ui.base.theme import Token, colour, font, icon, scheme
 from amp_studio.ui.motion.tuning_target import effect_words
@@ -30,7 +30,7 @@ from amp_studio.validate import SEVERITIES, Finding
 
 from .model import BASE, RESULT, A, B, MergeModel
 
-Judge = Callable[[Row, Choice], Iterable[Finding] | None]
+Judge = Callable[[Row, MergeChoice], Iterable[Finding] | None]
 """Returns the findings about a row if that were chosen; None while it is not known."""
 _COLUMNS: dict[Side, int] = {"base": BASE, "a": A, "b": B}
 

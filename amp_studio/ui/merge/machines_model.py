@@ -5,19 +5,12 @@ from __future__ import annotations
 from collections.abc import Sequence
 from pathlib import Path
 
-from PySide6.QtCore import (
-    QAbstractTableModel,
-    QModelIndex,
-    QObject,
-    QPersistentModelIndex,
-    QSortFilterProxyModel,
-    Qt,
-)
+from PySide6.QtCore import QAbstractTableModel, QModelIndex, QObject, QSortFilterProxyModel, Qt
 
 from amp_studio.report import MachineLine
+from amp_studio.ui.base.model_index import ModelIndex
 from amp_studio.ui.base.theme import colour, font
 
-Index = QModelIndex | QPersistentModelIndex
 _ROOT = QModelIndex()
 _Role = Qt.ItemDataRole
 
@@ -37,11 +30,11 @@ class MachinesModel(QAbstractTableModel):
         self.lines, self._names, self._paths = lines, names, paths
         self.endResetModel()
 
-    def rowCount(self, parent: Index = _ROOT) -> int:
+    def rowCount(self, parent: ModelIndex = _ROOT) -> int:
         """Return how many values there are."""
         return 0 if parent.isValid() else len(self.lines)
 
-    def columnCount(self, parent: Index = _ROOT) -> int:
+    def columnCount(self, parent: ModelIndex = _ROOT) -> int:
         """Return how many machines there are."""
         return 0 if parent.isValid() else len(self._names)
 
@@ -58,7 +51,7 @@ class MachinesModel(QAbstractTableModel):
             return int(Qt.AlignmentFlag.AlignLeft | Qt.AlignmentFlag.AlignVCenter)
         return None
 
-    def data(self, index: Index, role: int = _Role.DisplayRole) -> object:
+    def data(self, index: ModelIndex, role: int = _Role.DisplayRole) -> object:
         """Return a value; what most machines have is dim, what departs from it is loud."""
         line, column = self.lines[index.row()], index.column()
         if role in (_Role.DisplayRole, _Role.ToolTipRole):
@@ -91,7 +84,7 @@ class MachinesFilter(QSortFilterProxyModel):
         self._words = text.casefold().split()
         self.invalidate()
 
-    def filterAcceptsRow(self, source_row: int, source_parent: Index) -> bool:
+    def filterAcceptsRow(self, source_row: int, source_parent: ModelIndex) -> bool:
         """Return whether a row has each word."""
         model = self.sourceModel()
         assert isinstance(model, MachinesModel)

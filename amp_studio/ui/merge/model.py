@@ -8,15 +8,15 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 from typing import Any
 
-from PySide6.QtCore import QAbstractItemModel, QModelIndex, QPersistentModelIndex, Qt, Signal
+from PySide6.QtCore import QAbstractItemModel, QModelIndex, Qt, Signal
 
 from amp_studio.files import (
     ENTRIES,
     FACTS,
     HEADER_TEXTS,
     NOTES,
-    Choice,
     Merge,
+    MergeChoice,
     Row,
     RowGroup,
     RowId,
@@ -25,11 +25,11 @@ from amp_studio.files import (
     axis_letters,
 )
 from amp_studio.schema import Value, fault, read_address, read_real, read_value, same_value, visible, whole_of
+from amp_studio.ui.base.model_index import ModelIndex
 from amp_studio.ui.table.cell_look import THIN
 
-from .cells import Cell, cells_of
+from .cells import MergeCell, cells_of
 
-Index = QModelIndex | QPersistentModelIndex
 NAME, AXIS, BASE, A, B, RESULT = range(6)
 """Columns."""
 SIDES: dict[int, Side] = {BASE: "base", A: "a", B: "b"}
@@ -64,7 +64,7 @@ class MergeModel(QAbstractItemModel):
         self.groups: list[RowGroup] = []
         self._letters: dict[str, str] = {}
         self._words: dict[RowId, str] = {}
-        self._cells: dict[RowId, dict[int, Cell]] = {}
+        self._cells: dict[RowId, dict[int, MergeCell]] = {}
         self._result = merge.result()
         self.set_merge(merge)
 
@@ -167,7 +167,7 @@ class MergeModel(QAbstractItemModel):
             return self._letters.get(whole, whole) + address[1][len(whole) :]
         return address[1]
 
-    def cell(self, row: Row, column: int) -> Cell:
+    def cell(self, row: Row, column: int) -> MergeCell:
         """Return the value of a source, or of the result, as it is shown."""
         cells = self._cells.get(row.id)
         if cells is None:
@@ -229,7 +229,7 @@ class MergeModel(QAbstractItemModel):
 
     # -- choosing --------------------------------------------------------------------
 
-    def choose(self, rows: Iterable[Row], choice: Choice | None) -> None:
+    def choose(self, rows: Iterable[Row], choice: MergeChoice | None) -> None:
         """Take a side, a typed value or the default again for rows;
         those that are the same have nothing to choose.
         """
@@ -269,11 +269,11 @@ class MergeModel(QAbstractItemModel):
 
     # -- Qt --------------------------------------------------------------------------
 
-    def group_at(self, index: Index) -> RowGroup | None:
+    def group_at(self, index: ModelIndex) -> RowGroup | None:
         """Return the group of a head; None for a row."""
         return self.groups[index.row()] if index.isValid() and index.internalId() == 0 else None
 
-    def row_at(self, index: Index) -> Row | None:
+    def row_at(self, index: ModelIndex) -> Row | None:
         """Return the row of an index; None for the head of a group."""
         if not index.isValid() or index.internalId() == 0:
             return None
@@ -287,25 +287,25 @@ class MergeModel(QAbstractItemModel):
                     return self.index(m, column, self.index(n, NAME))
         return QModelIndex()
 
-    def index(self, row: int, column: int, parent: Index = QModelIndex()) -> QModelIndex:  # noqa: B008  # Qt's own signature
+    def index(self, row: int, column: int, parent: ModelIndex = QModelIndex()) -> QModelIndex:  # noqa: B008  # Qt's own signature
         if not self.hasIndex(row, column, parent):
             return QModelIndex()
         return self.createIndex(row, column, parent.row() + 1 if parent.isValid() else 0)
 
-    def parent(self, index: Index = QModelIndex()) -> QModelIndex:  # type: ignore[override]  # noqa: B008  # Qt's own signature
+    def parent(self, index: ModelIndex = QModelIndex()) -> QModelIndex:  # type: ignore[override]  # noqa: B008  # Qt's own signature
         if not index.isValid() or index.internalId() == 0:
             return QModelIndex()
         return self.createIndex(int(index.internalId()) - 1, NAME, 0)
 
-    def rowCount(self, parent: Index = QModelIndex()) -> int:  # noqa: B008  # Qt's own signature
+    def rowCount(self, parent: ModelIndex = QModelIndex()) -> int:  # noqa: B008  # Qt's own signature
         if not parent.isValid():
             return len(self.groups)
         return len(self.groups[parent.row()].rows) if parent.internalId() == 0 and parent.column() == 0 else 0
 
-    def columnCount(self, parent: Index = QModelIndex()) -> int:  # noqa: B008  # Qt's own signature
+    def columnCount(self, parent: ModelIndex = QModelIndex()) -> int:  # noqa: B008  # Qt's own signature
         return RESULT + 1
 
-    def flags(self, index: Index) -> Qt.ItemFlag:
+    def flags(self, index: ModelIndex) -> Qt.ItemFlag:
         flags = super().flags(index)
         row = self.row_at(index)
         if row is not None and index.column() == RESULT and self.may_type(row):
@@ -320,7 +320,7 @@ class MergeModel(QAbstractItemModel):
         names = (self.tr("Parameter"), self.tr("Axis"), "0", "A", "B", self.tr("Result"))
         return names[section]
 
-    def data(self, index: Index, role: int = Qt.ItemDataRole.DisplayRole) -> Any:
+    def data(self, index: ModelIndex, role: int = Qt.ItemDataRole.DisplayRole) -> Any:
         group, row, column = self.group_at(index), self.row_at(index), index.column()
         if group is not None:
             is_text = role in (Qt.ItemDataRole.DisplayRole, Qt.ItemDataRole.AccessibleTextRole)

@@ -10,7 +10,7 @@ from PySide6.QtCore import Qt, QTimer, Signal
 from PySide6.QtGui import QKeySequence, QShortcut
 from PySide6.QtWidgets import QDialog, QListWidgetItem, QTreeView, QVBoxLayout, QWidget
 
-from amp_studio.files import Choice, Merge, ParameterFile, Row, Side
+from amp_studio.files import Merge, MergeChoice, ParameterFile, Row, Side
 from amp_studio.schema import Address, same_value
 from amp_studio.ui.base.task import PATIENCE_MS, Task
 from amp_studio.ui.base.workspace import Workspace
@@ -134,7 +134,7 @@ class MergeWindow(QDialog):
         QShortcut(QKeySequence(QKeySequence.StandardKey.Find), self, view.search.setFocus)
         QShortcut(QKeySequence("Ctrl+M"), self, view.next_units)
 
-    def _choose(self, row: Row, choice: Choice) -> None:
+    def _choose(self, row: Row, choice: MergeChoice) -> None:
         self.model.choose([row], choice)
 
     def _edited(self, *_: object) -> None:

@@ -177,7 +177,7 @@ class ControlTarget(TuningTarget):
     def _apply(self, text: str, wanted: dict[Address, Value | None]) -> None:
         if not self.live.is_live:
             trial = self._copy()
-            trial.set_many(wanted)  # raises RangeError
+            trial.set_checked(wanted)  # raises RangeError
             self._waiting |= wanted
             present = self.live.file
             assert present is not None

@@ -26,7 +26,7 @@ from amp_studio.ui.table.detail_panel import DetailPanel
 from amp_studio.ui.table.filter_bar import FilterBar
 from amp_studio.ui.table.parameter_table import ParameterTable
 from amp_studio.ui.table.value_table import ValueTable
-from amp_studio.validate import Finding, not_set
+from amp_studio.validate import Finding, addresses_not_set
 
 from .left_panel import LeftPanel
 
@@ -141,7 +141,7 @@ class FilePage(QWidget):
     def show_not_set(self) -> None:
         """Show the active parameters that are not set."""
         self.front_wanted.emit(self)
-        ids = dict.fromkeys(address[0] for address in not_set(self.workspace.findings))
+        ids = dict.fromkeys(address[0] for address in addresses_not_set(self.workspace.findings))
         self._show_parameters(self.tr("Not set"), [self.workspace.file.schema.parameters[i] for i in ids])
 
     def show_found(self, words: str, ids: Iterable[str]) -> None:
@@ -172,10 +172,10 @@ class FilePage(QWidget):
         self.list_title.show_title(self._title, f"{what}{more}")
         self.filters.fit()
 
-    def show_columns(self, all_axes: bool, hidden_too: bool) -> None:
+    def show_columns(self, shows_every_axis: bool, hidden_too: bool) -> None:
         """Show unfitted axes and hidden parameters, or leave them out."""
-        if (self.table.all_axes, self.table.hidden_too) != (all_axes, hidden_too):
-            self.table.all_axes, self.table.hidden_too = all_axes, hidden_too
+        if (self.table.shows_every_axis, self.table.hidden_too) != (shows_every_axis, hidden_too):
+            self.table.shows_every_axis, self.table.hidden_too = shows_every_axis, hidden_too
             self.table.show_again()
             self.changed.emit(self)
 
@@ -257,7 +257,7 @@ class FilePage(QWidget):
         if not self.table.index_of(address).isValid():
             self.left.show_place_of(address[0])
         if not self.table.values.exists(address):
-            self.show_columns(self.table.all_axes, hidden_too=True)
+            self.show_columns(self.table.shows_every_axis, hidden_too=True)
         if not self.table.index_of(address).isValid():
             self.show_columns(True, self.table.hidden_too)
         index = self.table.index_of(address)

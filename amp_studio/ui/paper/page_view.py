@@ -20,7 +20,7 @@ from PySide6.QtGui import (
 )
 from PySide6.QtWidgets import QAbstractScrollArea
 
-from amp_studio.report import Place
+from amp_studio.report import PrintedPlace
 from amp_studio.schema import Address
 from amp_studio.ui.base.theme import GAP, GAP3, colour, font
 
@@ -67,7 +67,7 @@ class PageView(QAbstractScrollArea):
         self.setFrameShape(self.Shape.NoFrame)
         self.viewport().setMouseTracking(True)
         self.pages: Sequence[bytes] = ()
-        self.places: Mapping[Address, Place] = {}
+        self.places: Mapping[Address, PrintedPlace] = {}
         self.zoom: float | None = None
         """Pixels to the point; None fits each page into the width."""
         self.empty = ""
@@ -95,7 +95,7 @@ class PageView(QAbstractScrollArea):
         self._arrange(spot)
         self._emit_page()
 
-    def show_places(self, places: Mapping[Address, Place]) -> None:
+    def show_places(self, places: Mapping[Address, PrintedPlace]) -> None:
         """Learn where the values of these pages are."""
         self.places = places
         self.viewport().update()
@@ -201,7 +201,7 @@ class PageView(QAbstractScrollArea):
         rects = ((n, self._rect(n)) for n in range(len(self._tops)))
         return [n for n, rect in rects if rect.bottom() >= 0 and rect.top() <= height]
 
-    def _band(self, place: Place) -> QRectF:
+    def _band(self, place: PrintedPlace) -> QRectF:
         """Return the line of a value, from the top of the first page."""
         page = place.page - 1
         scale = self._scale(page)
@@ -256,7 +256,7 @@ class PageView(QAbstractScrollArea):
         if missing:
             self._preparing.start(0)
 
-    def _paint_mark(self, painter: QPainter, place: Place) -> None:
+    def _paint_mark(self, painter: QPainter, place: PrintedPlace) -> None:
         """Tint the line of a value, with a bar at its own figure."""
         band = self._band(place).translated(
             -self.horizontalScrollBar().value(), -self.verticalScrollBar().value()

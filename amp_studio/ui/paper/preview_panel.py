@@ -28,7 +28,7 @@ from .preview_head import PreviewHead
 from .template_watch import TemplateWatch
 
 if TYPE_CHECKING:
-    from amp_studio.report import Place, PrintedFigure, SetReport
+    from amp_studio.report import PrintedFigure, PrintedPlace, SetReport
     from amp_studio.ui.base.workspace import Workspace
 
 WAIT_MS = 500
@@ -45,7 +45,7 @@ class _PreviewState:
 
     pages: tuple[bytes, ...] = ()
     ppi: int = PPI
-    places: dict[Address, Place] = field(default_factory=dict)
+    places: dict[Address, PrintedPlace] = field(default_factory=dict)
     motion: tuple[PrintedFigure, ...] = ()
     """The drawings of the simulator, which come later than the pages:
     those of the time before are shown until then."""

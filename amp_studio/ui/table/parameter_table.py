@@ -12,17 +12,17 @@ from dataclasses import dataclass
 from itertools import groupby
 from typing import Any
 
-from PySide6.QtCore import QAbstractTableModel, QModelIndex, QPersistentModelIndex, Qt, Signal
+from PySide6.QtCore import QAbstractTableModel, QModelIndex, Qt, Signal
 
 from amp_studio.files import axis_head, shown_axes
 from amp_studio.schema import Address, Parameter, whole_of
+from amp_studio.ui.base.model_index import ModelIndex
 from amp_studio.ui.base.translated import worded
 from amp_studio.ui.base.workspace import Workspace
 
 from .cell_look import CellLook, ShownValues, say_unit_once
 from .fact_columns import FACT_COLUMNS, FactColumn, reading_command
 
-Index = QModelIndex | QPersistentModelIndex
 AddressRole = Qt.ItemDataRole.UserRole + 1
 CONTROL = ""
 """The column of values that belong to no axis; every other column is an axis."""
@@ -69,7 +69,7 @@ class ParameterTable(QAbstractTableModel):
         self.workspace = workspace
         self.rows: list[TableRow] = []
         self.columns: list[str] = []
-        self.all_axes = False
+        self.shows_every_axis = False
         self.hidden_rows = 0
         self.asked: list[Parameter] = []
         self.outlined: frozenset[Address] = frozenset()
@@ -175,7 +175,7 @@ class ParameterTable(QAbstractTableModel):
         if self._needed is None:
             self._needed = dict.fromkeys(c for p in self.asked for row in self._layout(p) for c in row.cells)
         columns = list(self._needed)
-        if not self.all_axes and file.schema.family.fits_axes:
+        if not self.shows_every_axis and file.schema.family.fits_axes:
             listed = set(shown_axes(file))
             columns = [c for c in columns if c == CONTROL or c in listed]
         return sorted(columns, key=lambda column: column != CONTROL)
@@ -318,10 +318,10 @@ class ParameterTable(QAbstractTableModel):
 
     # -- Qt --------------------------------------------------------------------
 
-    def rowCount(self, parent: Index = QModelIndex()) -> int:  # noqa: B008  # Qt's own signature
+    def rowCount(self, parent: ModelIndex = QModelIndex()) -> int:  # noqa: B008  # Qt's own signature
         return 0 if parent.isValid() else len(self.rows)
 
-    def columnCount(self, parent: Index = QModelIndex()) -> int:  # noqa: B008  # Qt's own signature
+    def columnCount(self, parent: ModelIndex = QModelIndex()) -> int:  # noqa: B008  # Qt's own signature
         return 0 if parent.isValid() else len(self.columns) + len(self.fact_columns)
 
     def headerData(
@@ -399,7 +399,7 @@ class ParameterTable(QAbstractTableModel):
             return _NO_NUMBER
         return here.number(address) or _NO_NUMBER
 
-    def data(self, index: Index, role: int = Qt.ItemDataRole.DisplayRole) -> Any:
+    def data(self, index: ModelIndex, role: int = Qt.ItemDataRole.DisplayRole) -> Any:
         if not index.isValid():
             return None
         if index.column() >= len(self.columns):
@@ -422,7 +422,7 @@ class ParameterTable(QAbstractTableModel):
             return self.values.tip(address)
         return None
 
-    def flags(self, index: Index) -> Qt.ItemFlag:
+    def flags(self, index: ModelIndex) -> Qt.ItemFlag:
         address = self.address_at(index.row(), index.column()) if index.isValid() else None
         if address is None or not self.values.exists(address):
             return Qt.ItemFlag.NoItemFlags  # keys pass over it

@@ -6,18 +6,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
-from PySide6.QtCore import (
-    QAbstractItemModel,
-    QEvent,
-    QModelIndex,
-    QObject,
-    QPersistentModelIndex,
-    QPoint,
-    QRect,
-    Qt,
-    QTimer,
-    Signal,
-)
+from PySide6.QtCore import QAbstractItemModel, QEvent, QObject, QPoint, QRect, Qt, QTimer, Signal
 from PySide6.QtGui import QKeyEvent, QPainter
 from PySide6.QtWidgets import (
     QAbstractItemView,
@@ -31,6 +20,7 @@ from PySide6.QtWidgets import (
 
 from amp_studio.schema import Address, InvalidValueError, Limits, Value, fault, limits, unit_text, write_value
 from amp_studio.ui.base.figures import sentence, show_value
+from amp_studio.ui.base.model_index import ModelIndex
 from amp_studio.ui.base.workspace import Workspace
 from amp_studio.ui.forms.choice_box import ChoiceBox
 from amp_studio.ui.forms.mask_list import MaskList
@@ -39,7 +29,6 @@ from .cell_editor import CellEditor, Preview, Refusal
 from .cell_painter import CellPainter
 from .parameter_table import AddressRole, ParameterTable
 
-Index = QModelIndex | QPersistentModelIndex
 _NARROWEST_EDITOR = 130
 
 
@@ -80,7 +69,7 @@ class ValueDelegate(QStyledItemDelegate):
 
     # -- painting ----------------------------------------------------------------
 
-    def paint(self, painter: QPainter, option: QStyleOptionViewItem, index: Index) -> None:
+    def paint(self, painter: QPainter, option: QStyleOptionViewItem, index: ModelIndex) -> None:
         row, column, place = index.row(), index.column(), option.rect
         look = self._table.look(row, column)
         if look is not None:
@@ -100,7 +89,7 @@ class ValueDelegate(QStyledItemDelegate):
             self.painter.paint_background(painter, place, "panel")
         self.painter.grid(painter, place, is_section=bool(self._table.rows[row].section))
 
-    def cell_place(self, place: QRect, index: Index) -> QRect:
+    def cell_place(self, place: QRect, index: ModelIndex) -> QRect:
         """Return where the value of a cell is; a number of the whole control has not the whole width of its
         cell.
         """
@@ -115,7 +104,7 @@ class ValueDelegate(QStyledItemDelegate):
 
     # -- editors -----------------------------------------------------------------
 
-    def createEditor(self, parent: QWidget, option: QStyleOptionViewItem, index: Index) -> QWidget:
+    def createEditor(self, parent: QWidget, option: QStyleOptionViewItem, index: ModelIndex) -> QWidget:
         address: Address = index.data(AddressRole)
         parameter = self._workspace.file.schema.parameters[address[0]]
         if parameter.choices:
@@ -203,7 +192,7 @@ class ValueDelegate(QStyledItemDelegate):
         if isinstance(view, QAbstractItemView) and view.indexWidget(view.currentIndex()) is box:
             self.closeEditor.emit(box)
 
-    def setEditorData(self, editor: QWidget, index: Index) -> None:
+    def setEditorData(self, editor: QWidget, index: ModelIndex) -> None:
         if not isinstance(editor, CellEditor) or editor.property("filled"):
             return  # an outside change does not touch what is typed
         editor.setProperty("filled", True)
@@ -233,14 +222,14 @@ class ValueDelegate(QStyledItemDelegate):
         editor.attach(mask, word_of, lambda word: write_value(parameter, Value(word)))
         QTimer.singleShot(0, editor, lambda: mask.place_below(_place_in(editor, view)))
 
-    def updateEditorGeometry(self, editor: QWidget, option: QStyleOptionViewItem, index: Index) -> None:
+    def updateEditorGeometry(self, editor: QWidget, option: QStyleOptionViewItem, index: ModelIndex) -> None:
         """Make a list as wide as its longest choice, and a field as wide as its text."""
         rectangle = self.cell_place(option.rect, index)
         wanted = editor.sizeHint().width() if isinstance(editor, ChoiceBox) else _NARROWEST_EDITOR
         rectangle.setWidth(max(rectangle.width(), wanted))
         editor.setGeometry(rectangle)
 
-    def setModelData(self, editor: QWidget, model: QAbstractItemModel, index: Index) -> None:
+    def setModelData(self, editor: QWidget, model: QAbstractItemModel, index: ModelIndex) -> None:
         address: Address | None = index.data(AddressRole)
         self.refusal = None
         if address is None:

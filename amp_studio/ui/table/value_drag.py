@@ -41,7 +41,7 @@ class ValueDrag(QObject):
         """Take values; returns whether anything changed. What is out of range is refused, with the reason."""
         self.refused = ""
         try:
-            changes = self.workspace.file.set_many({a: v for a, v in wanted.items() if a in self.before})
+            changes = self.workspace.file.set_checked({a: v for a, v in wanted.items() if a in self.before})
         except RangeError as error:
             self.refused = str(error)
             return False

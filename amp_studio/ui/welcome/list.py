@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 
-from PySide6.QtCore import QModelIndex, QPersistentModelIndex, QRect, QSize, Qt, Signal
+from PySide6.QtCore import QRect, QSize, Qt, Signal
 from PySide6.QtGui import QKeyEvent, QMouseEvent, QPainter
 from PySide6.QtWidgets import (
     QFrame,
@@ -17,6 +17,7 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
+from amp_studio.ui.base.model_index import ModelIndex
 from amp_studio.ui.base.theme import (
     GAP2,
     GAP3,
@@ -118,17 +119,14 @@ class WelcomeList(QListWidget):
         (self.star_clicked if is_star else self.itemActivated).emit(item)
 
 
-_Index = QModelIndex | QPersistentModelIndex
-
-
 class RowDelegate(QStyledItemDelegate):
     """Paints a ``WelcomeRow``."""
 
-    def sizeHint(self, option: QStyleOptionViewItem, index: _Index) -> QSize:
+    def sizeHint(self, option: QStyleOptionViewItem, index: ModelIndex) -> QSize:
         row: WelcomeRow = index.data(ROW)
         return QSize(120, TWO_LINE_ROW if row.second else _ONE_LINE)
 
-    def paint(self, painter: QPainter, option: QStyleOptionViewItem, index: _Index) -> None:
+    def paint(self, painter: QPainter, option: QStyleOptionViewItem, index: ModelIndex) -> None:
         row: WelcomeRow = index.data(ROW)
         place = QRect(option.rect)
         painter.save()

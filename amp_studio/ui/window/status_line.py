@@ -13,7 +13,7 @@ from amp_studio.ui.base.theme import GAP2, GAP3, SMALL_ICON, STATUS, font, icon,
 from amp_studio.ui.base.translated import worded
 from amp_studio.ui.base.workspace import Workspace
 from amp_studio.ui.forms.elided_label import ElidedLabel
-from amp_studio.validate import SEVERITIES, not_set
+from amp_studio.validate import SEVERITIES, addresses_not_set
 
 
 class StatusLine(QObject):
@@ -74,8 +74,10 @@ class StatusLine(QObject):
         for severity, button in self.counts.items():
             number = workspace.count(severity)
             self._show(button, number, worded(severity_name(severity)))
-        self._show(self.not_set, len(not_set(workspace.findings)), self.tr("not set"))
-        self.not_set.setText(self.tr("{number} not set").format(number=len(not_set(workspace.findings))))
+        self._show(self.not_set, len(addresses_not_set(workspace.findings)), self.tr("not set"))
+        self.not_set.setText(
+            self.tr("{number} not set").format(number=len(addresses_not_set(workspace.findings)))
+        )
         file = workspace.file
         count = workspace.changes()
         self.changes.setText(self.tr("%n unsaved changes", "", count) if count else "")

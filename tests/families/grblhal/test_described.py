@@ -171,11 +171,11 @@ def test_what_a_setting_brings_along_is_hidden_until_it_does() -> None:
 def test_an_axis_that_turns_is_in_degrees() -> None:
     file = file_by(build("XYZA"))
     file.set(("axis.steps", "A"), Value(10.0, "steps/mm"))
-    file.set_many({("stepper.rotary_axes", ""): Value(1)})
+    file.set_checked({("stepper.rotary_axes", ""): Value(1)})
     assert file.evaluation.unit(("axis.max_rate", "A"), "metric") == "deg/min"
     assert file.get(("axis.steps", "A")) == Value(10.0, "steps/deg")
     assert file.evaluation.unit(("axis.max_rate", "X"), "metric") == "mm/min"
-    file.set_many({("stepper.rotary_axes", ""): Value(0)})
+    file.set_checked({("stepper.rotary_axes", ""): Value(0)})
     assert file.get(("axis.steps", "A")) == Value(10.0, "steps/mm")
 
 

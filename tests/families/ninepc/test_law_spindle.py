@@ -33,7 +33,7 @@ def mill() -> ParameterFile:
             ("tapping.acceleration_time", gear): Value(0.5, "s"),
             ("tapping.max_speed", gear): Value(500.0, "rpm"),
         }
-    file.set_many(values, force="test")
+    file.set_checked(values, force="test")
     return file
 
 

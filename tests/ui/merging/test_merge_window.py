@@ -170,7 +170,7 @@ def test_swapped_sources_without_a_base_take_nothing_that_was_not_chosen(
 
 def test_the_result_shows_the_figure_in_degrees_of_an_axis_that_begins_to_turn(shown: MergeWindow) -> None:
     other = shown.merge.a.copy()
-    other.set_many({("axis.type", "1"): Value("rotary")})
+    other.set_checked({("axis.type", "1"): Value("rotary")})
     shown.use(B, MergeSource("other.amp", "", other))
     row = next(row for row in shown.merge.differing if row.address == EXCESS)
     show(shown, ("axis.type", "1"))

@@ -13,7 +13,7 @@ from amp_studio.cli.output import check_new
 from amp_studio.cli.verb import Options, Verb, VerbArgument
 
 if TYPE_CHECKING:
-    from amp_studio.files import Choice, Merge, ParameterFile, Row, Side
+    from amp_studio.files import Merge, MergeChoice, ParameterFile, Row, Side
     from amp_studio.validate import Finding
 
 VERB = Verb(
@@ -191,7 +191,7 @@ def _print(merge: Merge, options: Options) -> None:
     print(f"{where}: {counted(len(merge.open_conflicts), 'conflict')}")
 
 
-def _taken(choice: Choice | None) -> str:
+def _taken(choice: MergeChoice | None) -> str:
     """Return what a person calls a choice; where nothing was chosen ours is kept."""
     from amp_studio.files import Typed
 

@@ -195,7 +195,7 @@ def _change(options: Options, file: ParameterFile) -> None:
     validator = Validator(file)
     come = progress(validator, validator.run())
     wanted = {a: value for a in come.of(step).open if (value := file.default(a)) is not None}
-    file.set_many(wanted)
+    file.set_checked(wanted)
     note(f"{step.title}: {counted(len(wanted), 'value')} set to the default")
 
 

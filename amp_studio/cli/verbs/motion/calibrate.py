@@ -114,7 +114,7 @@ def run(options: Options) -> int:
         axis = resolve_axis(file.evaluation, _instances(file, offered), options.axis)
         try:
             found = _wanted(options, file, offered, axis, by_hand)
-            changes = file.set_many(found.settings)
+            changes = file.set_checked(found.settings)
         except (CalibrationError, RangeError, InvalidValueError) as error:
             raise UsageError(f"{error}; nothing was changed") from None
         if writes:

@@ -271,7 +271,7 @@ class CardMotion:
                 text = self._settings.values.get(setting.name, "")
                 card.figures[setting.name] = tuple(map(plain_figure, text.split(", "))) if text else ()
             self._file = new_file(FAMILY)  # what is not on the card is as AcroMill is delivered
-            self._file.set_many(AcrContent().decode(card.written()).values, force="the card takes it")
+            self._file.set_checked(AcrContent().decode(card.written()).values, force="the card takes it")
         return self._file
 
 

@@ -185,13 +185,13 @@ class AcrContent(TakesAllOrRefuses):
     def difference(self, content: bytes, found: bytes) -> str:
         """Return the settings that differ by what a card shows, in a few words."""
         try:
-            different = changed(content, found)
+            different = differing_settings(content, found)
         except ImageError:
             return "so much that it cannot be read"
         return f"in {names_of(different)}" if different else ""
 
 
-def changed(a: bytes, b: bytes) -> list[str]:
+def differing_settings(a: bytes, b: bytes) -> list[str]:
     """Return the settings that differ between two contents, in the order in which they are sent;
     raises ImageError.
     """

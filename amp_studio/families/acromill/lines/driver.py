@@ -37,7 +37,7 @@ from .content import (
     LONGEST,
     AcrContent,
     CardContent,
-    changed,
+    differing_settings,
     names_of,
     plain_figure,
     positions_of,
@@ -372,7 +372,7 @@ class _Sending:
         self.lines = self.content.lines()
         self.numbers = {name: number for number, name in enumerate(self.lines, 3)}
         self.wanted = self.content.names()
-        self.names = changed(replacement.content, replacement.current)
+        self.names = differing_settings(replacement.content, replacement.current)
         self.sent = sent
         sent.total = len(self.names)
 

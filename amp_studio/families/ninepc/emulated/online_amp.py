@@ -76,7 +76,7 @@ class OnlineAmp:
             raise ValueError(f"{number} is on no screen of the axis parameters (page 36-2)")
         value = self._value(file, address, words)
         try:
-            file.set_many(with_followers(file, {address: value}))
+            file.set_checked(with_followers(file, {address: value}))
         except RangeError:
             raise ValueError(OUT_OF_RANGE) from None
         self._store(control, file, in_estop=address[0] in IN_ESTOP)
