@@ -135,7 +135,7 @@ def is_writable(file: ParameterFile, address: Address) -> bool:
 
 
 @dataclass(frozen=True)
-class _RegisterText:
+class _RegisterContent:
     """The content of one register."""
 
     word: int
@@ -151,7 +151,7 @@ class RegisterValues:
         self.registers, self.keep_unknown = registers, keep_unknown
         self.values: dict[Address, Value] = {}
         self.leftover: dict[Written, None] = {}
-        self._cells: dict[int, _RegisterText] = {}
+        self._cells: dict[int, _RegisterContent] = {}
         self._done: set[int] = set()
 
     def take(self, source: Written) -> None:
@@ -166,7 +166,7 @@ class RegisterValues:
                 f"{source.number} does not fit the {bits} bits of {what}", source.line, source.value_column
             )
         for register, word in _split(source):
-            before = self._cells.setdefault(register, _RegisterText(word, source))
+            before = self._cells.setdefault(register, _RegisterContent(word, source))
             if before.source is not source:
                 message = f"register {register} is written twice, in line {before.source.line} already"
                 raise FormatError(message, source.line, source.column)
@@ -215,7 +215,7 @@ class RegisterValues:
         self.values[claims[0]] = self._value(claims[0], [self._cells[r] for r in mine])
         self._done.update(mine)
 
-    def _value(self, address: Address, cells: list[_RegisterText]) -> Value:
+    def _value(self, address: Address, cells: list[_RegisterContent]) -> Value:
         parameter, unit = self.registers.parameter(address), self.registers.unit(address)
         source = cells[0].source
         is_whole = source.words == len(cells) and all(cell.source is source for cell in cells)
@@ -234,7 +234,7 @@ class RegisterValues:
         self._done.add(register)
 
     @staticmethod
-    def _fault(cell: _RegisterText, text: str) -> FormatError:
+    def _fault(cell: _RegisterContent, text: str) -> FormatError:
         return FormatError(text, cell.source.line, cell.source.column)
 
 
