@@ -13,7 +13,9 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import pytest
+from _pytest.assertion import rewrite
 from hypothesis import HealthCheck, settings
+from hypothesis.internal.conjecture import providers
 
 from tests.campaigns import CAMPAIGN, examples
 
@@ -88,6 +90,10 @@ _NO_CLOCK: Any = {"deadline": None, "suppress_health_check": [HealthCheck.too_sl
 settings.register_profile("fixed", **_NO_CLOCK, derandomize=True, database=None)
 settings.register_profile("campaign", **_NO_CLOCK, print_blob=True, max_examples=examples(100))
 settings.load_profile("campaign" if CAMPAIGN else "fixed")
+if not CAMPAIGN:
+    # Hypothesis also tries the constants of the modules that are imported so far: with them the cases of a test
+    # depended on the tests before it, and every worker parsed the whole program (4 s each in a fresh clone).
+    vars(providers)["_get_local_constants"] = lambda: vars(providers)["_local_constants"]
 
 
 # Eight thousand tests, and the schemas they load, stay to the end: Python need not look through them again
@@ -98,6 +104,27 @@ gc.set_threshold(100_000)
 def pytest_collection_finish() -> None:
     """Leave what was collected out of the search for unreachable objects."""
     gc.freeze()
+
+
+def pytest_collection(session: pytest.Session) -> None:
+    """Divide the rewriting of the asserts (10 s of a processor in a fresh clone) among the workers:
+    each stores its share where the others find it, and then collects.
+    """
+    workers = int(os.environ.get("PYTEST_XDIST_WORKER_COUNT", "1"))
+    if workers == 1:
+        return
+    state = session.config.stash[rewrite.assertstate_key]
+    asked = [Path(argument.partition("::")[0]).resolve() for argument in session.config.args]
+    files = sorted(file for each in asked for file in (each.rglob("*.py") if each.is_dir() else [each]))
+    for file in files[int(os.environ["PYTEST_XDIST_WORKER"][2:]) :: workers]:
+        pyc = rewrite.get_cache_dir(file) / (file.stem + rewrite.PYC_TAIL)
+        if (
+            file.name.startswith(("test_", "conftest"))
+            and not pyc.exists()
+            and rewrite.try_makedirs(pyc.parent)
+        ):
+            hashed, code = rewrite._rewrite_test(file, session.config)
+            rewrite._write_pyc(state, code, hashed, pyc)
 
 
 @pytest.hookimpl(optionalhook=True)

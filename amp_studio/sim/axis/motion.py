@@ -98,7 +98,7 @@ def run_axis(
     timing[kernel.SHARE_RATE], timing[kernel.FORWARD] = share_rate, float(feed_forward)
     timing[kernel.COAST_TIME], timing[kernel.EMERGENCY] = coast, emergency
     expected = min(until.duration, end_of(profile) + until.rest_time) / timing[kernel.STEP]
-    filled, io, x = _run(axis, vectors, rows, engine, expected)
+    filled, io, x = run_prepared(axis, vectors, rows, engine, expected)
     if not np.isfinite(rows[:filled]).all():
         raise SimulationError(
             f"The figures of axis {axis.axis} are too large or too small to be computed with. Check its gains"
@@ -193,11 +193,11 @@ def steps(axis: AxisLaw, refine: int = 1) -> tuple[int, int]:
     return samples, max(1, math.ceil(wanted)) * refine
 
 
-def _run(
+def run_prepared(
     axis: AxisLaw, vectors: list[list[float]], rows: npt.NDArray[np.float64], engine: Engine, expected: float
 ) -> tuple[int, list[float], list[float]]:
     """Run the kernel for about ``expected`` steps; return the filled rows,
-    the signals and the state at the end.
+    the signals and the state at the end. Raises SimulationError where the numbers leave all bounds.
     """
     law = axis.position_sample, axis.velocity_sample
     machine_code = engine == "compiled" or (engine == "auto" and pays(*law, expected))

@@ -23,6 +23,8 @@ Sample = Callable[[Vector, Vector, Vector], None]
 """A sample function of a law: parameters, state, signals."""
 Run = Callable[..., int]
 """`kernel.run`."""
+FiguresOfRows = Callable[..., None]
+"""`batch.measure`."""
 
 PLAIN_STEPS = 100_000
 """Physics steps that plain Python computes in about the time of loading numba
@@ -43,13 +45,6 @@ def plain(position_sample: Sample, velocity_sample: Sample | None) -> Run:
     return cast(Run, _copy(kernel.run, _own(position_sample, velocity_sample)))
 
 
-def plain_batch(
-    batch: Callable[..., None], position_sample: Sample, velocity_sample: Sample | None
-) -> Callable[..., None]:
-    """Return a function that calls `kernel.run` as plain Python, with that of a law in its place."""
-    return cast("Callable[..., None]", _copy(batch, {"run": plain(position_sample, velocity_sample)}))
-
-
 @lru_cache(maxsize=64)
 def compiled(position_sample: Sample, velocity_sample: Sample | None) -> Run:
     """Return the kernel of a law as machine code; its vectors are contiguous numpy arrays.
@@ -60,57 +55,53 @@ def compiled(position_sample: Sample, velocity_sample: Sample | None) -> Run:
 
     vector = numba.float64[::1]
     signature = numba.int64(*[vector] * 11, numba.float64[:, ::1])
-    return _machine_code(kernel.run, position_sample, velocity_sample, signature)
+    made = _machine_code(kernel.run, _own(position_sample, velocity_sample), signature)
+    _loaded.add((position_sample, velocity_sample))
+    return cast(Run, made)
 
 
-@lru_cache(maxsize=64)
-def compiled_batch(
-    batch: Callable[..., None], position_sample: Sample, velocity_sample: Sample | None
-) -> Callable[..., None]:
-    """Return a function that calls `kernel.run` as machine code (`variations/batch.py`),
-    with that of a law in its place.
-    """
+@lru_cache(maxsize=4)
+def compiled_figures(measure: FiguresOfRows) -> FiguresOfRows:
+    """Return what makes figures of rows (`variations/batch.py`) as machine code, the same for every law."""
     import numba
 
-    vector, table = numba.float64[::1], numba.float64[:, ::1]
-    given = [*[table] * 5, *[vector] * 3, table, *[vector] * 5, table, table]
-    made = _machine_code(batch, position_sample, velocity_sample, numba.void(*given))
-    return cast("Callable[..., None]", made)
+    vector, rows = numba.float64[::1], numba.float64[:, ::1]
+    signature = numba.void(rows, numba.int64, numba.int64, vector, numba.float64, numba.float64, vector)
+    return cast(FiguresOfRows, _machine_code(measure, {}, signature))
 
 
-def _machine_code(
-    entry: Callable[..., Any], position_sample: Sample, velocity_sample: Sample | None, signature: Any
-) -> Run:
-    """Return a function and all that it calls as machine code of a law."""
+def _machine_code(entry: Callable[..., Any], own: dict[str, FunctionType], signature: Any) -> Any:
+    """Return a function and all that it calls as machine code, the law's for two of the kernel."""
     import numba
 
-    own = _own(position_sample, velocity_sample)
     jitted: dict[FunctionType, Any] = {}
 
     def machine_code(function: FunctionType) -> Any:
         if function not in jitted:
             names = {name: machine_code(called) for name, called in _called(function, own).items()}
-            jitted[function] = numba.njit(_copy(function, names), forceinline=True, **OPTIONS)
+            # Only machine code calls them: what Python or C would call them by takes an eighth of the time.
+            bare: dict[str, Any] = {"no_cpython_wrapper": True, "no_cfunc_wrapper": True}
+            jitted[function] = numba.njit(_copy(function, names), forceinline=True, **bare, **OPTIONS)
         return jitted[function]
 
     called = {name: machine_code(each) for name, each in _called(entry, own).items()}
     run = _copy(entry, called)
-    run.__qualname__ = run.__name__ = kernel_name(position_sample, velocity_sample, entry)
+    run.__qualname__ = run.__name__ = _name(entry, own)
     try:
-        found = cast(Run, numba.njit(signature, cache=True, **OPTIONS)(run))
+        return numba.njit(signature, cache=True, **OPTIONS)(run)
     except RuntimeError:  # no folder can be written in which it would be found again
-        found = cast(Run, numba.njit(signature, **OPTIONS)(run))
-    _loaded.add((position_sample, velocity_sample))
-    return found
+        return numba.njit(signature, **OPTIONS)(run)
 
 
-def kernel_name(
-    position_sample: Sample, velocity_sample: Sample | None, entry: Callable[..., Any] = kernel.run
-) -> str:
+def kernel_name(position_sample: Sample, velocity_sample: Sample | None) -> str:
     """Return the name of the machine code of a law:
     another one as soon as any of its code or constants is another.
     """
-    described = [repr(OPTIONS), *_described(entry, _own(position_sample, velocity_sample), {})]
+    return _name(kernel.run, _own(position_sample, velocity_sample))
+
+
+def _name(entry: Callable[..., Any], own: dict[str, FunctionType]) -> str:
+    described = [repr(OPTIONS), *_described(entry, own, {})]
     return f"{entry.__name__}_{hashlib.sha256(chr(10).join(described).encode()).hexdigest()[:16]}"
 
 

@@ -1,49 +1,30 @@
-"""Many runs of one law over flat arrays, each figured out where it was made: no rows leave the kernel.
+"""Many runs of one law, each figured out as soon as it is made: the rows of one are kept at a time.
 
-``batch`` calls `kernel.run` once for each variation into one scratch array, and ``measure`` reduces its rows
-to the figures of the scenario `step`, with the definitions of scenarios/step.py and scenarios/figures.py;
-tests/sim/test_sweep.py compares both. Like the kernel it is plain Python and machine code
-(`compiled.compiled_batch`) with equal results.
+``measure`` reduces the rows of a run to the figures of the scenario `step`, with the definitions of
+scenarios/step.py and scenarios/figures.py; tests/sim/test_sweep.py compares both. Like the kernel it is plain
+Python and machine code (`compiled.compiled_figures`) with equal results.
 """
 
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import Protocol, overload
 
 import numpy as np
 import numpy.typing as npt
 
-from amp_studio.sim.axis.motion import (
-    AFTER,
-    BEFORE,
-    IO,
-    LINE,
-    MACHINE,
-    PARAMETERS,
-    PROFILE,
-    PUSH,
-    TIMING,
-    Until,
-    prepared,
-)
+from amp_studio.sim.axis.motion import TIMING, Engine, Until, prepared, run_prepared, steps
 from amp_studio.sim.engine.arrays import Vector
-from amp_studio.sim.engine.compiled import can_compile, compiled_batch, pays, plain_batch
+from amp_studio.sim.engine.compiled import FiguresOfRows, can_compile, compiled_figures, pays
 from amp_studio.sim.engine.kernel import (
     ALARM_ROW,
-    DRIVEN_ROWS,
     ENDED,
     SERVO_PERIOD,
-    SHARE,
     SHARE_RATE,
-    SINCE,
-    STATE_SIZE,
-    STRIDE,
     SUBSTEPS,
     VELOCITY_SAMPLES,
-    run,
 )
-from amp_studio.sim.engine.signals import FEED_SHARE, MODE, POSITION_LOOP, STOP
+from amp_studio.sim.engine.signals import STOP
+from amp_studio.sim.errors import SimulationError
 from amp_studio.sim.law import AxisLaw
 
 FIGURES = (
@@ -62,15 +43,6 @@ TARGET, BAND, COUNT = 0, 1, 2
 """Of the wanted motion: its end, the band in which it is there, a count of the position device; u."""
 NOISE_COUNTS, GROWN, LEAST_SWING, EDGE = 3.0, 1.0 + 1e-6, 1e-9, 1.0 + 1e-9
 """As in scenarios/figures.py."""
-
-
-class Sliced(Vector, Protocol):
-    """Numbers of which a part is such numbers again: a view in compiled code, a copy in plain Python."""
-
-    @overload
-    def __getitem__(self, index: int, /) -> float: ...
-    @overload
-    def __getitem__(self, index: slice, /) -> Vector: ...
 
 
 def span(rows: npt.NDArray[np.float64], first: int, last: int, every: int, target: float) -> float:
@@ -124,62 +96,6 @@ def measure(
     out[3] = max(0.0, out[4] - end)
 
 
-def batch(
-    parameters: Sequence[Vector],
-    machines: Sequence[Vector],
-    befores: Sequence[Vector],
-    afters: Sequence[Vector],
-    timings: Sequence[Vector],
-    profiles: Sliced,
-    starts: Vector,
-    lines: Vector,
-    wanted: Sequence[Vector],
-    push: Vector,
-    s: Vector,
-    io: Vector,
-    x: Vector,
-    line: Sliced,
-    rows: npt.NDArray[np.float64],
-    out: Sequence[Vector],
-) -> None:
-    """Run all variations; each has its row in the arrays, ``profiles`` from one of ``starts`` to the next,
-    ``lines`` long a delay line.
-
-    ``s``, ``io``, ``x``, ``line`` and ``rows`` are scratch.
-    """
-    for n in range(len(timings)):
-        timing = timings[n]
-        for k in range(len(s)):
-            s[k] = 0.0
-        for k in range(len(io)):
-            io[k] = 0.0
-        for k in range(len(x)):
-            x[k] = 0.0
-        for k in range(len(line)):
-            line[k] = 0.0
-        io[FEED_SHARE], io[MODE] = 1.0, POSITION_LOOP
-        x[ENDED] = x[ALARM_ROW] = -1.0
-        x[SINCE], x[SHARE] = timing[STRIDE], 1.0
-        filled = run(
-            parameters[n],
-            s,
-            io,
-            machines[n],
-            befores[n],
-            afters[n],
-            x,
-            line[: int(lines[n])],
-            timing,
-            profiles[int(starts[n]) : int(starts[n + 1])],
-            push,
-            rows,
-        )
-        driven = filled if x[ALARM_ROW] < 0.0 else int(x[ALARM_ROW]) + 1
-        end = x[ENDED] * timing[SERVO_PERIOD] if x[ENDED] >= 0.0 else -1.0
-        every = int(timing[VELOCITY_SAMPLES] * timing[SUBSTEPS])
-        measure(rows, max(driven, 1), every, wanted[n], io[STOP], end, out[n])
-
-
 def run_batch(
     runs: Sequence[tuple[AxisLaw, list[float], Until, float, float]], *, machine_code: bool | None = None
 ) -> npt.NDArray[np.float64]:
@@ -189,42 +105,40 @@ def run_batch(
     ``machine_code`` None is as `motion.run_axis` chooses.
     A run whose numbers leave all bounds has ``nan`` figures and the stop DIVERGED.
     """
-    ready = [_ready(*each) for each in runs]
-    vectors = [each[0] for each in ready]
-    axis = runs[0][0]
-    starts = np.concatenate([[0.0], np.cumsum([float(len(each[PROFILE])) for each in vectors])])
-    columns = [[each[place] for each in vectors] for place in (PARAMETERS, MACHINE, BEFORE, AFTER, TIMING)]
-    profiles = [figure for each in vectors for figure in each[PROFILE]]
-    lines = [float(len(each[LINE])) for each in vectors]
-    scratch = [
-        [0.0] * axis.state_size,
-        [0.0] * len(vectors[0][IO]),
-        [0.0] * STATE_SIZE,
-        [0.0] * int(max(lines)),
-    ]
-    most = int(max(each[TIMING][DRIVEN_ROWS] for each in vectors))
-    rows = np.empty((most, ready[0][1]))
-    wanted, out = [each[2] for each in ready], np.full((len(runs), len(FIGURES)), np.nan)
+    axis, _, until, *_ = runs[0]
+    samples, substeps = steps(axis)
     law = axis.position_sample, axis.velocity_sample
-    steps = sum(each[TIMING][DRIVEN_ROWS] for each in vectors)
-    if (pays(*law, steps) if machine_code is None else machine_code) and can_compile():
-        arrays = [
-            np.array(each) for each in (*columns, profiles, starts, lines, wanted, vectors[0][PUSH], *scratch)
-        ]
-        compiled_batch(batch, *law)(*arrays, rows, out)
-    else:
-        plain_batch(batch, *law)(
-            *columns, profiles, starts.tolist(), lines, wanted, vectors[0][PUSH], *scratch, rows, out
-        )
+    expected = len(runs) * until.duration / axis.servo_period * samples * substeps
+    is_fast = (pays(*law, expected) if machine_code is None else machine_code) and can_compile()
+    figures = compiled_figures(measure) if is_fast else measure
+    out = np.full((len(runs), len(FIGURES)), np.nan)
+    for each, row in zip(runs, out, strict=True):
+        _run(*each, "compiled" if is_fast else "plain", figures, row)
     out[~np.isfinite(out[:, 1])] = np.nan
     return out
 
 
-def _ready(
-    axis: AxisLaw, profile: list[float], until: Until, target: float, share_rate: float
-) -> tuple[list[list[float]], int, list[float]]:
-    """Return the vectors of a run, the width of its rows and what is wanted of it."""
+def _run(
+    axis: AxisLaw,
+    profile: list[float],
+    until: Until,
+    target: float,
+    share_rate: float,
+    engine: Engine,
+    figures: FiguresOfRows,
+    out: npt.NDArray[np.float64],
+) -> None:
+    """Write the figures of one run to ``out``."""
     vectors, rows = prepared(axis, profile, until, stride=1)
-    vectors[TIMING][SHARE_RATE] = share_rate
+    timing = vectors[TIMING]
+    timing[SHARE_RATE] = share_rate
+    try:
+        filled, io, x = run_prepared(axis, vectors, rows, engine, 0.0)
+    except SimulationError:  # it runs away
+        return
     band = max(axis.inposition_band, axis.machine.position_count, 1e-9 * abs(target))
-    return vectors, rows.shape[1], [target, band, axis.machine.position_count]
+    wanted = np.array([target, band, axis.machine.position_count])
+    driven = filled if x[ALARM_ROW] < 0.0 else int(x[ALARM_ROW]) + 1
+    end = x[ENDED] * timing[SERVO_PERIOD] if x[ENDED] >= 0.0 else -1.0
+    every = int(timing[VELOCITY_SAMPLES] * timing[SUBSTEPS])
+    figures(rows, max(driven, 1), every, wanted, io[STOP], end, out)
