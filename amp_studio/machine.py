@@ -7,13 +7,13 @@ the verbs of the command line are made of the same.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Self
 
 from amp_studio.errors import AmpStudioError
-from amp_studio.files import ENDING, open_file
+from amp_studio.files import ENDING, ParameterFileError, open_file
 from amp_studio.schema import Value
 
 if TYPE_CHECKING:
@@ -21,7 +21,7 @@ if TYPE_CHECKING:
     from amp_studio.formats import Account
     from amp_studio.schema import Address, Parameter, ResolvedAddress, Schema
     from amp_studio.sim import MotionCheck, SweepWay, Trace
-    from amp_studio.validate import BuilderRules, Earlier, Finding, Fixed, Validator
+    from amp_studio.validate import BuilderRules, Finding, Fixed, Validator
 
     NewValues = Mapping[str, "NewValue | ParameterEntry"] | Iterable[tuple[str, "NewValue | ParameterEntry"]]
 
@@ -214,21 +214,15 @@ class MachineParameters:
         validator = self.validator()
         return validator.run() if as_delivered else found_in(validator)
 
-    def validator(self, rules: Path | None = None, *, with_backup: bool = True) -> Validator:
+    def validator(self, rules: Path | None = None) -> Validator:
         """Return what finds the findings, where they are asked for more than once; ``run`` it first.
 
-        ``rules`` is a file of a builder's own rules instead of the one beside the machine; without
-        ``with_backup`` the backup is not asked for values that were changed by a slip of the finger.
+        ``rules`` is a file of a builder's own rules instead of the one beside the machine.
         Raises BuilderRulesError.
         """
-        from amp_studio.validate import Validator
+        from amp_studio.validate import validator_of
 
-        earlier: Sequence[Earlier] = ()
-        if with_backup and self.source:
-            from amp_studio.validate import earlier_beside
-
-            earlier = earlier_beside(self.source, self.file)
-        return Validator(self.file, self.builder_rules(rules), earlier)
+        return validator_of(self.file, self.source, self.builder_rules(rules))
 
     def builder_rules(self, rules: Path | None = None) -> BuilderRules:
         """Return a builder's own rules: those beside the machine, or of the file ``rules``."""
@@ -409,25 +403,36 @@ def open_machine(
     what a person should know of a text that was taken. Raises ParameterFileError, UnknownFamilyError.
     """
     path = Path(path)
-    if path.suffix.casefold() != ENDING:
-        from amp_studio.formats import is_text_of_control, open_for_reading
+    if path.suffix.casefold() != ENDING and _is_text_of_control(path):
+        from amp_studio.formats import open_for_reading
 
-        if is_text_of_control(path):
-            found = MachineParameters(open_for_reading(path, notify, family=family, machine=machine))
-            found.source = path
-            return found
+        found = MachineParameters(open_for_reading(path, notify, family=family, machine=machine))
+        found.source = path
+        return found
     opened = open_file(path)
     return MachineParameters(opened.file, path, opened.digest)
+
+
+def _is_text_of_control(path: Path) -> bool:
+    from amp_studio.formats import is_text_of_control
+
+    return is_text_of_control(path)
 
 
 def edit_machine(path: str | Path, *, only_view: bool = False) -> MachineParameters:
     """Open a parameter file so that no other program edits it until the ``with`` of the machine ends.
 
-    With ``only_view`` nothing is locked, and it cannot be saved in place.
+    With ``only_view`` nothing is locked, and it cannot be saved in place; a control's own text is
+    only viewed.
     Raises ParameterFileError, and InUseError while another program edits it.
     """
     from amp_studio.files import Document
 
+    path = Path(path)
+    if path.suffix.casefold() != ENDING and _is_text_of_control(path):
+        if only_view:
+            return open_machine(path)
+        raise ParameterFileError(path, None, "is a control's own text, which is not changed: import it first")
     document = Document.view(path) if only_view else Document.open(path)
     found = MachineParameters(document.file, document.path, document.digest)
     found.document = document

@@ -20,16 +20,18 @@ def opened(
     """Return the machine of a file that is only read;
     notes about a control's own text go to standard error.
 
-    ``options`` with ``arguments.TEXT`` name the family and the machine type of such a text.
-    Raises UsageError, ParameterFileError.
+    ``options`` with ``arguments.TEXT`` name the family and the machine type of such a text; a verb without
+    them does not offer to choose another. Raises UsageError, ParameterFileError.
     """
     from amp_studio import open as open_machine
     from amp_studio.schema import UnknownFamilyError
 
     family, machine = (options.family, options.machine) if options else (None, None)
+
+    def pass_on(message: str) -> None:
+        notify(f"{path}: {message if options else message.partition('; --')[0]}")
+
     try:
-        return open_machine(
-            path, family=family, machine=machine or "", notify=lambda message: notify(f"{path}: {message}")
-        )
+        return open_machine(path, family=family, machine=machine or "", notify=pass_on)
     except UnknownFamilyError as error:
         raise UsageError(str(error)) from None

@@ -88,7 +88,7 @@ def import_file(
     content = _as_utf8(read_file(path, _MOST_BYTES))
     chosen = _format_for_reading(content, family, format_key)
     text = _decoded(content, chosen)
-    schema = load_schema(family or _only_family(chosen))
+    schema = load_schema(family or _only_family(chosen, text))
     if machine and machine not in schema.machines:
         raise FormatError(unknown_name("machine type", machine, (m.key for m in schema.family.machines)))
     read = chosen.read(text, schema, ReadOptions(keep_unknown, machine, listing, _beside(path)))
@@ -111,7 +111,8 @@ def offer_of(path: Path, family: str | None = None) -> TextOffer | None:
         chosen = _format_for_reading(content, family, None)
         if chosen.offer is None:
             return None
-        return chosen.offer(_decoded(content, chosen), load_schema(family or _only_family(chosen)))
+        text = _decoded(content, chosen)
+        return chosen.offer(text, load_schema(family or _only_family(chosen, text)))
     except FormatError:
         return None  # the import names it
 
@@ -264,8 +265,10 @@ def families_of(chosen: TextFormat) -> tuple[str, ...]:
     return tuple(family for family in registered_families() if chosen in _own_formats(family))
 
 
-def _only_family(chosen: TextFormat) -> str:
+def _only_family(chosen: TextFormat, text: str) -> str:
     families = families_of(chosen)
+    if not families and chosen.is_of is not None:
+        families = tuple(name for name in registered_families() if chosen.is_of(text, load_schema(name)))
     if len(families) != 1:
         raise FamilyNotGivenError(f"a {chosen.title} does not show which family it is for")
     return families[0]

@@ -102,6 +102,8 @@ class TextFormat:
     included: Callable[[ParameterFile], Mapping[str, str]] | None = None
     """Returns the texts, by name, that a text takes in and that the file keeps; None where a text is
     alone."""
+    is_of: Callable[[str, Schema], bool] | None = None
+    """Returns whether the names of a text are those of a family; None where a text does not show it."""
     otherwise: str = ""
     """The encoding of a text that is not of ``encoding``; without it such a text is refused."""
 

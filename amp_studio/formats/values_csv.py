@@ -71,6 +71,15 @@ def _read(text: str, schema: Schema, options: ReadOptions) -> TextRead:
     return found
 
 
+def _is_of(text: str, schema: Schema) -> bool:
+    """Return whether a family has all ids of a table."""
+    try:
+        rows = list(csv.DictReader(io.StringIO(text.removeprefix(_MARK).casefold(), newline=""), strict=True))
+    except csv.Error:
+        return False  # the reader names the line
+    return bool(rows) and all(cell_text(row.get("id") or "").strip() in schema.parameters for row in rows)
+
+
 def _read_row(
     found: TextRead, schema: Schema, heads: list[str], cells: list[str], line: int, keep_unknown: bool
 ) -> None:
@@ -113,4 +122,6 @@ def _read_row(
         found.value_notes[written(address)] = note
 
 
-FORMAT = TextFormat("csv", "table of values", ".csv", _recognises, _read, _write, newline="\r\n")
+FORMAT = TextFormat(
+    "csv", "table of values", ".csv", _recognises, _read, _write, newline="\r\n", is_of=_is_of
+)

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from amp_studio.files import axis_letter, fitted_axes, open_file
-from amp_studio.validate import Validator, rules_beside
+from amp_studio.validate import validator_of
 
 from .delivered import found_in
 
@@ -35,7 +35,7 @@ def summary_of(path: Path) -> FileSummary:
     file = open_file(path).file
     family = file.schema.family
     names = {m.key: m.name for m in family.machines}
-    findings = found_in(Validator(file, rules_beside(path, file)))
+    findings = found_in(validator_of(file, path))
     return FileSummary(
         name=file.header.name,
         family=family.family,

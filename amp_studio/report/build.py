@@ -24,7 +24,7 @@ from amp_studio.files import (
 )
 from amp_studio.guide import Present, present
 from amp_studio.schema import Address, Schema, label_of
-from amp_studio.validate import NO_RULES, BuilderRules, Finding, Validator
+from amp_studio.validate import NO_RULES, BuilderRules, Finding, validator_of
 from amp_studio.version import __version__
 
 from .axes import printed_axes, scope_of
@@ -64,7 +64,7 @@ def build_report(
     found = rows_of(file, contents.units)
     printed = tuple(row for row in found.rows if _is_wanted(row, contents))
     anchors = {row.anchor for row in printed}
-    validator = Validator(file, own)
+    validator = validator_of(file, source, own)
     now = present(validator, validator.run())
     heads, axes = _axes(file, found.rows, now.findings)
     family = file.schema.family

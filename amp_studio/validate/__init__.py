@@ -17,6 +17,7 @@ if TYPE_CHECKING:
         earlier_beside,
         machines_of,
         rules_beside,
+        validator_of,
     )
     from .builder_rules import NO_RULES, RULES_FILE, BuilderRules, Suppressed
     from .calculator import Calculator, calculate, calculators, shown_result

@@ -27,6 +27,7 @@ from amp_studio.schema import Address, Value, read_file
 
 from .builder_rules import NO_RULES, RULES_FILE, BuilderRules
 from .plausible import Earlier, values_of_fleet
+from .validator import Validator
 
 LARGEST_FLEET = 40
 """Machines in a folder that are compared; more of them are no fleet that somebody looks after by hand."""
@@ -49,6 +50,16 @@ def axes_by_letter(file: ParameterFile) -> dict[str, str]:
     letters = list(axis_letters(file).items())
     every = [letter for _, letter in letters]
     return {letter: axis for axis, letter in letters if letter != axis and every.count(letter) == 1}
+
+
+def validator_of(file: ParameterFile, path: Path | None, own: BuilderRules | None = None) -> Validator:
+    """Return the validator of a file at ``path`` with all that lies beside it and counts: the one way to its
+    findings, so that they are the same wherever they are shown. ``own`` are a builder's rules where they are
+    not those beside it. Raises BuilderRulesError.
+    """
+    if own is None:
+        own = rules_beside(path, file) if path else NO_RULES
+    return Validator(file, own, earlier_beside(path, file) if path else ())
 
 
 def earlier_beside(path: Path, file: ParameterFile) -> tuple[Earlier, ...]:

@@ -78,16 +78,14 @@ PAST_THE_DOOR = {
 
 AS_THE_DOOR_DOES = {
     "candidates.py": "new_file open_file",  # a shell is answered in a blink: half the door is not needed
-    "checks/formats.py": "Validator",  # the type of a field
     "controls/fleet.py": "decode_content fetch_image record_look",  # a thread for each control
     "files/marked.py": "found_in",
     "verbs/checks/diff.py": "compare",  # by the schema of A, also where B is of another revision
-    "verbs/checks/merge.py": "Validator rules_beside text_of_name",  # the result has no file yet
-    "verbs/controls/history.py": "open_file text_of_name",  # only whether it can be read
+    "verbs/checks/merge.py": "rules_beside text_of_name",  # the result has no file yet
+    "verbs/controls/history.py": "text_of_name",  # the name in the record
     "verbs/controls/restore.py": "open_copy",  # it is shown before it goes back
     "verbs/controls/upload.py": "decode_content",  # of bytes that are kept also where they cannot be read
     "verbs/documents/sheet.py": "open_copy",  # compares a sheet with a copy
-    "verbs/files/guide.py": "Validator",  # without the builder's rules
 }
 """Module -> what it takes from a room although the door calls it too, and why."""
 
@@ -125,7 +123,7 @@ def test_what_goes_past_the_door_is_listed_with_its_reason() -> None:
 
 def test_what_the_door_offers_is_not_taken_from_a_room() -> None:
     of_door = {name for module in ("machine.py", "control.py") for _, name in taken(PROGRAM / module)}
-    for name in ("ENDING", "Exchange", "axis_instances", "NO_RULES"):  # facts, not work
+    for name in ("ENDING", "Exchange", "axis_instances", "NO_RULES", "ParameterFileError"):  # facts, not work
         of_door.discard(name)
     twice = {
         name: " ".join(sorted({each for _, each in taken(path)} & of_door))

@@ -7,6 +7,9 @@ from pathlib import Path
 
 import pytest
 
+from amp_studio.files.example_files import examples_folder
+from amp_studio.guide import summary_of
+
 RULES = """
 rules:
   - id: own.rapid
@@ -194,3 +197,20 @@ def test_the_fix_of_a_word_is_found_by_one_of_its_bits(tmp_path: Path, checkout:
     assert amp("set", path, "P6N0=0xFF").code == 0
     changes = amp("fix", path, "--param", "P6N0.0", "--dry-run", "--json").json["changes"]
     assert [c["param"] for c in changes] == ["P6N0"]
+
+
+def test_every_verb_counts_the_same_findings(tmp_path: Path, amp) -> None:
+    path = tmp_path / "mill.amp"
+    path.write_bytes((examples_folder() / "mill-1394" / "MILL_1394.amp").read_bytes())
+    name = "home.g30_position@4"
+    (row,) = amp("get", path, name, "--json").json["values"]
+    amp("set", path, f"{name}={row['value'] * 10} {row['unit']}")
+    found = amp("validate", path, "--json").json["findings"]
+    assert [f["params"] for f in found if f["rule"] == "plausible.earlier"] == [[row["param"]]]
+    count = sum(f["severity"] == "advice" for f in found)
+    assert amp("fix", path, "--dry-run", "--json", "--param", "1300").json["left"]["advice"] == count
+    marked = {each["param"] for each in amp("get", path, "--with-findings", "--json").json["values"]}
+    assert row["param"] in marked
+    assert amp("report", path, "-o", tmp_path / "report.txt").code == 0
+    assert "in the backup. Is it meant?" in " ".join((tmp_path / "report.txt").read_text("utf-8").split())
+    assert summary_of(path).counts["advice"] == count

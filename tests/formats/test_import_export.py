@@ -119,7 +119,9 @@ def test_the_verbs_write_read_and_refuse(tmp_path: Path, capsys: pytest.CaptureF
     assert "exists already" in capsys.readouterr().err
     assert run(["export", str(MILL), "-o", str(tmp_path / "mill.doc")]) == 2
     assert ".patch (patch)" in capsys.readouterr().err
-    assert run(["import", str(sheet), "-o", str(tmp_path / "x.amp")]) == 2
+    assert run(["import", str(sheet), "-o", str(tmp_path / "x.amp")]) == 0, "its ids show the family"
+    sheet.write_text("id,instance,value,unit\nhome.calibration,1,1,mm\nhome.direction,1,pos,\n", "utf-8")
+    assert run(["import", str(sheet), "-o", str(tmp_path / "y.amp")]) == 2
     assert "does not show which family" in capsys.readouterr().err
 
 

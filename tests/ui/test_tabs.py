@@ -206,6 +206,33 @@ def test_the_text_of_a_control_is_imported_whatever_it_is_called(
         assert window.workspace.path == made
 
 
+def test_texts_of_controls_are_imported_where_they_are_dropped(
+    open_window, person: Person, tmp_path: Path
+) -> None:
+    texts = {
+        "backup.txt": "".join(f"${n}=100\n" for n in (100, 101, 102, 110, 111, 112)),
+        "mill.ini": "[EMC]\nVERSION = 1.1\n[JOINT_0]\nMAX_VELOCITY = 5\n[TRAJ]\nCOORDINATES = X\n",
+        "values.csv": "id,instance,value,unit\nservo.jog_slow,,100,mm/min\nmisc.backup_blocks,,20,\n",
+        "start.acr": 'PROG0\nATTACH SLAVE0 AXIS0 "X"\nPPU X1000 Y1000\nACC 100\nVEL 50\n',
+    }
+    dropped = QMimeData()
+    dropped.setUrls([QUrl.fromLocalFile(str(tmp_path / name)) for name in texts])
+    for name, text in texts.items():
+        (tmp_path / name).write_text(text, "utf-8")
+        person.chooses(tmp_path / f"{name}.amp")
+    person.types("grblHAL")
+    window: MainWindow = open_window()
+    at, keys = QPointF(50, 50), Qt.KeyboardModifier.NoModifier
+    window.dropEvent(QDropEvent(at, Qt.DropAction.CopyAction, dropped, Qt.MouseButton.LeftButton, keys))
+    assert names(window) == [f"{name}.amp" for name in texts]
+    assert [page.workspace.file.schema.family.family for page in window.tabs.pages()] == [
+        "grblhal",
+        "linuxcnc",
+        "num",
+        "acromill",
+    ]
+
+
 def test_the_files_of_the_last_time_are_opened_again(open_window, path: Path, other: Path, num: Path) -> None:
     window: MainWindow = open_window(path)
     window.files.open_path(other)

@@ -28,7 +28,7 @@ def note_errors(machine: MachineParameters) -> str:
     """List the errors of a machine, by the rules beside it too; returns how many there are, "" for none."""
     from amp_studio.report import alike, counted, same_finding_text
 
-    findings = machine.validator(with_backup=False).run()
+    findings = machine.validator().run()
     errors = [finding for finding in findings if finding.severity == "error"]
     for same in alike(errors):
         note(same_finding_text(machine.file, same))

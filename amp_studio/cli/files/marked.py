@@ -41,7 +41,7 @@ def with_marks(
     if "findings" in wanted:
         from amp_studio.guide import found_in
 
-        marks.take_findings(found_in(machine.validator(with_backup=False)))
+        marks.take_findings(found_in(machine.validator()))
     if "since-download" in wanted:
         from amp_studio.transfer.client import last_download
 

@@ -18,7 +18,7 @@ from amp_studio.ui.base.figures import sentence
 from amp_studio.ui.base.task import TaskProgress
 from amp_studio.ui.base.theme import severity_colour, severity_icon
 from amp_studio.ui.base.translated import counted, worded
-from amp_studio.validate import SEVERITIES, Finding, Validator, rules_beside
+from amp_studio.validate import SEVERITIES, Finding, validator_of
 
 _GOES_TO = Qt.ItemDataRole.UserRole
 
@@ -57,7 +57,7 @@ def _checked(path: Path) -> CheckedFile:
         file = open_file(path).file
     except ParameterFileError as fault:
         return CheckedFile(path, fault=str(fault))
-    findings = found_in(Validator(file, rules_beside(path, file)))
+    findings = found_in(validator_of(file, path))
     labels = tuple(file.machine_schema.label(f.addresses[0]) if f.addresses else "" for f in findings)
     return CheckedFile(path, findings, labels)
 

@@ -36,10 +36,12 @@ def run(options: Options) -> int:
 
     dry = options.dry_run
     with edit(options.path, only_view=dry) as machine:
-        file, validator = machine.file, machine.validator(with_backup=False)
+        file, validator = machine.file, machine.validator()
         done = machine.fix(options.rule, param=options.param, safe=options.safe, validator=validator)
         if done and not dry:
             machine.save(verb="fix")
+            validator = machine.validator()  # what it was is now the backup
+            validator.run()
     findings = validator.findings()
     left = Counter(finding.severity for finding in findings)
     if options.json:

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 from amp_studio.cli.arguments import JSON, PATH, count
 from amp_studio.cli.console import print_json
 from amp_studio.cli.errors import UsageError
+from amp_studio.cli.opened import opened
 from amp_studio.cli.verb import Options, Verb, VerbArgument
 
 if TYPE_CHECKING:
@@ -25,14 +26,14 @@ VERB = Verb(
 
 def run(options: Options) -> int:
     """List the exchanges of a file, or of all files of a folder; oldest first."""
-    from amp_studio.files import RECORD, open_file, real_path, text_of_name
+    from amp_studio.files import RECORD, real_path, text_of_name
     from amp_studio.transfer.client import read_exchanges
 
     path: Path = options.path
     if path.is_dir():
         found = read_exchanges(path)
     else:
-        open_file(path)  # what cannot be read has no history to be shown
+        opened(path, notify=lambda _note: None)  # what cannot be read has no history to be shown
         real = real_path(path)
         found = read_exchanges(real.parent, text_of_name(real.name))
     numbered = list(enumerate(found, 1))

@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from amp_studio.cli import candidates
-from amp_studio.cli.arguments import JSON, LANGUAGE, OUTPUT, PATH, SECRETS, file_or_address, path_of
+from amp_studio.cli.arguments import JSON, LANGUAGE, OUTPUT, PATH, SECRETS, TEXT, file_or_address, path_of
 from amp_studio.cli.console import note, print_json, progress
 from amp_studio.cli.errors import UsageError
 from amp_studio.cli.opened import opened
@@ -53,6 +53,7 @@ VERB = Verb(
         help="lines of number and what the screen shows, or the sheet's .csv filled in: compare exactly",
     ),
     JSON,
+    *TEXT,
     SECRETS,
     writes=("output",),
     sections=("PARAM", "ADDRESS"),
@@ -75,12 +76,12 @@ def run(options: Options) -> int:
     from amp_studio.sheet import SheetError, Ticks, TicksError, make_sheet, ticks_path
 
     path: Path = options.path
-    machine = opened(path)
+    machine = opened(path, options)
     file = machine.file
     inputs = [path, ticks_path(path), *([options.check] if options.check else [])]
     if options.output:
         check_replaced(options.output, *inputs)
-    present, against = _present(options.against)
+    present, against = _present(options)
     try:
         sheet = make_sheet(
             file, present, of=path.name, against=against, own=machine.builder_rules(), secrets=options.secrets
@@ -99,10 +100,11 @@ def run(options: Options) -> int:
     return 0
 
 
-def _present(text: str) -> tuple[ParameterFile, str]:
+def _present(options: Options) -> tuple[ParameterFile, str]:
     """Return what a control contains and its source: a file, a kept copy, or the control itself."""
     from amp_studio.transfer.links import is_endpoint
 
+    text: str = options.against
     if is_endpoint(text):
         from amp_studio import connect
 
@@ -112,7 +114,7 @@ def _present(text: str) -> tuple[ParameterFile, str]:
 
     path = Path(text)
     if path.suffix != ".img":
-        return opened(path).file, path.name
+        return opened(path, options).file, path.name
     copy = open_copy(path)
     if copy.file is None:
         raise UsageError(f"{path}: {copy.fault}")

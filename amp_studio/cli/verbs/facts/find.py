@@ -74,7 +74,7 @@ class _Source:
         return message_page(self.schema, self.machine, message, self.file, self._findings)
 
     def _checked(self) -> tuple[Finding, ...]:
-        return self._opened.validator(with_backup=False).run() if self._opened else ()
+        return self._opened.validator().run() if self._opened else ()
 
 
 def run(options: Options) -> int:

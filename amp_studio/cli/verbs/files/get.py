@@ -62,7 +62,7 @@ def _print_not_set(options: Options, machine: MachineParameters, only: set[Addre
     from amp_studio.guide import progress
     from amp_studio.schema import ResolvedAddress, unit_text
 
-    file, validator, rows = machine.file, machine.validator(with_backup=False), []
+    file, validator, rows = machine.file, machine.validator(), []
     for each in progress(validator, validator.run()).steps:
         found = [address for address in each.open if only is None or address in only]
         values = (machine.row(ResolvedAddress(address), secrets=options.secrets) for address in found)

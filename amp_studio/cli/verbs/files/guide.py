@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from amp_studio.cli import candidates
-from amp_studio.cli.arguments import JSON, LANGUAGE, OUTPUT, path_of
+from amp_studio.cli.arguments import JSON, LANGUAGE, OUTPUT, TEXT, path_of
 from amp_studio.cli.console import family, is_family, note, print_json
 from amp_studio.cli.errors import UsageError
 from amp_studio.cli.opened import opened
@@ -16,6 +16,7 @@ from amp_studio.cli.output import check_replaced, note_all
 from amp_studio.cli.verb import Options, Verb, VerbArgument
 
 if TYPE_CHECKING:
+    from amp_studio import MachineParameters
     from amp_studio.files import ParameterFile
     from amp_studio.guide import GuideProgress, SetupStep, StepProgress
     from amp_studio.report import OpenValue
@@ -60,6 +61,7 @@ VERB = Verb(
     OUTPUT.but(required=False, help="write the check list as .pdf, .html or .txt"),
     LANGUAGE,
     JSON,
+    *TEXT,
     writes=("path", "output"),
     sections=("families", "PARAM"),
     examples=(
@@ -100,15 +102,15 @@ def run(options: Options) -> int:
         check_replaced(options.output, path)
     if any(getattr(options, key) for key in _CHANGING):
         with edit(path) as machine:
-            _change(options, machine.file)
+            _change(options, machine)
             if machine.document and machine.document.is_dirty:
                 machine.save(verb="guide")
                 note_all(machine.notes)
     else:
-        machine = opened(path)
+        machine = opened(path, options)
     file = machine.file
     step = _step(file.schema, asked_for) if asked_for else None
-    validator = machine.validator(with_backup=False)
+    validator = machine.validator()
     come = progress(validator, validator.run())
     if options.output:
         return _write(options, file, come, path)
@@ -178,21 +180,21 @@ def _facts(step: SetupStep) -> dict[str, Any]:
     }
 
 
-def _change(options: Options, file: ParameterFile) -> None:
+def _change(options: Options, machine: MachineParameters) -> None:
     """Tick steps, take ticks away, and set open values to their defaults."""
     from amp_studio.files import now as stamp
     from amp_studio.files import user
     from amp_studio.guide import progress, tick
     from amp_studio.report import counted
-    from amp_studio.validate import Validator
 
+    file = machine.file
     for names, by in ((options.done, f"{stamp()} by {user()}"), (options.not_done, None)):
         for name in names or ():
             tick(file, _step(file.schema, name), by)
     if not options.keep_defaults:
         return
     step = _step(file.schema, options.keep_defaults)
-    validator = Validator(file)
+    validator = machine.validator()
     come = progress(validator, validator.run())
     wanted = {a: value for a in come.of(step).open if (value := file.default(a)) is not None}
     file.set_checked(wanted)

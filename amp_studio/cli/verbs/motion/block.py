@@ -6,7 +6,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from amp_studio.cli.arguments import JSON, PATH
+from amp_studio.cli.arguments import JSON, PATH, TEXT
 from amp_studio.cli.console import print_json
 from amp_studio.cli.errors import UsageError
 from amp_studio.cli.opened import opened
@@ -26,6 +26,7 @@ VERB = Verb(
         "block", nargs="*", help="a block, in quotes; each further one is read after it", signed=True
     ),
     JSON,
+    *TEXT,
     examples=('amp-studio block MILL_1394.amp "G01 X10.5 F200"', "amp-studio block MILL_1394.amp"),
 )
 MOST = 1000
@@ -36,7 +37,7 @@ def run(options: Options) -> int:
     """Read blocks: 1 where the control refuses a word."""
     from amp_studio.programs import BlockReader, ProgramBlockError, power_up
 
-    file = opened(options.path).file
+    file = opened(options.path, options).file
     if not file.schema.program.page:
         raise UsageError(f"{file.schema.family.name}: no page here prints how its blocks are read")
     if not options.block:

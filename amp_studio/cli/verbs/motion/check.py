@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
-from amp_studio.cli.arguments import AXIS, JSON, OUTPUT, PATH
+from amp_studio.cli.arguments import AXIS, JSON, OUTPUT, PATH, TEXT
 from amp_studio.cli.console import print_json
 from amp_studio.cli.errors import UsageError
 from amp_studio.cli.motion.text import as_json, counts, figure_text, text
@@ -23,6 +23,7 @@ VERB = Verb(
     AXIS,
     OUTPUT.but(required=False, help="file to write: .pdf, .html"),
     JSON,
+    *TEXT,
     writes=("output",),
     sections=("scenarios",),
     examples=("amp-studio check MILL_1394.amp", "amp-studio check MILL_1394.amp --axis X -o motion.html"),
@@ -36,7 +37,7 @@ def run(options: Options) -> int:
         check_replaced(options.output, options.path)
         if options.output.suffix.lower() not in PAPERS:
             raise UsageError(f"{options.output}: a check is written as {' or '.join(PAPERS)}")
-    machine = opened(options.path)
+    machine = opened(options.path, options)
     file = machine.file
     checks = machine.check_motion(machine.axis(options.axis) if options.axis else None)
     if options.output:

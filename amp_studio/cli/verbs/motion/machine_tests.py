@@ -7,7 +7,7 @@ from __future__ import annotations
 from dataclasses import asdict
 from typing import TYPE_CHECKING
 
-from amp_studio.cli.arguments import AXIS, JSON, OUTPUT, PATH
+from amp_studio.cli.arguments import AXIS, JSON, OUTPUT, PATH, TEXT
 from amp_studio.cli.console import note, print_json
 from amp_studio.cli.errors import UsageError
 from amp_studio.cli.opened import opened
@@ -26,6 +26,7 @@ VERB = Verb(
     AXIS,
     OUTPUT.but(required=False, help="file for the program of one test, as the control reads it"),
     JSON,
+    *TEXT,
     writes=("output",),
     examples=(
         "amp-studio machine-tests MILL_1394.amp --axis X",
@@ -41,7 +42,7 @@ def run(options: Options) -> int:
 
     if options.output:
         check_replaced(options.output, options.path)
-    machine = opened(options.path)
+    machine = opened(options.path, options)
     file, axis = machine.file, machine.axis(options.axis) if options.axis else None
     tests = machine_tests(file, axis)
     if options.name:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from amp_studio.cli.arguments import JSON, OUTPUT, PATH
+from amp_studio.cli.arguments import JSON, OUTPUT, PATH, TEXT
 from amp_studio.cli.console import note, print_json
 from amp_studio.cli.errors import UsageError
 from amp_studio.cli.opened import opened
@@ -22,6 +22,7 @@ VERB = Verb(
     VerbArgument("--part", help="the axes (X,Y), the axis or the spindle; default: the first one"),
     OUTPUT.but(required=False, help="file to write (.svg)"),
     JSON,
+    *TEXT,
     writes=("output",),
     examples=(
         "amp-studio picture MILL_1394.amp",
@@ -40,7 +41,7 @@ def run(options: Options) -> int:
         check_replaced(options.output, options.path)
         if options.output.suffix.lower() != ".svg":
             raise UsageError(f"A picture is drawn as SVG: name the file {options.output.stem}.svg")
-    file = opened(options.path).file
+    file = opened(options.path, options).file
     if options.name is None:
         if options.output:
             raise UsageError("Name a picture; amp-studio picture PATH lists them")

@@ -247,7 +247,7 @@ def _notes(
         )
         yield (
             f"the text has {len(log.listings)} listings, and number {log.listings.index(listing) + 1} is read"
-            f" ({_place(listing)}). --listing chooses another: {others}"
+            f" ({_place(listing)}). import --listing chooses another: {others}"
         )
     if listing.changed:
         changes = ", ".join(
