@@ -49,7 +49,7 @@ def main(arguments: Sequence[str] | None = None, emulate: bool = False) -> int:
     application.setApplicationName("AMP Studio")
     application.setOrganizationName("AMP Studio")
     speak(UserSettings().language())
-    window = MainWindow()
+    window = MainWindow(is_empty=not (arguments or UserSettings().session()))
     sys.excepthook = _hook(window)
     window.show()
 
@@ -58,6 +58,8 @@ def main(arguments: Sequence[str] | None = None, emulate: bool = False) -> int:
             window.open_first(Path(argument))
         if not arguments:
             window.files.restore_session()
+        if window.page is None:
+            window.show_values()
         if emulate:
             window.control.start_emulated()
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from functools import partial
+from functools import cached_property, partial
 from pathlib import Path
 
 from PySide6.QtGui import QCloseEvent, QDragEnterEvent, QDropEvent, QResizeEvent
@@ -44,7 +44,10 @@ class MainWindow(PartsWindow):
 
     menus: Menus[PartsWindow]
 
-    def __init__(self) -> None:
+    def __init__(self, *, is_empty: bool = True) -> None:
+        """Begin with the welcome page; not ``is_empty`` leaves it out, as a file is opened at once:
+        ``show_values`` shows it where that fails.
+        """
         collect_by_timer()
         super().__init__()
         apply_style(self.settings.theme())
@@ -78,15 +81,25 @@ class MainWindow(PartsWindow):
         self.tabs.take_corner(
             TabCorner(self.menus["file.new"], self.menus["view.beside"], self.tabs.to_choose)
         )
-        self.welcome = WelcomePage(self, self.files, self.control, partial(project.open_project, self))
-        self.centre.addWidget(self.welcome)
         self.centre.addWidget(self.tabs)
         self.setCentralWidget(self.centre)
         self.tabs.current_changed.connect(self._show_page)
         self.tabs.close_wanted.connect(self.files.close)
         self.project_changed.connect(self.enable)
         self.settings.place(self)
-        self._show_page(None)
+        if is_empty:
+            self._show_page(None)
+        else:
+            self.enable()
+
+    @cached_property
+    def welcome(self) -> WelcomePage:
+        """The page that is shown while no file is open."""
+        page = WelcomePage(
+            self, self.files, self.control, partial(project.open_project, self), parent=self.centre
+        )
+        self.centre.addWidget(page)
+        return page
 
     # -- the open files ----------------------------------------------------------
 
@@ -108,10 +121,10 @@ class MainWindow(PartsWindow):
         page.findings.explanation_requested.connect(self._why)
         page.findings.suppression_requested.connect(self._suppress)
         guide.connect_page(self, page)
+        page.left.take_project(lambda: ProjectTree(page, self.project_files))
         if side := as_side(self.settings.left_side()):
             page.left.show_side(side)
         page.left.turned.connect(self.settings.keep_left_side)
-        page.left.set_project_tree(ProjectTree(page, self.project_files))
         DiskWatch(page, self.files.comparing.with_disk, self.files.reload)
         page.table_view.fill_wanted.connect(self._fill_cells)
         self.docks.add(page)
@@ -128,6 +141,8 @@ class MainWindow(PartsWindow):
 
     def _show_page(self, page: FilePage | None) -> None:
         """Make the window that of the file in front, or show the welcome page."""
+        if self.is_leaving:
+            return
         if page is None:
             self.welcome.show_recent(self.files.recent.paths())
             self.centre.setCurrentWidget(self.welcome)

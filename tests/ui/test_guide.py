@@ -248,15 +248,17 @@ def test_the_side_that_was_chosen_last_is_that_of_the_next_file(fresh: MainWindo
     assert fresh.page.left.side == "steps"
 
 
-def test_the_project_is_shown_in_its_place(fresh: MainWindow) -> None:
-    left = fresh.page.left
-    tree = QLabel("the machines")
-    left.set_project_tree(tree)
+def test_what_the_left_panel_shows_is_made_when_somebody_looks(window: MainWindow) -> None:
+    left, made = window.page.left, []
+    left.take_project(lambda: made.append(QLabel("the machines")) or made[0])
+    assert "steps" not in vars(left)
+    assert not made
     QTest.mouseClick(left.segment.buttons["project"], Qt.MouseButton.LeftButton)
-    assert tree.isVisible()
-    other = QLabel("another")
-    left.set_project_tree(other)
-    assert other.isVisible()
+    assert made[0].isVisible()
+    QTest.mouseClick(left.segment.buttons["steps"], Qt.MouseButton.LeftButton)
+    QTest.mouseClick(left.segment.buttons["project"], Qt.MouseButton.LeftButton)
+    assert made[0].isVisible()
+    assert len(made) == 1
 
 
 def test_a_fresh_file_is_calm_wherever_one_looks(

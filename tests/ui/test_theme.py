@@ -105,6 +105,7 @@ from amp_studio.ui.main_window import MainWindow
 from amp_studio.ui.dialogs.settings_dialog import SettingsDialog
 from amp_studio.ui.window.settings import UserSettings
 window, told = MainWindow(), []
+window.show()
 theme.scheme().changed.connect(lambda: told.append(theme.colour("base").name()))
 def inks(icon):
     image = icon.pixmap(32, 32).toImage()

@@ -238,3 +238,10 @@ def test_tab_goes_through_the_page_in_reading_order(two, qtbot: QtBot) -> None:
         page.filter,
         page.list,
     ]
+
+
+def test_a_window_that_begins_with_a_file_makes_the_page_when_that_is_closed(window: MainWindow) -> None:
+    assert "welcome" not in vars(window)
+    window.close_page(window.page)
+    assert window.centre.currentWidget() is window.welcome
+    assert window.welcome.isVisible()

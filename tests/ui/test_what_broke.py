@@ -20,7 +20,7 @@ from amp_studio.schema import Value
 from amp_studio.ui import _hook
 from amp_studio.ui.actions import project, view
 from amp_studio.ui.base.modal import AskerGoneError, is_alive, run_dialog
-from amp_studio.ui.base.task import ProgressDialog, Task
+from amp_studio.ui.base.task import ProgressDialog, Task, run_patiently
 from amp_studio.ui.dialogs.axis_dialogs import AxisDialog
 from amp_studio.ui.forms.choice_box import ChoiceBox
 from amp_studio.ui.forms.message_bar import MessageBar
@@ -268,13 +268,14 @@ def test_what_follows_a_dialog_is_left_out_when_its_window_is_gone(qtbot: QtBot)
         run_dialog(QDialog(asker))
 
 
-@pytest.mark.parametrize("patience", [0, 50])
-def test_what_follows_work_is_left_out_when_its_window_is_gone(qtbot: QtBot, patience: int) -> None:
+@pytest.mark.parametrize("is_patient", [False, True])
+def test_what_follows_work_is_left_out_when_its_window_is_gone(qtbot: QtBot, is_patient: bool) -> None:
     asker, go_on = QWidget(), threading.Event()
     close_at_once(asker)
     QTimer.singleShot(100, go_on.set)
+    run = run_patiently if is_patient else lambda *asked: ProgressDialog(*asked).run()
     with pytest.raises(AskerGoneError):
-        ProgressDialog("Work", lambda *_: go_on.wait(10), asker).run(patience)
+        run("Work", lambda *_: go_on.wait(10), asker)
     go_on.set()
     Task.end_all()
 

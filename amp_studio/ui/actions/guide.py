@@ -14,10 +14,10 @@ from amp_studio.ui.window.studio_window import StudioWindow
 
 def connect_page(window: StudioWindow, page: FilePage) -> None:
     """Follow the buttons of a page."""
-    page.left.steps.next_wanted.connect(lambda: window.guarded(partial(go_on, window)))
-    page.left.steps.mark_wanted.connect(lambda step: window.guarded(lambda: mark(window, step)))
-    page.left.steps.defaults_wanted.connect(lambda step: window.guarded(lambda: keep_defaults(window, step)))
-    page.left.steps.print_wanted.connect(lambda: window.guarded(partial(save_check_list, window)))
+    page.left.next_wanted.connect(lambda: window.guarded(partial(go_on, window)))
+    page.left.mark_wanted.connect(lambda step: window.guarded(lambda: mark(window, step)))
+    page.left.defaults_wanted.connect(lambda step: window.guarded(lambda: keep_defaults(window, step)))
+    page.left.print_wanted.connect(lambda: window.guarded(partial(save_check_list, window)))
 
 
 def go_on(window: StudioWindow) -> None:

@@ -12,7 +12,7 @@ from amp_studio.files import ParameterFileError, Project
 from amp_studio.schema import Address
 from amp_studio.ui.base.modal import run_dialog
 from amp_studio.ui.base.questions import ask
-from amp_studio.ui.base.task import PATIENCE_MS, ProgressDialog, in_background
+from amp_studio.ui.base.task import in_background, run_patiently
 from amp_studio.ui.base.translated import counted, tr
 from amp_studio.ui.merge.comparisons import FILTER
 from amp_studio.ui.window.studio_window import StudioWindow
@@ -132,10 +132,10 @@ def check(window: StudioWindow) -> None:
     paths = _the_project(window).files()
     if not paths:
         raise ValueError(tr("The project has no files yet."))
-    checking = ProgressDialog(
+    found = run_patiently(
         tr("Check All Files"), lambda progress, cancelled: check_files(paths, progress, cancelled), window
     )
-    ProjectCheckDialog(checking.run(PATIENCE_MS), partial(show_at, window), window).show()
+    ProjectCheckDialog(found, partial(show_at, window), window).show()
 
 
 def compare(window: StudioWindow) -> None:

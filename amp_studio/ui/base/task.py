@@ -7,7 +7,7 @@ import threading
 from collections.abc import Callable
 from typing import Any, ClassVar, TypeVar
 
-from PySide6.QtCore import QEventLoop, QObject, Qt, QThread, QTimer, Signal
+from PySide6.QtCore import QEventLoop, QObject, QThread, QTimer, Signal
 from PySide6.QtWidgets import QDialog, QDialogButtonBox, QLabel, QProgressBar, QVBoxLayout, QWidget
 
 from .garbage import collect_by_timer
@@ -45,14 +45,16 @@ class Task(QThread):
     def __init__(self, work: Work, parent: QObject | None = None) -> None:
         super().__init__(parent)
         self._work = work
+        self._result: Any = None
+        self._error: Exception | None = None
         self.cancelled = threading.Event()
+        self.finished.connect(self._discard)
 
     def begin(self) -> None:
         """Start the thread."""
         Task.running.add(self)
         collect_by_timer()
         sys.setswitchinterval(TURN_S)
-        self.finished.connect(self._discard)
         self.start()
 
     def _discard(self) -> None:
@@ -69,23 +71,34 @@ class Task(QThread):
 
     def run(self) -> None:
         try:
-            result = self._work(self.progressed.emit, self.cancelled)
+            self._result = self._work(self.progressed.emit, self.cancelled)
         except Exception as error:  # every error of the work is raised in the caller
+            self._error = error
             self.failed.emit(error)
         else:
-            self.done.emit(result)
+            self.done.emit(self._result)
+
+    def outcome(self) -> Any:
+        """Wait for the end; returns the result or raises the error. Needs no events: a program that is
+        ended from outside runs none any more.
+        """
+        self.wait()
+        if self._error is not None:
+            raise self._error
+        return self._result
 
 
 class ProgressDialog(QDialog):
     """Shows a task: its stage, the percentage, and a cancel button if the work can be cancelled.
 
     ``stages`` maps stage names to texts; other stages are shown by their name.
+    The work may be a task that has begun.
     """
 
     def __init__(
         self,
         title: str,
-        work: Work,
+        work: Work | Task,
         parent: QWidget | None,
         hint: str = "",
         stages: dict[str, str] | None = None,
@@ -96,9 +109,6 @@ class ProgressDialog(QDialog):
         self.setMinimumWidth(460)
         self._stages = stages or {}
         self._cancellable = cancellable
-        self._result: Any = None
-        self._error: Exception | None = None
-        self._over = False
         self._stage = hint or title
         self.text = QLabel(self._stage)
         self.text.setWordWrap(True)
@@ -111,41 +121,21 @@ class ProgressDialog(QDialog):
         layout.setSpacing(10)
         for widget in (self.text, self.bar, self.buttons):
             layout.addWidget(widget)
-        self.task = Task(work)
+        self.task = work if isinstance(work, Task) else Task(work)
         self.task.progressed.connect(self._progress)
-        at_once = (
-            Qt.ConnectionType.DirectConnection
-        )  # a program that is ended from outside runs no events any more
-        self.task.done.connect(self._done, at_once)
-        self.task.failed.connect(self._failed, at_once)
-        self.task.finished.connect(self._ended)
+        self.task.finished.connect(self.accept)
 
-    def run(self, patience: int = 0) -> Any:
-        """Run the task; returns its result or raises its error. The dialog appears after ``patience`` ms.
+    def run(self) -> Any:
+        """Run the task; returns its result or raises its error.
 
         Raises AskerGoneError where the parent is gone at the end.
         """
-        self.task.begin()
-        if patience:
-            self._wait_quietly(patience)
-        if not self._over:
+        if not self.task.isRunning() and not self.task.isFinished():
+            self.task.begin()
+        if not self.task.isFinished():
             run_dialog(self)
-        self.task.wait()
         self.deleteLater()
-        if self._error is not None:
-            raise self._error
-        return self._result
-
-    def _wait_quietly(self, patience: int) -> None:
-        """Keep painting for a moment; keys and clicks are handled afterwards."""
-        loop = QEventLoop()
-        timer = QTimer()
-        timer.setSingleShot(True)
-        timer.timeout.connect(loop.quit)
-        self.task.finished.connect(loop.quit)
-        timer.start(patience)
-        with waiting_for(self.parent()):
-            loop.exec(QEventLoop.ProcessEventsFlag.ExcludeUserInputEvents)
+        return self.task.outcome()
 
     def _progress(self, stage: str, done: int, total: int) -> None:
         if stage in ("silent", "cut"):
@@ -164,16 +154,6 @@ class ProgressDialog(QDialog):
         doing = STOPPING if self.task.cancelled.is_set() else self._stage
         self.text.setText(doing + waiting)
 
-    def _done(self, result: object) -> None:
-        self._result = result
-
-    def _failed(self, error: Exception) -> None:
-        self._error = error
-
-    def _ended(self) -> None:
-        self._over = True
-        self.accept()
-
     def reject(self) -> None:
         """Escape and the close button cancel the task; the dialog closes when the task has ended."""
         if self._cancellable:
@@ -182,11 +162,44 @@ class ProgressDialog(QDialog):
             self.buttons.setEnabled(False)
 
 
+def run_patiently(
+    title: str,
+    work: Work,
+    parent: QWidget | None,
+    hint: str = "",
+    stages: dict[str, str] | None = None,
+    cancellable: bool = True,
+) -> Any:
+    """Run work in a thread; returns its result or raises its error.
+    A ``ProgressDialog`` shows it where it lasts longer than a moment.
+
+    Raises AskerGoneError where the parent is gone at the end.
+    """
+    task = Task(work)
+    _wait_quietly(task, parent)
+    if task.isFinished():
+        return task.outcome()
+    return ProgressDialog(title, task, parent, hint, stages, cancellable).run()
+
+
+def _wait_quietly(task: Task, parent: QWidget | None) -> None:
+    """Begin a task, and keep painting for a moment; keys and clicks are handled afterwards."""
+    loop = QEventLoop()
+    timer = QTimer()
+    timer.setSingleShot(True)
+    timer.timeout.connect(loop.quit)
+    task.finished.connect(loop.quit)
+    task.begin()
+    timer.start(PATIENCE_MS)
+    with waiting_for(parent):
+        loop.exec(QEventLoop.ProcessEventsFlag.ExcludeUserInputEvents)
+
+
 def in_background(parent: QWidget | None, title: str, work: Callable[[], Result]) -> Result:
     """Return the result of ``work``, run in a thread while the window stays responsive; raises its errors."""
 
     def run(_: TaskProgress, __: threading.Event) -> Result:
         return work()
 
-    result: Result = ProgressDialog(title, run, parent, f"{title} …", cancellable=False).run(PATIENCE_MS)
+    result: Result = run_patiently(title, run, parent, f"{title} …", cancellable=False)
     return result

@@ -6,6 +6,7 @@ import threading
 from collections.abc import Callable
 from contextlib import closing
 from datetime import UTC, datetime
+from functools import partial
 from typing import TYPE_CHECKING, Any
 
 from PySide6.QtWidgets import QWidget
@@ -13,7 +14,7 @@ from PySide6.QtWidgets import QWidget
 from amp_studio.files import ParameterFile
 from amp_studio.ui.base.emulated_control import EmulatedControl
 from amp_studio.ui.base.known_controls import ControlVerb, with_exchange
-from amp_studio.ui.base.task import ProgressDialog, TaskProgress
+from amp_studio.ui.base.task import TaskProgress, run_patiently
 from amp_studio.ui.base.translated import Translated, tr
 from amp_studio.ui.base.workspace import Workspace
 from amp_studio.ui.window.studio_window import StudioWindow
@@ -34,17 +35,17 @@ def stages() -> dict[str, str]:
     }
 
 
-def exchange_dialog(
-    title: str, work: Callable[[Exchange], Any], parent: QWidget | None, hint: str = ""
-) -> ProgressDialog:
-    """Return the dialog in which work with a control is shown and can be stopped."""
+def run_exchange(title: str, work: Callable[[Exchange], Any], parent: QWidget | None, hint: str = "") -> Any:
+    """Run work with a control, in a dialog that shows it and can stop it where it lasts longer than a
+    moment; returns its result or raises its error.
+    """
 
     def run(progress: TaskProgress, cancel: threading.Event) -> Any:
         from amp_studio.transfer import Exchange
 
         return work(Exchange(progress, cancel))
 
-    return ProgressDialog(title, run, parent, hint or tr("Waiting for the control …"), stages())
+    return run_patiently(title, run, parent, hint or tr("Waiting for the control …"), stages=stages())
 
 
 class ControlExchange(Translated):
@@ -111,8 +112,8 @@ class ControlExchange(Translated):
             with closing(open_driver_at(address, family, exchange)) as driver:
                 return driver.identify(exchange)
 
-        dialog = exchange_dialog(self.tr("Connect"), work, self.window)
-        found: ControlIdentity = self._noted(address, "connect", dialog.run, family)
+        run = partial(run_exchange, self.tr("Connect"), work, self.window)
+        found: ControlIdentity = self._noted(address, "connect", run, family)
         self.note(address, "connect", reached=True, family=found.family, name=found.name)
         return found
 

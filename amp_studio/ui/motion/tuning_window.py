@@ -277,9 +277,9 @@ class TuningWindow(QWidget):
 
     def run_exchange(self, title: str, work: ControlWork) -> object:
         """Run work with the control in a dialog that shows it and can stop it; raises its error."""
-        from amp_studio.ui.control.exchange import exchange_dialog
+        from amp_studio.ui.control.exchange import run_exchange
 
-        return exchange_dialog(title, work, self, f"{title} …").run(300)
+        return run_exchange(title, work, self, f"{title} …")
 
     def read_measured(self, axis: str) -> None:
         """Ask for a file of measured points and set what they make of an axis, as one step."""

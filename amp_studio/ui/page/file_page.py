@@ -84,7 +84,7 @@ class FilePage(QWidget):
         layout.addWidget(self.middle, 1)
         self.setFocusProxy(self.table_view)
         self.left.chosen.connect(self._show_parameters)
-        self.left.steps.wanted.connect(self.go_to)
+        self.left.wanted.connect(self.go_to)
         self.table_view.selected.connect(self.detail.show_address)
         self.table_view.selected.connect(self.selected)
         self.table_view.range_changed.connect(lambda: self.selected.emit(self.table_view.address()))

@@ -4,11 +4,13 @@ time.
 
 from __future__ import annotations
 
+from collections.abc import Callable
+from functools import cached_property
 from typing import Literal, get_args
 
-from PySide6.QtCore import Qt, Signal
+from PySide6.QtCore import Signal
 from PySide6.QtGui import QPalette
-from PySide6.QtWidgets import QHBoxLayout, QLabel, QStackedWidget, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QHBoxLayout, QStackedWidget, QVBoxLayout, QWidget
 
 from amp_studio.guide import step_of
 from amp_studio.ui.base.theme import GAP2, HEAD
@@ -33,30 +35,45 @@ class LeftPanel(QWidget):
     """Title and parameters."""
     turned = Signal(str)
     """The person chose one of the sides."""
+    wanted, next_wanted, mark_wanted = Signal(object), Signal(), Signal(object)
+    defaults_wanted, print_wanted = Signal(object), Signal()
+    """Those of the steps."""
 
     def __init__(self, workspace: Workspace) -> None:
         super().__init__()
         self._workspace = workspace
-        self.groups, self.steps = GroupList(workspace), StepsPanel(workspace)
-        none = QLabel(self.tr("This file is in no project."))
-        none.setAlignment(Qt.AlignmentFlag.AlignTop | Qt.AlignmentFlag.AlignHCenter)
-        none.setMargin(GAP2 * 2)
-        none.setWordWrap(True)
-        self._sides: dict[LeftSide, QWidget] = {"steps": self.steps, "groups": self.groups, "project": none}
-        self._stack = QStackedWidget()
-        for widget in self._sides.values():
-            self._stack.addWidget(widget)
-        self.head = self._head()
-        """What the dock shows above the panel."""
+        self._make_project: Callable[[], QWidget] = QWidget
+        self.side: LeftSide = "groups"
+        """The side that is shown."""
         self.setAutoFillBackground(True)
         self.setBackgroundRole(QPalette.ColorRole.AlternateBase)
+        self._stack = QStackedWidget(self)
         layout = QVBoxLayout(self)
         layout.setContentsMargins(0, 0, 0, 0)
         layout.setSpacing(0)
         layout.addWidget(self._stack, 1)
-        self.steps.chosen.connect(self.chosen)
+        self.groups = GroupList(workspace)
         self.groups.chosen.connect(self.chosen)
+        self.head = self._head()
+        """What the dock shows above the panel."""
         self.show_side("steps" if workspace.progress.set < workspace.progress.total else "groups")
+
+    @cached_property
+    def steps(self) -> StepsPanel:
+        """The steps, made when they are first asked for."""
+        steps = StepsPanel(self._workspace)
+        steps.chosen.connect(self.chosen)
+        steps.wanted.connect(self.wanted)
+        steps.next_wanted.connect(self.next_wanted)
+        steps.mark_wanted.connect(self.mark_wanted)
+        steps.defaults_wanted.connect(self.defaults_wanted)
+        steps.print_wanted.connect(self.print_wanted)
+        return steps
+
+    @cached_property
+    def project(self) -> QWidget:
+        """The project, made when it is first asked for."""
+        return self._make_project()
 
     def _head(self) -> QWidget:
         """Return the head of the dock: which of the three is shown."""
@@ -77,17 +94,16 @@ class LeftPanel(QWidget):
         row.addStretch()
         return head
 
-    @property
-    def side(self) -> LeftSide:
-        """The side that is shown."""
-        return next(side for side, widget in self._sides.items() if widget is self._stack.currentWidget())
-
     def show_side(self, side: LeftSide) -> None:
         """Show steps, groups or the project; the table stays as it is."""
-        self._stack.setCurrentWidget(self._sides[side])
+        widget = self.steps if side == "steps" else self.groups if side == "groups" else self.project
+        if self._stack.indexOf(widget) < 0:
+            self._stack.addWidget(widget)
+        self._stack.setCurrentWidget(widget)
+        self.side = side
         self.segment.show_choice(side)
         self.groups.follow_edits(side == "groups")
-        self.setFocusProxy(self._sides[side])
+        self.setFocusProxy(widget)
 
     def _turn(self, key: str) -> None:
         side = as_side(key)
@@ -97,16 +113,9 @@ class LeftPanel(QWidget):
             self.choose()
         self.turned.emit(side)
 
-    def set_project_tree(self, tree: QWidget) -> None:
-        """Show a widget as the project."""
-        old = self._sides["project"]
-        is_current = old is self._stack.currentWidget()
-        self._sides["project"] = tree
-        self._stack.addWidget(tree)
-        self._stack.removeWidget(old)
-        old.deleteLater()
-        if is_current:
-            self.show_side("project")
+    def take_project(self, make: Callable[[], QWidget]) -> None:
+        """Show what ``make`` returns as the project; it is asked when somebody looks."""
+        self._make_project = make
 
     def choose(self) -> None:
         """Emit the present choice again."""

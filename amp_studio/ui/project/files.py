@@ -25,7 +25,7 @@ from amp_studio.files import (
 )
 from amp_studio.schema import UnknownFamilyError, load_schema
 from amp_studio.ui.base.questions import ask
-from amp_studio.ui.base.task import PATIENCE_MS, ProgressDialog, in_background
+from amp_studio.ui.base.task import in_background, run_patiently
 from amp_studio.ui.merge.comparisons import FILTER, Comparisons
 from amp_studio.ui.page.file_page import FilePage
 from amp_studio.ui.window.studio_window import StudioWindow
@@ -100,12 +100,12 @@ class ProjectFiles(QObject):
     def check(self, folder: Path) -> None:
         """Check every file of a folder as it is on disk, and list the findings."""
         paths = sorted(folder.glob(f"*{ENDING}"))
-        checking = ProgressDialog(
+        found = run_patiently(
             self.tr("Check all files"),
             lambda progress, cancelled: check_files(paths, progress, cancelled),
             self.window,
         )
-        ProjectCheckDialog(checking.run(PATIENCE_MS), self._show_at, self.window).show()
+        ProjectCheckDialog(found, self._show_at, self.window).show()
 
     # -- in and out ---------------------------------------------------------------------
 

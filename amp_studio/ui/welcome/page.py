@@ -60,9 +60,14 @@ class WelcomePage(QWidget):
     """Everything on it is reached by Tab and the arrow keys; Enter opens."""
 
     def __init__(
-        self, window: StudioWindow, files: Files, control: ControlDesk, open_project: Callable[[], object]
+        self,
+        window: StudioWindow,
+        files: Files,
+        control: ControlDesk,
+        open_project: Callable[[], object],
+        parent: QWidget,
     ) -> None:
-        super().__init__()
+        super().__init__(parent)
         self.setAccessibleName(self.tr("Welcome"))
         self._window, self._files, self._open_project = window, files, open_project
         self._summaries = window.summaries
