@@ -14,8 +14,9 @@ from PySide6.QtWidgets import QApplication
 from amp_studio.languages import own_texts
 from amp_studio.schema import Value
 from amp_studio.ui.base.figures import sentence, written
-from amp_studio.ui.base.translated import speak
+from amp_studio.ui.base.translated import speak, worded
 from amp_studio.ui.table.value_delegate import allowed_text
+from amp_studio.validate.plausible.experience import TITLES
 
 
 @pytest.fixture
@@ -88,6 +89,11 @@ def test_what_the_check_says_is_german_with_a_comma_and_an_address_is_none(
     german: None, message: str, german_text: str
 ) -> None:
     assert sentence(message) == german_text
+
+
+def test_the_title_of_every_rule_of_the_program_itself_is_german(german: None) -> None:
+    for title in (*TITLES.values(), "A value outside its range", "The builder's own rules"):
+        assert worded(title) != title
 
 
 def test_a_finding_and_the_allowed_range_are_german_in_the_window_and_in_the_report(

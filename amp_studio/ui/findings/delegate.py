@@ -89,7 +89,7 @@ class FindingsDelegate(QStyledItemDelegate):
             for part in ("go", "why"):
                 parts[part] = take(small.horizontalAdvance(self._names[part]))
             if index.row() == 0:
-                title = self._model.group(index).title
+                title = worded(self._model.group(index).title)
                 rule = take(min(small.horizontalAdvance(title) + 2, _WIDEST_RULE, rect.width() // 4))
         left, tags = rect.left() + GAP, QRect()
         if axes := self._model.axes_of(index):
@@ -135,7 +135,7 @@ class FindingsDelegate(QStyledItemDelegate):
             )
             paint_icon(painter, place.parts["more"].adjusted(3, 0, -3, 0), "dots-three", colour("dim"))
         elif not place.rule.isEmpty():
-            title = self._elided(self._small, group.title, place.rule.width())
+            title = self._elided(self._small, worded(group.title), place.rule.width())
             painter.drawText(place.rule, Qt.AlignmentFlag.AlignVCenter, title)
         painter.setPen(colour("sel"))
         for part, name in self._names.items():
