@@ -10,7 +10,15 @@ if TYPE_CHECKING:
     from .comparison import compare_meanings
     from .description import AxisMeaning, MachineMeaning, MigrationQuestion
     from .folder import read_answers, write_migration
-    from .migration import Migration, less_safe, migrate, migration_json, migration_lines
+    from .migration import (
+        MigratedParameter,
+        Migration,
+        less_safe,
+        migrate,
+        migration_json,
+        migration_lines,
+        targets,
+    )
     from .reading import MeaningError
     from .writing import Graded, GradeKind, TargetError, WrittenMachine, inwards_high, inwards_low, not_above
 else:

@@ -4,7 +4,7 @@ one.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from fnmatch import fnmatchcase
 from typing import Any
@@ -41,6 +41,8 @@ class MigratedParameter:
     param: str
     outcome: str
     facts: Mapping[str, Any]
+    meanings: tuple[tuple[str, str], ...] = ()
+    """Letter of the axis ("" for the machine) and concept of each figure that comes from it."""
 
 
 @dataclass(frozen=True)
@@ -135,7 +137,8 @@ def _graded(
         facts |= {"old": worst.old, "new": worst.new, "safe_side": worst.safe_side}
     if worst.outcome == "not_possible":
         facts = {"loses": worst.loses, "do": worst.do, "page": figure.page, "raw": raw}
-    return MigratedParameter(address, param, worst.outcome, facts)
+    meanings = tuple((letter, figure.concept) for (letter, figure), _ in found)
+    return MigratedParameter(address, param, worst.outcome, facts, meanings)
 
 
 def _other(file: ParameterFile, address: Address, param: str, raw: str) -> MigratedParameter:
@@ -152,9 +155,27 @@ def _other(file: ParameterFile, address: Address, param: str, raw: str) -> Migra
 
 
 def less_safe(migration: Migration) -> list[str]:
-    """Return what is less safe than before, a sentence each."""
+    """Return what is less safe than before, a sentence each; what several axes or parameters lose is one."""
     lost = [str(e.facts["loses"]) for e in migration.of("not_possible") if e.facts.get("less_safe")]
-    return list(dict.fromkeys((*migration.written.less_safe, *lost)))
+    return _of_axes(migration.written.less_safe) + _of_subjects(dict.fromkeys(lost))
+
+
+def _of_axes(sentences: Iterable[str]) -> list[str]:
+    """Join what is so of several axes: ``X, Y: no ceiling``."""
+    heads: dict[str, list[str]] = {}
+    for sentence in sentences:
+        head, colon, end = sentence.partition(": ")
+        heads.setdefault(end if colon else sentence, []).append(head if colon else "")
+    return [f"{', '.join(dict.fromkeys(own))}: {end}".removeprefix(": ") for end, own in heads.items()]
+
+
+def _of_subjects(sentences: Iterable[str]) -> list[str]:
+    """Join what is lost of one thing: ``the zones: low limit, high limit``."""
+    ends: dict[str, list[str]] = {}
+    for sentence in sentences:
+        head, _, end = sentence.partition(": ")
+        ends.setdefault(head, []).append(end)
+    return [": ".join(filter(None, (head, ", ".join(filter(None, own))))) for head, own in ends.items()]
 
 
 def migration_json(migration: Migration) -> dict[str, Any]:
@@ -217,7 +238,7 @@ def migration_lines(migration: Migration) -> Iterator[str]:
         "Open questions: the keys that wait for them are left out",
         [f"{q.id}: {q.question}" for q in migration.written.open],
     )
-    yield from _section("To be measured at the machine", migration.written.measure)
+    yield from _section("To be measured at the machine", _of_axes(migration.written.measure))
     yield from _section("HAL is a template: it moves nothing, and nothing of the old wiring is in it", [])
     for outcome, title in (
         ("exact", "Taken over exactly"),
@@ -226,11 +247,22 @@ def migration_lines(migration: Migration) -> Iterator[str]:
         ("asked", "Asked"),
         ("old_hardware", "Of the old hardware"),
     ):
-        yield from _section(title, [_line(entry) for entry in migration.of(outcome)])
+        yield from _section(title, list(_lines(migration.of(outcome))))
 
 
 def _section(title: str, lines: list[str]) -> Iterator[str]:
     yield from ("", title, *(f"  {line}" for line in lines))
+
+
+def _lines(entries: list[MigratedParameter]) -> Iterator[str]:
+    """Yield the line of each entry; those that ask for the same are below it."""
+    by_task: dict[str, list[MigratedParameter]] = {}
+    for entry in entries:
+        by_task.setdefault(str(entry.facts.get("do", "")), []).append(entry)
+    for task, own in by_task.items():
+        if task:
+            yield f"{task[0].upper()}{task[1:]} ({len(own)}):"
+        yield from (f"  {_line(entry)}" if task else _line(entry) for entry in own)
 
 
 def _line(entry: MigratedParameter) -> str:
@@ -247,7 +279,7 @@ def _line(entry: MigratedParameter) -> str:
                 f" now, {facts['new']}; safe: {facts['safe_side']}"
             )
         case "not_possible":
-            return f"{entry.param} {facts['raw']}: {facts['loses']}; {facts['do']}"
+            return f"{entry.param} {facts['raw']}: {facts['loses']}"
         case "asked":
             return f"{entry.param} {facts['old']}: {facts['id']} = {facts['answer'] or 'open'}"
         case _:

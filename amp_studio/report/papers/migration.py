@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from datetime import datetime
+from pathlib import Path
 
-from amp_studio.meaning import Migration, less_safe
+from amp_studio.meaning import Migration, less_safe, write_migration
 from amp_studio.report.wording import counted
 
-from .paper import Paper, PaperTable
+from .paper import Paper, PaperTable, write_paper
 
 _HEADS = {
     "exact": (
@@ -28,6 +30,21 @@ _HEADS = {
     "asked": ("Asked", ("Number", "Before", "Question", "Answer"), ("old", "id", "answer")),
     "old_hardware": ("Of the old hardware", ("Number", "Before"), ("raw",)),
 }
+
+
+def write_migration_folder(
+    migration: Migration, folder: Path, notify: Callable[[str], None] = lambda _note: None
+) -> list[str]:
+    """Write the configuration, the report and its paper into a new folder; returns the names. Raises OSError,
+    with nothing written.
+
+    A name with an ending is that of a file: the configuration alone.
+    """
+    written = write_migration(migration, folder)
+    if folder.is_dir():
+        write_paper(migration_paper(migration), folder / "migration.pdf", notify=notify)
+        written.append("migration.pdf")
+    return written
 
 
 def migration_paper(migration: Migration, date: datetime | None = None) -> Paper:

@@ -71,3 +71,11 @@ def show_about(window: StudioWindow) -> None:
         ).format(version=__version__),
         QMessageBox.Icon.Information,
     )
+
+
+def migrate(window: StudioWindow) -> None:
+    """Show what becomes of the file in front at another control, on a copy of it."""
+    from amp_studio.ui.migration.window import MigrationWindow
+
+    workspace = window.workspace_in_front
+    MigrationWindow(workspace.file.copy(), workspace.path, window.follow, window).show()

@@ -61,6 +61,7 @@ def _file() -> Menu[PartsWindow]:
             None,
             Action("file.import", tr("&Import…"), lambda w: w.files.formats.read(), needs=""),
             Action("file.export", tr("Ex&port…"), lambda w: w.files.formats.write()),
+            Action("file.migrate", tr("Mi&grate to Another Control…"), document.migrate),
             None,
             Action(
                 "file.report", tr("&Report…"), document.report, _KEY.Print, icon="printer", short=tr("Report")

@@ -34,14 +34,8 @@ VERB = Verb(
 
 def run(options: Options) -> int:
     """Migrate a file; open questions write nothing and end with 2, unless a draft is wanted."""
-    from amp_studio.meaning import (
-        MeaningError,
-        TargetError,
-        migrate,
-        migration_json,
-        migration_lines,
-        write_migration,
-    )
+    from amp_studio.meaning import MeaningError, TargetError, migrate, migration_json, migration_lines
+    from amp_studio.report import write_migration_folder
 
     file = opened(options.path, options).file
     answers = _answers(options.answers) if options.answers else {}
@@ -62,14 +56,9 @@ def run(options: Options) -> int:
     if options.output is None:
         return 0
     try:
-        written = write_migration(migration, options.output)
+        written = write_migration_folder(migration, options.output, notify=note)
     except OSError as error:
         raise UsageError(f"{options.output}: {error.strerror or error}; nothing was written") from None
-    if options.output.is_dir():
-        from amp_studio.report import migration_paper, write_paper
-
-        write_paper(migration_paper(migration), options.output / "migration.pdf", notify=note)
-        written.append("migration.pdf")
     note(f"{options.output}: {', '.join(written)}")
     return 0
 

@@ -81,18 +81,18 @@ def pins_of(text: str) -> dict[str, str]:
 def values_in_use(file: ParameterFile) -> dict[Address, Value]:
     """Return what the running program uses of the values that a file sets, as far as pins show it.
 
-    A value that is shown as the file has it is the file's own; one with fewer digits would seem to differ.
+    A value that is listed as the file has it is the file's own; one with fewer digits would seem to differ.
     Raises TransferError.
     """
     return values_of(file, pins("ini"))
 
 
-def values_of(file: ParameterFile, shown: dict[str, str]) -> dict[Address, Value]:
-    """Return ``values_in_use`` by pins that were shown; raises TransferError."""
+def values_of(file: ParameterFile, listed: dict[str, str]) -> dict[Address, Value]:
+    """Return ``values_in_use`` by pins that were listed; raises TransferError."""
     used = dict[Address, Value]()
     for parameter, pattern, _ in file.schema.tables["pins"].rows:
         for address, value in file.values.items():
-            text = shown.get(str(pattern).format(i=address[1].lower())) if address[0] == parameter else None
+            text = listed.get(str(pattern).format(i=address[1].lower())) if address[0] == parameter else None
             if text is not None and file.evaluation.state(address).is_active:
                 used[address] = _in_use(file, address, value, text)
     return used
@@ -115,22 +115,22 @@ def status_of(file: ParameterFile, runs: bool, protocol: str) -> ControlStatus:
     return status_from(file, pins("motion") | pins("joint"), protocol)
 
 
-def status_from(file: ParameterFile, shown: dict[str, str], protocol: str) -> ControlStatus:
-    """Return ``status_of`` by pins that were shown; raises TransferError."""
-    joints = [n for n in range(16) if shown.get(f"joint.{n}.active") == "TRUE"]
+def status_from(file: ParameterFile, listed: dict[str, str], protocol: str) -> ControlStatus:
+    """Return ``status_of`` by pins that were listed; raises TransferError."""
+    joints = [n for n in range(16) if listed.get(f"joint.{n}.active") == "TRUE"]
     kinematics = file.get(("kins.kinematics", ""))
     letters = joint_letters(str(kinematics.value) if kinematics else None, len(joints))
-    axes = tuple(_joint(n, letters[n] if n < len(letters) else f"joint {n}", shown, file) for n in joints)
-    state = "on" if shown.get("motion.motion-enabled") == "TRUE" else "off"
-    values = {"velocity": _number(shown.get("motion.current-vel", ""))}
+    axes = tuple(_joint(n, letters[n] if n < len(letters) else f"joint {n}", listed, file) for n in joints)
+    state = "on" if listed.get("motion.motion-enabled") == "TRUE" else "off"
+    values = {"velocity": _number(listed.get("motion.current-vel", ""))}
     return ControlStatus(FAMILY, protocol, file.header.name, state, axes, values=values)
 
 
-def _joint(n: int, name: str, shown: dict[str, str], file: ParameterFile) -> AxisStatus:
+def _joint(n: int, name: str, listed: dict[str, str], file: ParameterFile) -> AxisStatus:
     def figure(pin: str) -> float:
-        return _number(shown.get(f"joint.{n}.{pin}", ""))
+        return _number(listed.get(f"joint.{n}.{pin}", ""))
 
-    states = tuple(text for pin, text in _STATES.items() if shown.get(f"joint.{n}.{pin}") == "TRUE")
+    states = tuple(text for pin, text in _STATES.items() if listed.get(f"joint.{n}.{pin}") == "TRUE")
     unit = unit_in(file, ("joint.home", str(n)))
     return AxisStatus(name, figure("pos-fb"), figure("f-error"), figure("vel-cmd"), unit, states)
 

@@ -1,0 +1,99 @@
+"""The window of a migration: questions, what is less safe, each parameter once, and what is written."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+from PySide6.QtWidgets import QFileDialog
+from pytestqt.qtbot import QtBot
+
+from amp_studio.files import open_file
+from amp_studio.ui.base.task import Task
+from amp_studio.ui.migration.rows import meanings
+from amp_studio.ui.migration.window import MigrationWindow
+
+PRESS = Path(__file__).parents[2] / "examples" / "57c422b-label-press" / "LABEL_PRESS.amp"
+
+
+@pytest.fixture
+def followed() -> list[str]:
+    return []
+
+
+@pytest.fixture
+def window(qtbot: QtBot, followed: list[str]) -> MigrationWindow:
+    made = MigrationWindow(open_file(PRESS).file, PRESS, followed.append)
+    qtbot.addWidget(made)
+    made.target.set_answer("to", "linuxcnc")
+    made.migrate()
+    return made
+
+
+def rows(window: MigrationWindow) -> list[tuple[str, str, str]]:
+    heads = [window.tree.topLevelItem(n) for n in range(window.tree.topLevelItemCount())]
+    items = [head.child(n) for head in heads if head for n in range(head.childCount())]
+    return [(item.text(0), item.text(1), item.text(2)) for item in items]
+
+
+def test_each_parameter_is_listed_once_with_its_meaning_and_what_it_becomes(window: MigrationWindow) -> None:
+    assert window.migration is not None
+    assert len(rows(window)) == len(window.migration.entries) == 114
+    assert any(
+        meaning == "X linear or rotary" and new == "[JOINT_0]TYPE = LINEAR"
+        for _, meaning, new in rows(window)
+    )
+    assert window.losses.text()
+
+
+def test_nothing_but_a_draft_is_written_while_a_question_is_open(window: MigrationWindow) -> None:
+    assert "1 questions open" in window.summary.text()
+    assert (window.write_button.isEnabled(), window.draft_button.isEnabled()) == (False, True)
+    window.questions.set_answer("home.order", "X")
+    window.migrate()
+    assert "each of X, Y once" in window.summary.text()
+    assert (window.write_button.isEnabled(), window.draft_button.isEnabled()) == (False, False)
+    window.questions.set_answer("home.order", "X, Y")
+    window.migrate()
+    assert (window.write_button.isEnabled(), window.draft_button.isEnabled()) == (True, False)
+
+
+def test_the_other_control_has_its_own_questions(window: MigrationWindow) -> None:
+    window.questions.set_answer("home.order", "X, Y")
+    window.target.set_answer("to", "grblhal")
+    window.migrate()
+    assert {"steps.X", "steps.Y"} <= set(window.questions.editors)
+    assert window.migration is not None
+    assert window.migration.target == "grblhal"
+
+
+def test_configuration_report_and_paper_go_into_a_new_folder(
+    window: MigrationWindow, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, qtbot: QtBot
+) -> None:
+    folder = tmp_path / "retrofit"
+    monkeypatch.setattr(QFileDialog, "getSaveFileName", lambda *_, **__: (str(folder), ""))
+    window.questions.set_answer("home.order", "X, Y")
+    window.migrate()
+    window.write()
+    qtbot.waitUntil(lambda: not Task.running)
+    assert {"migration.pdf", "migration.txt", "machine.hal"} <= {path.name for path in folder.iterdir()}
+    window.write()
+    assert "there already" in window.bar.text.text()
+
+
+def test_a_row_shows_why_and_leads_to_its_parameter(window: MigrationWindow, followed: list[str]) -> None:
+    head = window.tree.topLevelItem(window.tree.topLevelItemCount() - 2)
+    assert head is not None
+    window.tree.setCurrentItem(head.child(0))
+    row = window.tree.row()
+    assert row is not None
+    assert row.why
+    assert row.why in window.why.text()
+    window.tree.itemDoubleClicked.emit(head.child(0), 0)
+    assert followed == [row.parameter]
+
+
+def test_every_concept_of_a_machine_has_its_words() -> None:
+    from amp_studio.meaning.description import OF_AXIS, OF_MACHINE
+
+    assert set(meanings()) == {*OF_AXIS, *OF_MACHINE}
