@@ -14,6 +14,9 @@ from collections.abc import Iterable, Iterator
 from pathlib import Path
 
 from amp_studio.languages.catalogue import language_codes, texts_of
+from amp_studio.schema import family_ids
+from amp_studio.schema.load import folder_of
+from amp_studio.schema.translation.texts import missing_texts
 
 ROOT = Path(__file__).parents[1]
 UI = ROOT / "amp_studio" / "ui"
@@ -89,6 +92,10 @@ def main(arguments: list[str]) -> int:
         else:
             path.write_text(content, "utf-8")
             print(f"{path.name}: {len(missing)} without a translation")
+    for family in family_ids():
+        for language in sorted({path.parent.name for path in folder_of(family).glob("??/*.yaml")}):
+            for place in missing_texts(family, language):
+                print(f"{family}/{language}: no translation of {'.'.join(map(str, place))}")
     return code
 
 

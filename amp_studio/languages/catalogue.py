@@ -14,7 +14,15 @@ from typing import Literal
 
 FOLDER = Path(__file__).parent
 TextSection = Literal[
-    "window", "phrases", "patterns", "titles", "title_patterns", "nouns", "messages", "message_patterns"
+    "window",
+    "phrases",
+    "patterns",
+    "titles",
+    "title_patterns",
+    "nouns",
+    "units",
+    "messages",
+    "message_patterns",
 ]
 Forms = str | list[str]
 """A text; of one with a number its forms, for one and for several."""

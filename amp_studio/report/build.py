@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import hashlib
 from collections.abc import Iterator, Sequence
+from dataclasses import replace
 from datetime import datetime
 from itertools import groupby
 from pathlib import Path
@@ -32,7 +33,7 @@ from .contents import SORTS, UNIT_CHOICES, Contents
 from .dangers import dangers_of
 from .drawings import drawings
 from .findings.alike import notes_of, suppressed_notes
-from .language import language_of
+from .language import Language, language_of
 from .model import ExchangeLine, PrintedFigure, ProgramState, Report, ReportRow
 from .parameter.manual_page import help_parts
 from .rows import Rows, row_of, rows_of
@@ -61,7 +62,8 @@ def build_report(
     ``exchanges`` what the record has of this file.
     """
     contents = contents or Contents()
-    found = rows_of(file, contents.units)
+    language = language_of(contents.language, file.schema.family.family)
+    found = rows_of(file, contents.units, language)
     printed = tuple(row for row in found.rows if _is_wanted(row, contents))
     anchors = {row.anchor for row in printed}
     validator = validator_of(file, source, own)
@@ -85,16 +87,21 @@ def build_report(
         ),
         axis_heads=heads,
         axes=axes,
-        notes=notes_of(file, now.findings, anchors) + suppressed_notes(file, validator.suppressed, anchors),
-        dangers=dangers_of(file.schema, printed),
+        notes=(
+            notes_of(file, now.findings, anchors, language)
+            + suppressed_notes(file, validator.suppressed, anchors, language)
+        ),
+        dangers=dangers_of(file.schema, printed, language),
         forced=_forced(file, found.rows),
         not_set=tuple(_not_set(found.rows)),
-        sections=sections_of(file, printed, contents.sort, language_of(contents.language)),
-        pictures=() if "pictures" in contents.without else drawings(file, language_of(contents.language)),
-        motion=() if "motion" in contents.without else tuple(motion),
-        power_up=() if "power-up" in contents.without else tuple(_power_up(file)),
+        sections=sections_of(file, printed, contents.sort, language),
+        pictures=() if "pictures" in contents.without else drawings(file, language),
+        motion=()
+        if "motion" in contents.without
+        else tuple(_in_words(figure, language) for figure in motion),
+        power_up=() if "power-up" in contents.without else tuple(_power_up(file, language)),
         exchanges=() if "exchanges" in contents.without else tuple(exchanges),
-        help={i: tuple(_help(file.schema, i)) for i in dict.fromkeys(row.id for row in printed)},
+        help={i: tuple(_help(file.schema, i, language)) for i in dict.fromkeys(row.id for row in printed)},
     )
 
 
@@ -106,7 +113,7 @@ def _is_wanted(row: ReportRow, contents: Contents) -> bool:
     return is_wanted and (not contents.changed_only or row.is_changed or row.no_default)
 
 
-def _power_up(file: ParameterFile) -> Iterator[ProgramState]:
+def _power_up(file: ParameterFile, language: Language) -> Iterator[ProgramState]:
     """Yield what is active in part programs after power-up; nothing for a family of which no page prints
     it.
     """
@@ -117,13 +124,19 @@ def _power_up(file: ParameterFile) -> Iterator[ProgramState]:
     state = power_up(file)
     for line in (*state.active, *state.changes, *state.calls):
         numbers = ", ".join(file.machine_schema.short(address) for address in line.params)
-        yield ProgramState(line.what, line.code, line.meaning, numbers, line.page)
+        what, meaning = language.sentence(line.what), language.sentence(line.meaning)
+        yield ProgramState(what, line.code, meaning, numbers, line.page)
 
 
-def _help(schema: Schema, parameter_id: str) -> Iterator[tuple[str, str]]:
+def _help(schema: Schema, parameter_id: str, language: Language) -> Iterator[tuple[str, str]]:
     parameter = schema.parameters[parameter_id]
-    yield from help_parts(schema, parameter)
-    yield "Manual", f"page {parameter.page}"
+    yield from help_parts(schema, parameter, language)
+    yield "Manual", language.text(f"page {parameter.page}")
+
+
+def _in_words(figure: PrintedFigure, language: Language) -> PrintedFigure:
+    """Return a drawing of the simulator with the sentences below it in a language."""
+    return replace(figure, notes=tuple(map(language.sentence, figure.notes)))
 
 
 # -- facts ---------------------------------------------------------------------

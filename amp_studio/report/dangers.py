@@ -8,17 +8,20 @@ from amp_studio.files import Difference, ParameterFile
 from amp_studio.schema import Schema
 
 from .axes import place_of
+from .language import ENGLISH, Language
 from .model import Danger, ReportRow
 from .wording import joined_places
 
 
-def dangers_of(schema: Schema, rows: Iterable[ReportRow]) -> tuple[Danger, ...]:
+def dangers_of(schema: Schema, rows: Iterable[ReportRow], language: Language = ENGLISH) -> tuple[Danger, ...]:
     """Return the dangers of values that are active and were chosen by somebody: not the printed default."""
     chosen = (row for row in rows if row.state == "in-force" and (row.is_changed or row.no_default))
-    return _grouped(schema, ((row.id, row.anchor, row.name, row.place) for row in chosen))
+    return _grouped(schema, ((row.id, row.anchor, row.name, row.place) for row in chosen), language)
 
 
-def dangers_of_change(file: ParameterFile, differences: Iterable[Difference]) -> tuple[Danger, ...]:
+def dangers_of_change(
+    file: ParameterFile, differences: Iterable[Difference], language: Language = ENGLISH
+) -> tuple[Danger, ...]:
     """Return the dangers of values that differ; ``file`` is one of the two sides."""
     parameters = file.schema.parameters
     addresses = (difference.address for difference in differences)
@@ -28,16 +31,19 @@ def dangers_of_change(file: ParameterFile, differences: Iterable[Difference]) ->
             (i, f"{i}@{instance}", parameters[i].name, place_of(file, (i, instance)))
             for i, instance in addresses
         ),
+        language,
     )
 
 
-def _grouped(schema: Schema, values: Iterable[tuple[str, str, str, str]]) -> tuple[Danger, ...]:
+def _grouped(
+    schema: Schema, values: Iterable[tuple[str, str, str, str]], language: Language
+) -> tuple[Danger, ...]:
     """Return each statement with the values that it is about: (id, anchor, name, place) of each."""
     found: dict[tuple[str, str], dict[str, tuple[str, str, list[str]]]] = {}
     for parameter, anchor, name, place in values:
         for danger in schema.parameters[parameter].help.danger:
-            about = found.setdefault((" ".join(danger.says.split()), danger.page), {})
-            about.setdefault(parameter, (anchor, name, []))[2].append(place)
+            about = found.setdefault((language.sentence(danger.says), danger.page), {})
+            about.setdefault(parameter, (anchor, name, []))[2].append(language.text(place))
     return tuple(
         Danger(
             statement, page, tuple((anchor, _label(name, places)) for anchor, name, places in about.values())

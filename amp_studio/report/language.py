@@ -1,22 +1,28 @@
-"""The languages of documents, and in the window of what is made below it:
-the words of the program's own frame.
+"""The languages of documents, and in the window of what is made below it.
 
-The texts are in ``amp_studio/languages``, each under its id; what is made in English is found by the English
-text of its id. Names, choices, help and findings stay as they are.
+The words of the program's own frame are in ``amp_studio/languages``, each under its id; what is made in
+English is found by the English text of its id. What decides in the facts of a family (rules, dangers, steps,
+reasons, assumptions) has its words beside them, in ``parameter_db/<family>/<language>``. Names and choices
+stay as the control shows them, and help stays English.
 """
 
 from __future__ import annotations
 
 import re
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
+from datetime import datetime
 from functools import cache
 from html import escape, unescape
 
 from amp_studio.languages import TextSection, name_of_language, own_texts
+from amp_studio.schema import NO_TEXTS, UNITS, FactTexts, fact_texts, names_in, unit_text
+from amp_studio.validate import Finding
 
 from .wording import counted
 
 _WORDS = re.compile(r"(>\s*)([^<>]*?[^<>\s])(\s*<)")
+_NUMBER = re.compile(r"(?<![\w.$@])[-−]?\d+\.\d+(?![\w]|\.\d)")
+"""A number in a sentence; no address (``P3N0.5``, ``$22.0``), version or network address."""
 
 
 @dataclass(frozen=True)
@@ -35,6 +41,14 @@ class Language:
     messages: dict[str, str] = field(default_factory=dict)
     """Parts of the program's own findings -> their own; names of parameters are not among them."""
     message_patterns: tuple[tuple[re.Pattern[str], str], ...] = ()
+    facts: FactTexts = NO_TEXTS
+    """What decides in the facts of a family."""
+    fact_patterns: tuple[tuple[re.Pattern[str], str], ...] = ()
+    """Sentences of a family with figures in them: their names are groups."""
+    units: dict[str, str] = field(default_factory=dict)
+    """Printed unit -> its own spelling."""
+    point: str = "."
+    """The decimal sign."""
 
     def text(self, english: str) -> str:
         """Return a phrase in this language; as it is where the language has no other words for it."""
@@ -54,7 +68,7 @@ class Language:
         """Return what the program itself calls something: the title of a step or a picture, a heading,
         a note of a picture.
         """
-        known = self.titles.get(english)
+        known = self.fact(english) or self.titles.get(english)
         if known is not None:
             return known
         for pattern, own in self.title_patterns:
@@ -62,8 +76,55 @@ class Language:
                 return own.format(*(self.title(group) for group in found.groups()))
         return self.text(english)
 
+    def fact(self, english: str) -> str | None:
+        """Return a sentence of the family's facts in this language; None where there is none."""
+        known = self.facts.sentences.get(english)
+        if known is not None:
+            return known
+        for pattern, own in self.fact_patterns:
+            if found := pattern.fullmatch(english):
+                return own.format_map({name: self.title(text) for name, text in found.groupdict().items()})
+        return None
+
+    def sentence(self, english: str) -> str:
+        """Return a sentence of the program or of the family's facts, with its figures as this language
+        writes them.
+        """
+        return self.quantity(self.title(" ".join(english.split())))
+
+    def finding(self, finding: Finding) -> str:
+        """Return the message of a finding in this language; a builder's rule has the words of its builder."""
+        if finding.is_own:
+            return finding.message
+        message = self.facts.messages.get(finding.rule)
+        if message is None or finding.figures is None:
+            return self.quantity(self.message(finding.message))
+        return message.format_map({name: self._given(text) for name, text in finding.figures})
+
+    def _given(self, text: str) -> str:
+        """Return what a rule puts into its message: a phrase of its facts, or a value with its unit."""
+        return self.facts.sentences.get(text) or self.quantity(text)
+
+    def number(self, figure: str) -> str:
+        """Return a number with the decimal sign of this language."""
+        return figure.replace(".", self.point)
+
+    def unit(self, printed: str) -> str:
+        """Return a printed unit as this language spells it."""
+        return self.units.get(printed, printed)
+
+    def quantity(self, text: str) -> str:
+        """Return a text with its numbers, and the units behind them, as this language writes them."""
+        if self.point != ".":
+            text = _NUMBER.sub(lambda found: self.number(found[0]), text)
+        return _behind_a_number().sub(lambda found: self.unit(found[0]), text) if self.units else text
+
+    def moment(self, date: datetime) -> str:
+        """Return date and time as this language writes them."""
+        return date.strftime(self.text("%Y-%m-%d %H:%M"))
+
     def message(self, english: str) -> str:
-        """Return a finding of the program itself in this language; a rule stays in the words of its facts."""
+        """Return a finding of the program itself in this language."""
         known = self.messages.get(english)
         if known is not None:
             return known
@@ -78,7 +139,7 @@ class Language:
             return svg
         return _WORDS.sub(
             lambda found: (
-                found[1] + escape(" · ".join(map(self.title, unescape(found[2]).split(" · ")))) + found[3]
+                found[1] + escape(" · ".join(map(self.sentence, unescape(found[2]).split(" · ")))) + found[3]
             ),
             svg,
         )
@@ -94,10 +155,23 @@ ENGLISH = Language("en", "English")
 
 
 @cache
-def language_of(code: str) -> Language:
-    """Return a language by its code; raises ValueError for another one."""
+def _behind_a_number() -> re.Pattern[str]:
+    """Return what finds a unit behind a number and a space."""
+    printed = sorted({unit_text(unit) for unit in UNITS} - {"", "°", "%"}, key=len, reverse=True)
+    return re.compile(rf"(?<=\d )(?:{'|'.join(map(re.escape, printed))})(?![\w/])")
+
+
+@cache
+def language_of(code: str, family: str = "") -> Language:
+    """Return a language by its code, with the facts of a family where one is named; raises ValueError for
+    another code.
+    """
     if code == "en":
         return ENGLISH
+    if family:
+        facts = fact_texts(family, code)
+        patterns = tuple((_pattern_of(english), own) for english, own in facts.patterns.items())
+        return replace(language_of(code), facts=facts, fact_patterns=patterns)
     name = name_of_language(code)
     return Language(
         code,
@@ -109,12 +183,25 @@ def language_of(code: str) -> Language:
         _compiled(_own(code, "title_patterns")),
         _own(code, "messages"),
         _compiled(_own(code, "message_patterns")),
+        units=_own(code, "units"),
+        point=_own(code, "window")["."],
+    )
+
+
+def _pattern_of(sentence: str) -> re.Pattern[str]:
+    """Return what finds a sentence whose figures are ``{names}``, each a group."""
+    names = names_in(sentence)
+    parts = re.split(r"\{(\w+)\}", sentence)
+    return re.compile(
+        "".join(
+            f"(?P<{part}>.+?)" if n % 2 and part in names else re.escape(part) for n, part in enumerate(parts)
+        )
     )
 
 
 def _own(code: str, section: TextSection) -> dict[str, str]:
-    """Return English text -> own text of a section in which no text has several forms."""
-    return {english: str(own) for english, own in own_texts(code, section).items()}
+    """Return English text -> own text of a section, of those that have one form."""
+    return {english: own for english, own in own_texts(code, section).items() if isinstance(own, str)}
 
 
 def _compiled(patterns: dict[str, str]) -> tuple[tuple[re.Pattern[str], str], ...]:

@@ -13,6 +13,7 @@ from amp_studio.schema import MASKED, ParameterState
 
 from .contents import SORTS, Contents
 from .findings.note import Note, NoteKind
+from .language import language_of
 
 MARKS: dict[str, str] = {
     "*": "differs from the printed default",
@@ -322,7 +323,7 @@ class Report:
     @property
     def when(self) -> str:
         """Date and time in printed form."""
-        return self.date.strftime("%Y-%m-%d %H:%M")
+        return language_of(self.contents.language).moment(self.date)
 
     @property
     def lies_across(self) -> bool:

@@ -21,6 +21,7 @@ from amp_studio.schema import (
 
 from .axes import axis_label, place_of, printed_axes, scope_of
 from .contents import UnitChoice
+from .language import ENGLISH, Language
 from .model import ReportRow
 
 _EXACT = 9
@@ -41,7 +42,7 @@ class Rows:
     """Number of values of unfitted axes."""
 
 
-def rows_of(file: ParameterFile, units: UnitChoice = "file") -> Rows:
+def rows_of(file: ParameterFile, units: UnitChoice = "file", language: Language = ENGLISH) -> Rows:
     """Return a row for every value; hidden values and those of unfitted axes are only counted.
 
     Of optional entries (those of a tool table) there are only rows for the values that are set.
@@ -57,7 +58,7 @@ def rows_of(file: ParameterFile, units: UnitChoice = "file") -> Rows:
             hidden += 1
         elif address in file.values or not file.schema.parameters[address[0]].optional:
             place = labels[address[1]] if scope_of(file, address) == "axis" else None
-            rows.append(row_of(file, address, _state_mark(state, marks), units, place))
+            rows.append(row_of(file, address, _state_mark(state, marks), units, place, language))
     return Rows(tuple(rows), hidden, unfitted)
 
 
@@ -77,9 +78,11 @@ def row_of(
     state_mark: str = "",
     units: UnitChoice = "file",
     place: str | None = None,
+    language: Language = ENGLISH,
 ) -> ReportRow:
     """Return the row of one value; ``state_mark`` is the mark of the reason why it is inactive,
-    ``place`` is ``place_of`` where it is known.
+    ``place`` is ``place_of`` where it is known. What is printed is in a language; what is exported
+    (``value``, ``unit``, ``plain_default``) is as in the file.
 
     Secrets are masked. The row of a secret has no default:
     together with the mark of a change it would reveal the value.
@@ -114,17 +117,17 @@ def row_of(
         is_number=parameter.type in ("real", "integer"),
         value=MASKED if parameter.secret and value is not None else _bare(parameter, value),
         unit=unit,
-        figure=figure,
-        shown_unit=unit_text(printed_unit),
-        also=also,
-        entered=_with_unit(_bare(parameter, value), unit) if is_rounded else "",
+        figure=language.number(figure) if parameter.type in ("real", "integer") else figure,
+        shown_unit=language.unit(unit_text(printed_unit)),
+        also=language.quantity(also),
+        entered=language.quantity(_with_unit(_bare(parameter, value), unit)) if is_rounded else "",
         detail=_bits(parameter, value),
-        default=_default(parameter, default, printed_unit),
+        default=_printed_default(parameter, default, printed_unit, language),
         plain_default=_bare(parameter, _converted(default, unit)),
         is_changed=is_changed and has_default,
         no_default=is_changed and not has_default,
         state=state.state,
-        why=state.why,
+        why=language.sentence(state.why),
         state_mark=state_mark,
         forced=with_local_times(file.forced.get(address, "")),
         note=" ".join(value_note(file, address).split()),
@@ -165,6 +168,11 @@ def _default(parameter: Parameter, default: Value | None, unit: str) -> str:
     if _converted(default, unit) is None:
         return _with_unit(_bare(parameter, default), default.unit)
     return _figure(parameter, default, unit)
+
+
+def _printed_default(parameter: Parameter, default: Value | None, unit: str, language: Language) -> str:
+    text = _default(parameter, default, unit)
+    return language.quantity(text) if parameter.type in ("real", "integer") else text
 
 
 def _converted(value: Value | None, unit: str) -> Value | None:

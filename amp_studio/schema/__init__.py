@@ -69,6 +69,7 @@ if TYPE_CHECKING:
         Direction,
         Erratum,
         ErrorRoles,
+        FactTexts,
         Family,
         GearRoles,
         Group,
@@ -142,6 +143,8 @@ if TYPE_CHECKING:
         words_of,
         words_taken,
     )
+    from .translation.places import names_in
+    from .translation.texts import NO_TEXTS, fact_texts
     from .units import (
         UNITS,
         UnitError,

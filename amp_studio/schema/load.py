@@ -54,6 +54,8 @@ _MOST_RULES = 2**20
 """Bytes of a file of rules; the largest of our own has 37,000."""
 _MOST_SLIPS = 9
 """Of one entry, in a message."""
+_LANGUAGE = 2
+"""Letters of the code of a language."""
 
 
 class DatabaseError(FileError):
@@ -104,7 +106,7 @@ def _own_ids() -> set[str]:
     return {path.parent.name for path in database_folder().glob("*/family.yaml")}
 
 
-def _folder_of(family_id: str) -> Path:
+def folder_of(family_id: str) -> Path:
     """Return the folder of a family's facts; the other packages are searched for one
     that the program does not have.
     """
@@ -122,8 +124,8 @@ def load_compiled(family_id: str) -> Compiled:
     Only the id of a family that is there becomes a part of a path: what a file, an image or a person calls a
     family may be anything.
     """
-    folder = _folder_of(family_id)
-    cached = cache_folder() / f"{family_id}-{_content_key(sorted(folder.rglob('*.yaml')))}.json"
+    folder = folder_of(family_id)
+    cached = cache_folder() / f"{family_id}-{content_key(fact_files(folder))}.json"
     kept = read_cached(cached)
     if kept is not None:
         try:
@@ -137,6 +139,15 @@ def load_compiled(family_id: str) -> Compiled:
     compiled = compile_family(folder)
     write_cached(cached, record_text(compiled).encode(), family_id)
     return compiled
+
+
+def fact_files(folder: Path) -> list[Path]:
+    """Return the files of a family's facts without those of other languages, which are in a folder with two
+    letters: most starts ask for none.
+    """
+    return sorted(
+        path for path in folder.rglob("*.yaml") if len(path.relative_to(folder).parts[0]) != _LANGUAGE
+    )
 
 
 def compile_family(folder: Path) -> Compiled:
@@ -261,6 +272,12 @@ def _read(path: Path, model: type[T], family: Family | None = None) -> T:
     return _valid(path, document, document.data, model, family)
 
 
+def read_facts(path: Path, model: type[T]) -> tuple[T, Callable[[KeyPath], int]]:
+    """Return a fact file as a model, and what returns the line of a place in it; raises DatabaseError."""
+    document = _parsed(path)
+    return _valid(path, document, document.data, model, None), document.line
+
+
 def _parsed(path: Path) -> YamlDocument:
     """Return the document of a fact file; raises DatabaseError."""
     return read_yaml_file(path, DatabaseError, references=True)
@@ -308,7 +325,8 @@ def _entry(data: Any, place: KeyPath) -> tuple[KeyPath, str]:
     return entry, name
 
 
-def _content_key(files: list[Path]) -> str:
+def content_key(files: list[Path]) -> str:
+    """Return a checksum over fact files and over what compiles them."""
     digest = hashlib.sha256()
     here = Path(__file__).parent
     own = (*sorted((here / "model").glob("*.py")), Path(__file__), here / "compiled_cache.py", UNITS_FILE)

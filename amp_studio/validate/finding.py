@@ -45,8 +45,11 @@ class Finding:
     """It is of a builder's rule: ``page`` is where he wrote it down, not a page of the manual."""
     reason: str = ""
     """Why it is so, of a rule that no manual states: ``page`` is empty then."""
-    brings: str = ""
-    """The message of a warning that comes up once its suggested fix is made; such a fix is made last."""
+    brings: Finding | None = None
+    """The warning that comes up once its suggested fix is made; such a fix is made last."""
+    figures: tuple[tuple[str, str], ...] | None = None
+    """Name and text of what a rule puts into its message, for its words in another language; None where the
+    message is not that of a rule."""
 
     @property
     def addresses(self) -> tuple[Address, ...]:
@@ -64,6 +67,11 @@ class Finding:
         if self.reason:
             return self.reason
         return f"page {self.page}" if self.page and not self.is_own else self.page or ""
+
+
+def family_of_rule(rule: str) -> str:
+    """Return the family whose facts a rule is of: its id begins with it."""
+    return rule.partition(".")[0]
 
 
 def addresses_not_set(findings: Iterable[Finding]) -> tuple[Address, ...]:

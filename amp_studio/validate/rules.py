@@ -209,13 +209,14 @@ class RuleChecks:
         given = _Given(keys, lambda values: self._context(check, values))
         fix = self._fix(check, given)
         causes, compared = about(check, given)
+        figures = self._texts(check, given)
         if check.is_lenient or check.lists:  # otherwise all that it reads is active
             causes, compared = self._unhidden(causes), self._unhidden(compared)
         return Finding(
             rule.id,
             rule.severity,
             causes,
-            rule.message.format_map(self._texts(check, given)),
+            rule.message.format_map(figures),
             fix,
             rule.source if check.is_own else rule.page,
             bool(fix) and all(entry.safe for entry in rule.fix),
@@ -224,6 +225,7 @@ class RuleChecks:
             check.instance,
             check.is_own,
             "" if check.is_own or rule.page else rule.source,
+            figures=tuple(figures.items()),
         )
 
     def _unhidden(self, addresses: tuple[Address, ...]) -> tuple[Address, ...]:

@@ -43,8 +43,8 @@ class _Tried(NamedTuple):
     is_good: bool
     asked: frozenset[FindingPlace] | None
     """Besides the check of the finding itself; None if that is every check."""
-    brings: str = ""
-    """The message of a warning that comes up instead."""
+    brings: Finding | None = None
+    """The warning that comes up instead."""
 
 
 class Trials:
@@ -151,7 +151,7 @@ class Trials:
         self._checks.look_again()
         if self._found(place):
             return _Tried(False, self._bad_by(finding, (), asked))
-        brings = ""
+        brings = None
         for other in asked:
             if not self._found(other):
                 continue
@@ -160,8 +160,8 @@ class Trials:
             is_new = other not in filed or not set(filed[other][1].causes).issuperset(found.causes)
             if is_new and not self._are_lesser((found,), finding):
                 return _Tried(False, self._bad_by(finding, (other,), asked))
-            if is_new and found.severity == "warning" and not brings:
-                brings = found.message
+            if is_new and found.severity == "warning" and brings is None:
+                brings = found
         return _Tried(True, asked, brings)
 
     def _bad_by(

@@ -51,7 +51,7 @@ def test_a_german_page_has_german_titles_for_the_grades(mill: ParameterFile) -> 
     page = render_html(build_report(mill, Contents(language="de"))).decode()
     assert '<h2 id="dangers">Gefahren</h2>' in page
     assert '<div class="hazard"><b>Gefahr</b>' in page
-    assert '["note", "Hinweis", "The order must be Inposition Band ' in page
+    assert '["note", "Hinweis", "Die Reihenfolge muss Inposition Band ' in page
     assert '["", "Wirkung", ' in page
 
 

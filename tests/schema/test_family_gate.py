@@ -48,7 +48,7 @@ def no_other_file(monkeypatch) -> None:
 
     monkeypatch.setattr(loading, "compile_family", looked)
     monkeypatch.setattr(loading, "read_cached", looked)
-    monkeypatch.setattr(loading, "_content_key", looked)
+    monkeypatch.setattr(loading, "content_key", looked)
 
 
 @pytest.mark.usefixtures("no_other_file")

@@ -28,7 +28,12 @@ KINDS = {"groups": "group"}
 
 
 def kind_of(path: Path) -> str:
-    """Return which kind of facts a file of a family has: that of its folder, or its name at the top."""
+    """Return which kind of facts a file of a family has: that of its folder, or its name at the top;
+    the folder of a language has translations.
+    """
+    top = next((above for above in path.parents if (above / "family.yaml").exists()), path.parent)
+    if len(path.relative_to(top).parts[0]) == 2:
+        return "translation"
     is_at_top = (path.parent / "family.yaml").exists()
     return path.stem if is_at_top else KINDS.get(path.parent.name, path.parent.name)
 

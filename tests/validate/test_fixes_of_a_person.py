@@ -46,9 +46,9 @@ def test_a_fix_that_brings_a_warning_has_it_and_is_made_last(mill: ParameterFile
     )
     validator = Validator(mill, own)
     found = {finding.rule: finding for finding in validator.run() if finding.is_own}
-    assert found["own.a"].brings == "rule b"
+    assert found["own.a"].brings.message == "rule b"
     assert finding_text(mill, found["own.a"]).endswith("= 8000 mm/min (it brings a warning: rule b)")
-    assert found["own.c"].brings == ""
+    assert found["own.c"].brings is None
     first = validator.first_fix(lambda finding: finding.is_own)
     assert first is not None
     assert first.rule == "own.c"

@@ -8,6 +8,7 @@ from itertools import groupby
 
 from amp_studio.files import ParameterFile, axis_letter
 from amp_studio.report.axes import axis_label, scope_of
+from amp_studio.report.language import ENGLISH, Language
 from amp_studio.report.wording import joined_places, severity_name
 from amp_studio.schema import Address, show_value
 from amp_studio.validate import AddressedValue, Finding, Suppressed
@@ -19,11 +20,13 @@ _NAMED = 6
 """Number of values that a note lists; a finding about more names only the first ones in its message."""
 
 
-def notes_of(file: ParameterFile, findings: Iterable[Finding], printed: set[str]) -> tuple[Note, ...]:
+def notes_of(
+    file: ParameterFile, findings: Iterable[Finding], printed: set[str], language: Language = ENGLISH
+) -> tuple[Note, ...]:
     """Return the findings as notes in their order;
     ``printed`` contains the anchors of the values in the report.
     """
-    return tuple(_note(file, same, printed) for same in alike(findings))
+    return tuple(_note(file, same, printed, language) for same in alike(findings))
 
 
 def alike(findings: Iterable[Finding]) -> list[list[Finding]]:
@@ -57,31 +60,36 @@ def _axes(file: ParameterFile, findings: Iterable[Finding]) -> list[str]:
     return sorted(axes, key=lambda axis: (len(axis), axis))
 
 
-def suppressed_notes(file: ParameterFile, left: Iterable[Suppressed], printed: set[str]) -> tuple[Note, ...]:
+def suppressed_notes(
+    file: ParameterFile, left: Iterable[Suppressed], printed: set[str], language: Language = ENGLISH
+) -> tuple[Note, ...]:
     """Return the suppressed findings as notes, with name and reason."""
-    alike: dict[tuple[str, str], list[Finding]] = {}
+    alike: dict[tuple[str, str, str], list[Finding]] = {}
     for suppressed in left:
-        finding, why = suppressed.finding, suppressed.suppression
-        message = f"{finding.message} Suppressed by {why.by}: {why.reason}"
-        alike.setdefault((finding.rule, message), []).append(
-            replace(finding, message=message, fix=(), effective=())
-        )
-    return tuple(replace(_note(file, same, printed), severity="suppressed") for same in alike.values())
+        finding = replace(suppressed.finding, fix=(), effective=())
+        by = f"{language.text('Suppressed by')} {suppressed.suppression.by}: {suppressed.suppression.reason}"
+        alike.setdefault((finding.rule, finding.message, by), []).append(finding)
+    notes = [(_note(file, same, printed, language), by) for (_, _, by), same in alike.items()]
+    return tuple(replace(note, message=f"{note.message} {by}", severity="suppressed") for note, by in notes)
 
 
-def _note(file: ParameterFile, same: Sequence[Finding], printed: set[str]) -> Note:
+def _note(
+    file: ParameterFile, same: Sequence[Finding], printed: set[str], language: Language = ENGLISH
+) -> Note:
     addresses = list(dict.fromkeys(a for f in same if len(f.addresses) <= _NAMED for a in f.addresses))
     fix = list(dict.fromkeys(r for f in same for r in f.fix))
-    brings = next((f.brings for f in same if f.brings), "")
-    used = "; ".join(_settings(file, list(dict.fromkeys(s for f in same for s in f.effective))))
+    brings = next((f.brings for f in same if f.brings), None)
+    brought = f" ({language.text('it brings a warning:')} {language.finding(brings)})" if brings else ""
+    used = "; ".join(_settings(file, list(dict.fromkeys(s for f in same for s in f.effective)), language))
+    effective = f" {language.text('Effective value in the control:')} {used}." if used else ""
     return Note(
         severity=same[0].severity,
         count=len(same),
         place=_places(file, addresses),
-        about=tuple(_links(file, addresses, printed)),
-        message=same[0].message + (f" Effective value in the control: {used}." if used else ""),
-        fix="; ".join(_settings(file, fix)) + (f" (it brings a warning: {brings})" if brings else ""),
-        page=same[0].page or same[0].reason,
+        about=tuple(_links(file, addresses, printed, language)),
+        message=language.finding(same[0]) + effective,
+        fix="; ".join(_settings(file, fix, language)) + brought,
+        page=same[0].page or language.title(same[0].reason),
         is_own=same[0].is_own or bool(same[0].reason),
     )
 
@@ -93,14 +101,17 @@ def _places(file: ParameterFile, addresses: Sequence[Address]) -> str:
     return joined_places([axis_label(file, axis) for axis in axes])
 
 
-def _links(file: ParameterFile, addresses: Sequence[Address], printed: set[str]) -> Iterable[tuple[str, str]]:
+def _links(
+    file: ParameterFile, addresses: Sequence[Address], printed: set[str], language: Language = ENGLISH
+) -> Iterable[tuple[str, str]]:
     """Yield anchor and label of each value, for example ``1300``, ``2300`` and ``3300 Home Calibration``."""
     order = [a[0] for a in addresses]
     for _, members in groupby(sorted(addresses, key=lambda a: order.index(a[0])), key=lambda a: a[0]):
         same = list(members)
         for n, address in enumerate(same):
             anchor = f"{address[0]}@{address[1]}"
-            yield (anchor if anchor in printed else "", _label(file, address, n == 0, n == len(same) - 1))
+            label = _label(file, address, n == 0, n == len(same) - 1)
+            yield (anchor if anchor in printed else "", language.text(label))
 
 
 def _label(file: ParameterFile, address: Address, is_first: bool, is_last: bool) -> str:
@@ -115,11 +126,15 @@ def _label(file: ParameterFile, address: Address, is_first: bool, is_last: bool)
     return here.label(address) if is_first else here.instance_label(address)
 
 
-def _settings(file: ParameterFile, settings: Sequence[AddressedValue]) -> Iterable[str]:
+def _settings(
+    file: ParameterFile, settings: Sequence[AddressedValue], language: Language = ENGLISH
+) -> Iterable[str]:
     """Yield ``1300, 2300 Home Calibration = 0 mm`` for each parameter and new value."""
     wanted: dict[tuple[str, str], list[Address]] = {}
     for setting in settings:
-        text = show_value(file.schema.parameters[setting.address[0]], setting.value)
+        parameter = file.schema.parameters[setting.address[0]]
+        text = show_value(parameter, setting.value)
+        text = text if parameter.choices else language.quantity(text)
         wanted.setdefault((setting.address[0], text), []).append(setting.address)
     for (_, text), addresses in wanted.items():
-        yield ", ".join(label for _, label in _links(file, addresses, set())) + f" = {text}"
+        yield ", ".join(label for _, label in _links(file, addresses, set(), language)) + f" = {text}"

@@ -23,7 +23,7 @@ def finding_json(file: ParameterFile, finding: Finding) -> dict[str, Any]:
         "compared": [here.short(a) for a in finding.compared],
         "message": finding.message,
         "fix": [_setting_json(file, setting) for setting in finding.fix],
-        **({"brings": finding.brings} if finding.brings else {}),
+        **({"brings": finding.brings.message} if finding.brings else {}),
         "effective": [_setting_json(file, setting) for setting in finding.effective],
         "source": finding.page or finding.reason or None,
     }
@@ -59,7 +59,7 @@ def finding_parts(file: ParameterFile, finding: Finding) -> list[str]:
             )
             parts.append(f"{what}: {values}")
     if finding.brings:
-        parts[-1] += f" (it brings a warning: {finding.brings})"
+        parts[-1] += f" (it brings a warning: {finding.brings.message})"
     return parts
 
 

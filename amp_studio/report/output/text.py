@@ -43,7 +43,7 @@ def _lines(report: Report, words: Language) -> Iterator[str]:
         yield from _heading(words.text("Part programs after power-up").upper())
         for line in report.power_up:
             yield from _wrapped(f"{line.what}: {line.code} {line.meaning}".replace("  ", " "), "")
-            yield from _wrapped(f"{line.numbers} (page {line.page})".strip(), "    ")
+            yield from _wrapped(f"{line.numbers} ({words.text('page')} {line.page})".strip(), "    ")
         yield ""
     if report.exchanges:
         yield from _heading(words.text("Exchanges with controls").upper())

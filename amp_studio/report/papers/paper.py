@@ -57,7 +57,7 @@ class Paper:
     @property
     def when(self) -> str:
         """Date and time in printed form."""
-        return self.date.strftime("%Y-%m-%d %H:%M")
+        return self.words.moment(self.date)
 
     @property
     def words(self) -> Language:

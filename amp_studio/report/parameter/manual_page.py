@@ -9,6 +9,7 @@ from collections.abc import Iterable, Iterator, Sequence
 from typing import Literal
 
 from amp_studio.guide import step_of, steps_of
+from amp_studio.report.language import ENGLISH, Language
 from amp_studio.report.wording import severity_name, state_name
 from amp_studio.schema import (
     Address,
@@ -340,16 +341,16 @@ GRADES: dict[str, Literal["danger", "warning", "note"]] = {
 """Title of a graded part of the help -> its grade."""
 
 
-def help_parts(schema: Schema, parameter: Parameter) -> list[tuple[str, str]]:
-    """Return the help as (title, text), what is dangerous first."""
+def help_parts(schema: Schema, parameter: Parameter, language: Language = ENGLISH) -> list[tuple[str, str]]:
+    """Return the help as (title, text), what is dangerous first; what it warns of is in a language."""
     texts = parameter.help
     parts = [
-        *_statements("Danger", texts.danger),
-        *_statements("Warning", texts.warning),
+        *_statements("Danger", texts.danger, language),
+        *_statements("Warning", texts.warning, language),
         ("What it does", texts.what),
         ("How to find its value", texts.find),
         ("When it is wrong", texts.wrong),
-        *_statements("Note", texts.note),
+        *_statements("Note", texts.note, language),
     ]
     related = ", ".join(schema.parameters[r].name for r in texts.related if r in schema.parameters)
     parts.append(("Related", related))
@@ -360,8 +361,8 @@ def help_parts(schema: Schema, parameter: Parameter) -> list[tuple[str, str]]:
     return [(title, " ".join(text.split())) for title, text in parts if text]
 
 
-def _statements(grade: str, statements: Iterable[HelpNote]) -> list[tuple[str, str]]:
-    return [(grade, f"{s.says} (page {s.page})") for s in statements]
+def _statements(grade: str, statements: Iterable[HelpNote], language: Language) -> list[tuple[str, str]]:
+    return [(grade, f"{language.sentence(s.says)} ({language.text(f'page {s.page}')})") for s in statements]
 
 
 def erratum_text(erratum: Erratum) -> str:

@@ -95,7 +95,9 @@ def filled(
 
         environment = BoundedEnvironment(_PATIENCE_S, undefined=UnknownName, **whole, **settings)
     environment.globals.update(_=language.text, counted=language.counted, language=language.code)
-    environment.filters.update(filters, worded=language.drawing, titled=language.title)
+    environment.filters.update(
+        filters, worded=language.drawing, titled=language.title, stated=language.sentence
+    )
     environment.tests["listing"] = lambda part: isinstance(part, Listing)
     if own is None:
         return environment.get_template(name).render(values)

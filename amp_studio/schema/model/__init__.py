@@ -21,6 +21,7 @@ from .documents import (
     Table,
     Tables,
 )
+from .fact_texts import FactTexts, FactTranslation
 from .family import (
     Area,
     AxisDeclaration,
@@ -103,6 +104,8 @@ __all__ = [
     "Errata",
     "Erratum",
     "ErrorRoles",
+    "FactTexts",
+    "FactTranslation",
     "Family",
     "Fix",
     "GearRoles",

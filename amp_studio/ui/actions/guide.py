@@ -41,8 +41,9 @@ def _show_passed(window: StudioWindow, page: FilePage, here: Address | None, fou
     """Name the steps between two values in which nothing is open but nobody has been either."""
     steps = step_of(page.workspace.file.schema)
     first = steps[here[0]].number if here else 0
+    family = page.workspace.file.schema.family.family
     passed = [
-        worded(each.step.title)
+        worded(each.step.title, family)
         for each in page.workspace.progress.steps[first : steps[found[0]].number - 1]
         if each.state == "not begun"
     ]
@@ -74,7 +75,11 @@ def mark(window: StudioWindow, step: SetupStep | None = None) -> None:
     if each.ticked and each.state != "done":
         left = tr("{title} is ticked. Left: {open} values not set, {errors} errors.")
         window.show_status(
-            left.format(title=worded(step.title), open=len(each.open), errors=each.count("error"))
+            left.format(
+                title=worded(step.title, workspace.file.schema.family.family),
+                open=len(each.open),
+                errors=each.count("error"),
+            )
         )
 
 

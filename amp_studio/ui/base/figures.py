@@ -23,10 +23,8 @@ def written(figure: str) -> str:
 
 
 def sentence(text: str) -> str:
-    """Return a message that was made below the window (a finding, what is allowed)
+    """Return a message that was made below the window (what is allowed, why a value is refused)
     with its numbers as the language writes them.
-
-    The sentences of the program are in the language of the window; a rule has the words of its facts.
     """
     point = tr(".", "decimal sign")
     sentence = message_in_words(text)

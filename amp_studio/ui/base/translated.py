@@ -14,8 +14,10 @@ from typing import Final
 from PySide6.QtCore import QCoreApplication, QLibraryInfo, QLocale, QTranslator
 
 from amp_studio.languages import language_codes, name_of_language, own_texts
+from amp_studio.report import Language, language_of
 from amp_studio.report import counted as english_count
-from amp_studio.report import language_of
+from amp_studio.schema import Schema
+from amp_studio.validate import Finding, family_of_rule
 
 LANGUAGES: Final = {code: name_of_language(code) for code in language_codes()}
 """Code -> name in the language itself."""
@@ -26,25 +28,34 @@ def tr(text: str, disambiguation: str = "", n: int = -1) -> str:
     return QCoreApplication.translate("", text, disambiguation, n)
 
 
-def worded(text: str) -> str:
-    """Return a text that was made below the window (the title of a step or a picture, a severity,
-    ``page 7-20``) in its language.
+def worded(text: str, family: str = "") -> str:
+    """Return a text that was made below the window (the title of a picture, a severity,
+    ``page 7-20``) in its language; with a family also one of its facts (a step, a rule, a reason, a danger).
 
-    The words are those of reports in that language. Facts (names, help, rules)
-    have none and stay as they are.
+    The words are those of reports in that language. Names and help have none and stay as they are.
     """
-    return text if _spoken == "en" else _worded(_spoken, text)
+    return text if _spoken == "en" else _worded(_spoken, text, family)
 
 
 @lru_cache(maxsize=4096)
-def _worded(code: str, text: str) -> str:
-    return language_of(code).title(text)
+def _worded(code: str, text: str, family: str) -> str:
+    return language_of(code, family).title(text)
+
+
+def facts_in_words(schema: Schema) -> Language:
+    """Return the language of the window with the facts of a family."""
+    return language_of(_spoken, schema.family.family)
+
+
+def finding_in_words(finding: Finding) -> str:
+    """Return the message of a finding in the language of the window, with its figures."""
+    if _spoken == "en":
+        return finding.message
+    return language_of(_spoken, family_of_rule(finding.rule)).finding(finding)
 
 
 def message_in_words(text: str) -> str:
-    """Return a finding of the program itself in the language of the window;
-    a rule has the words of its facts.
-    """
+    """Return what the program states of a value in the language of the window."""
     return text if _spoken == "en" else _message(_spoken, text)
 
 

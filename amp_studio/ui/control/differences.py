@@ -17,6 +17,7 @@ from amp_studio.schema import Address
 from amp_studio.ui.base.figures import show_value
 from amp_studio.ui.base.places import short_place
 from amp_studio.ui.base.theme import ROW, SMALL_ICON, colour, font, icon, severity_icon
+from amp_studio.ui.base.translated import facts_in_words
 
 NUMBER, NAME, AXIS, CONTROL, FILE, MIND = range(6)
 _ADDRESS = Qt.ItemDataRole.UserRole + 1
@@ -81,7 +82,7 @@ class DifferenceTable(QTreeWidget):
         schema = file.schema
         for difference in found:
             only = difference.a is None if to_control else difference.b is None
-            dangers = dangers_of_change(file, [difference])
+            dangers = dangers_of_change(file, [difference], facts_in_words(file.schema))
             takes = not only and before.get(difference.address, True)
             self.rows[difference.address] = SideRow(difference, takes, dangers, only)
         screen_text = set(shown_axes(file)) if schema.family.fits_axes else None
@@ -236,4 +237,6 @@ class DifferenceTable(QTreeWidget):
         """Return what the manual calls dangerous about the values that change, each statement once."""
         if self._file is None:
             return ()
-        return dangers_of_change(self._file, [row.difference for row in self.taken(file=True)])
+        return dangers_of_change(
+            self._file, [row.difference for row in self.taken(file=True)], facts_in_words(self._file.schema)
+        )

@@ -32,6 +32,7 @@ from amp_studio.files import ParameterFile, describe
 from amp_studio.schema import Value
 from amp_studio.ui.base.theme import GAP2, GAP3, HEAD, font, icon
 from amp_studio.ui.base.time_words import in_words
+from amp_studio.ui.base.translated import finding_in_words
 from amp_studio.ui.base.workspace import Workspace
 from amp_studio.ui.forms.elided_label import ElidedLabel
 from amp_studio.ui.forms.message_bar import MessageBar, MessageKind
@@ -514,7 +515,7 @@ class ControlPage(QWidget):
             errors = [f for f in workspace.findings if f.severity == "error"]
             if errors and not self._accepted_errors:
                 text = self.tr("The file has {count}, the first: {message}").format(
-                    count=self.tr("%n errors", "", len(errors)), message=errors[0].message
+                    count=self.tr("%n errors", "", len(errors)), message=finding_in_words(errors[0])
                 )
                 return text, "error", ((self.tr("Send It With Its Errors"), self._accept_errors),)
         return None

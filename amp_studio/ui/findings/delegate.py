@@ -28,6 +28,7 @@ from amp_studio.ui.base.theme import (
     severity_icon,
 )
 from amp_studio.ui.base.translated import worded
+from amp_studio.validate import family_of_rule
 
 from .model import FindingsModel
 
@@ -131,7 +132,13 @@ class FindingsDelegate(QStyledItemDelegate):
         if is_rule:
             right = Qt.AlignmentFlag.AlignRight | Qt.AlignmentFlag.AlignVCenter
             painter.drawText(
-                place.page, right, self._elided(self._small, worded(group.cited), place.page.width())
+                place.page,
+                right,
+                self._elided(
+                    self._small,
+                    worded(group.cited, family_of_rule(group.findings[0].rule)),
+                    place.page.width(),
+                ),
             )
             paint_icon(painter, place.parts["more"].adjusted(3, 0, -3, 0), "dots-three", colour("dim"))
         elif not place.rule.isEmpty():

@@ -19,9 +19,8 @@ from PySide6.QtWidgets import (
 
 from amp_studio.report import FindingGroup, finding_groups, fix_lines, severity_name, why_parts
 from amp_studio.schema import Address, written
-from amp_studio.ui.base.figures import sentence
 from amp_studio.ui.base.theme import severity_html, severity_icon
-from amp_studio.ui.base.translated import tr, worded
+from amp_studio.ui.base.translated import finding_in_words, tr, worded
 from amp_studio.ui.base.workspace import Workspace
 from amp_studio.ui.forms.form import Field, FormDialog
 from amp_studio.validate import Finding, explain
@@ -54,7 +53,7 @@ class WhyDialog(QDialog):
             f"{severity_html(finding.severity)}"
             f" <b>{worded(severity_name(finding.severity)).capitalize()}:</b>"
         )
-        lines, before = [f"<p>{mark} {html.escape(sentence(finding.message))}</p><table cellpadding=3>"], ""
+        lines, before = [f"<p>{mark} {html.escape(finding_in_words(finding))}</p><table cellpadding=3>"], ""
         for title, text, address in why_parts(file, finding, why):
             cell = html.escape(text)
             if title in (
@@ -91,7 +90,7 @@ class SuppressDialog(FormDialog):
             Field("name", tr("&Name"), default=who, check=lambda text: "" if text else name),
             Field("everywhere", everywhere, "check", default=False, enabled=bool(finding.addresses)),
         )
-        note = f"<b>{html.escape(sentence(finding.message))}</b><br>{effect}"
+        note = f"<b>{html.escape(finding_in_words(finding))}</b><br>{effect}"
         super().__init__(tr("Suppress a Finding"), fields, tr("&Suppress"), parent, note=note, width=520)
 
     def params(self) -> tuple[str, ...]:
@@ -130,7 +129,7 @@ class FixSeveralDialog(QDialog):
         self._count()
 
     def _add(self, workspace: Workspace, group: FindingGroup) -> None:
-        top = QTreeWidgetItem(self.list, [sentence(group.message)])
+        top = QTreeWidgetItem(self.list, [finding_in_words(group.findings[0])])
         top.setIcon(0, severity_icon(group.severity))
         top.setFlags(top.flags() | Qt.ItemFlag.ItemIsUserCheckable | Qt.ItemFlag.ItemIsAutoTristate)
         for finding in group.fixable:

@@ -8,9 +8,8 @@ from typing import Any
 from PySide6.QtCore import QAbstractItemModel, QModelIndex, Qt
 
 from amp_studio.report import FindingGroup, finding_axes, finding_groups, fix_text, severity_name
-from amp_studio.ui.base.figures import sentence
 from amp_studio.ui.base.model_index import ModelIndex
-from amp_studio.ui.base.translated import worded
+from amp_studio.ui.base.translated import finding_in_words, worded
 from amp_studio.ui.base.workspace import Workspace
 from amp_studio.validate import Finding
 
@@ -67,13 +66,13 @@ class FindingsModel(QAbstractItemModel):
         """Return what is wrong, and for a finding in the words of its rule the values it is about."""
         finding, group = self.finding(index), self.group(index)
         if finding is None:
-            return sentence(group.message)
+            return finding_in_words(group.findings[0])
         if finding.message != group.message:
-            return sentence(finding.message)
+            return finding_in_words(finding)
         here = self._workspace.file.machine_schema
-        return ", ".join(dict.fromkeys(here.label(address) for address in finding.addresses[:6])) or sentence(
-            group.message
-        )
+        return ", ".join(
+            dict.fromkeys(here.label(address) for address in finding.addresses[:6])
+        ) or finding_in_words(group.findings[0])
 
     # -- Qt's side -----------------------------------------------------------------
 

@@ -27,7 +27,7 @@ from amp_studio.report import delivered_text, finding_axes
 from amp_studio.ui.base.modal import pop_up
 from amp_studio.ui.base.model_index import ModelIndex
 from amp_studio.ui.base.theme import FINDING_ROW, GAP2, colour, font, icon, paint_icon, scheme, severity_icon
-from amp_studio.ui.base.translated import counted, worded
+from amp_studio.ui.base.translated import counted, finding_in_words, worded
 from amp_studio.ui.base.workspace import Workspace
 from amp_studio.ui.forms.segment import Segment, chip
 from amp_studio.validate import NOT_SET, SEVERITIES, Finding, addresses_not_set
@@ -269,8 +269,11 @@ class FindingsPanel(QWidget):
                 replace(
                     s.finding,
                     fix=(),
+                    figures=None,
                     message=self.tr("{message} Suppressed by {name}: {reason}").format(
-                        message=s.finding.message, name=s.suppression.by, reason=s.suppression.reason
+                        message=finding_in_words(s.finding),
+                        name=s.suppression.by,
+                        reason=s.suppression.reason,
                     ),
                 )
                 for s in suppressed

@@ -20,9 +20,8 @@ from PySide6.QtWidgets import (
 )
 
 from amp_studio.report import severity_name
-from amp_studio.ui.base.figures import sentence
 from amp_studio.ui.base.theme import ICON, MESSAGE, STATUS, TOOLS, font, icon, severity_icon
-from amp_studio.ui.base.translated import worded
+from amp_studio.ui.base.translated import finding_in_words, worded
 from amp_studio.validate import Finding
 
 _NARROW, _NARROWER = 1240, 1120
@@ -209,7 +208,7 @@ class FindingList(QListWidget):
             return  # the list keeps its place
         self.clear()
         for finding in found:
-            item = QListWidgetItem(severity_icon(finding.severity), sentence(finding.message))
+            item = QListWidgetItem(severity_icon(finding.severity), finding_in_words(finding))
             item.setToolTip(worded(severity_name(finding.severity)))
             item.setData(Qt.ItemDataRole.UserRole, finding)
             self.addItem(item)

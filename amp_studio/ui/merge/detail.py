@@ -23,8 +23,8 @@ from PySide6.QtWidgets import (
 )
 
 from amp_studio.files import MergeChoice, Row, Side, Typed
-from amp_studio.ui.base.figures import sentence
 from amp_studio.ui.base.theme import Token, colour, font, icon, scheme
+from amp_studio.ui.base.translated import finding_in_words
 from amp_studio.ui.motion.tuning_target import effect_words
 from amp_studio.validate import SEVERITIES, Finding
 
@@ -191,8 +191,8 @@ class MergeDetail(QFrame):
         if not worst:
             label.say(self.tr("no finding"))
             return
-        more = "\n".join(sentence(finding.message) for finding in worst)
-        label.say(sentence(worst[0].message), _TOKENS[worst[0].severity], more)
+        more = "\n".join(finding_in_words(finding) for finding in worst)
+        label.say(finding_in_words(worst[0]), _TOKENS[worst[0].severity], more)
 
     def _words(self, row: Row) -> str:
         """Return in a sentence who changed the value."""

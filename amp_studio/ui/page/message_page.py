@@ -12,8 +12,8 @@ from PySide6.QtWidgets import QDialog, QTextBrowser, QVBoxLayout, QWidget
 
 from amp_studio.find import LinkedParameter, LinkedRule, MessagePage, message_page
 from amp_studio.schema import Address, Schema
-from amp_studio.ui.base.figures import sentence
 from amp_studio.ui.base.theme import GAP3, colour, scheme
+from amp_studio.ui.base.translated import finding_in_words
 
 from .file_page import FilePage
 
@@ -82,7 +82,7 @@ class MessageWindow(QDialog):
         shade = colour("error").name()
         lines = [
             f"<span style='color:{shade}'>✕</span>"
-            f" {self._link(finding.addresses[0], sentence(finding.message))}"
+            f" {self._link(finding.addresses[0], finding_in_words(finding))}"
             for linked in rules
             for finding in linked.findings
         ]

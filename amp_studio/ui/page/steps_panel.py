@@ -71,7 +71,7 @@ class StepsPanel(QWidget):
 
     def __init__(self, workspace: Workspace) -> None:
         super().__init__()
-        self._workspace = workspace
+        self._workspace, self._family = workspace, workspace.file.schema.family.family
         self._here: SetupStep | None = None
         """The step whose values the table shows, if it shows a step."""
         self.tree = PlaceTree()
@@ -109,7 +109,7 @@ class StepsPanel(QWidget):
         order = self._workspace.file.schema.commissioning
         if order is not None:
             page = self.tr(" (page {page})").format(page=order.page) if order.order == "manual" else ""
-            self.steps_done.setToolTip(order.why + page)
+            self.steps_done.setToolTip(worded(order.why, self._family) + page)
         self.bar.setAccessibleName(self.tr("Part of the values that is set"))
         self.values_set.setAccessibleName(self.tr("Values that are set"))
         head = QGridLayout()
@@ -153,7 +153,9 @@ class StepsPanel(QWidget):
     def _fill(self) -> None:
         for each in self._workspace.progress.steps:
             step = each.step
-            item = QTreeWidgetItem([f"{str(step.number).rjust(2, FIGURE_SPACE)}  {worded(step.title)}"])
+            item = QTreeWidgetItem(
+                [f"{str(step.number).rjust(2, FIGURE_SPACE)}  {worded(step.title, self._family)}"]
+            )
             item.setData(0, KEY, step)
             self.tree.addTopLevelItem(item)
             self._items[step.id] = item
@@ -168,16 +170,16 @@ class StepsPanel(QWidget):
             head.setFlags(Qt.ItemFlag.ItemIsEnabled)
             head.setData(0, TOKEN, "dim")
             self.tree.addTopLevelItem(head)
-        item = QTreeWidgetItem([worded(guide.title)])
+        item = QTreeWidgetItem([worded(guide.title, self._family)])
         item.setData(0, KEY, guide)
         item.setData(0, PICTURE, ("list-numbers", "dim"))
         for n, step in enumerate(guide.steps, 1):
-            below = QTreeWidgetItem([f"{n}  {worded(step.title)}"])
+            below = QTreeWidgetItem([f"{n}  {worded(step.title, self._family)}"])
             below.setData(0, KEY, step)
             below.setToolTip(
                 0,
-                self.tr("{title}, page {page}").format(title=worded(step.title), page=step.page)
-                + (f": {step.what}" if step.what else ""),
+                self.tr("{title}, page {page}").format(title=worded(step.title, self._family), page=step.page)
+                + (f": {worded(step.what, self._family)}" if step.what else ""),
             )
             item.addChild(below)
         self.tree.addTopLevelItem(item)
@@ -222,7 +224,7 @@ class StepsPanel(QWidget):
         parts += [counted(n, severity) for severity, n in counts]
         parts += [self.tr("%n values not set", "", len(each.open))] if each.open else []
         item.setData(0, Qt.ItemDataRole.AccessibleTextRole, ", ".join(parts))
-        item.setToolTip(0, "\n".join([_tip(each.step), ", ".join(self._figures(each))]))
+        item.setToolTip(0, "\n".join([_tip(each.step, self._family), ", ".join(self._figures(each))]))
         if each.step in (self._here, now.current.step if now.current else None):
             self._show_open(item, each.open)
         elif item.childCount():
@@ -342,7 +344,8 @@ class StepsPanel(QWidget):
         self._here = step
         parameters = list(step.parameters)
         self.chosen.emit(
-            self.tr("Step {number}").format(number=step.number) + f" › {worded(step.title)}", parameters
+            self.tr("Step {number}").format(number=step.number) + f" › {worded(step.title, self._family)}",
+            parameters,
         )
         self._later.start(0)
 
@@ -353,9 +356,10 @@ class StepsPanel(QWidget):
         names = dict.fromkeys(name for step in steps for name in step.params)  # type: ignore[attr-defined]  # GuideStep
         every = self._workspace.file.schema.parameters
         parameters: list[Parameter] = [every[name] for name in names]
-        self.chosen.emit(worded(place.title), parameters)  # type: ignore[attr-defined]  # both have one
+        self.chosen.emit(worded(place.title, self._family), parameters)  # type: ignore[attr-defined]  # both have one
 
 
-def _tip(step: SetupStep) -> str:
+def _tip(step: SetupStep, family: str) -> str:
     page = ", " + worded(f"page {step.page}") if step.page else ""
-    return f"{worded(step.title)}{page}" + (f": {step.what}" if step.what else "")
+    what = f": {worded(step.what, family)}" if step.what else ""
+    return f"{worded(step.title, family)}{page}{what}"

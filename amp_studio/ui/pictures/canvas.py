@@ -16,6 +16,7 @@ from amp_studio.pictures import dragged, stepped
 from amp_studio.schema import Address, Value
 from amp_studio.ui.base.scene_painter import ScenePainter
 from amp_studio.ui.base.theme import colour
+from amp_studio.ui.base.translated import finding_in_words
 from amp_studio.ui.base.workspace import Workspace
 from amp_studio.ui.forms.handle_spot import REACH, HandleSpot
 from amp_studio.ui.table.value_drag import ValueDrag
@@ -192,7 +193,7 @@ class PictureCanvas(QWidget):
         if self._dragged is not None:
             before = self._dragged.value
             old = "" if before == handle.value else self.tr("was {value}").format(value=before)
-        reason = self._refused or (finding.message if finding else "")
+        reason = self._refused or (finding_in_words(finding) if finding else "")
         severity = "error" if self._refused else finding.severity if finding else ""
         return Tag(handle.label, handle.value, old, reason, severity)
 

@@ -14,10 +14,9 @@ from PySide6.QtWidgets import QDialog, QHeaderView, QLabel, QTreeWidget, QTreeWi
 from amp_studio.files import ParameterFileError, open_file
 from amp_studio.guide import found_in
 from amp_studio.schema import Address
-from amp_studio.ui.base.figures import sentence
 from amp_studio.ui.base.task import TaskProgress
 from amp_studio.ui.base.theme import severity_colour, severity_icon
-from amp_studio.ui.base.translated import counted, worded
+from amp_studio.ui.base.translated import counted, finding_in_words, worded
 from amp_studio.validate import SEVERITIES, Finding, validator_of
 
 _GOES_TO = Qt.ItemDataRole.UserRole
@@ -106,7 +105,7 @@ class ProjectCheckDialog(QDialog):
 def _branch(checked: CheckedFile) -> QTreeWidgetItem:
     worst = next((s for s in SEVERITIES if checked.count(s)), None)
     first = checked.fault or (
-        sentence(checked.findings[0].message) if checked.findings else worded("no findings")
+        finding_in_words(checked.findings[0]) if checked.findings else worded("no findings")
     )
     item = QTreeWidgetItem(
         [checked.path.name, *("" if checked.fault else str(checked.count(s)) for s in SEVERITIES), first]
@@ -115,10 +114,10 @@ def _branch(checked: CheckedFile) -> QTreeWidgetItem:
         item.setIcon(0, severity_icon("error" if checked.fault else str(worst)))
     item.setData(0, _GOES_TO, (checked.path, None))
     for finding, label in zip(checked.findings, checked.labels, strict=True):
-        leaf = QTreeWidgetItem([label, "", "", "", sentence(finding.message)])
+        leaf = QTreeWidgetItem([label, "", "", "", finding_in_words(finding)])
         leaf.setIcon(0, severity_icon(finding.severity))
         leaf.setForeground(0, QBrush(severity_colour(finding.severity)))
-        leaf.setToolTip(4, sentence(finding.message))
+        leaf.setToolTip(4, finding_in_words(finding))
         leaf.setData(0, _GOES_TO, (checked.path, finding.addresses[0] if finding.addresses else None))
         item.addChild(leaf)
     return item

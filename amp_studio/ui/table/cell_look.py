@@ -17,6 +17,7 @@ from amp_studio.report import state_name
 from amp_studio.schema import (
     Address,
     Schema,
+    StateInfo,
     UnitError,
     Value,
     convert,
@@ -24,8 +25,8 @@ from amp_studio.schema import (
     unit_text,
     write_value,
 )
-from amp_studio.ui.base.figures import sentence, show_value
-from amp_studio.ui.base.translated import Translated, tr, worded
+from amp_studio.ui.base.figures import show_value
+from amp_studio.ui.base.translated import Translated, finding_in_words, tr, worded
 from amp_studio.ui.base.workspace import Workspace
 from amp_studio.validate import NOT_SET
 
@@ -237,19 +238,23 @@ class ShownValues(Translated):
         parameter = self.workspace.file.schema.parameters[address[0]]
         return write_value(parameter, self.in_units(address, self.workspace.file.get(address)))
 
+    def _why(self, state: StateInfo) -> str:
+        """Return why a value is inactive."""
+        return worded(state.why, self.workspace.file.schema.family.family)
+
     def tip(self, address: Address) -> str:
         """Return what a cell means beyond its value: findings, why it is inactive,
         what the control uses instead.
         """
         file = self.workspace.file
         if not self.exists(address):
-            return tr("Does not exist here: {why}").format(why=file.evaluation.state(address).why)
+            return tr("Does not exist here: {why}").format(why=self._why(file.evaluation.state(address)))
         state = file.evaluation.state(address)
         lines = [self.text(address, file.get(address))]
-        lines += [sentence(f.message) for f in self.workspace.findings_of(address) if f.rule != NOT_SET]
+        lines += [finding_in_words(f) for f in self.workspace.findings_of(address) if f.rule != NOT_SET]
         if not state.is_active:
             page = self.tr(" (page {page})").format(page=state.page) if state.page else ""
-            lines.append(f"{worded(state_name(state.state)).capitalize()}: {state.why}{page}")
+            lines.append(f"{worded(state_name(state.state)).capitalize()}: {self._why(state)}{page}")
         if address in self.effective:
             used = self.text(address, self.effective[address])
             lines.append(tr("Effective value in the control: {value}").format(value=used))

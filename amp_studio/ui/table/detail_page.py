@@ -20,10 +20,10 @@ from amp_studio.schema import Address, Value, labels_of_word, limits, real_value
 from amp_studio.ui.base.figures import sentence, show_value
 from amp_studio.ui.base.hazard import hazard_html
 from amp_studio.ui.base.theme import colour, icon_html, severity_html
-from amp_studio.ui.base.translated import Translated, worded
+from amp_studio.ui.base.translated import Translated, facts_in_words, finding_in_words, worded
 from amp_studio.ui.base.workspace import Workspace
 from amp_studio.ui.forms.pages import drawn, link
-from amp_studio.validate import NOT_SET, Finding, calculators, rule_title
+from amp_studio.validate import NOT_SET, Finding, calculators, family_of_rule, rule_title
 
 USE, FOLD, DOWNLOAD, CALCULATE, MESSAGE = "use:", "fold:", "download:", "calculate:", "message:"
 """What a link begins with that is no parameter: take a calculated value, open a section, read the last
@@ -112,9 +112,8 @@ class DetailPage(Translated):
         state = file.evaluation.state(address)
         if not state.is_active:
             page = self.tr(" (page {page})").format(page=state.page) if state.page else ""
-            lines.append(
-                f"<i>{worded(state_name(state.state)).capitalize()}: {html.escape(state.why)}{page}.</i>"
-            )
+            why = html.escape(worded(state.why, file.schema.family.family))
+            lines.append(f"<i>{worded(state_name(state.state)).capitalize()}: {why}{page}.</i>")
         if allowed := self._allowed(address):
             lines.append(f"{self.tr('Allowed here:')} <b>{html.escape(allowed)}</b>")
         return f"<p>{'<br>'.join(lines)}</p>" if lines else ""
@@ -162,7 +161,9 @@ class DetailPage(Translated):
             for setting in finding.fix:
                 if setting.address == address:
                     use = f' <a href="{USE}{n}">{self.tr("Use")}</a>' if self._workspace.may_edit else ""
-                    title = html.escape(rule_title(self._workspace.validator, finding))
+                    title = html.escape(
+                        worded(rule_title(self._workspace.validator, finding), family_of_rule(finding.rule))
+                    )
                     lines.append(
                         f"<p><b>{self.value_html(address, setting.value)}</b> <small>{title}</small>{use}</p>"
                     )
@@ -176,24 +177,24 @@ class DetailPage(Translated):
         dim = colour("dim").name()
         broken = self.findings(address)
         for finding in broken:
-            cited = (
-                f' <span style="color:{dim}">{html.escape(worded(finding.cited))}</span>'
-                if finding.cited
-                else ""
-            )
+            source = html.escape(worded(finding.cited, family_of_rule(finding.rule)))
+            cited = f' <span style="color:{dim}">{source}</span>' if source else ""
             if workspace.is_deferred(finding):
                 mark = f"<b>{self.tr('As delivered:')}</b>"
             else:
                 name = worded(severity_name(finding.severity)).capitalize()
                 mark = f"{severity_html(finding.severity)} <b>{name}:</b>"
-            lines.append(f"<p>{mark} {html.escape(sentence(finding.message))}{cited}</p>")
+            lines.append(f"<p>{mark} {html.escape(finding_in_words(finding))}{cited}</p>")
         rules = workspace.validator.rules_of(address)
         unmet = {finding.rule for finding in broken}
         met = [rule for rule in rules if rule.id not in unmet]
         shown_rules = met if "rules" in self.opened or len(met) <= _RULES else met[:_RULES]
         for rule in shown_rules:
-            page = f'<span style="color:{dim}">{html.escape(worded(rule.cited))}</span>'
-            lines.append(f"<p>{icon_html('check', 'text')} {html.escape(rule.title)} {page}</p>")
+            page = (
+                f'<span style="color:{dim}">{html.escape(worded(rule.cited, family_of_rule(rule.id)))}</span>'
+            )
+            title = html.escape(worded(rule.title, family_of_rule(rule.id)))
+            lines.append(f"<p>{icon_html('check', 'text')} {title} {page}</p>")
         if len(shown_rules) < len(met):
             more = self.tr("{number} more are met").format(number=len(met) - len(shown_rules))
             lines.append(f'<p><a href="{FOLD}rules">{more}</a></p>')
@@ -209,7 +210,7 @@ class DetailPage(Translated):
         schema = self._workspace.file.schema
         parameter = schema.parameters[address[0]]
         lines = []
-        for title, text in help_parts(schema, parameter):
+        for title, text in help_parts(schema, parameter, facts_in_words(schema)):
             if title in GRADES:
                 lines.append(hazard_html(GRADES[title], text))
                 continue

@@ -70,7 +70,8 @@ class QuickEdit(QDialog):
         file = self._workspace.file
         place = place_in_words(file, address) or self.tr("Control")
         state = file.evaluation.state(address)
-        inactive = "" if state.is_active else f"\n{worded(state_name(state.state)).capitalize()}: {state.why}"
+        why = worded(state.why, file.schema.family.family)
+        inactive = "" if state.is_active else f"\n{worded(state_name(state.state)).capitalize()}: {why}"
         allowed = allowed_text(self._workspace, address)
         bounds = self.tr("\nAllowed here: {allowed}").format(allowed=allowed) if allowed else ""
         self.name.setText(

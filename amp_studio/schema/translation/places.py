@@ -1,0 +1,80 @@
+"""Every text of a family that decides, under the place that it has in its facts and in a translation."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from string import Formatter
+from typing import Any
+
+from amp_studio.schema.load import Compiled, FurtherFacts
+from amp_studio.schema.model import Commissioning, FactTranslation, HelpNote, Model
+
+TextPlace = tuple[str | int, ...]
+"""``("rules", "9pc.axis.two-spindles", "title")``: the keys of a file of a language."""
+GRADES = ("danger", "warning", "note")
+
+
+def english_texts(compiled: Compiled, further: FurtherFacts) -> dict[TextPlace, str]:
+    """Return place -> English text; wrapped lines are one."""
+    return {place: " ".join(text.split()) for place, text in _english(compiled, further) if text}
+
+
+def own_texts(translation: FactTranslation) -> dict[TextPlace, str]:
+    """Return place -> text of a file of a language."""
+    return {place: " ".join(text.split()) for place, text in _leaves((), translation) if text}
+
+
+def names_in(message: str) -> set[str]:
+    """Return the names in braces of a message."""
+    return {name for _, name, _, _ in Formatter().parse(message) if name is not None}
+
+
+def _english(compiled: Compiled, further: FurtherFacts) -> Iterator[tuple[TextPlace, str]]:
+    for rule in compiled.rules:
+        for part in ("title", "message", "reason"):
+            yield ("rules", rule.id, part), getattr(rule, part)
+    for group in compiled.groups:
+        for parameter in group.parameters:
+            for grade in GRADES:
+                notes: tuple[HelpNote, ...] = getattr(parameter.help, grade)
+                yield from ((("help", parameter.id, grade, n), note.says) for n, note in enumerate(notes))
+    for name, condition in compiled.family.conditions.items():
+        yield ("conditions", name), condition.why
+    if further.commissioning:
+        yield from _of_order(further.commissioning)
+    for guide in further.guides:
+        yield ("guides", guide.id, "title"), guide.title
+        for n, each in enumerate(guide.steps):
+            yield ("guides", guide.id, "steps", n, "title"), each.title
+            yield ("guides", guide.id, "steps", n, "what"), each.what
+    motion = further.motion
+    if motion.scenarios:
+        yield ("motion", "without_axes"), motion.without_axes
+    yield from ((("motion", "assumed", name), figure.why) for name, figure in motion.assumed.items())
+    yield from ((("motion", "settings", name), what) for name, what in motion.settings.items())
+    for listed in further.messages:
+        yield from ((("message_lists", listed.id, part), getattr(listed, part)) for part in ("title", "note"))
+        for message in listed.messages:
+            for part in ("title", "means", "note"):
+                yield ("messages", message.id, part), getattr(message, part)
+            for part in ("causes", "cures"):
+                texts: tuple[str, ...] = getattr(message, part)
+                yield from ((("messages", message.id, part, n), text) for n, text in enumerate(texts))
+
+
+def _of_order(order: Commissioning) -> Iterator[tuple[TextPlace, str]]:
+    yield ("order", "why"), order.why
+    for part in ("title", "what"):
+        yield ("order", "rest", part), getattr(order.rest, part)
+        yield from ((("steps", step.id, part), getattr(step, part)) for step in order.steps)
+
+
+def _leaves(place: TextPlace, value: Any) -> Iterator[tuple[TextPlace, str]]:
+    """Yield each text below a place of a record."""
+    if isinstance(value, str):
+        yield place, value
+        return
+    below = value.items() if isinstance(value, (Model, dict)) else enumerate(value or ())
+    for key, entry in below:
+        if (*place, key) != ("phrases",):
+            yield from _leaves((*place, key), entry)
