@@ -165,6 +165,15 @@ class ValueReader:
         """Say something about the picture, once."""
         self.notes.setdefault(text, PictureNote(text, address, wrong, is_remark))
 
+    def is_on_decades(self, each: DrawnValue) -> bool:
+        """Return whether a figure has a place on a scale of powers of ten; 0 and less are noted."""
+        if each.number is None:
+            return False
+        if each.number <= 0.0:
+            self.note(f"{each.label}: {each.text} has no place on this scale", each.address, wrong=each.wrong)
+            return False
+        return True
+
     def direction(self, role: Direction | None, instance: str, axes: tuple[str, ...]) -> float:
         """Return 1 or -1, 0 where the direction is not known."""
         address = self.address(role.param, instance) if role else None

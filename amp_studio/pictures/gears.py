@@ -4,11 +4,12 @@ from __future__ import annotations
 
 from itertools import pairwise
 
-from amp_studio.drawing import FilledArea, Handle, Polyline, Scale, Scene, Text
+from amp_studio.drawing import FilledArea, Handle, Polyline, Scale, Scene, ShapeSort, Text
 from amp_studio.files import ParameterFile
 from amp_studio.schema import GearRoles
 
 from .figures import DrawnValue, ValueReader
+from .shapes import SceneShapes
 
 
 def spindles(file: ParameterFile, roles: GearRoles) -> tuple[str, ...]:
@@ -38,52 +39,30 @@ def draw_gears(file: ParameterFile, roles: GearRoles, spindle: str, like: Scene 
     x = like.x if like else Scale("", "rpm", 0.0, 1.12 * max(speeds, default=1000.0))
     low, high = min([0.0, *outputs]), max([0.0, *outputs]) or (0.0 if outputs else 10.0)
     y = like.y if like else Scale("", roles.unit, 1.2 * low, 1.2 * high or 1.0)
-    areas = [
-        FilledArea(b.low, y.low, a.high, y.high, "overlap", "") for a, b in pairwise(found) if b.low < a.high
-    ]
+    shapes = SceneShapes(figures)
     for a, b in pairwise(found):
-        if b.low > a.high:
-            figures.note(
-                f"No gear has the speeds from {a.high:g} to {b.low:g} rpm",
-                b.figures[0].address if b.figures[0] else None,
-            )
-    lines: list[Polyline] = []
-    texts: list[Text] = []
-    handles: list[Handle] = []
+        if b.low < a.high:
+            shapes.areas.append(FilledArea(b.low, y.low, a.high, y.high, "overlap", ""))
+        elif b.low > a.high:
+            about = b.figures[0].address if b.figures[0] else None
+            figures.note(f"No gear has the speeds from {a.high:g} to {b.low:g} rpm", about)
     for n, gear in enumerate(found):
-        wrong = any(f is not None and f.wrong for f in gear.figures)
-        lines.append(Polyline(((0.0, gear.rest), (gear.low, gear.output_low)), "dim", dashed=True))
-        lines.append(
-            Polyline(
-                ((gear.low, gear.output_low), (gear.high, gear.output)),
-                "error" if wrong else "now" if n == 0 else "ink",
-            )
-        )
-        texts.append(
-            Text(
-                (gear.high, gear.output),
-                gear.name,
-                f"{gear.high:g}",
-                "above",
-                gear.figures[1].address if gear.figures[1] else None,
-            )
-        )
-        handles += _handles(figures, roles, gear, x.high, y.high)
-    return Scene(
-        "gears",
-        spindle,
-        "Spindle gears",
-        f"{f'spindle {spindle}, ' if spindle else ''}{'volts' if roles.unit == 'V' else roles.unit} over"
-        " speed",
-        x,
-        y,
-        areas=tuple(areas),
-        lines=tuple(lines),
-        texts=tuple(texts),
-        handles=tuple(handles),
-        notes=tuple(figures.notes.values()),
-        drawn_from=tuple(figures.read),
-    )
+        _draw_gear(shapes, gear, is_first=n == 0)
+        shapes.handles += _handles(figures, roles, gear, x.high, y.high)
+    unit = "volts" if roles.unit == "V" else roles.unit
+    subtitle = f"{f'spindle {spindle}, ' if spindle else ''}{unit} over speed"
+    return shapes.scene("gears", spindle, "Spindle gears", subtitle, x, y)
+
+
+def _draw_gear(shapes: SceneShapes, gear: _Gear, *, is_first: bool) -> None:
+    """Draw the output of a gear over its speeds, and dashed how it gets there from rest."""
+    wrong = any(f is not None and f.wrong for f in gear.figures)
+    sort: ShapeSort = "error" if wrong else "now" if is_first else "ink"
+    low, high = (gear.low, gear.output_low), (gear.high, gear.output)
+    shapes.lines.append(Polyline(((0.0, gear.rest), low), "dim", dashed=True))
+    shapes.lines.append(Polyline((low, high), sort))
+    about = gear.figures[1].address if gear.figures[1] else None
+    shapes.texts.append(Text(high, gear.name, f"{gear.high:g}", "above", about))
 
 
 def _gears(figures: ValueReader, roles: GearRoles, spindle: str) -> list[str]:

@@ -3,31 +3,22 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, field
+from collections.abc import Callable
+from dataclasses import dataclass
 from typing import Literal
 
-from amp_studio.drawing import Dot, FilledArea, Handle, Point, Polyline, Text
+from amp_studio.drawing import Dot, Handle, Point, Polyline, Text
 from amp_studio.files import ParameterFile
-from amp_studio.schema import HomePlace, TravelRoles
+from amp_studio.schema import Address, HomePlace, TravelRoles
 
 from .figures import DrawnValue, ValueReader
+from .shapes import SceneShapes
 
 MARGIN = 0.08
 """Share of the length of the drawing that is left free at each side."""
 SWITCH = 0.03
 """How far beyond its marker a switch is drawn whose place is no value of the file."""
 ALONG: tuple[Literal["x", "y"], ...] = ("x", "y")
-
-
-@dataclass
-class TravelShapes:
-    """The shapes of a picture while it is drawn."""
-
-    areas: list[FilledArea] = field(default_factory=list)
-    lines: list[Polyline] = field(default_factory=list)
-    dots: list[Dot] = field(default_factory=list)
-    texts: list[Text] = field(default_factory=list)
-    handles: list[Handle] = field(default_factory=list)
 
 
 @dataclass(frozen=True)
@@ -43,8 +34,14 @@ class Home:
     side: float = 0.0
     """On which side of the marker the switch lies; 0 if that is not known."""
     off: float = 0.0
+    """The direction in which the axis leaves the switch; 0 if that is not known."""
     speed: DrawnValue | None = None
     pull_off: DrawnValue | None = None
+
+    @property
+    def switch_place(self) -> float | None:
+        """Where the switch is, if a value of the file places it."""
+        return self.switch.number if self.switch else None
 
 
 def read_home(figures: ValueReader, roles: TravelRoles, axis: str, file: ParameterFile) -> Home:
@@ -88,106 +85,92 @@ def _directions(figures: ValueReader, role: HomePlace, axis: str, file: Paramete
     )
 
 
+@dataclass(frozen=True)
+class _Rail:
+    """The travel of one axis as a line beside the picture: along x where ``n`` is 0, else along y."""
+
+    shapes: SceneShapes
+    n: int
+    level: float
+    length: float
+    """Of the picture along the axis."""
+
+    def at(self, place: float) -> Point:
+        return (place, self.level) if self.n == 0 else (self.level, place)
+
+    def name(self, place: float, name: str, text: str, about: Address) -> None:
+        side: Literal["below", "right"] = "below" if self.n == 0 else "right"
+        self.shapes.texts.append(Text(self.at(place), name, text, side, about, "dim"))
+
+    def handle(
+        self,
+        figure: DrawnValue,
+        place: float,
+        inverse: Callable[[float], float] = lambda at: at,
+        *,
+        rises: bool = True,
+    ) -> None:
+        figures = self.shapes.figures
+        drag = figures.drag(figure, "x" if self.n == 0 else "y", self.length, inverse, rises=rises)
+        self.shapes.handles.append(figures.handle(figure, self.at(place), drag, second=True))
+
+    def arrow(self, place: float, side: float) -> None:
+        """Draw in which direction the axis moves at a place."""
+        if not side or not math.isfinite(place):
+            return
+        forward: Literal["right", "up"] = "right" if self.n == 0 else "up"
+        back: Literal["left", "down"] = "left" if self.n == 0 else "down"
+        self.shapes.dots.append(Dot(self.at(place), forward if side > 0 else back))
+
+
 def draw_rail(
-    figures: ValueReader,
-    drawing: TravelShapes,
-    n: int,
-    travel: tuple[float, float],
-    home: Home,
-    views: list[tuple[float, float]],
+    drawing: SceneShapes, n: int, travel: tuple[float, float], home: Home, views: list[tuple[float, float]]
 ) -> None:
     """Draw the travel of an axis as a rail beside the picture, with marker and switch."""
-    marker, switch = home.marker, home.switch.number if home.switch else None
-    if marker is None and switch is None and home.place is None and not home.side:
+    if home.marker is None and home.switch_place is None and home.place is None and not home.side:
         return
     across = views[1 - n]
-    level = (
-        across[0] + 0.5 * MARGIN * (across[1] - across[0])
-        if n == 0
-        else across[1] - 0.3 * MARGIN * (across[1] - across[0])
-    )
-
-    def at(place: float) -> Point:
-        return (place, level) if n == 0 else (level, place)
-
+    margin = MARGIN * (across[1] - across[0])
+    level = across[0] + 0.5 * margin if n == 0 else across[1] - 0.3 * margin
+    rail = _Rail(drawing, n, level, views[n][1] - views[n][0])
     low, high = max(travel[0], views[n][0]), min(travel[1], views[n][1])
-    drawing.lines.append(Polyline((at(low), at(high)), "rail"))
-    length = views[n][1] - views[n][0]
-    arrows: tuple[Literal["right", "left", "up", "down"], ...] = (
-        ("right", "left") if n == 0 else ("up", "down")
-    )
-    if home.calibration is not None and marker is not None:
-        drawing.dots.append(Dot(at(marker), "marker"))
-        drawing.texts.append(
-            Text(at(marker), "marker", "", "below" if n == 0 else "right", home.calibration.address, "dim")
-        )
-        drag = figures.drag(
-            home.calibration,
-            "x" if n == 0 else "y",
-            length,
-            lambda place: (home.place or 0.0) - place,
-            rises=False,
-        )
-        drawing.handles.append(figures.handle(home.calibration, at(marker), drag, second=True))
-    if switch is not None and home.switch is not None:
-        drawing.dots.append(Dot(at(switch), "switch"))
-        drawing.texts.append(
-            Text(
-                at(switch),
-                "switch",
-                home.switch.text,
-                "below" if n == 0 else "right",
-                home.switch.address,
-                "dim",
-            )
-        )
-        drawing.handles.append(
-            figures.handle(
-                home.switch,
-                at(switch),
-                figures.drag(home.switch, "x" if n == 0 else "y", length),
-                second=True,
-            )
-        )
-        side = home.side
-        place = switch - 2.0 * side * SWITCH * length
+    drawing.lines.append(Polyline((rail.at(low), rail.at(high)), "rail"))
+    if home.calibration is not None and home.marker is not None:
+        drawing.dots.append(Dot(rail.at(home.marker), "marker"))
+        rail.name(home.marker, "marker", "", home.calibration.address)
+        rail.handle(home.calibration, home.marker, lambda place: (home.place or 0.0) - place, rises=False)
+    beyond = SWITCH * rail.length
+    if home.switch is not None and home.switch_place is not None:
+        drawing.dots.append(Dot(rail.at(home.switch_place), "switch"))
+        rail.name(home.switch_place, "switch", home.switch.text, home.switch.address)
+        rail.handle(home.switch, home.switch_place)
+        rail.arrow(home.switch_place - 2.0 * home.side * beyond, home.side)
     elif home.pull_off is not None and home.side:
-        drawing.dots.append(Dot(at(0.0), "switch"))
-        drag = figures.drag(
-            home.pull_off,
-            "x" if n == 0 else "y",
-            length,
-            lambda place: -home.side * place,
-            rises=home.side < 0.0,
-        )
+        drawing.dots.append(Dot(rail.at(0.0), "switch"))
         if home.place is not None:
-            drawing.handles.append(figures.handle(home.pull_off, at(home.place), drag, second=True))
-        side, place = home.side, -2.0 * home.side * SWITCH * length
+            rail.handle(home.pull_off, home.place, lambda place: -home.side * place, rises=home.side < 0.0)
+        rail.arrow(-2.0 * home.side * beyond, home.side)
     elif home.side:
-        near = (
-            marker
-            if marker is not None
-            else home.place
-            if home.place is not None
-            else (high if home.side > 0 else low)
+        near = next(
+            (place for place in (home.marker, home.place) if place is not None),
+            high if home.side > 0 else low,
         )
-        place = near + home.side * SWITCH * length
-        if math.isfinite(place):
-            drawing.dots.append(Dot(at(place), "switch"))
-            figures.note(
-                "Where a home switch lies is no value of this file: it is drawn on its side of the marker.",
-                is_remark=True,
-            )
-        side = home.off
-        place = near - home.side * 2.0 * SWITCH * length
-    else:
-        return
-    if side and math.isfinite(place):
-        drawing.dots.append(Dot(at(place), arrows[0] if side > 0 else arrows[1]))
+        _assumed_switch(rail, near + home.side * beyond)
+        rail.arrow(near - home.side * 2.0 * beyond, home.off)
+
+
+def _assumed_switch(rail: _Rail, place: float) -> None:
+    """Draw a switch whose place is not known on its side of the marker."""
+    if math.isfinite(place):
+        rail.shapes.dots.append(Dot(rail.at(place), "switch"))
+        rail.shapes.figures.note(
+            "Where a home switch lies is no value of this file: it is drawn on its side of the marker.",
+            is_remark=True,
+        )
 
 
 def draw_home(
-    figures: ValueReader, drawing: TravelShapes, homes: list[Home], views: list[tuple[float, float]]
+    figures: ValueReader, drawing: SceneShapes, homes: list[Home], views: list[tuple[float, float]]
 ) -> None:
     """Draw the home position of both axes as one cross."""
     if len(homes) != 2 or any(home.place is None for home in homes):

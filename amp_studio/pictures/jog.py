@@ -4,12 +4,13 @@ from __future__ import annotations
 
 from typing import Literal
 
-from amp_studio.drawing import Dot, Handle, PictureNote, Polyline, Scale, Scene, Text
+from amp_studio.drawing import Dot, Polyline, Scale, Scene, ShapeSort, Text
 from amp_studio.files import ParameterFile
 from amp_studio.schema import JogRoles, ParameterId, unit_text
 
 from .figures import DrawnValue, ValueReader
 from .parts import axes_with
+from .shapes import SceneShapes
 
 TITLES = {"jog": "Jog speeds", "increments": "Jog increments"}
 
@@ -24,92 +25,49 @@ def draw_jog(
     axes = axes_with(file, (*own, *bounds))
     rows = [[each for p in own if (each := figures.figure(p, axis))] for axis in axes]
     limits = [[each for p in bounds if (each := figures.figure(p, axis))] for axis in axes]
-    drawn = [
-        each.number
-        for row in (*rows, *limits)
-        for each in row
-        if each.number is not None and each.number > 0.0
-    ]
-    x = like.x if like else _decades(drawn)
-    y = Scale(
-        "",
-        "",
-        -len(axes) + 0.4,
-        0.6,
-        rows=tuple(
-            (-float(n), figures.axis(axis), next((each.unit for each in (*rows[n], *limits[n])), ""))
-            for n, axis in enumerate(axes)
-        ),
+    every = [[*row, *bound] for row, bound in zip(rows, limits, strict=True)]
+    numbers = (each.number for row in every for each in row)
+    x = like.x if like else _decades([number for number in numbers if number is not None and number > 0.0])
+    heads = tuple(
+        (-float(n), figures.axis(axis), next((each.unit for each in every[n]), ""))
+        for n, axis in enumerate(axes)
     )
-    lines: list[Polyline] = []
-    dots: list[Dot] = []
-    texts: list[Text] = []
-    handles: list[Handle] = []
-    given: set[object] = set()
+    shapes = SceneShapes(figures)
     for n, (row, bound) in enumerate(zip(rows, limits, strict=True)):
-        level = -float(n)
-        found = [each for each in row if _drawable(figures, each)]
-        ends = [each.number or 0.0 for each in (*found, *(b for b in bound if _drawable(figures, b)))]
-        if ends:
-            lines.append(Polyline(((min(ends), level), (max(ends), level)), "rail"))
-        highest = max((b.number for b in bound if b.number), default=None)
-        for each in found:
-            number = each.number or 0.0
-            beyond = highest is not None and number > highest
-            if beyond:
-                figures.note(
-                    f"{each.label}: {each.text} is above {bound[0].label}, {bound[0].text}",
-                    each.address,
-                    wrong=True,
-                )
-            texts.append(
-                Text(
-                    (number, level),
-                    _plain(each),
-                    "",
-                    "above",
-                    each.address,
-                    "error" if each.wrong or beyond else "dim",
-                )
+        _draw_row(shapes, row, bound, -float(n))
+    subtitle = f"bars: {file.schema.parameters[bounds[0]].name}" if any(limits) else ""
+    y = Scale("", "", -len(axes) + 0.4, 0.6, rows=heads)
+    return shapes.scene(name, "", TITLES[name], subtitle, x, y)
+
+
+def _draw_row(shapes: SceneShapes, row: list[DrawnValue], bounds: list[DrawnValue], level: float) -> None:
+    """Draw the speeds of one axis as steps on a rail that reaches to its limits."""
+    figures = shapes.figures
+    found = [each for each in row if figures.is_on_decades(each)]
+    ends = [each.number or 0.0 for each in (*found, *filter(figures.is_on_decades, bounds))]
+    if ends:
+        shapes.lines.append(Polyline(((min(ends), level), (max(ends), level)), "rail"))
+    highest = max((b.number for b in bounds if b.number), default=None)
+    for each in found:
+        number = each.number or 0.0
+        beyond = highest is not None and number > highest
+        if beyond:
+            figures.note(
+                f"{each.label}: {each.text} is above {bounds[0].label}, {bounds[0].text}",
+                each.address,
+                wrong=True,
             )
-            if each.address in given:
-                dots.append(Dot((number, level)))
-                continue
-            given.add(each.address)
+        sort: ShapeSort = "error" if each.wrong or beyond else "dim"
+        shapes.texts.append(Text((number, level), _plain(each), "", "above", each.address, sort))
+        if any(handle.drags[0].address == each.address for handle in shapes.handles):
+            shapes.dots.append(Dot((number, level)))  # one value of all axes has its handle on the first
+        else:
             drag = figures.drag(each, "x", 10.0 * number)
-            handles.append(figures.handle(each, (number, level), drag, second=True))
-        for each in bound:
-            if each.number is not None and each.number > 0.0:
-                dots.append(Dot((each.number, level), "end"))
-                texts.append(Text((each.number, level), _plain(each), "", "below", each.address, "dim"))
-    what = ", ".join(dict.fromkeys(b.label.rpartition(", ")[0] or b.label for row in limits for b in row))
-    return Scene(
-        name,
-        "",
-        TITLES[name],
-        f"bars: {file.schema.parameters[bounds[0]].name}" if what else "",
-        x,
-        y,
-        lines=tuple(lines),
-        dots=tuple(dots),
-        texts=tuple(texts),
-        handles=tuple(handles),
-        notes=tuple(figures.notes.values()),
-        drawn_from=tuple(figures.read),
-    )
-
-
-def _drawable(figures: ValueReader, each: DrawnValue) -> bool:
-    """Return whether a figure has a place on a scale of powers of ten."""
-    if each.number is None:
-        return False
-    if each.number <= 0.0:
-        figures.notes.setdefault(
-            each.label,
-            PictureNote(f"{each.label}: {each.text} has no place on this scale", each.address, each.wrong),
-        )
-        return False
-    return True
+            shapes.handles.append(figures.handle(each, (number, level), drag, second=True))
+    for each in bounds:
+        if each.number is not None and each.number > 0.0:
+            shapes.dots.append(Dot((each.number, level), "end"))
+            shapes.texts.append(Text((each.number, level), _plain(each), "", "below", each.address, "dim"))
 
 
 def _plain(each: DrawnValue) -> str:

@@ -6,12 +6,13 @@ import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
-from amp_studio.drawing import Handle, Point, Polyline, Scale, Scene, Text, figure_text, round_step
+from amp_studio.drawing import Handle, Point, Polyline, Scale, Scene, ShapeSort, Text, figure_text, round_step
 from amp_studio.files import ParameterFile
 from amp_studio.schema import RampKind, RampRoles, TimeOf, UnitError, convert, unit_text
 from amp_studio.sim import Piece, Ramp, SimulationError, change, exponential_pieces, leg, length
 
 from .figures import DrawnValue, ValueReader
+from .shapes import SceneShapes
 
 RAMP_MULTIPLE = 1.8
 """A move is about so many times as long as its ramps."""
@@ -49,16 +50,15 @@ def draw_ramps(file: ParameterFile, roles: RampRoles, axis: str, like: Scene | N
     figures = ValueReader(file)
     feed = figures.figure(roles.feedrate, axis)
     speed = _speed(figures, feed)
+    shapes = SceneShapes(figures)
     if feed is None or feed.number is None or speed is None:
-        return _scene(figures, axis, Scale("", "s", 0.0, 1.0), Scale("", feed.unit if feed else "", 0.0, 1.0))
-    base, scale = feed.unit.split("/")[0], feed.number / speed
+        x, y = Scale("", "s", 0.0, 1.0), Scale("", feed.unit if feed else "", 0.0, 1.0)
+        return shapes.scene("ramps", axis, "Ramps", figures.axis(axis), x, y)
+    base = feed.unit.split("/")[0]
     kinds = [found for role in roles.kinds if (found := _drawn(figures, role, axis, speed, base))]
     ways = [way for each in kinds if (way := _way(each.ramp, speed)) > 0.0]
     distance = like.fixed if like and like.fixed else round_step(RAMP_MULTIPLE * max(ways, default=speed))
     used = _mode(figures, roles, axis)
-    lines: list[Polyline] = []
-    handles: list[Handle] = []
-    texts: list[Text] = []
     longest = 0.0
     for n, each in enumerate(kinds):
         try:
@@ -66,30 +66,45 @@ def draw_ramps(file: ParameterFile, roles: RampRoles, axis: str, like: Scene | N
         except SimulationError as error:
             figures.note(f"{each.role.name}: {error}", wrong=True)
             continue
-        curve = [(t, v * scale) for t, v in sampled(pieces)]
-        longest = max(longest, curve[-1][0])
-        is_used = used in each.role.modes if roles.mode else not lines
-        lines.append(Polyline(tuple(curve), "now" if is_used else "second"))
-        handles += _handles(figures, each, speed, scale, distance, pieces)
-        of = next((f.address for f in (each.rise, each.acceleration, each.time) if f is not None), None)
-        at = (0.45 * curve[-1][0], (0.25 + 0.12 * n) * feed.number)
-        texts.append(
-            Text(at, each.role.name, _described(each, pieces), "left", of, "now" if is_used else "second")
-        )
-        if each.role.note:
-            figures.note(each.role.note, is_remark=True)
+        is_used = used in each.role.modes if roles.mode else not shapes.lines
+        end = _draw_move(shapes, each, pieces, feed.number, feed.number / speed, n, is_used=is_used)
+        shapes.handles += _handles(figures, each, speed, feed.number / speed, distance, pieces)
+        longest = max(longest, end)
     x = like.x if like else Scale("", "s", 0.0, 1.08 * (longest or distance / speed))
     bounds = [feed, *_bounds(figures, roles, feed, axis)]
     y = like.y if like else Scale("", feed.unit, 0.0, 1.18 * max(each.number or 0.0 for each in bounds))
     for bound in bounds:
-        level = bound.number or 0.0
-        ends = ((x.low, level), (x.high, level))
-        lines.append(Polyline(ends, "error" if bound.wrong else "limit", dashed=True))
-        texts.append(Text(ends[1], bound.label, bound.text, "right", bound.address, "dim"))
-    handles.append(
-        figures.handle(feed, (0.97 * x.high, feed.number), figures.drag(feed, "y", y.high), second=True)
-    )
-    return _scene(figures, axis, x, y, lines, texts, handles, distance, base)
+        ends = ((x.low, bound.number or 0.0), (x.high, bound.number or 0.0))
+        shapes.limit(ends, bound)
+        shapes.texts.append(Text(ends[1], bound.label, bound.text, "right", bound.address, "dim"))
+    drag = figures.drag(feed, "y", y.high)
+    shapes.handles.append(figures.handle(feed, (0.97 * x.high, feed.number), drag, second=True))
+    subtitle = f"{figures.axis(axis)}, speed over time, {figure_text(distance)} {base}"
+    return shapes.scene("ramps", axis, "Ramps", subtitle, x, y, fixed=distance)
+
+
+def _draw_move(
+    shapes: SceneShapes,
+    each: _Drawn,
+    pieces: Sequence[Piece],
+    top: float,
+    scale: float,
+    n: int,
+    *,
+    is_used: bool,
+) -> float:
+    """Draw the ``n``-th kind of ramp as speed over time, its name at a height beside the others;
+    returns the s at which the move ends.
+    """
+    curve = [(t, v * scale) for t, v in sampled(pieces)]
+    sort: ShapeSort = "now" if is_used else "second"
+    shapes.lines.append(Polyline(tuple(curve), sort))
+    about = next((f.address for f in (each.rise, each.acceleration, each.time) if f is not None), None)
+    at = (0.45 * curve[-1][0], (0.25 + 0.12 * n) * top)
+    shapes.texts.append(Text(at, each.role.name, _described(each, pieces), "left", about, sort))
+    if each.role.note:
+        shapes.figures.note(each.role.note, is_remark=True)
+    return curve[-1][0]
 
 
 def _speed(figures: ValueReader, feed: DrawnValue | None) -> float | None:
@@ -127,34 +142,6 @@ def _bounds(figures: ValueReader, roles: RampRoles, feed: DrawnValue, axis: str)
     """Return the other speeds to compare with."""
     found = (figures.figure(parameter, axis, feed.unit) for parameter in roles.limits)
     return [each for each in found if each is not None and each.number is not None]
-
-
-def _scene(
-    figures: ValueReader,
-    axis: str,
-    x: Scale,
-    y: Scale,
-    lines: Sequence[Polyline] = (),
-    texts: Sequence[Text] = (),
-    handles: Sequence[Handle] = (),
-    distance: float | None = None,
-    base: str = "",
-) -> Scene:
-    way = f", speed over time, {figure_text(distance)} {base}" if distance else ""
-    return Scene(
-        "ramps",
-        axis,
-        "Ramps",
-        f"{figures.axis(axis)}{way}",
-        x,
-        y,
-        lines=tuple(lines),
-        texts=tuple(texts),
-        handles=tuple(handles),
-        notes=tuple(figures.notes.values()),
-        drawn_from=tuple(figures.read),
-        fixed=distance,
-    )
 
 
 # -- the ramps ---------------------------------------------------------------------

@@ -10,6 +10,7 @@ from amp_studio.files import ParameterFile
 from amp_studio.schema import Address, TableRoles, Value, load_part, registration_of
 
 from .figures import STEPS, ValueReader
+from .shapes import SceneShapes
 
 Points = Sequence[Point]
 
@@ -82,9 +83,11 @@ def draw_table(file: ParameterFile, roles: TableRoles, axis: str, like: Scene | 
         if form and value
         else []
     )
-    lines = [Polyline(((x.low, 0.0), (x.high, 0.0)), "dim", dashed=True)]
+    shapes = SceneShapes(figures, handles=handles)
+    shapes.lines.append(Polyline(((x.low, 0.0), (x.high, 0.0)), "dim", dashed=True))
     if points:
-        lines.append(Polyline(tuple(points), "now"))
+        shapes.lines.append(Polyline(tuple(points), "now"))
+    shapes.texts.append(Text((x.low, y.high), label, "", "left", address, "dim"))
 
     def with_point(at: Point) -> tuple[Address, Value] | None:
         if form is None or (value is not None and not points):
@@ -92,20 +95,8 @@ def draw_table(file: ParameterFile, roles: TableRoles, axis: str, like: Scene | 
         more = form.put_in(points, (at[0], multiple(at[1], form.grain)))
         return address, Value(form.write(letter, more, str(value.value) if value else "", unit))
 
-    return Scene(
-        "calibration",
-        axis,
-        roles.name,
-        f"{letter}, {len(points)} points",
-        x,
-        y,
-        lines=tuple(lines),
-        texts=(Text((x.low, y.high), label, "", "left", address, "dim"),),
-        handles=tuple(handles),
-        notes=tuple(figures.notes.values()),
-        drawn_from=tuple(figures.read),
-        with_point=with_point,
-    )
+    subtitle = f"{letter}, {len(points)} points"
+    return shapes.scene("calibration", axis, roles.name, subtitle, x, y, with_point=with_point)
 
 
 def _span(points: Points) -> float:

@@ -11,8 +11,9 @@ from amp_studio.files import ParameterFile
 from amp_studio.schema import ReachRole, SpanRole, TravelRoles, ZoneRole
 
 from .figures import DrawnValue, ValueReader
-from .homing import MARGIN, Home, TravelShapes, draw_home, draw_rail, letters, read_home
+from .homing import MARGIN, Home, draw_home, draw_rail, letters, read_home
 from .parts import part_name
+from .shapes import SceneShapes
 
 TALL = 1.5
 """How many times as long as the travel along x that along y is at most."""
@@ -58,7 +59,8 @@ def draw_travel(
 
 
 def _drawn(file: ParameterFile, roles: TravelRoles, axes: tuple[str, ...], like: Scene | None) -> Scene:
-    figures, drawing = ValueReader(file), TravelShapes()
+    figures = ValueReader(file)
+    drawing = SceneShapes(figures)
     travels = [[_span(figures, span, axis) for axis in axes] for span in roles.spans]
     if roles.reach:
         travels.append([_reach(figures, roles, axis, file) for axis in axes])
@@ -88,24 +90,11 @@ def _drawn(file: ParameterFile, roles: TravelRoles, axes: tuple[str, ...], like:
         _draw_box(figures, drawing, row, views, "travel")
         _name_travel(figures, drawing, role.name, row, axes, views)
     for n, home in enumerate(homes):
-        draw_rail(figures, drawing, n, travel[n], home, views)
+        draw_rail(drawing, n, travel[n], home, views)
     draw_home(figures, drawing, homes, views)
-    count = len(figures.read)
-    return Scene(
-        "travel",
-        "+".join(axes),
-        "Travel and zones",
-        f"{part_name(figures, axes)}, drawn from {count} parameters",
-        scales[0],
-        scales[1],
-        equal,
-        tuple(drawing.areas),
-        tuple(drawing.lines),
-        tuple(drawing.dots),
-        tuple(drawing.texts),
-        tuple(drawing.handles),
-        tuple(figures.notes.values()),
-        tuple(figures.read),
+    subtitle = f"{part_name(figures, axes)}, drawn from {len(figures.read)} parameters"
+    return drawing.scene(
+        "travel", "+".join(axes), "Travel and zones", subtitle, scales[0], scales[1], equal=equal
     )
 
 
@@ -213,7 +202,7 @@ def _shown_edges(ends: _Ends, view: tuple[float, float]) -> tuple[float, float]:
 
 def _draw_box(
     figures: ValueReader,
-    drawing: TravelShapes,
+    drawing: SceneShapes,
     row: list[_Ends],
     views: list[tuple[float, float]],
     sort: ShapeSort,
@@ -265,7 +254,7 @@ def _edge_drag(
 
 def _draw_zone(
     figures: ValueReader,
-    drawing: TravelShapes,
+    drawing: SceneShapes,
     zone: ZoneRole,
     box: list[_Ends],
     views: list[tuple[float, float]],
@@ -309,7 +298,7 @@ def _side(figures: ValueReader, zone: ZoneRole) -> str:
 
 def _name_travel(
     figures: ValueReader,
-    drawing: TravelShapes,
+    drawing: SceneShapes,
     name: str,
     row: list[_Ends],
     axes: tuple[str, ...],
