@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable, Mapping
 from typing import Any
 
-from amp_studio.schema import BoundRef, Choice, Parameter, Schema, StateRule, label_of
+from amp_studio.schema import BoundRef, Choice, Model, Parameter, Schema, StateRule, label_of
 
 from .manual_page import GRADES, entry_units, erratum_text
 from .number_text import sharing_numbers
@@ -17,68 +18,75 @@ def definition(schema: Schema, parameter: Parameter) -> dict[str, Any]:
     printed = {m: schema.on(m).numbers(parameter) for m in machines}
     # A number that the manual prints by mistake addresses another parameter: it is no number of this one.
     numbers = {m: {} if schema.on(m).is_disputed(parameter.id) else n for m, n in printed.items()}
-    same = all(n == numbers[machines[0]] for n in numbers.values())
     instances = {m: list(schema.on(m).instances(parameter)) for m in machines}
-    found: dict[str, Any] = {
+    errata = " ".join(erratum_text(schema.errata[e]) for e in parameter.errata if e in schema.errata)
+    return {
         "id": parameter.id,
         "name": parameter.name,
         "group": schema.group_of[parameter.id].name,
         "section": schema.group_of[parameter.id].section,
         "scope": layout.scope if layout else parameter.scope,
         "type": parameter.type,
-        "numbers": numbers[machines[0]] if same else next((n for n in numbers.values() if n), {}),
+        "numbers": _of_first_machine(numbers),
         "instances": next((i for i in instances.values() if i), []),
         "unit": parameter.quantity,
         "units": list(entry_units(schema, parameter)),
         "decimals": parameter.decimals,
-        "ranges": {u: [_bound(b) for b in r] for u, r in (parameter.ranges or {}).items()} or None,
+        "ranges": _ranges(parameter.ranges) if parameter.ranges else None,
         "choices": [_choice(c) for c in parameter.choices] if parameter.choices else None,
         "default": _default(parameter),
         "available_when": _available(schema, parameter.states),
         "help": _help(parameter),
-        "source": (
-            {"document": schema.family.document, "page": parameter.page}
-            | ({"pages": parameter.pages} if parameter.pages else {})
-        ),
-        "errata": (
-            " ".join(erratum_text(schema.errata[e]) for e in parameter.errata if e in schema.errata) or None
-        ),
+        "source": {"document": schema.family.document, "page": parameter.page}
+        | _present({"pages": parameter.pages}),
+        "errata": errata or None,
         "effect": (parameter.effect or schema.family.effect).model_dump(exclude_none=True),
         "patch": parameter.patchable,
         "access": parameter.access,
-    }
-    for grade in GRADES.values():
-        if statements := getattr(parameter.help, grade):
-            found[grade] = [s.model_dump() for s in statements]
-    if parameter.bare:
-        found["bare"] = parameter.bare
-    if parameter.range_variants:
-        found["range_variants"] = [
-            {"when": v.when, "ranges": {u: [_bound(b) for b in r] for u, r in v.ranges.items()}}
-            for v in parameter.range_variants
-        ]
-    if parameter.bits:
-        found["bits"] = [b.model_dump(exclude_none=True) for b in parameter.bits]
-    if not same:
-        found["numbers_by_machine"] = numbers
-    if len({tuple(i) for i in instances.values() if i}) > 1:
-        found["instances_by_machine"] = instances
-    if any(schema.on(m).is_disputed(parameter.id) for m in machines):
-        found["numbers_disputed"] = True
-        found["printed_numbers"] = next(n for m, n in printed.items() if n != numbers[m])
-    if sharing := sharing_numbers(schema, parameter):
-        found["numbers_also_printed_for"] = sharing
-    if parameter.optional:
-        found["optional"] = True
-    if parameter.secret:
-        found["secret"] = True
-    if parameter.formulas:
-        found["formulas"] = list(parameter.formulas)
-    if parameter.needs:
-        found["needs"] = [need.model_dump() for need in parameter.needs]
-    if parameter.storage:
-        found["storage"] = parameter.storage.model_dump(exclude_none=True)
-    return found
+    } | _present(
+        {
+            **{grade: _dumped(getattr(parameter.help, grade)) for grade in GRADES.values()},
+            "bare": parameter.bare,
+            "range_variants": [
+                {"when": v.when, "ranges": _ranges(v.ranges)} for v in parameter.range_variants
+            ],
+            "bits": [b.model_dump(exclude_none=True) for b in parameter.bits or ()],
+            "numbers_by_machine": {} if _is_same(numbers) else numbers,
+            "instances_by_machine": instances if len({tuple(i) for i in instances.values() if i}) > 1 else {},
+            "numbers_disputed": any(schema.on(m).is_disputed(parameter.id) for m in machines),
+            "printed_numbers": next((n for m, n in printed.items() if n != numbers[m]), {}),
+            "numbers_also_printed_for": sharing_numbers(schema, parameter),
+            "optional": parameter.optional,
+            "secret": parameter.secret,
+            "formulas": list(parameter.formulas),
+            "needs": _dumped(parameter.needs),
+            "storage": parameter.storage.model_dump(exclude_none=True) if parameter.storage else None,
+        }
+    )
+
+
+def _present(facts: dict[str, Any]) -> dict[str, Any]:
+    """Return the facts that there are: a key without a fact is left out."""
+    return {key: fact for key, fact in facts.items() if fact}
+
+
+def _dumped(models: Iterable[Model]) -> list[dict[str, Any]]:
+    return [model.model_dump() for model in models]
+
+
+def _is_same(numbers: Mapping[str, Mapping[str, str]]) -> bool:
+    """Return whether a parameter has the same numbers on all machine types."""
+    first, *others = numbers.values()
+    return all(other == first for other in others)
+
+
+def _of_first_machine(numbers: Mapping[str, Mapping[str, str]]) -> Mapping[str, str]:
+    """Return the numbers that all machine types share, else those of the first that has any."""
+    return next((n for n in numbers.values() if n or _is_same(numbers)), {})
+
+
+def _ranges(ranges: Mapping[str, tuple[object, object]]) -> dict[str, list[object]]:
+    return {unit: [_bound(bound) for bound in pair] for unit, pair in ranges.items()}
 
 
 def _bound(bound: object) -> object:
