@@ -94,55 +94,60 @@ def propose(file: ParameterFile, axis: str, measurement: Measurement, wish: Wish
             f"{file.schema.family.name} has neither a calibration table nor a reversal error"
         )
     check_unit(file, offered, axis, measurement.unit)
-    try:
-        present = present_table(file, offered, axis)
-    except CalibrationError:
-        if (
-            wish.was_on is not False
-        ):  # what it takes away is not known; measured with it off it does not matter
-            raise
-        present = None
+    present = _present(file, offered, axis, wish)
     old = lost_motion(file, offered, axis)
     if wish.was_on is None and (present is not None or old):
         raise CalibrationError(
             "the axis is compensated already: name whether it was measured with compensation on or off"
         )
+    # What was measured with compensation on is the error that it leaves: it comes on top.
     was_on = bool(wish.was_on)
+    on = old if was_on else Fraction(0)
     notes = [*measurement.notes]
     if measurement.is_circle:
-        return _of_circle(file, offered, axis, measurement, wish, old if was_on else Fraction(0), notes)
+        return _of_circle(file, offered, axis, measurement, wish, on, notes)
     sides = {side: mean_curve(measurement, side) for side in (True, False)}
     sides = {side: curve for side, curve in sides.items() if curve.points}
     raw = mean_curve(measurement)
     if not raw.points:
         raise CalibrationError("no target was reached from both directions")
-    if was_on and present is not None:
-        raw = _plus(raw, present.curve)
-    settings: dict[Address, Value] = {}
-    table = _table(file, offered, axis, raw, wish, present, settings, notes) if wish.table else None
-    reversal = (
-        _reversal(file, offered, axis, measurement, old if was_on else Fraction(0), settings, notes)
-        if wish.reversal
-        else None
-    )
-    taken = table.curve if table else present.curve if present else ErrorCurve(())
-    lost = (reversal[1] if reversal else old) - (old if was_on else Fraction(0))
     added = present.curve if was_on and present is not None else ErrorCurve(())
+    settings: dict[Address, Value] = {}
+    table = reversal = None
+    if wish.table:
+        table = _table(file, offered, axis, _plus(raw, added), wish, present, settings, notes)
+    if wish.reversal:
+        reversal = _reversal(file, offered, axis, measurement, on, settings, notes)
+    used = table or present
+    removed = used.curve if used else ErrorCurve(())
+    lost = (reversal[1] if reversal else old) - on
+    if len(sides) == 1:
+        notes.append("measured in one direction only: the lost motion is not known")
+        lost = Fraction(0)
     after = {
         side: ErrorCurve(
             tuple(
-                (at, e + added.at(at) - taken.at(at) + (lost if side else -lost) / 2)
+                (at, e + added.at(at) - removed.at(at) + (lost if side else -lost) / 2)
                 for at, e in curve.points
             )
         )
         for side, curve in sides.items()
     }
-    if len(sides) == 1:
-        notes.append("measured in one direction only: the lost motion is not known")
-        after = {side: curve.shifted((-lost if side else lost) / 2) for side, curve in after.items()}
     return Proposal(
         axis, measurement.unit, settings, table, reversal, figures(measurement), sides, after, tuple(notes)
     )
+
+
+def _present(file: ParameterFile, offered: Compensation, axis: str, wish: Wish) -> CalibrationTable | None:
+    """Return the table that the axis has; raises CalibrationError for one that cannot be read,
+    unless it was off: what it takes away does not matter then.
+    """
+    try:
+        return present_table(file, offered, axis)
+    except CalibrationError:
+        if wish.was_on is not False:
+            raise
+        return None
 
 
 def _of_circle(

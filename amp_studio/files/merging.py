@@ -265,6 +265,7 @@ class Merge:
             if change is not None:
                 yield change
         source = None if isinstance(choice, Typed) else self._sources().get(choice)
+        # A value out of range that somebody has forced stays forced by him, not by the one who merges.
         mark = source.forced.get(address) if source is not None else file.forced.get(address)
         if mark is None or value is None:
             file.forced.pop(address, None)

@@ -64,10 +64,12 @@ def _amended(file: ParameterFile, previous: bytes, wanted: dict[str, Any]) -> st
         document = read_yaml(text, text_scalar, spans=True)
     except (UnicodeDecodeError, YamlError):
         return None
+    # A text with an open quote or nothing in it has no place where an entry could be put.
     if not isinstance(document.data, dict) or not document.is_closed or not document.data:
         return None
     known = document.data | extra_entries(text, document.data)
     wanted = wanted | {"values": _as_spelled(file, wanted["values"], known.get("values"))}
+    # A person may have written an address otherwise than the program does; his spelling stays.
     marked = {written(read_address(key)): key for key in known.get("forced") or ()}
     wanted |= {"forced": {marked.get(name, name): why for name, why in wanted["forced"].items()}}
     if "units" not in known and wanted.get("units") == Header.units:
@@ -129,6 +131,8 @@ def readable_content(file: ParameterFile, path: Path, previous: bytes | None = N
     try:
         content = content_of(file, previous)
         found = _fault_of(file, path, content)
+        # A tab that a person left behind a value is the usual cause: without it the text is tried once
+        # more.
         if found and previous is not None:
             from .yaml_text import without_stray_tabs
 

@@ -50,13 +50,7 @@ def simulate(
     with the parameter that is missing or impossible.
     """
     law = law_of(file.schema.family.family)
-    if scenario not in {**SCENARIOS, **law.own}:
-        raise SimulationError(unknown_name("scenario", scenario, {**SCENARIOS, **law.own}))
-    if scenario not in (*law.motion.scenarios, *law.own):
-        raise SimulationError(
-            f"{file.schema.family.name} has no scenario '{scenario}':"
-            f" {', '.join((*law.motion.scenarios, *law.own))}"
-        )
+    _refuse_unknown_scenario(file, law, scenario)
     length = length_unit(file, system)
     unit = axis_unit(file, axis or next(iter(law.axes(file)), ""), length)
     # A point has a figure for each axis: it is read by its scenario.
@@ -76,32 +70,53 @@ def simulate(
         names = tuple(each.strip() for each in (axis or "").split(",") if each.strip())
         trace = whole(_bound_machine(file, law, names, model, read.append), own)
         letter = ",".join(axis_name(file.evaluation, each) or each for each in trace.axis.split(",") if each)
-        return in_unit(_named(replace(trace, doubts=doubts(file, read, model)), letter), length)
-    bound = bind_axis(file, law, axis, model, read.append)
-    refuse_other_unit(written, bound.axis, bound.unit)
-    letter = axis_name(file.evaluation, bound.axis)
+    else:
+        bound = bind_axis(file, law, axis, model, read.append)
+        refuse_other_unit(written, bound.axis, bound.unit)
+        letter = axis_name(file.evaluation, bound.axis)
+        trace = _of_one_axis(scenario, file, law, bound, model, own, way, advise=advise)
+    if advise or whole is not None or scenario in law.own or SCENARIOS[scenario].tried:
+        trace = replace(trace, doubts=doubts(file, read, model))
+    return in_unit(_named(trace, letter), length)
+
+
+def _refuse_unknown_scenario(file: ParameterFile, law: Law, scenario: str) -> None:
+    if scenario not in {**SCENARIOS, **law.own}:
+        raise SimulationError(unknown_name("scenario", scenario, {**SCENARIOS, **law.own}))
+    if scenario not in (*law.motion.scenarios, *law.own):
+        raise SimulationError(
+            f"{file.schema.family.name} has no scenario '{scenario}':"
+            f" {', '.join((*law.motion.scenarios, *law.own))}"
+        )
+
+
+def _of_one_axis(
+    scenario: str,
+    file: ParameterFile,
+    law: Law,
+    bound: AxisLaw,
+    model: Mapping[str, ParameterValue],
+    own: Settings,
+    way: Way | None,
+    *,
+    advise: bool,
+) -> Trace:
+    """Run a scenario of one axis, with what it and the law recommend."""
     if scenario in law.own:
         trace = law.own[scenario].run(bound, own)
-        recommended = (*trace.recommendations, *law.advise(bound, trace))
-        doubtful = doubts(file, read, model)
-        return in_unit(_named(replace(trace, recommendations=recommended, doubts=doubtful), letter), length)
+        return replace(trace, recommendations=(*trace.recommendations, *law.advise(bound, trace)))
     chosen = SCENARIOS[scenario]
     if chosen.tried:
         others = _alike(file, law, bound, model)
-        trace = chosen.run(_trial(file, law, bound.axis, model), own, others, *([way] if way else []))
-        doubtful = doubts(file, read, model)
-        return in_unit(_named(replace(trace, doubts=doubtful), letter), length)
+        return chosen.run(_trial(file, law, bound.axis, model), own, others, *([way] if way else []))
     second = (_second(file, law, bound, own.get(SECOND), model),) if chosen.second else ()
     trace = chosen.run(bound, own, *second)
     if not advise:
-        return in_unit(_named(trace, letter), length)
+        return trace
     found, notes = (*trace.recommendations, *law.advise(bound, trace)), tuple[str, ...]()
     if chosen.gains:
-        trial = _trial(file, law, bound.axis, model)
-        found, notes = recommendations(trial, scenario, found)
-    notes, doubtful = (*trace.assumptions, *notes), doubts(file, read, model)
-    done = replace(trace, recommendations=found, assumptions=notes, doubts=doubtful)
-    return in_unit(_named(done, letter), length)
+        found, notes = recommendations(_trial(file, law, bound.axis, model), scenario, found)
+    return replace(trace, recommendations=found, assumptions=(*trace.assumptions, *notes))
 
 
 def _whole_run(scenario: str, axis: str | None) -> Callable[[BoundMachine, Settings], Trace] | None:

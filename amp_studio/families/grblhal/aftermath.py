@@ -49,6 +49,7 @@ def state_of(
     """Return what a control that shows ``found`` contains of a download, and which settings are new."""
     present, wanted = names_of(writing.present), names_of(writing.wanted)
     names = {f"${n}" for n in writing.settings} | writing.others.keys()
+    # Rates of single axes come and go with $22: only what was there or is sent can be old or new.
     wanted = {name: text for name, text in wanted.items() if name in names or name in present}
     wanted |= {name: text for name, text in present.items() if name not in names}
     now = names_of(found)
@@ -57,12 +58,14 @@ def state_of(
             is_new = _is_shown(writing, found, name, wanted[name], now.get(name, ""))
             if is_new and (now.get(name) != present.get(name) or name in writing.sent.names):
                 now[name] = wanted[name]
+        # The firmware moves these itself: they may be others without the download.
         elif name in _MOVED:
             now[name] = present[name]
     changed = [n for n in present if n not in names and now.get(n) != present[n]]
     at, new = state_after_break(
         present, wanted, {n: t for n, t in now.items() if n in present or n in wanted}
     )
+    # Many others at once: the control has restarted with its defaults.
     if (has_lost_memory and at != "old") or len(changed) >= _MANY:
         after = writing.sent.unanswered  # what a control that has just restarted has still taken
         return "defaults", (after,) if after and now.get(after) == wanted.get(after) else ()

@@ -112,6 +112,8 @@ class GrblDriver(GrblContentKind, LineDriver):
                         line.rest(SETTLE)
                     return write_content(self._read(line, stage))
             except (ConnectionCutError, NoConnectionError):
+                # Before a download a broken line is reported; after one it is worth the patience to
+                # learn what the control contains.
                 if stage != "verify" or self._waiting.now() >= end:
                     raise
                 self._waiting.sleep(PAUSE)
@@ -128,6 +130,8 @@ class GrblDriver(GrblContentKind, LineDriver):
         try:
             with self._conversation() as line:
                 self._check_rest(line, writing)
+                # The plan was made from an earlier reading: what somebody has changed since at the
+                # machine is not overwritten.
                 if write_content(self._read(line)) != replacement.current:
                     raise ImageChangedError("somebody has changed the settings since they were read")
                 line.messages, line.has_lost_memory, self._has_lost_memory = [], False, False

@@ -188,6 +188,8 @@ def _wanted(file: ParameterFile, present: GrblContent, current: bytes) -> _Wante
         settings = {**unnamed, **settings_of_file(file)}
     except (InvalidValueError, DescriptionError) as error:
         raise ImageError(str(error)) from None
+    # The control may know bits that the file's build has no name for; writing 0 there would switch an
+    # option off unseen.
     kept = {n: bits for n, bits in kept.items() if n in settings and n in present.settings}
     settings |= {n: with_bits(settings[n], bits, present.settings[n]) for n, bits in kept.items()}
     return _Wanted(settings, lacking, kept, lost)
@@ -252,6 +254,7 @@ def _fitted(
         if number not in settings and number not in comes:
             continue
         reported = settings.get(number, "")
+        # A control shows a password as asterisks: sent back, they would become the password.
         if number in known and known[number].type == PASSWORD and not text.strip("*"):
             continue  # a mask, not a password
         if is_shown_as(text, reported) and _is_as_fine(text, reported):

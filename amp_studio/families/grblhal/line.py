@@ -137,7 +137,11 @@ class GrblLine:
                 self._waiting.heard()
                 self._owed = 0
                 return answer
+            # error:7 answers no command: the firmware prints it at its start, when its memory could not
+            # be read.
             found = None if self._lost_memory(line) else _ERROR.fullmatch(line)
+            # A first line that was sent twice, for a boot loader, is refused twice: the second refusal
+            # may come this late.
             if found and self._owed and not answer:
                 self._owed -= 1
                 continue
@@ -182,6 +186,8 @@ class GrblLine:
         is_alive = False  # it reports its state: no boot loader has swallowed the first line
         while not refused:
             now = self._clock()
+            # A control that reports its state has the line and only needs time; one that is silent has
+            # lost it to a boot loader.
             if now - sent_at >= (START if is_alive else AGAIN):
                 self._link.write(b"?" + ERASE)  # the state is reported at once, even where no line is read
                 sent, sent_at, asked_at = sent + 1, now, now
@@ -190,6 +196,7 @@ class GrblLine:
                 asked_at = now
             line = self._next(ASK if is_alive else AGAIN, asked_at)
             if line is not None and (state := state_in(line)):
+                # It reads no line until cycle start: whatever is sent would pile up and act later.
                 if state in SUSPENDED:
                     raise ControlSuspendedError(state)
                 is_alive = True
@@ -203,6 +210,7 @@ class GrblLine:
             while self._lines:
                 refused += self._is_refusal(self._lines.popleft())
         self._rest = b""
+        # Every first line is refused once; those not seen yet are still on their way.
         self._owed = max(0, sent - refused)
         self._waiting.heard()
 
@@ -274,6 +282,7 @@ class GrblLine:
             self._waiting.look()
         except CancelledError:
             self._stopped_at = now if self._stopped_at is None else self._stopped_at
+            # A setting that is under way gets its answer, so that it is known whether it was taken.
             if not self._lingers or now - self._stopped_at >= LINGER:
                 raise
         if now >= self._until:

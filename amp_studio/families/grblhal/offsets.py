@@ -35,6 +35,7 @@ def offset_differences(a: GrblContent, b: GrblContent) -> list[str]:
 
 def _is_near(a: GrblContent, b: GrblContent, name: str) -> bool:
     one, other = a.offsets[name], b.offsets.get(name)
+    # In one unit both are shown with the same digits, and compare as texts.
     if other is None or reports_inches(a) == reports_inches(b):
         return one == other
     first, second = _millimeters(a, one), _millimeters(b, other)

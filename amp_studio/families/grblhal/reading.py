@@ -78,6 +78,7 @@ def _read_enumerations(
         try:
             read_description(write_content(GrblContent(who.identity, enumerations=found)))
         except DescriptionError:
+            # What comes the same twice was not damaged on the line: this build describes itself so.
             if found != before:
                 continue
         break
@@ -96,6 +97,7 @@ def _read_twice(
         if attempt < 2:
             step()
         if again == read:
+            # Two empty readings are equal too, and prove nothing.
             if not again[0] or not again[1]:
                 raise ProtocolMismatchError("the control shows no settings")
             return again

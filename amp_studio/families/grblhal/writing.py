@@ -50,6 +50,8 @@ class Writing:
         """Send it all; raises GrblRefusalError for what the control refuses in the end,
         and as ``GrblLine.ask``.
         """
+        # All are compared again after each round, those that did not differ too: one that was written
+        # may have moved them.
         left = dict(self.settings)
         for _ in range(ROUNDS):
             if not left:
@@ -75,6 +77,7 @@ class Writing:
 
     def _round(self, line: GrblLine, left: Mapping[int, str], progress: Progress) -> None:
         """Write settings; what is refused is tried again as long as another one was taken meanwhile."""
+        # $22 first: it brings and takes away settings, and clears $20 and $40, which come after it.
         waiting = dict(sorted(left.items(), key=lambda entry: (entry[0] != HOMING, entry[0])))
         refusal: GrblRefusalError | None = None
         while waiting:
@@ -90,12 +93,14 @@ class Writing:
                 del waiting[number]
                 taken += 1
                 progress("download", min(len(self.sent.names), self.sent.total), self.sent.total)
+            # Nothing that is left allows another: this refusal is the last word of the control.
             if waiting and not taken:
                 assert refusal is not None
                 raise refusal
 
     def _write_others(self, line: GrblLine, progress: Progress) -> None:
         """Put back offsets and start-up lines, and the unit of the program as it was."""
+        # G10 needs G20 or G21, which stay active: the next program must find the unit it expects.
         modes = " ".join(line.ask("$G"))
         for name, command in self.others.items():
             self._write(line, name, command)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -148,6 +149,28 @@ def crossing(zone: Zone, start: AxisPoint, to: AxisPoint) -> float | None:
     return max(begin, 0.0) if begin < end and end > 0.0 and begin < 1.0 - 1e-12 else None
 
 
+@dataclass(frozen=True)
+class _Line:
+    """A straight way of several axes, in u of the machine."""
+
+    start: AxisPoint
+    to: AxisPoint
+    feed: float
+    """u/s along the way."""
+
+    @property
+    def ways(self) -> AxisPoint:
+        return {name: self.to[name] - self.start[name] for name in self.to}
+
+    @property
+    def length(self) -> float:
+        return math.sqrt(sum(way * way for way in self.ways.values()))
+
+    def point(self, share: float) -> AxisPoint:
+        """Return the point at a share of the way."""
+        return {name: self.start[name] + way * share for name, way in self.ways.items()}
+
+
 def _travelled(
     machine: BoundMachine,
     axes: Mapping[str, AxisLaw],
@@ -158,69 +181,79 @@ def _travelled(
     *,
     is_program: bool,
 ) -> Trace:
-    ways = {name: to[name] - start[name] for name in axes}
-    far = math.sqrt(sum(way * way for way in ways.values()))
+    line = _Line(start, to, 0.0)
+    line = replace(line, feed=_feedrate(axes, line.ways, line.length, settings))
     crossed = [(share, zone) for zone in zones if (share := crossing(zone, start, to)) is not None]
     first = min(crossed, key=lambda each: each[0], default=None)
-    feed = _feedrate(axes, ways, far, settings)
     refused = first is not None and (first[1].refuses or (is_program and bool(first[1].reads_ahead)))
     courses: dict[str, MovingAxis] = {}
     hit: tuple[Zone, float] | None = None
     if not refused:
-        courses, hit = _moved(axes, start, ways, far, feed, zones)
+        courses, hit = _moved(axes, line, zones)
     columns = _columns(machine, axes, courses, start)
-    last = {name: float(columns[f"position_{machine.letter(name) or name}"][-1]) for name in axes}
-    gone = math.sqrt(sum((last[name] - start[name]) ** 2 for name in axes))
-    alarms = []
-    if first is not None and refused:
-        code = first[1].reads_ahead or first[1].code
-        text = (
-            f"The way would break {first[1].name} after {value_text(first[0] * far, _unit(axes))}: "
-            "the block is"
-            f" not begun (page {first[1].page})"
-        )
-        alarms.append(Alarm(code, 0.0, text))
-    elif hit is not None:
-        zone, moment = hit
-        point = {
-            name: start[name] + ways[name] * min((first[0] if first else 1.0) + 1e-6, 1.0) for name in axes
-        }
-        code = zone.broken(point) or zone.code
-        alarms.append(Alarm(code, moment, f"The axes have reached {zone.name} (page {zone.page})"))
-    edge = None if first is None else first[0] * far
     unit = _unit(axes)
+    alarms = _alarms(line, first, hit, unit) if refused or hit else ()
+    letters = {name: machine.letter(name) or name for name in axes}
+    last = {name: float(columns[f"position_{letter}"][-1]) for name, letter in letters.items()}
+    gone = math.sqrt(sum((last[name] - start[name]) ** 2 for name in axes))
+    edge = None if first is None else first[0] * line.length
     result: dict[str, Figure] = {
-        "feedrate": (feed * 60.0, f"{unit}/min"),
-        "distance": (far, unit),
+        "feedrate": (line.feed * 60.0, f"{unit}/min"),
+        "distance": (line.length, unit),
         "limit": (edge, unit),
         "stop_position": (gone, unit),
         "overrun": (gone - edge if hit is not None and edge is not None else None, unit),
         "time": (float(columns["time_s"][-1]), "s"),
         "reaches_target": (float(not alarms), ""),
     }
-    result |= {f"stop_position_{machine.letter(name) or name}": (last[name], unit) for name in axes}
-    notes = dict.fromkeys(note for zone in zones for note in zone.notes)
-    if open_axes := sorted(
-        {machine.letter(axis) or axis for zone in zones for axis in zone.sides if axis not in axes}
-    ):
-        notes[
-            f"ASSUMED: {', '.join(open_axes)} is where the zones are: give it with --axis to have its place"
-            " checked."
-        ] = None
+    result |= {f"stop_position_{letter}": (last[name], unit) for name, letter in letters.items()}
+    first_axis = next(iter(axes.values()))
     return Trace(
         scenario="travel",
         axis=",".join(axes),
-        model=" + ".join(f"{machine.letter(name) or name}" for name in axes)
-        + f": {next(iter(axes.values())).title}",
+        model=f"{' + '.join(letters.values())}: {first_axis.title}",
         columns=columns,
         units={name: "s" if name == "time_s" else unit for name in columns},
         result=result,
-        alarms=tuple(alarms),
+        alarms=alarms,
         recommendations=(),
-        assumptions=(*notes, BY_LINE, AT_ONCE, *assumptions(next(iter(axes.values())))),
+        assumptions=(
+            *_notes(machine, axes, zones),
+            BY_LINE,
+            AT_ONCE,
+            *assumptions(next(iter(axes.values()))),
+        ),
         limits={},
         areas=tuple(_areas(zones, tuple(axes)[:2], start, to)),
     )
+
+
+def _alarms(
+    line: _Line, first: tuple[float, Zone] | None, hit: tuple[Zone, float] | None, unit: str
+) -> tuple[Alarm, ...]:
+    """Return the alarm of a block that is not begun, or of the zone that stopped the axes."""
+    share = first[0] if first else 1.0
+    if hit is not None:
+        zone, moment = hit
+        # A hair beyond its edge, the zone itself knows in which direction it was broken.
+        code = zone.broken(line.point(min(share + 1e-6, 1.0))) or zone.code
+        return (Alarm(code, moment, f"The axes have reached {zone.name} (page {zone.page})"),)
+    assert first is not None
+    zone = first[1]
+    text = (
+        f"The way would break {zone.name} after {value_text(share * line.length, unit)}: the block is"
+        f" not begun (page {zone.page})"
+    )
+    return (Alarm(zone.reads_ahead or zone.code, 0.0, text),)
+
+
+def _notes(machine: BoundMachine, axes: Mapping[str, AxisLaw], zones: Sequence[Zone]) -> Iterator[str]:
+    """Yield what the zones assume, and the axes of zones that are not among those that move."""
+    yield from dict.fromkeys(note for zone in zones for note in zone.notes)
+    others = {axis for zone in zones for axis in zone.sides if axis not in axes}
+    if others:
+        names = ", ".join(sorted(machine.letter(axis) or axis for axis in others))
+        yield f"ASSUMED: {names} is where the zones are: give it with --axis to have its place checked."
 
 
 def _unit(axes: Mapping[str, AxisLaw]) -> str:
@@ -241,43 +274,25 @@ def _feedrate(axes: Mapping[str, AxisLaw], ways: AxisPoint, far: float, settings
 
 
 def _moved(
-    axes: Mapping[str, AxisLaw],
-    start: AxisPoint,
-    ways: AxisPoint,
-    far: float,
-    feed: float,
-    zones: Sequence[Zone],
+    axes: Mapping[str, AxisLaw], line: _Line, zones: Sequence[Zone]
 ) -> tuple[dict[str, MovingAxis], tuple[Zone, float] | None]:
     """Step all axes along the line; returns them, and the zone that stopped them with its moment."""
-    courses = {name: MovingAxis(axis) for name, axis in axes.items()}
-    ramps = {name: next(iter(axis.ramps.values())) for name, axis in axes.items()}
-    rates = [
-        ramps[name].acceleration * far / abs(way)
-        for name, way in ways.items()
-        if way and ramps[name].acceleration
-    ]
-    for name, way in ways.items():
-        share = abs(way) / far
-        if share:
-            ramp = Ramp("linear", min(rates) * share) if rates else ramps[name]
-            courses[name].begin(one(MoveOrder(way, feed * share, ramp)))
+    courses = _begun(axes, line)
     period = max(axis.servo_period for axis in axes.values())
+
+    def place() -> AxisPoint:
+        return {name: line.start[name] + course.measured for name, course in courses.items()}
+
     hit: tuple[Zone, float] | None = None
     while any(course.is_busy for course in courses.values()):
-        here = {name: start[name] + course.measured for name, course in courses.items()}
-        room = min((zone.room(here) for zone in zones), default=math.inf)
-        periods = (
-            1
-            if hit
-            else (
-                max(1, min(MOST_PERIODS, int(0.5 * room / (feed * period))))
-                if math.isfinite(room)
-                else MOST_PERIODS
-            )
-        )
+        room = min((zone.room(place()) for zone in zones), default=math.inf)
+        periods = 1 if hit else MOST_PERIODS
+        if not hit and math.isfinite(room):
+            # At most half of the way to the nearest edge, so that no zone is passed between two looks.
+            periods = max(1, min(MOST_PERIODS, int(0.5 * room / (line.feed * period))))
         for course in courses.values():
             course.advance(periods * period)
-        here = {name: start[name] + course.measured for name, course in courses.items()}
+        here = place()
         broken = None if hit else next((zone for zone in zones if zone.broken(here)), None)
         if broken is not None:
             hit = broken, max(course.time for course in courses.values())
@@ -286,6 +301,25 @@ def _moved(
         if any(course.is_over for course in courses.values()):
             break
     return courses, hit
+
+
+def _begun(axes: Mapping[str, AxisLaw], line: _Line) -> dict[str, MovingAxis]:
+    """Return the axes on their way, each with its share of speed and ramp."""
+    courses = {name: MovingAxis(axis) for name, axis in axes.items()}
+    ramps = {name: next(iter(axis.ramps.values())) for name, axis in axes.items()}
+    far = line.length
+    # The weakest axis sets the acceleration along the line.
+    rates = [
+        ramps[name].acceleration * far / abs(way)
+        for name, way in line.ways.items()
+        if way and ramps[name].acceleration
+    ]
+    for name, way in line.ways.items():
+        share = abs(way) / far
+        if share:
+            ramp = Ramp("linear", min(rates) * share) if rates else ramps[name]
+            courses[name].begin(one(MoveOrder(way, line.feed * share, ramp)))
+    return courses
 
 
 def _columns(

@@ -137,6 +137,7 @@ class Level:
 
     def keeps(self, tried: Candidate, reserve: float = RESERVE) -> bool:
         """Return whether a candidate keeps it."""
+        # The cheapest question first: loops on the machines that it may be cost most.
         if tried.axis.position_rate > self.slowest * (1.0 + 1e-9) or tried.jolt > self.jolt:
             return False
         if not tried.loops.sound(_tighter(self.need, reserve)):
@@ -288,13 +289,18 @@ class Search:
         self._outwards((), levels, level, found)
         if not found:
             return None
+        # The point itself breaks a tie, so that the same axis always gets the same gains.
         ranked = sorted(found, key=lambda point: (self.yields(point), point))
+        # The way of steps ends at the nearest hill: several starts, one for each innermost gain, find
+        # the highest.
         starts = {point[0]: point for point in reversed(ranked)}  # the best with each innermost gain
         moved = [
             self._moved(point, STEPS[0], levels, level)
             for point in sorted(starts.values(), key=ranked.index)[:STARTS]
         ]
         best = min(moved, key=lambda point: (self.yields(point), point))
+        # Ever smaller steps from the best alone: from each start they would cost more and find the
+        # same.
         for step in STEPS[1:]:
             best = self._moved(best, step, levels, level)
         return best
@@ -338,7 +344,10 @@ class Search:
         def good(value: float) -> bool:
             return self.keeps((*inner, gain.nearest(value), *rest), levels, level)
 
+        # The largest value changes little from one inner gain to the next: it is sought where the last
+        # one was.
         value, bad = min(self._most[index], self._near.get(index, math.inf)), None
+        # Up to where it fails, down to where it is good again, then halving the ratio between the two.
         while value < self._most[index] and good(value):
             value = min(COARSE * value, self._most[index])
         while not good(value):
@@ -348,6 +357,7 @@ class Search:
             value = max(value, gain.low)
         while bad is not None and bad / value > CLOSE and gain.nearest(bad) != gain.nearest(value):
             middle = math.sqrt(bad * value)
+            # The control cannot have anything in between.
             if gain.nearest(middle) in (gain.nearest(bad), gain.nearest(value)):
                 break
             value, bad = (middle, bad) if good(middle) else (value, middle)
@@ -364,6 +374,8 @@ class Search:
             around = [point for point in self._around(best, step) if self.keeps(point, levels, level)]
             better = [(self.yields(point), point) for point in around]
             least = min(better, default=(math.inf, best))
+            # A hundredth of a per cent is within the accuracy of the compliance: it would go round in
+            # circles.
             if least[0] >= self.yields(best) * (1.0 - 1e-4):
                 return best
             best = least[1]
@@ -371,6 +383,8 @@ class Search:
     def _around(self, point: GainPoint, step: float) -> list[GainPoint]:
         """Return the neighbours: each gain and each pair of gains, up and down."""
         count, ways = len(point), (step, 1.0 / step)
+        # Along the bound of a margin no single gain can rise: one has to fall for the other, so pairs
+        # are tried too.
         moves = [{n: way} for n in range(count) for way in ways]
         moves += [
             {n: first, m: second} for n in range(count) for m in range(n) for first in ways for second in ways
@@ -398,15 +412,19 @@ def solve(trial: Tried, aim: Aim, *, raising: bool = True, slowest: float = math
     search, levels = Search(trial, gains, ceiling), levels_of(aim, slowest)
     present = tuple(abs(gain.present) for gain in gains)
     before = search.candidate(present) or Candidate(trial.axis)
+    # The present gains are judged without the reserve: what is proposed once must not be improved
+    # again.
     now = next((n for n, level in enumerate(levels) if level.keeps(before, 1.0)), len(levels))
     best, level = None, len(levels)
     if gains:
+        # Never a worse level than the one that the present gains keep.
         for level in range(min(now + 1, len(levels))):
             best = search.best(levels, level)
             if best is not None:
                 break
         else:
             level = len(levels)
+    # Nothing is sound, now or by other gains: then what misses it by least.
     if best is None and gains and now == len(levels):
         best = search.least_bad(levels)
     chosen = _worth(search, present, best, now, level, levels)
@@ -429,6 +447,7 @@ def _worth(
         misses = [math.inf if each is None else each.loops.lacks(need) for each in lacks]
         return best if misses[1] < misses[0] / WORTH else present
     least = search.yields(best)
+    # A change must be worth a person's time at the machine.
     if level == now and least * WORTH >= search.yields(present):
         return present
     for n, value in enumerate(present):  # what may stay as it is stays

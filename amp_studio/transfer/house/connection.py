@@ -114,6 +114,7 @@ class Connection:
             self._talk = talk
         nonce = self.random(4)
         welcome = talk.request(Hello(PROTOCOL_VERSION, nonce, self._client), Welcome, tries=tries)
+        # The answer to an earlier Hello, still on its way, is not taken for the one to this.
         if welcome.nonce != nonce:
             raise NoAnswerError
         if welcome.version != PROTOCOL_VERSION or not 1 <= welcome.chunk <= MAX_CHUNK or welcome.window < 1:
@@ -121,6 +122,8 @@ class Connection:
             raise ProtocolMismatchError(
                 "the control answers in a way that version 1 of the protocol does not know"
             )
+        # Behind a switch or a gateway another control may answer after a break: half of an image must
+        # not go there.
         if self.welcome is not None and _identity(welcome) != _identity(self.welcome):
             self.close()
             raise ProtocolMismatchError(f"another control answers on this line than before: '{welcome.name}'")
@@ -153,6 +156,8 @@ class Connection:
                 if isinstance(error, LinkError):
                     self._notify_cut()
             except RefusalError as refusal:
+                # A line that was cut may still count as a client at the control: busy passes, every
+                # other refusal stays.
                 if refusal.code != Code.BUSY:
                     raise
                 cause = refusal
@@ -161,6 +166,7 @@ class Connection:
                 self.pause(pause)
             except OutOfTimeError:
                 raise self._gave_up(cause) from cause
+            # Soon at first, for a loose plug; then rarely, for a control that restarts.
             pause = min(pause * 1.5, LONGEST_PAUSE)
 
     def once(self, action: Callable[[Transaction], object], seconds: float) -> None:
@@ -195,6 +201,7 @@ class Connection:
             self._best = done
             self.further()
         rate = self._talk.link.bytes_per_second if self._talk is not None else None
+        # Of a small image and on a slow line a step is less, or patience would end while all goes well.
         step = min(STEP, total // STEPS, total if rate is None else int(rate * self._patience / 10))
         if done >= min(total, self._reached + max(1, step)) and done > self._reached:
             self._reached = done
@@ -202,6 +209,7 @@ class Connection:
 
     def _notify_cut(self) -> None:
         """Notify at once that the line has broken; of further breaks only after something has come again."""
+        # A line that breaks again and again would else be reported at each try.
         if not self._is_cut:
             self._is_cut = True
             self.notify(CUT, 0, round(self._patience))

@@ -57,6 +57,8 @@ class DownloadTransfer:
         self._digest = hashlib.sha256(self._image).digest()
         control = line.welcome.name if line.welcome is not None else ""
         self._broken = broken
+        # Only the same image for the same control, over the same content, may go on where an earlier
+        # run stopped.
         self._what = b"\n".join((self._digest, self._expected, self._signature.encode(), control.encode()))
         begun = broken.find(self._what)
         self._transfer = begun or line.random(16)
@@ -76,6 +78,7 @@ class DownloadTransfer:
             return Sent(self._stage_and_commit(), self._line.reconnections, self._resumed_at)
         except TransferError as error:
             error.at_control = self.at_control
+            # What is staged stays for the next run where the control cannot be asked to throw it away.
             if isinstance(error, ConnectionCutError | ControlSilentError) and self.at_control == "old":
                 error.what += self._advice()
             else:
@@ -104,6 +107,7 @@ class DownloadTransfer:
                 if refusal.code == Code.DIGEST:
                     spoilt, self._reached = spoilt + 1, 0
                 elif refusal.code in (Code.UNKNOWN_TRANSFER, Code.INCOMPLETE):
+                    # A control that loses its staging but gets further each time is slow, not hopeless.
                     further = self._reached - before > len(self._image) // STEPS
                     idle = 0 if further else idle + 1
                 else:
@@ -141,12 +145,14 @@ class DownloadTransfer:
     def _commit(self, talk: Transaction) -> Committed:
         cancel = self._line.cancel
         if self.at_control == "old":
+            # The last moment at which a stop costs nothing.
             if cancel is not None and cancel.is_set():
                 raise CancelledError("stopped")
             self._line.begin()  # the time for the commit counts from its first asking, over all lines
         self._broken.forget(self._what)
         self._line.notify("commit", 0, 1)
         self._line.is_committing = True  # from here on the matter is seen through
+        # Until the answer is here nobody knows whether the control has replaced its image.
         self.at_control = "unknown"
         committed = talk.request(
             Commit(self._transfer, self._digest), Committed, at_least=COMMIT_WAIT, tries=COMMIT_TRIES

@@ -63,6 +63,8 @@ class Window:
         while self._floor in self._ahead:
             self._ahead.remove(self._floor)
             number = self._number_at.get(self._floor)
+            # The control may have this piece of an earlier line: what is under way of it need not be
+            # waited for.
             if number in self._flying and self._flying[number].offset == self._floor:
                 self._landed(number)
             self._floor += self._chunk
@@ -70,6 +72,7 @@ class Window:
     def next_piece(self) -> tuple[int, int] | None:
         """Return offset and length of the next piece to send, or None while the window is full."""
         while len(self._flying) < self._limit:
+            # The gaps first: the control can only commit once they are filled.
             if self._lost:
                 offset = heapq.heappop(self._lost)
             elif self._next < self.size:

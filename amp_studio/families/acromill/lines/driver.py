@@ -110,6 +110,7 @@ class TerminalDriver(AcrContent, LineDriver):
 
     def _identity(self) -> ControlIdentity:
         """Return the name and the version that the card prints."""
+        # The version is only shown: two equal answers are enough, even on a bad line.
         rows = self._twice("VER", on_damage=2)  # only shown
         if self._terminal.program != "00":
             self._terminal.obey("PROG0")
@@ -188,8 +189,12 @@ class TerminalDriver(AcrContent, LineDriver):
                     f"the card has not answered for its settings within {FETCH_WAIT:g} s"
                 )
             self._read_into(found, what)
+            # What came before the first damage was asked twice only, and is read again by the stricter
+            # rule.
             if not self._terminal.faults:
                 early.append(what)
+            # Something else that echoes and prompts would give an empty card, and a download would then
+            # overwrite nothing known.
             if what is settings()[-1] and not any(found.figures.values()):
                 raise ProtocolMismatchError("this terminal answers for no setting of an ACR card")
             self._waiting.notify(stage, n, len(asked))
@@ -198,6 +203,8 @@ class TerminalDriver(AcrContent, LineDriver):
         missing = [setting for setting in settings() if setting.name not in found.figures]
         for setting in missing:
             self._read_into(found, setting)
+        # A setting missing in both readings may not exist on this card; one that ever was there has
+        # been lost on the line.
         self._answered |= found.figures.keys()
         if any(setting.name in self._answered for setting in missing):
             names = names_of([setting.name for setting in missing if setting.name in self._answered])
@@ -272,6 +279,8 @@ class TerminalDriver(AcrContent, LineDriver):
             self._waiting.notify("download", number, len(sending.names))
         self._prove_tables(sending)
         for _ in range(SAVES):
+            # The line may have broken because the card lost its power, and with it all that is not
+            # saved.
             if self._terminal.cuts != cuts:
                 cuts = self._terminal.cuts
                 self._set_again(sending)
@@ -282,6 +291,7 @@ class TerminalDriver(AcrContent, LineDriver):
                     f"the card answers ESAVE with '{rows[0][:SHOWN]}', and loses with its power what it has"
                     " not saved"
                 )
+            # A break during ESAVE leaves open whether it was saved: all is looked at and saved again.
             if self._terminal.cuts == cuts:
                 return Receipt(restart_needed=False, notes=("The card has saved it (ESAVE).",))
         raise ConnectionCutError("the line breaks each time the card is to save")

@@ -151,10 +151,14 @@ class Terminal:
 
     def _clear(self, link: Link) -> None:
         """Take half a line away, or spoil it where the card knows no backspace, and wait for a prompt."""
+        # The carriage return is needed for a prompt, and would obey what is left of the line: it is
+        # erased, and spoiled in case it is not.
         link.write(BACKSPACE * LONGEST + SPOIL + b"\r")
         got = self._read_until(link, lambda got: _PROMPT.search(got) is not None, PROMPT_WAIT, keep=64)
         if not got:
             raise _DamagedError("the card does not answer")
+        # A card echoes what it has been sent and falls silent: an end without an end is another
+        # machine.
         if all(self._read_until(link, bool, QUIET, keep=1) for _ in range(MOST_LATE)):
             raise ProtocolMismatchError("this is no ACR card: it sends without an end")
         if not re.search(rb"P[0-9]{2}>", got):
@@ -185,6 +189,7 @@ class Terminal:
             self.look()
             data = link.read(min(left, QUIET))
             got, count = got + data, count + len(data)
+            # Each byte earns another gap, up to the longest answer: a slow line is no silent one.
             if data and gap is not None:
                 end = min(self._waiting.now() + gap, latest)
             if count > LARGEST:
@@ -202,6 +207,8 @@ class Terminal:
             except LinkError as error:
                 if self.cuts:
                     raise
+                # A first line that cannot be made is a wrong address; a later one is tried again by the
+                # caller.
                 raise NoConnectionError(f"no connection to the card: {error}") from None
             self._is_clear = False
         return self._link

@@ -45,6 +45,8 @@ class NumTableContent(TakesAllOrRefuses):
         present = self.decode(current)
         try:
             before = FORMAT.write(present)
+            # What this program cannot write back byte for byte it would change unasked: such a table is
+            # not touched.
             if before != table_text(current):
                 raise ImageError(
                     "this program would write the table of this control otherwise than the control does"
@@ -55,6 +57,8 @@ class NumTableContent(TakesAllOrRefuses):
         except FormatError as error:
             raise ImageError(f"the parameter table of the control: {error}") from None
         content = _START + after.encode("ascii")
+        # A word that the CNC has not cannot be added by a load; it would only come out as a difference
+        # later.
         added = words_of_table(content).keys() - words_of_table(current).keys()
         if added:
             raise ImageError(f"the control does not have {_names(sorted(added))}, which the file sets")
@@ -132,6 +136,7 @@ def words_of_table(content: bytes) -> dict[str, str]:
         for block in blocks_of(lines):
             parameter, first = block.first
             texts = block.data.split(" ")
+            # A CNC pads its figures as it likes; in a text a zero is a character.
             if block.code is not None and block.code != TEXT:
                 texts = [_LEADING.sub(r"\1", text) for text in texts]
             words.update((name_of((parameter, n)), text) for n, text in enumerate(texts, first))

@@ -182,6 +182,8 @@ class PeripheralDriver(NumTableContent, LineDriver):
                 fault = "The control has found another table than its own: unload it once more. "
                 last = ImageDamagedError("the control found the table it had unloaded to be another")
                 continue
+            # TCP has a checksum, a serial line at best parity; without any of them only a second table
+            # proves the first.
             if self.is_checked or reader.parity != "none" or content == before:
                 return content
             fault = (
@@ -199,14 +201,18 @@ class PeripheralDriver(NumTableContent, LineDriver):
             link = self._line()
             while not reader.is_whole:
                 is_coming = reader.has_begun or reader.has_noise
+                # Before the first character a person has to walk to the control; then a gap means that
+                # it has stopped.
                 left = max(0.0, end - waiting.now())
                 data = waiting.read(link, min(GAP_WAIT, left) if is_coming else left)
                 if not data or (left == 0 and is_coming):
                     raise self._nothing_came(reader, seconds)
                 reader.feed(data)
                 if reader.has_begun and not has_begun:
+                    # From here the patience is for the table, no longer for the person.
                     has_begun, end = True, waiting.now() + TABLE_WAIT
                 waiting.heard()
+                # How long the table will be is not known: half of it, until its end has come.
                 waiting.notify(stage, len(reader.table), 2 * len(reader.table))
             waiting.notify(stage, len(reader.table), len(reader.table))
         except LinkError as error:
@@ -258,6 +264,8 @@ class PeripheralDriver(NumTableContent, LineDriver):
         """Send a table line by line, as fast as the control takes it."""
         link, waiting = self._line(), self._waiting
         drained = 0
+        # An Xoff of the last exchange must not stop this one; the bound is for a control that never
+        # falls silent.
         while drained < LARGEST_DRAIN and (data := link.read(0)):
             drained += len(data)
         self._is_stopped = False
@@ -273,10 +281,13 @@ class PeripheralDriver(NumTableContent, LineDriver):
             if line.startswith("#"):  # one that changes the control
                 load.sent.begin("the table")
             self._write(link, line)
+            # A port takes whole lines at once into its buffer: what the wire cannot have sent yet is
+            # waited for, or Xoff would come too late.
             due = max(due, waiting.now()) + len(line) / rate
             self._listen(link, due - waiting.now())
             waiting.heard()
             waiting.notify(load.stage, number, len(load.lines))
+        # Xoff behind the last character still means that the end was not taken.
         self._listen(link, SETTLE)
         self._await_go_on(link, load.stopped_wait)
 

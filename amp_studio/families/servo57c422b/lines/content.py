@@ -69,6 +69,7 @@ def words_of_content(content: bytes) -> dict[int, int]:
         words[int(found[1])] = int(found[2])
     if words.keys() != set(settings()):
         raise ImageError("the content does not have the registers that a module has")
+    # Another order or a leading zero would have another checksum for the same registers.
     if written_content(words) != content:
         raise ImageError("the registers would be written otherwise")
     return words

@@ -87,6 +87,8 @@ class RegisterDriver(RegisterContent, LineDriver):
 
     def _axis_status(self, first: int, name: str) -> AxisRegisters:
         """Read the registers of an axis, latched where no command of another program is under way."""
+        # The command registers belong to the application while it has a command in them: a latch would
+        # overwrite it.
         is_free = self._line.read(first + COMMAND, 2) == (0, 0)
         if is_free:
             self._line.write(first + COMMAND, LATCH)
@@ -157,7 +159,9 @@ class RegisterDriver(RegisterContent, LineDriver):
 
     def _taken_over(self, axis: int) -> str:
         """Have an axis change its default setups, with the handshake of page 4-36; return what came of it."""
+        # A fault that was there already is not the answer to this command.
         before = self._line.read(axis + FAULT, 1)[0]
+        # The module acknowledges whatever is there: another program's command would be taken for ours.
         if self._line.read(axis + COMMAND, 2) != (0, 0):
             raise ProtocolMismatchError(f"a command is in R{axis + COMMAND} or R{axis + COMMAND_2} already")
         try:
@@ -182,6 +186,8 @@ class RegisterDriver(RegisterContent, LineDriver):
 
     def _take_back(self, axis: int, error: TransferError) -> None:
         """Leave no command behind, also if somebody asked to stop."""
+        # The stop that ended the wait would end the writing of this register too, and leave the command
+        # where it is.
         if isinstance(error, CancelledError):
             self._waiting.begin(QUIET)
         with contextlib.suppress(TransferError):

@@ -117,9 +117,12 @@ class RegisterLine:
         end = self._waiting.now() + ANSWER_WAIT
         while (left := end - self._waiting.now()) > 0:
             *lines, self._rest = (self._rest + self._waiting.read(link, left)).split(b"\r\n")
+            # Noise without a line end must not fill the memory.
             self._rest = self._rest[-LONGEST:]
             for line in lines:
                 found = unframed(line)
+                # The answer to an earlier try, which was given up, has another number and must not be
+                # taken for this one.
                 if found is not None and found[0] == self._number:
                     return found[1]
         return None
