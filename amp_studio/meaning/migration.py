@@ -75,6 +75,8 @@ def migrate(file: ParameterFile, target: str, answers: Mapping[str, str] | None 
     if not machine.axes:
         raise TargetError("no axis of the file is fitted: there is nothing to migrate")
     written: WrittenMachine = load_part(registration_of(target).migrate)(machine, answers or {})
+    # Only now is it known which questions this machine raises: a misspelt answer must not be passed
+    # over.
     strange = sorted(set(answers or {}) - {q.id for q in written.asked})
     if strange:
         raise TargetError(unknown_name("answer", strange[0], (q.id for q in written.asked)))
@@ -95,6 +97,8 @@ def _entries(
             continue
         parameter, param = file.schema.parameters[address[0]], here.short(address)
         raw = show_value(parameter, value)
+        # A parameter that a question is about waits for its answer, whatever else it would become: each
+        # is listed once.
         if address in asked:
             question = asked[address]
             answer = written.answered.get(question.id)

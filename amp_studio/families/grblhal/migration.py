@@ -160,6 +160,8 @@ class _Settings:
             for concept in ("travel.kind", "travel.low", "travel.high"):
                 self.out.grade(axis, concept, "exact", key, "0: no limit")
             return
+        # The firmware knows only a length from home: home outside of the travel is taken as its nearer
+        # end.
         at = min(max(home or 0.0, low), high)
         minus = (axis.number("home.search") or axis.number("home.towards") or 0.0) < 0.0
         self.values[130 + n] = _thousandth(high - at if minus else at - low)
@@ -178,6 +180,7 @@ class _Settings:
     def _home(self, axis: AxisMeaning, n: int) -> None:
         search, leave = axis.number("home.search"), axis.number("home.leave")
         if search:
+            # Homing never faster than the axis may go.
             self.values[190 + n] = _thousandth(min(abs(search), axis.number("rapid") or abs(search)), 1)
             self.out.grade(axis, "home.search", "exact", f"$23, ${190 + n}", self.values[190 + n])
         self.out.grade(axis, "home.towards", "exact", "$23", "a bit")
@@ -290,4 +293,5 @@ class _Settings:
 def _thousandth(value: float, decimals: int = 3) -> str:
     """Return a number with the decimals that the control shows, rounded down: never beyond, never above."""
     scale = 10**decimals
+    # The 1e-6 keeps 0.57 from becoming 0.569, which its binary form would be rounded down to.
     return inwards_high(int(float(inwards_high(value)) * scale + 1e-6) / scale)

@@ -140,6 +140,8 @@ class _Migration:
     def _path(self) -> None:
         linear = [axis.number("rapid") for axis in self.ordered if not axis.turns]
         if linear and all(linear):
+            # A limit below the diagonal would slow moves of several axes that the old control made
+            # faster.
             norm = math.sqrt(sum((speed or 0.0) ** 2 for speed in linear)) / 60.0
             self.ini.put("TRAJ", "MAX_LINEAR_VELOCITY", not_above(norm), "the diagonal of the axes")
         jogs = [axis.number("jog") for axis in self.ordered if not axis.turns]

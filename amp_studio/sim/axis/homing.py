@@ -68,6 +68,7 @@ def _onto(axis: MovingAxis, homing: Homing, ramp: Ramp, around: Around, found: H
     """Go onto the switch; returns the edge over which it is left."""
     sign, edge = math.copysign(1.0, homing.approach), around.switch
     end = edge + sign * around.length
+    # An axis that is on its switch already goes straight to leaving it.
     if not sign * (axis.load - edge) >= 0.0 or homing.through:
         none = homing.failures.get("switch")
         way = min(_way(axis, around, sign, homing.turn), none.reach if none else math.inf)
@@ -86,6 +87,8 @@ def _onto(axis: MovingAxis, homing: Homing, ramp: Ramp, around: Around, found: H
         if homing.through:
             found.left = seen
             return edge
+    # A control that looks at the following error a moment after the stop does not wait until the axis
+    # is in position.
     yield StopOrder(Ramp() if homing.stops_by_switch else ramp, waits=not math.isfinite(homing.rest_window))
     if math.isfinite(homing.rest_window):
         yield PauseOrder(REST_AFTER)
@@ -98,6 +101,8 @@ def _onto(axis: MovingAxis, homing: Homing, ramp: Ramp, around: Around, found: H
     if homing.again:
         yield from _again(axis, homing, ramp, around, found, edge)
         return edge
+    # Back over the edge it came from; only an axis that goes on needs the other one, and a switch long
+    # enough.
     if math.copysign(1.0, homing.leave) != sign:
         return edge
     if found.overrun > around.length:
@@ -132,6 +137,8 @@ def _off(axis: MovingAxis, homing: Homing, ramp: Ramp, around: Around, found: Ho
     stuck, missing = homing.failures.get("stuck"), homing.failures.get("marker")
     if homing.approach and found.left is None:
         reach = min(_way(axis, around, sign, turn), stuck.reach if stuck else math.inf)
+        # The edge is known here: the axis goes a little past it; a stuck switch is left for as far as
+        # the control tries.
         way = reach if around.is_stuck else abs(axis.position - edge) + MARKERS * turn
         if not around.is_stuck and stuck and abs(axis.position - edge) > stuck.reach:
             way = stuck.reach
@@ -148,9 +155,11 @@ def _off(axis: MovingAxis, homing: Homing, ramp: Ramp, around: Around, found: Ho
         found.marker = first + turn * round((start - first) / turn)
     elif homing.marker == "next":
         least = start + sign * homing.skipped * turn
+        # The first marker strictly beyond: one exactly at the edge has been passed.
         turns = math.floor(sign * (least - first) / turn) + 1
         marker = first + sign * turns * turn
         far = min(missing.reach if missing else MARKERS * turn, _way(axis, around, sign, turn))
+        # A marker that the control would not wait for never comes for it.
         place = marker if around.has_markers and sign * (marker - start) <= far else sign * math.inf
         speed = math.copysign(homing.search or abs(homing.leave), homing.leave)
         if (yield GoOrder(speed, ramp, Watch(place, sign, device=True), far)) is None:
@@ -201,6 +210,7 @@ def markers_ahead(scale: CodedScale, here: float, sign: float) -> list[float]:
     """Return the next markers of a coded scale beyond a place, in u of the scale: odd and even ones in
     turn.
     """
+    # Four periods back and six on are enough: three or four markers are two periods at most.
     around = math.floor(here / scale.large)
     places = [
         place

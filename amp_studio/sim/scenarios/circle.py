@@ -125,6 +125,7 @@ def _circle(
     rate = feedrate / radius
     slowest = max(float(np.max(np.abs(model.poles()), initial=0.0)) for model in models)
     dies = DIES * axis.servo_period / -math.log(slowest) if 0.0 < slowest < 1.0 else 0.0
+    # Whole turns, so that the measured one begins at the same place whatever the start left.
     turns = max(1, math.ceil(dies * rate / (2.0 * math.pi) + 0.5))
     if turns > MOST_TURNS:
         raise SimulationError(
@@ -151,6 +152,7 @@ def _columns(circle: _Circle, first: Motion, second: Motion) -> dict[str, Series
     angle = np.unwrap(np.arctan2(y, x))
     begin = 2.0 * math.pi * circle.turns
     inside = (angle >= begin) & (angle <= begin + 2.0 * math.pi)
+    # An alarm ended the run before the measured turn: all of it is shown then.
     if inside.sum() < 8:
         inside = np.ones(rows, dtype=bool)
     every = {
@@ -223,7 +225,10 @@ def _spike(radius: float, angle: Series, deviation: Series) -> tuple[float | Non
     after = (angle - AWAY[0]) % 90.0
     near = after < AWAY[1] - AWAY[0]
     turn = np.radians(angle)
+    # Fitted to the parts of the circle away from reversals only: the spikes must not bend their own
+    # base line.
     base = np.column_stack([np.ones_like(turn), *(f(n * turn) for n in (1, 2) for f in (np.cos, np.sin))])
+    # With fewer points than twice the unknowns the fit would follow the noise.
     if (~near).sum() < 2 * base.shape[1] or not near.any():
         return None, None
     measured = 1.0 + deviation / radius

@@ -81,12 +81,15 @@ def run_frequency(axis: AxisLaw, settings: Settings) -> Trace:
     refuse_unknown(settings, SETTINGS)
     models = axis_model(axis)
     model, cut = models.whole, models.cut
+    # Nothing measures the position: the pole at 1 is the open integrator, no instability.
     if not np.any(model.measured) and not model.is_stable() and model.is_stable(drift=True):
         raise SimulationError(f"The position loop of axis {axis.axis} is open. Use the scenario velocity")
     margins = cut.margins()
     damping = models.damping(margins.phase_frequency)
     loop = _Loop(axis, model, cut, models.inner, model.is_stable(), margins, damping, model.bandwidth())
     low, high, points = _span(loop, settings)
+    # The swept frequencies are points of the drawn curve, so that both can be compared without
+    # interpolation.
     curve = np.unique(np.concatenate([np.geomspace(low, high, CURVE), _known(loop, low, high)]))
     notes, alarms = [_LINEAR], tuple[Alarm, ...]()
     swept = _Swept(
@@ -118,6 +121,7 @@ def _span(loop: _Loop, settings: Settings) -> tuple[float, float, int]:
     """Return lowest and highest frequency in Hz and the number of frequencies."""
     model = loop.model
     middle = loop.bandwidth or loop.margins.phase_frequency or 0.03 * model.nyquist
+    # Past the frequency of the gain margin, or the sweep could not show it.
     far = max(10.0 * middle, 1.5 * (loop.margins.gain_frequency or 0.0))
     low = above_zero(settings, "move.lowest") or middle / 10.0
     high = above_zero(settings, "move.highest") or min(far, 0.9 * model.nyquist)
@@ -189,6 +193,7 @@ def _measured(
     closed, opened = (np.full(len(curve), np.nan, dtype=np.complex128) for _ in range(2))
     closed[places] = first.position
     known = np.isfinite(sensed)
+    # From T = L / (1 + L); with feed-forward on, T would have a second way in.
     opened[places[known]] = sensed[known] / (1.0 - sensed[known])
     return _Swept(closed, opened), alarms_of(axis, first.motion) or alarms_of(axis, last.motion), note
 
@@ -218,6 +223,7 @@ def _columns(loop: _Loop, curve: Series, swept: _Swept) -> dict[str, Series]:
         phase = np.degrees(np.unwrap(np.angle(linear)))
         phase -= 360.0 * round((phase[0] + 90.0) / 360.0)
         known, apart = np.isfinite(found), np.full(len(curve), np.nan)
+        # The sweep is unwrapped by the model: its own points are too far apart to count turns.
         apart[known] = np.degrees(np.angle(found[known] / linear[known]))
         columns[f"{name}_gain_db_model"], columns[f"{name}_phase_deg_model"] = _db(linear), phase
         columns[f"{name}_gain_db"], columns[f"{name}_phase_deg"] = _db(found), phase + apart
@@ -233,6 +239,7 @@ def _figures(loop: _Loop, curve: Series, swept: _Swept) -> dict[str, Figure]:
     where the velocity loop is.
     """
     inside = loop.inner.margins() if loop.inner else None
+    # The margins of a position loop mean nothing while the loop inside of it runs away.
     margins = loop.margins if loop.model.is_stable_inside() or inside is None else inside
     inertias = stable_inertias(loop.axis) if loop.stable else None
     peak = float(_db(loop.model.follows(loop.model.grid())).max())
@@ -304,6 +311,7 @@ def _unstable(loop: _Loop) -> str:
 def _falls(curve: Series, size: Series, level: float) -> float | None:
     """Return where a swept amplitude falls below a level, between the two frequencies around it."""
     known = np.isfinite(size)
+    # Over logarithms a falling amplitude is nearly straight.
     f, y = np.log(curve[known]), np.log(np.maximum(size[known], 1e-12))
     below = np.flatnonzero(y < math.log(level))
     if not below.size or below[0] == 0:

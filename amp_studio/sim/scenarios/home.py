@@ -189,6 +189,7 @@ def _scattered(around: Around, homing: Homing, settings: Settings) -> list[Aroun
         raise SimulationError(
             "move.scatter must not be negative, and is of an axis with a home switch", "move.scatter"
         )
+    # Spread evenly however many there are, and the same each time, which random ones are not.
     shares = [(n * GOLDEN) % 1.0 - 0.5 for n in range(1, int(times))]
     return [replace(around, switch=around.switch + scatter * share) for share in shares]
 

@@ -291,7 +291,7 @@ class TerminalDriver(AcrContent, LineDriver):
                     f"the card answers ESAVE with '{rows[0][:SHOWN]}', and loses with its power what it has"
                     " not saved"
                 )
-            # A break during ESAVE leaves open whether it was saved: all is looked at and saved again.
+            # A break during ESAVE leaves open whether it was saved: all is read and saved again.
             if self._terminal.cuts == cuts:
                 return Receipt(restart_needed=False, notes=("The card has saved it (ESAVE).",))
         raise ConnectionCutError("the line breaks each time the card is to save")

@@ -121,7 +121,7 @@ class RegisterLine:
             self._rest = self._rest[-LONGEST:]
             for line in lines:
                 found = unframed(line)
-                # The answer to an earlier try, which was given up, has another number and must not be
+                # The answer to an earlier try, which came too late, has another number and must not be
                 # taken for this one.
                 if found is not None and found[0] == self._number:
                     return found[1]
