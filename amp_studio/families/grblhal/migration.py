@@ -293,5 +293,5 @@ class _Settings:
 def _thousandth(value: float, decimals: int = 3) -> str:
     """Return a number with the decimals that the control shows, rounded down: never beyond, never above."""
     scale = 10**decimals
-    # The 1e-6 keeps 0.57 from becoming 0.569, which its binary form would be rounded down to.
+    # The 1e-6 keeps 1.001 from becoming 1, which its binary form would be rounded down to.
     return inwards_high(int(float(inwards_high(value)) * scale + 1e-6) / scale)
