@@ -170,6 +170,8 @@ class Plan:
         """Address -> checks that must run again when it changes."""
         readers: dict[Address, list[RuleCheck]] = {}
         for check in self.checks:
+            # A rule passes by what is inactive: what decides on the state of a value it reads wakes it
+            # too.
             for address in {seen for read in check.addresses for seen in {read} | self._states[read]}:
                 readers.setdefault(address, []).append(check)
         return {a: tuple(c) for a, c in readers.items()}
@@ -289,6 +291,8 @@ def _runs_for(evaluation: Evaluation, rule: Rule) -> tuple[str | None, tuple[str
     for text in rule.reads.values():
         parameter_id, which = read_address(text)
         if which in ("", "<", ">"):
+            # Only what is read of the instance itself has to exist there; a neighbour (<, >) may be
+            # missing at the end.
             own[parameter_id] = own.get(parameter_id, False) or which == ""
     instances = {p: evaluation.machine_schema.instances(evaluation.schema.parameters[p]) for p in own}
     scopes = {p: evaluation.scope((p, "")) for p in own}

@@ -96,6 +96,7 @@ class Validator:
         for address in edited:
             addresses |= self._plan.range_readers.get(address, frozenset())
             for check in self._plan.rule_readers.get(address, ()):
+                # By place: several edits of one step read the same checks, and each runs once.
                 checks[check.place] = check
         self._check(addresses, checks.values())
         self._experience.look_again(edited)
@@ -122,6 +123,7 @@ class Validator:
             offered = self._trials.offered(place, finding, self._filed)
             if id(finding) in left_alone or not offered.fix:
                 continue
+            # A fix that brings a warning is the last resort.
             if not offered.brings:
                 return finding
             last = last or finding
@@ -221,6 +223,7 @@ class Validator:
             and self.file.evaluation.state(address).is_active
         )
         if asked != (address in self._not_set):
+            # Asked and listed differ, so that the address is either added or taken out.
             self._not_set ^= {address}
             self._not_set_findings = None
         return self._checks.of_value(address)

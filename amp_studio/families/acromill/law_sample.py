@@ -80,11 +80,14 @@ def position_sample(p: Vector, s: Vector, io: Vector) -> None:
     integral, derivative = s[INTEGRAL], s[DERIVATIVE]
     speed = motor - s[MOTOR_BEFORE]
     s[RESTING], s[MOTOR_BEFORE] = resting, motor
+    # I Delay counts from where the command rests; 0 integrates always.
     if p[I_DELAY] == 0.0 or resting > p[I_DELAY]:
         integral += closed * p[I_GAIN] * p[PERIOD] * error
         if abs(integral) > p[I_LIMIT]:
             integral = math.copysign(p[I_LIMIT], integral)
         s[INTEGRAL] = integral
+    # The derivative is taken over several periods, because one count in a single one is a whole step of
+    # speed.
     wait = s[SAMPLE_IN] - 1.0
     if wait <= 0.0:
         derivative = p[D_GAIN] / (p[D_PERIODS] * p[PERIOD]) * (error - s[ERROR_SAMPLED])
@@ -98,6 +101,7 @@ def position_sample(p: Vector, s: Vector, io: Vector) -> None:
     if p[EXCESS] > 0.0 and closed * abs(error) > p[EXCESS]:
         io[STOP] = EXCESS_ERROR
 
+    # Two sections in the transposed direct form: two states each, whatever the coefficients are.
     for k in range(2):
         f, m = FILTERS + 5 * k, FILTER_STATE + 2 * k
         passed = p[f] * volts + s[m]
@@ -107,6 +111,7 @@ def position_sample(p: Vector, s: Vector, io: Vector) -> None:
 
     if abs(volts) > p[TORQUE_LIMIT]:
         volts = math.copysign(p[TORQUE_LIMIT], volts)
+    # DAC GAIN comes behind the torque limit, so that the converter may still clip.
     volts *= p[DAC_SHARE]
     if abs(volts) > FULL_VOLTS:
         volts = math.copysign(FULL_VOLTS, volts)

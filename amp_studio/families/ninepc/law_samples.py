@@ -95,6 +95,7 @@ def position_sample(p: Vector, s: Vector, io: Vector) -> None:
     """
     position_loop(p, s, io)
     error, velocity = io[MONITOR + 3], io[COMMAND_VELOCITY]
+    # At rest friction still has to be overcome, in the direction in which the axis is late.
     direction = velocity if velocity != 0.0 else error
     reached = direction != 0.0 and abs(error) >= p[THRESHOLD] * p[COUNT] * ALMOST
     above = 1.0 if reached else 0.0
@@ -139,6 +140,8 @@ def position_loop(p: Vector, s: Vector, io: Vector) -> None:
     if p[MASTER_SAMPLES] > 0.0:
         gain *= slave_gain(p, s, io, error)
     if size > p[BREAK_POINT]:
+        # The curve is bent, not broken: up to the break the full gain stays, only the part beyond is
+        # reduced.
         size = p[BREAK_POINT] + p[BREAK_RATIO] * (size - p[BREAK_POINT])
     velocity = math.copysign(gain * size, error) + p[FEED_FORWARD] * io[COMMAND_VELOCITY]
     if not closed:
@@ -198,8 +201,10 @@ def velocity_sample(p: Vector, s: Vector, io: Vector) -> None:
     total = summed(s[ERROR_SUM], error, p[DISCHARGE])
     proportional, added = p[PROPORTIONAL] * error, p[OFFSET] + s[FRICTION]
     wanted = proportional + p[INTEGRAL] * total + added
+    # At the limit the sum is not added to, or it would have to be taken down again by an overshoot.
     if abs(wanted) <= limit or wanted * error < 0.0:
         s[ERROR_SUM] = total
+    # The filter is before the limit: what the motor gets is never beyond it.
     s[FILTERED] += p[FILTER] * (proportional + p[INTEGRAL] * s[ERROR_SUM] + added - s[FILTERED])
     io[OUTPUT] = min(max(s[FILTERED], -limit), limit)
     io[MONITOR + 1], io[MONITOR + 2], io[MONITOR + 6] = error, p[INTEGRAL] * s[ERROR_SUM], velocity

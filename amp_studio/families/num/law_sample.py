@@ -70,6 +70,7 @@ def position_sample(p: Vector, s: Vector, io: Vector) -> None:
             points = 1.0 * math.floor(points + 0.5)
         io[OUTPUT] = 10.0 * min(max(points, -FULL_POINTS), FULL_POINTS) / FULL_POINTS
         return
+    # The filter averages the last references; it delays the command by half of its length.
     terms = int(p[TERMS])
     total = io[COMMAND]
     for place in range(terms - 1, 0, -1):
@@ -77,6 +78,8 @@ def position_sample(p: Vector, s: Vector, io: Vector) -> None:
         total += s[RING + place]
     s[RING] = io[COMMAND]
     reference = total / terms
+    # The speed reference and the direction of friction are taken behind the filter, as the loop sees
+    # them.
     step = reference - s[REFERENCE]
     moved = io[POSITION] - s[MEASURED]
 
@@ -92,6 +95,7 @@ def position_sample(p: Vector, s: Vector, io: Vector) -> None:
     elif step < 0.0:
         amplitude = -p[FRICTION]
         s[ADDED] = 0.0
+    # Only a change of direction feeds the recursion (6-34); what it added dies away by FRICTION_LEFT.
     s[FRICTION_NOW] = amplitude - s[AMPLITUDE] + s[FRICTION_NOW] * p[FRICTION_LEFT]
 
     error = reference + s[ADDED] - io[POSITION]
@@ -103,7 +107,9 @@ def position_sample(p: Vector, s: Vector, io: Vector) -> None:
     points = min(max(points, -FULL_POINTS), FULL_POINTS)
 
     theoretical = s[THEORETICAL]
+    # The speed that the loop asked for in the last sample: the axis can only have answered that one.
     slowest, fastest = SLOWEST * theoretical, FASTEST * theoretical
+    # In the negative direction the greater share is the lower bound.
     if theoretical < 0.0:
         slowest, fastest = fastest, slowest
     io[OUTPUT] = 10.0 * points / FULL_POINTS
@@ -121,4 +127,5 @@ def position_sample(p: Vector, s: Vector, io: Vector) -> None:
     s[REFERENCE], s[STEP] = reference, step
     s[MEASURED] = io[POSITION]
     s[AMPLITUDE] = amplitude
+    # A loop with the time CONSTANT removes PERIOD / CONSTANT of its error in a sample.
     s[THEORETICAL] = wanted * p[PERIOD] / p[CONSTANT]

@@ -87,10 +87,12 @@ def velocity_sample(p: Vector, s: Vector, io: Vector) -> None:
     if io[MODE] == OUTPUT_TEST:  # the direct drive reference of register 28
         word = io[COMMAND] * WORDS_PER_VOLT
     elif word > 0.0:
+        # The deadband of the drive is jumped over, so that a small word moves the axis at all.
         word += p[DEADBAND]
     elif word < 0.0:
         word -= p[DEADBAND]
     cut = min(max(word, -p[CLAMP]), p[CLAMP])
+    # The position loop of the next scan has to know whether more output would do anything.
     s[CUT] = word - cut
     if p[WHOLE_WORDS] > 0.0:
         cut = 1.0 * math.floor(cut + 0.5)

@@ -63,6 +63,7 @@ def position_sample(p: Vector, s: Vector, io: Vector) -> None:
     reference = sent(p, s, io) if p[WHOLE] != 0.0 else late(s, io[COMMAND])
     io[REFERENCE_LAG] = io[COMMAND] - reference
     error = reference - position
+    # An overflow of this sample is the cause, and the error only what comes of it.
     if io[STOP] == 0.0 and abs(error) > p[LIMIT]:
         io[STOP] = EXCESS_ERROR if abs(error) <= p[FATAL_LIMIT] else FATAL_ERROR
     io[OUTPUT] = gain * error
@@ -78,6 +79,7 @@ def sent(p: Vector, s: Vector, io: Vector) -> float:
         io[MONITOR + PULSES] = s[TO] - s[FROM]
         if abs(s[TO] - s[FROM]) > p[MOST_PULSES]:
             io[STOP] = DDA_OVERFLOW
+    # Evenly spread, and whole: int cuts towards the start, so that no pulse leaves before its time.
     pulses = s[FROM] + 1.0 * int((s[TO] - s[FROM]) * s[PART] / PARTS)
     s[PART] += 1.0
     if s[PART] == PARTS:
