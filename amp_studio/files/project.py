@@ -217,10 +217,9 @@ def _read(path: Path, content: bytes) -> ProjectInfo:
         if not isinstance(value, str):
             raise ParameterFileError(path, document.line((key,)), f"{key} is no text")
     extra = {k: v for k, v in typed.items() if k not in _TEXTS and k != _VERSION}
+    lacking = [key for key in ("name", "family") if key not in texts]
     for key in extra:  # it stays in the file, unless it is one that the project lacks
-        if near := did_you_mean(
-            str(key), [lacking for lacking in ("name", "family") if lacking not in texts]
-        ):
+        if near := did_you_mean(str(key), lacking):
             raise ParameterFileError(
                 path, document.line((key,)), f"{quoted(str(key))}: there is no such key{near}"
             )

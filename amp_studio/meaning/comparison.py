@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
 from amp_studio.files import ParameterFile
 
-from .description import OF_AXIS, OF_MACHINE, ConceptValue
+from .description import OF_AXIS, OF_MACHINE, ConceptValue, MachineMeaning
 from .reading import read_meaning
 
 _SAME = 1e-6
@@ -58,24 +58,27 @@ class MeaningRow:
 def compare_meanings(files: Sequence[ParameterFile]) -> list[MeaningRow]:
     """Return every concept that one of the machines has; raises MeaningError."""
     machines = [read_meaning(file) for file in files]
-    letters = list(dict.fromkeys(axis.letter for machine in machines for axis in machine.axes))
-    rows = []
-    for letter in letters:
+    rows = [*_rows_of_axes(machines), *_rows_of_machine(machines)]
+    return [row for row in rows if any(value is not None for value in row.values)]
+
+
+def _rows_of_axes(machines: Sequence[MachineMeaning]) -> Iterator[MeaningRow]:
+    """Yield the concepts of the axes, those of one letter together."""
+    for letter in dict.fromkeys(axis.letter for machine in machines for axis in machine.axes):
         axes = [next((a for a in machine.axes if a.letter == letter), None) for machine in machines]
         turns = any(axis is not None and axis.turns for axis in axes)
         for concept in OF_AXIS:
-            values = tuple(
-                axis.figures[concept].value if axis and concept in axis.figures else None for axis in axes
-            )
-            if any(value is not None for value in values):
-                rows.append(MeaningRow(concept, letter, values, _unit(concept, turns=turns)))
+            figures = [axis.figures.get(concept) if axis else None for axis in axes]
+            values = tuple(figure.value if figure else None for figure in figures)
+            yield MeaningRow(concept, letter, values, _unit(concept, turns=turns))
+
+
+def _rows_of_machine(machines: Sequence[MachineMeaning]) -> Iterator[MeaningRow]:
+    """Yield the concepts of the machines as a whole."""
     for concept in OF_MACHINE:
-        values = tuple(
-            _whole(concept, m.figures[concept].value) if concept in m.figures else None for m in machines
-        )
-        if any(value is not None for value in values):
-            rows.append(MeaningRow(concept, "", values, "rpm" if concept.startswith("spindle") else ""))
-    return rows
+        figures = [machine.figures.get(concept) for machine in machines]
+        values = tuple(_whole(concept, figure.value) if figure else None for figure in figures)
+        yield MeaningRow(concept, "", values, "rpm" if concept.startswith("spindle") else "")
 
 
 def _whole(concept: str, value: object) -> ConceptValue:

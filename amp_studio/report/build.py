@@ -142,23 +142,23 @@ def _in_words(figure: PrintedFigure, language: Language) -> PrintedFigure:
 # -- facts ---------------------------------------------------------------------
 
 
-def _machine(file: ParameterFile, project: ProjectInfo | None) -> list[tuple[str, str]]:
-    family, header = file.schema.family, file.header
+def _machine(file: ParameterFile, of_project: ProjectInfo | None) -> list[tuple[str, str]]:
+    family, header, project = file.schema.family, file.header, of_project or ProjectInfo("", "")
     machine = next((m.name for m in family.machines if m.key == file.machine), file.machine)
     facts = [
-        ("Machine", header.name or (project.name if project else "")),
-        ("Builder", project.builder if project else ""),
-        ("Serial number", project.serial_number if project else ""),
-        ("Built", project.built if project else ""),
+        ("Machine", header.name or project.name),
+        ("Builder", project.builder),
+        ("Serial number", project.serial_number),
+        ("Built", project.built),
         ("Machine type", machine),
-        ("Application", header.application or (project.application if project else "")),
+        ("Application", header.application or project.application),
         ("Control family", family.name),
-        ("Control", project.control_name if project else ""),
-        ("Control software revision", header.revision or (project.revision if project else "")),
-        ("Options", project.options if project else ""),
-        ("People", project.people if project else ""),
+        ("Control", project.control_name),
+        ("Control software revision", header.revision or project.revision),
+        ("Options", project.options),
+        ("People", project.people),
     ]
-    if project and header.name and project.name.strip() not in ("", header.name):
+    if header.name and project.name.strip() not in ("", header.name):
         facts.insert(1, ("Project", project.name))
     if family.fits_axes:
         facts.append(("Axes", f"{len(fitted_axes(file))} of {len(axis_instances(file))} fitted"))

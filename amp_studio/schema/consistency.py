@@ -76,7 +76,19 @@ def faults_of_experience(plausible: Plausible, groups: tuple[Group, ...]) -> Ite
         for n, pattern in enumerate(patterns):
             if not any(fnmatchcase(name, pattern) for name in known):
                 yield (key, n), f"there is no parameter {quoted(pattern)}"
-    named: dict[str, tuple[tuple[str, ...], ...]] = {
+    for key, entries in _named_by_experience(plausible).items():
+        for n, name in ((n, name) for n, names in enumerate(entries) for name in names):
+            if name not in known:
+                yield (key, n), f"there is no parameter {quoted(name)}"
+    for key, facts in (("usual", plausible.usual), ("equal_rows", plausible.equal_rows)):
+        for name in facts:
+            if name not in known:
+                yield (key, name), f"there is no parameter {quoted(name)}"
+
+
+def _named_by_experience(plausible: Plausible) -> dict[str, tuple[tuple[str, ...], ...]]:
+    """Return list of the facts of experience -> the parameters that each of its entries names."""
+    return {
         "smooth": tuple((name,) for name in plausible.smooth),
         "steps": tuple((name,) for name in plausible.steps),
         "axis_words": tuple((name,) for name in plausible.axis_words),
@@ -88,14 +100,6 @@ def faults_of_experience(plausible: Plausible, groups: tuple[Group, ...]) -> Ite
         "needs": tuple(plausible.needs.items()),
         "not_above": tuple((one.limit, *one.are) for one in plausible.not_above),
     }
-    for key, entries in named.items():
-        for n, name in ((n, name) for n, names in enumerate(entries) for name in names):
-            if name not in known:
-                yield (key, n), f"there is no parameter {quoted(name)}"
-    for key, facts in (("usual", plausible.usual), ("equal_rows", plausible.equal_rows)):
-        for name in facts:
-            if name not in known:
-                yield (key, name), f"there is no parameter {quoted(name)}"
 
 
 def _in_family(family: Family, ids: set[str]) -> Iterator[Inconsistency]:
@@ -199,13 +203,7 @@ def _in_parameter(
     for n, variant in enumerate(parameter.range_variants):
         if variant.when not in family.conditions:
             yield ("range_variants", n, "when"), f"there is no condition {quoted(variant.when)}"
-    commands = [("command", parameter.storage.command or "")] if parameter.storage else []
-    commands += [("program", text) for text in parameter.program]
-    for key, command in commands:
-        for named in re.findall(r"{(.*?)}", command):
-            if named not in ("i", "k", "n", "v") and named not in ids:
-                place = ("storage", key) if key == "command" else (key,)
-                yield place, f"there is no parameter {quoted(named)} for its command"
+    yield from _in_commands(parameter, ids)
     for place, ranges in _all_ranges(parameter):
         for unit, pair in ranges:
             for end, bound in enumerate(pair):
@@ -217,6 +215,17 @@ def _in_parameter(
     for place, scope in _all_scopes(parameter):
         if scope not in family.scopes:
             yield place, f"the family has no scope {quoted(scope)}"
+
+
+def _in_commands(parameter: Parameter, ids: set[str]) -> Iterator[tuple[KeyPath, str]]:
+    """Yield every name in the commands of a parameter that is no parameter."""
+    commands: list[tuple[KeyPath, str]] = [(("program",), text) for text in parameter.program]
+    if parameter.storage:
+        commands.insert(0, (("storage", "command"), parameter.storage.command or ""))
+    for place, command in commands:
+        for named in re.findall(r"{(.*?)}", command):
+            if named not in ("i", "k", "n", "v") and named not in ids:
+                yield place, f"there is no parameter {quoted(named)} for its command"
 
 
 def _secret_bounds(parameter: Parameter, secrets: set[str]) -> Iterator[tuple[KeyPath, str]]:

@@ -203,34 +203,42 @@ def _read(parameter: Parameter, text: str, unit: str) -> Value:
         return Value(int(hexadecimal[1], 16), unit)
     if parameter.bits and not text.isdecimal() and (word := _labelled(parameter, text)) is not None:
         return Value(word, unit)
-    if _is_hex(parameter) and re.fullmatch("[0-9a-fA-F]+", text):
-        # A control and its manual write such a word without a sign of its notation: 00000044 has bits 2 and
-        # 6.
-        if not text.isdecimal():
-            raise InvalidValueError(f"{quoted(text)} is not a decimal number: write 0x{short(text)}")
-        if text.startswith("0") and int(text, 16) != int(text):
-            raise InvalidValueError(
-                f"{quoted(text)} can be read two ways: write 0x{short(text)} or {short(str(int(text)))}"
-            )
+    if _is_hex(parameter):
+        _refuse_ambiguous(text)
     number, rest = read_number(text)
     if rest:
-        try:
-            named = unit_named(rest)
-        except UnitError as error:
-            raise InvalidValueError(
-                f"{error}; {parameter.name} is given in {unit_text(unit) or 'a bare number'}"
-            ) from None
-        if dimension(named) != dimension(unit):
-            raise InvalidValueError(
-                f"{parameter.name} is given in {unit_text(unit) or 'a bare number'}, not in "
-                f"{unit_text(named)}"
-            )
-        unit = named
+        unit = _unit_entered(parameter, rest, unit)
     if parameter.type in ("integer", "bits") and (exact := Decimal(_digits(text)[0])) != number:
         # Beyond what a double stores: 2 ** 53 + 1, or a half that would be rounded away.
         size = "too large for" if exact == exact.to_integral_value() else "no whole number, which is taken by"
         raise InvalidValueError(f"{quoted(text)} is {size} {parameter.name}")
     return Value(number, unit)
+
+
+def _refuse_ambiguous(text: str) -> None:
+    """Refuse the digits of a hexadecimal word without a sign of their notation: a control and its manual
+    write 00000044 for the bits 2 and 6. Raises InvalidValueError.
+    """
+    if not re.fullmatch("[0-9a-fA-F]+", text):
+        return
+    if not text.isdecimal():
+        raise InvalidValueError(f"{quoted(text)} is not a decimal number: write 0x{short(text)}")
+    if text.startswith("0") and int(text, 16) != int(text):
+        raise InvalidValueError(
+            f"{quoted(text)} can be read two ways: write 0x{short(text)} or {short(str(int(text)))}"
+        )
+
+
+def _unit_entered(parameter: Parameter, text: str, usual: str) -> str:
+    """Return the unit that was entered; raises InvalidValueError for one that measures something else."""
+    wanted = f"{parameter.name} is given in {unit_text(usual) or 'a bare number'}"
+    try:
+        named = unit_named(text)
+    except UnitError as error:
+        raise InvalidValueError(f"{error}; {wanted}") from None
+    if dimension(named) != dimension(usual):
+        raise InvalidValueError(f"{wanted}, not in {unit_text(named)}")
+    return named
 
 
 def read_exact(text: str) -> tuple[Fraction, str]:

@@ -270,9 +270,8 @@ def _check_names(rule: Rule) -> set[str]:
     RuleError.
     """
     lists = {name for name, text in rule.reads.items() if is_list(text)}
-    named = {f: getattr(rule, f) for f in ("optional", "any_state", "blames", "compares")}
-    for place, names in named.items():
-        for name in names:
+    for place in ("optional", "any_state", "blames", "compares"):
+        for name in getattr(rule, place):
             if name not in rule.reads:
                 raise RuleError(rule.id, f"{place} names {quoted(name)}, which it does not read")
     for assignment in (*rule.fix, *rule.effective):
@@ -283,6 +282,11 @@ def _check_names(rule: Rule) -> set[str]:
             raise RuleError(rule.id, f"units names {quoted(name)}, which is not one of its values")
         if unit not in UNITS:
             raise RuleError(rule.id, f"{quoted(unit)} is no unit")
+    return _names_in_message(rule)
+
+
+def _names_in_message(rule: Rule) -> set[str]:
+    """Return the names that the message of a rule shows; raises RuleError for one that it cannot."""
     known = {*rule.reads, *rule.values, *ALWAYS_THERE}
     try:
         fields = [

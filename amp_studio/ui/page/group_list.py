@@ -122,17 +122,19 @@ class GroupList(QWidget):
             keys = set(item.data(0, _KEYS))
             if keys == {_ALL}:
                 keys = {group.key for group in schema.groups}
-            counts = {
-                s: sum(own == s and not keys.isdisjoint(places) for own, places in found) for s in SEVERITIES
-            }
-            for column, severity in enumerate(SEVERITIES[:2], 1):
-                item.setText(column, str(counts[severity] or ""))
-            missing = sum(not_set[key] for key in keys)
-            item.setData(0, COUNTS, tuple((s, n) for s, n in counts.items() if n))
-            item.setData(0, RIGHT, str(missing) if missing else "")
-            parts = [item.text(0), *(counted(n, s) for s, n in counts.items() if n)]
-            parts += [self.tr("%n values not set", "", missing)] if missing else []
-            item.setData(0, Qt.ItemDataRole.AccessibleTextRole, ", ".join(parts))
+            here = Counter(severity for severity, places in found if not keys.isdisjoint(places))
+            counts = tuple((severity, here[severity]) for severity in SEVERITIES if here[severity])
+            self._show_counts(item, counts, sum(not_set[key] for key in keys))
+
+    def _show_counts(self, item: QTreeWidgetItem, counts: tuple[tuple[str, int], ...], missing: int) -> None:
+        """Show the findings of a group by severity, and how many of its values are not set."""
+        for column, severity in enumerate(SEVERITIES[:2], 1):
+            item.setText(column, str(dict(counts).get(severity, "")))
+        item.setData(0, COUNTS, counts)
+        item.setData(0, RIGHT, str(missing) if missing else "")
+        parts = [item.text(0), *(counted(n, severity) for severity, n in counts)]
+        parts += [self.tr("%n values not set", "", missing)] if missing else []
+        item.setData(0, Qt.ItemDataRole.AccessibleTextRole, ", ".join(parts))
 
     def _follow(self, *_: object) -> None:
         """Update the counts after the present edit."""

@@ -79,10 +79,9 @@ def run(options: Options) -> int:
     from amp_studio.schema import read_file
 
     form = CHECK_FORMATS[options.format]
-    if options.why and options.format not in WITH_REASONS:
-        raise UsageError(f"--why is for the formats {' and '.join(WITH_REASONS)}")
-    if options.motion and options.format not in WITH_REASONS:
-        raise UsageError(f"--motion is for the formats {' and '.join(WITH_REASONS)}")
+    for option in ("why", "motion"):
+        if getattr(options, option) and options.format not in WITH_REASONS:
+            raise UsageError(f"--{option} is for the formats {' and '.join(WITH_REASONS)}")
     if options.rules:
         read_file(
             options.rules
@@ -101,12 +100,17 @@ def run(options: Options) -> int:
         checked.append(one)
         _print(form, one)
     if form.needs_all and paths:
-        document = checked[0].printed if form.alone and paths == options.paths[:1] else form.all(checked)
-        is_utf8 = (sys.stdout.encoding or "").lower() == "utf-8"
-        if document:
-            print(document if is_utf8 else form.in_ascii(document))
+        _print_document(form, checked, is_alone=form.alone and paths == options.paths[:1])
     is_whole = not any(one.fault for one in checked)
     return int(any(one.errors for one in checked)) if is_whole else 2
+
+
+def _print_document(form: CheckFormat, checked: Sequence[CheckResult], *, is_alone: bool) -> None:
+    """Print the one document about all files, as far as the terminal can show its characters."""
+    document = checked[0].printed if is_alone else form.all(checked)
+    is_utf8 = (sys.stdout.encoding or "").lower() == "utf-8"
+    if document:
+        print(document if is_utf8 else form.in_ascii(document))
 
 
 def _results(

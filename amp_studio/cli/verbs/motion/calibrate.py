@@ -208,18 +208,13 @@ def _demand_answers(measurement: Measurement | None) -> None:
 def _edited(
     options: Options, file: ParameterFile, offered: Compensation, axis: str
 ) -> dict[Address, Value | None]:
-    from amp_studio.calibration import deleted, inserted, present_table, rechosen, replaced, shown_unit
+    from amp_studio.calibration import deleted, inserted, replaced, shown_unit
     from amp_studio.schema import Value
 
     form = offered.table
     if form is None:
         raise UsageError(f"{file.schema.family.name} has no calibration table of an axis")
-    start = _STARTS.get(options.start or "", "")
-    table = None if options.clear else present_table(file, offered, axis)
-    if table is None:
-        table = form.empty(file, axis, options.input or "", start)
-    else:
-        table = rechosen(table, options.input or table.input, start or table.start)
+    table = _begun(options, file, offered, form, axis)
     _, size = shown_unit(file, table)
     for text in options.delete or ():
         table = deleted(table, _number(text) * size)
@@ -233,6 +228,19 @@ def _edited(
         table = inserted(table, at, _error(options, form, table, at, figure))
     text = "" if options.clear and not (options.insert or options.replace) else form.write(file, axis, table)
     return {(form.parameter, axis): Value(text) if text else None}
+
+
+def _begun(
+    options: Options, file: ParameterFile, offered: Compensation, form: TableForm, axis: str
+) -> CalibrationTable:
+    """Return the table that is edited: that of the axis, or an empty one."""
+    from amp_studio.calibration import present_table, rechosen
+
+    start = _STARTS.get(options.start or "", "")
+    table = None if options.clear else present_table(file, offered, axis)
+    if table is None:
+        return form.empty(file, axis, options.input or "", start)
+    return rechosen(table, options.input or table.input, start or table.start)
 
 
 def _error(
