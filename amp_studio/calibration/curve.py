@@ -38,10 +38,6 @@ class ErrorCurve:
         at = sorted({*self._positions, *(p for p, _ in other.points), *positions})
         return ErrorCurve(tuple((p, self.at(p) - other.at(p)) for p in at))
 
-    def shifted(self, by: Fraction) -> ErrorCurve:
-        """Return this curve with ``by`` added to every value."""
-        return ErrorCurve(tuple((at, value + by) for at, value in self.points))
-
     @property
     def span(self) -> Fraction:
         """Largest value less smallest one."""

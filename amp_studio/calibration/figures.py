@@ -67,11 +67,6 @@ class AxisFigures:
     accuracy_falling: float | None
     accuracy: float | None
 
-    @property
-    def is_complete(self) -> bool:
-        """Whether there are the five runs of each direction that the standard asks for."""
-        return min(self.runs_rising, self.runs_falling) >= 5
-
 
 def figures(measurement: Measurement) -> AxisFigures:
     """Return the figures of a measurement."""

@@ -85,10 +85,3 @@ def test_one_direction_has_no_reversal_and_one_run_no_repeatability() -> None:
     single = figures(measurement(np.array([[0.0, 1.0]]), np.array([[1.0, 2.0]]), np.array([0.0, 1.0])))
     assert single.reversal == 1
     assert (single.repeatability, single.accuracy, single.repeatability_falling) == (None, None, None)
-    assert not single.is_complete
-
-
-def test_five_runs_of_each_direction_are_a_test_by_the_standard() -> None:
-    rows = np.zeros((5, 2))
-    assert figures(measurement(rows, rows, np.array([0.0, 1.0]))).is_complete
-    assert not figures(measurement(rows, rows[:4], np.array([0.0, 1.0]))).is_complete

@@ -72,21 +72,3 @@ def position_cam(table: Sequence[int], increment: int, travelled: float, base: f
     step = min(max(travelled / increment, 0.0), len(table) - 1.0)
     point = min(int(step), len(table) - 2)
     return base + table[point] + (table[point + 1] - table[point]) * (step - point)
-
-
-def rotary_position_cam(
-    table: Sequence[int], increment: int, travelled: float, unwind: int, base: float = 0.0
-) -> float:
-    """Return the position in continuous rotary mode:
-    each time the master unwinds the cam starts again (page 4-52).
-
-    ``unwind`` is the gearing unwind constant, in counts of the master.
-    """
-    if unwind < increment * (len(table) - 1):
-        raise SimulationError(
-            f"The cam is {increment * (len(table) - 1)} counts of the master long, more than its unwind"
-            f" constant {unwind}",
-            ids.gearing_unwind,
-        )
-    turns, rest = divmod(travelled, unwind)
-    return position_cam(table, increment, rest, base + turns * (table[-1] - table[0]))

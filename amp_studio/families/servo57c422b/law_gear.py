@@ -4,7 +4,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Iterator, Sequence
 from itertools import pairwise
 
@@ -49,18 +48,6 @@ def geared(master: Sequence[int], upper: int, lower: int) -> Iterator[int]:
         travel, rest = divmod((now - before) * upper + rest, lower)
         position, before = position + travel, now
         yield position
-
-
-def engage_time(speed: float, acceleration: float) -> float:
-    """Return the time in s in which ramp velocity control brings the axis to the speed of its master,
-    counts/s.
-
-    Only until then the acceleration of the trapezoid bounds it (page 4-21); without it the axis goes there in
-    current limit (page 4-24), which is 0 here.
-    """
-    if acceleration <= 0.0:
-        return 0.0
-    return math.ceil(abs(speed) / acceleration / SCAN - 1e-9) * SCAN
 
 
 def followed(master: Sequence[int], upper: int, lower: int, acceleration: float) -> list[float]:

@@ -7,13 +7,8 @@ from itertools import islice
 import pytest
 
 from amp_studio.families.servo57c422b.formulas.motion import backlash_moves
-from amp_studio.families.servo57c422b.law_cam import (
-    position_cam,
-    rotary_position_cam,
-    time_cam,
-    time_cam_order,
-)
-from amp_studio.families.servo57c422b.law_gear import engage_time, gear_fraction, geared
+from amp_studio.families.servo57c422b.law_cam import position_cam, time_cam, time_cam_order
+from amp_studio.families.servo57c422b.law_gear import gear_fraction, geared
 from amp_studio.sim import SimulationError
 
 # -- gearing ---------------------------------------------------------------------------------------
@@ -50,13 +45,6 @@ def test_outside_127_to_1_and_1_to_32767_gearing_is_not_enabled(
 ) -> None:
     with pytest.raises(SimulationError, match="gearing is not enabled"):
         gear_fraction(ratio, numerator, denominator)
-
-
-def test_ramp_velocity_control_takes_whole_scans_to_the_speed_of_the_master() -> None:
-    assert engage_time(50_000.0, 500_000.0) == pytest.approx(0.1)  # page 4-21
-    assert engage_time(-50_000.0, 500_000.0) == pytest.approx(0.1)
-    assert engage_time(50_001.0, 500_000.0) == pytest.approx(0.10125)
-    assert engage_time(50_000.0, 0.0) == 0.0  # without it: in current limit, page 4-24
 
 
 # -- backlash --------------------------------------------------------------------------------------
@@ -107,19 +95,6 @@ def test_a_position_cam_goes_in_straight_lines_between_its_points() -> None:
 def test_a_position_cam_stands_before_its_reference_and_after_its_end() -> None:
     assert position_cam((0, 100, 50), 10, -3) == 0
     assert position_cam((0, 100, 50), 10, 99) == 50
-
-
-def test_a_continuous_rotary_cam_goes_on_from_where_it_came_at_each_unwind() -> None:
-    # Page 4-52: its first and last point need not be equal.
-    assert [rotary_position_cam((0, 100), 10, travelled, 20) for travelled in (0, 10, 19, 25, 45)] == [
-        0,
-        100,
-        100,
-        150,
-        250,
-    ]
-    with pytest.raises(SimulationError, match="more than its unwind constant 5"):
-        rotary_position_cam((0, 100), 10, 0, 5)
 
 
 def test_a_position_cam_needs_two_points_and_an_increment() -> None:
