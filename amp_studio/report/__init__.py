@@ -40,7 +40,7 @@ if TYPE_CHECKING:
     from .papers.paper import Paper, PaperTable, check_paper_ending, results_paper, write_paper
     from .papers.sheet import PrintedSheet, text_lines, write_sheet
     from .parameter.describe import definition
-    from .parameter.manual_page import GRADES, facts, help_parts, one_line, page_of
+    from .parameter.manual_page import GRADES, facts, help_parts, one_line, page_of, takes_effect
     from .parameter.printed_table import cells_of, table_lines, tables_of
     from .parameter.why import why_parts, why_text
     from .templating.starting import write_starting_template

@@ -6,6 +6,7 @@ import hashlib
 import json
 from dataclasses import dataclass
 from functools import cache, cached_property
+from typing import Any
 
 from .address import Address, UnknownParameterError, read_address, whole_of
 from .load import Compiled, FurtherFacts, load_compiled
@@ -25,6 +26,7 @@ from .model import (
     Plausible,
     ProgramWords,
     Rule,
+    Storage,
     Table,
 )
 from .model.compiled_json import text_record
@@ -191,14 +193,7 @@ class Schema:
                 for b in parameter.bits or ()
                 if not b.needs
             ]
-            storage = parameter.storage.model_dump() if parameter.storage else None
-            for word in ("code", "command"):
-                if storage and storage[word] is None:
-                    del storage[word]  # files of a family without codes or commands keep their checksum
-            if storage and not storage["single"]:
-                del storage["single"]
-            if storage and "command" in storage:
-                storage["command"] = storage["command"].replace("{k}", "{n}")  # as the place was written once
+            storage = _signed_storage(parameter.storage) if parameter.storage else None
             lines.append(
                 [
                     parameter.id,
@@ -215,6 +210,19 @@ class Schema:
             )
         text = json.dumps([self.family.family, lines], sort_keys=True, separators=(",", ":"))
         return hashlib.sha256(text.encode()).hexdigest()
+
+
+def _signed_storage(storage: Storage) -> dict[str, Any]:
+    """Return a storage as signatures have it: what was added later is there only where it is used,
+    so that files of a family without it keep their checksum.
+    """
+    signed: dict[str, Any] = storage.model_dump()
+    later = [word for word in ("code", "command") if signed[word] is None]
+    for word in (*later, *([] if signed["single"] else ["single"])):
+        del signed[word]
+    if "command" in signed:
+        signed["command"] = signed["command"].replace("{k}", "{n}")  # as the place was written once
+    return signed
 
 
 def _codes(choices: tuple[Choice, ...] | None) -> list[tuple[str, str, int | None]]:

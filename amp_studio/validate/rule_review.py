@@ -139,19 +139,7 @@ def _name_slips(rule: Rule) -> Iterator[tuple[KeyPath, str]]:
         for name in conditions:
             if name not in rule.reads:
                 yield (key, name), f"{quoted(name)} is not read{did_you_mean(name, rule.reads)}"
-    singles = [name for name, (_, which) in _read(rule).items() if which not in _LISTS]
-    for key, assignments in (("fix", rule.fix), ("effective", rule.effective)):
-        for n, assignment in enumerate(assignments):
-            if assignment.set in rule.reads and assignment.set not in singles:
-                yield (
-                    (key, n, "set"),
-                    f"{quoted(assignment.set)} is a list, and only a single value can be set",
-                )
-            elif assignment.set not in rule.reads:
-                yield (
-                    (key, n, "set"),
-                    f"{quoted(assignment.set)} is not read{did_you_mean(assignment.set, singles)}",
-                )
+    yield from _assignment_slips(rule)
     for name in rule.values:
         if name in rule.reads or name in ALWAYS_THERE:
             yield ("values", name), f"{quoted(name)} is the name of something else already"
@@ -160,6 +148,17 @@ def _name_slips(rule: Rule) -> Iterator[tuple[KeyPath, str]]:
             yield ("units", name), f"{quoted(name)} is not one of its values{did_you_mean(name, rule.values)}"
         if unit not in UNITS:
             yield ("units", name), f"{quoted(unit)} is no unit{did_you_mean(unit, UNITS)}"
+
+
+def _assignment_slips(rule: Rule) -> Iterator[tuple[KeyPath, str]]:
+    """Yield what a fix or an effective value sets and cannot set."""
+    singles = [name for name, (_, which) in _read(rule).items() if which not in _LISTS]
+    for key, assignments in (("fix", rule.fix), ("effective", rule.effective)):
+        for n, name in enumerate(assignment.set for assignment in assignments):
+            if name not in rule.reads:
+                yield (key, n, "set"), f"{quoted(name)} is not read{did_you_mean(name, singles)}"
+            elif name not in singles:
+                yield (key, n, "set"), f"{quoted(name)} is a list, and only a single value can be set"
 
 
 def _message_slips(rule: Rule) -> Iterator[tuple[KeyPath, str]]:

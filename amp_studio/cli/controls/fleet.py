@@ -127,21 +127,7 @@ def _end(options: Options, rows: list[FleetRow]) -> int:
     """Print the table, write the report and return one code for all."""
     codes = [_code(row) for row in rows]
     if options.json:
-        print_json(
-            {
-                "controls": [
-                    {
-                        "address": r.address,
-                        "result": r.word,
-                        "code": code,
-                        "sha256": r.sha256 or None,
-                        "kept": r.kept or None,
-                        "text": r.text,
-                    }
-                    for r, code in zip(rows, codes, strict=True)
-                ]
-            }
-        )
+        print_json({"controls": [_as_json(row, code) for row, code in zip(rows, codes, strict=True)]})
     else:
         wide = max(len(row.address) for row in rows)
         for row in rows:
@@ -157,6 +143,17 @@ def _end(options: Options, rows: list[FleetRow]) -> int:
         return UNKNOWN
     is_partly = options.verb == "download" and any(row.word == "done" for row in rows)
     return CHANGED if CHANGED in codes or is_partly else FAULT
+
+
+def _as_json(row: FleetRow, code: int) -> dict[str, object]:
+    return {
+        "address": row.address,
+        "result": row.word,
+        "code": code,
+        "sha256": row.sha256 or None,
+        "kept": row.kept or None,
+        "text": row.text,
+    }
 
 
 def _code(row: FleetRow) -> int:

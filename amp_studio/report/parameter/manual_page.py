@@ -177,29 +177,39 @@ def facts(schema: Schema, parameter: Parameter, machine: str | None = None) -> l
     found.append(("Default", _default(parameter)))
     found += [("At the control", text) for text in _at_the_control(parameter)]
     found += [("Command", text) for text in _command(schema, parameter)]
-    effect = parameter.effect or schema.family.effect
-    levels = {
-        "at-once": "at once",
-        "reset": "on reset",
-        "restart": "on restart of the control",
-        "online": f"at once with {effect.command} at the control, else on restart of the control",
-        "command": f"when {effect.command} reads it",
-        "unknown": "not given in the manual",
-    }
-    read_only = "read-only"
-    found.append(
-        ("Access", read_only) if parameter.access == "read" else ("Takes effect", levels[effect.level])
-    )
-    for state in parameter.states:
-        condition = schema.family.conditions[state.when or state.unless or ""]
-        page = state.page or condition.page
-        found.append(
-            (state_name(state.state).capitalize(), condition.why + (f" (page {page})" if page else ""))
-        )
+    if parameter.access == "read":
+        found.append(("Access", "read-only"))
+    else:
+        found.append(("Takes effect", takes_effect(schema, parameter)))
+    found += _states(schema, parameter)
     found += [("Needs", f"{need.what} (page {need.page})") for need in parameter.needs]
     pages = " and ".join(dict.fromkeys((parameter.page, *parameter.pages.values())))
     found.append(("Source", f"{schema.family.title}, page {pages}"))
     return found
+
+
+_TAKES_EFFECT = {
+    "at-once": "at once",
+    "reset": "on reset",
+    "restart": "on restart of the control",
+    "online": "at once with {command} at the control, else on restart of the control",
+    "command": "when {command} reads it",
+    "unknown": "not given in the manual",
+}
+
+
+def takes_effect(schema: Schema, parameter: Parameter) -> str:
+    """Return when a changed value of a parameter takes effect by the manual."""
+    effect = parameter.effect or schema.family.effect
+    return _TAKES_EFFECT[effect.level].format(command=effect.command)
+
+
+def _states(schema: Schema, parameter: Parameter) -> Iterator[tuple[str, str]]:
+    """Yield each state that a parameter can be in but active, and the reason for it."""
+    for state in parameter.states:
+        condition = schema.family.conditions[state.when or state.unless or ""]
+        page = state.page or condition.page
+        yield state_name(state.state).capitalize(), condition.why + (f" (page {page})" if page else "")
 
 
 def entry_units(schema: Schema, parameter: Parameter) -> tuple[str, ...]:

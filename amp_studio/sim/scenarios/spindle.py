@@ -56,19 +56,12 @@ def run_spindle(machine: BoundMachine, settings: Settings) -> Trace:
     if settings.get("move.orient") is not None:
         return _oriented(spindle, settings)
     before = number(settings, "move.from") or 0.0
-    if settings.get("move.speed") == HIGHEST:
-        speed: float | None = max((gear.high for gear in spindle.gears), default=0.0)
-    else:
-        speed = number(settings, "move.speed")
-    if speed is None:
-        raise SimulationError("Give the programmed speed: spindle S1500, or move.speed", "move.speed")
+    speed = _programmed(spindle, settings)
     gear, notes, alarms = _geared(spindle, settings, speed)
     lag = above_zero(settings, "move.drive_time") or DRIVE_TIME
     reached = number(settings, "move.reached")
     estop = above_zero(settings, "move.estop_time")
-    commanded = speed if gear is None else math.copysign(min(abs(speed), gear.full), speed)
-    if gear is None:
-        commanded = before
+    commanded = before if gear is None else math.copysign(min(abs(speed), gear.full), speed)
     lasts = ramp_time(before, commanded, gear) if gear else 0.0
     if lasts > LONGEST:
         raise SimulationError(f"The ramp takes {lasts:g} s, more than {LONGEST:g} s", "move.speed")
@@ -80,14 +73,7 @@ def run_spindle(machine: BoundMachine, settings: Settings) -> Trace:
     aim = command if reached is None or speed == 0.0 else command * (reached / speed)
     actual = lagged(time, aim, before, lag)
     output = np.array([gear.output_at(float(each)) if gear else 0.0 for each in command])
-    result: dict[str, Figure] = {
-        "gear": (float(gear.name) if gear else None, ""),
-        "output": (gear.output_at(commanded) if gear else None, spindle.unit),
-        "ramp_time": (lasts if gear else None, "s"),
-        "speed": (commanded if gear else None, "rpm"),
-        "gear_low": (gear.low if gear else None, "rpm"),
-        "gear_high": (gear.high if gear else None, "rpm"),
-    }
+    result = _of_gear(spindle, gear, commanded, lasts)
     columns = {"time_s": time, "command_velocity": command, "velocity": actual, "output": output}
     units = {"time_s": "s", "command_velocity": "rpm", "velocity": "rpm", "output": spindle.unit}
     if spindle.watch and gear:
@@ -104,6 +90,32 @@ def run_spindle(machine: BoundMachine, settings: Settings) -> Trace:
         assumptions=(*notes, *spindle.notes, LAG.format(value_text(lag, "s"))),
         limits={},
     )
+
+
+def _programmed(spindle: Spindle, settings: Settings) -> float:
+    """Return the programmed speed in rpm; raises SimulationError where none is given."""
+    if settings.get("move.speed") == HIGHEST:
+        return max((gear.high for gear in spindle.gears), default=0.0)
+    speed = number(settings, "move.speed")
+    if speed is None:
+        raise SimulationError("Give the programmed speed: spindle S1500, or move.speed", "move.speed")
+    return speed
+
+
+def _of_gear(spindle: Spindle, gear: Gear | None, commanded: float, lasts: float) -> dict[str, Figure]:
+    """Return the figures of the gear that is in; None for each where no gear has the speed."""
+    units = {
+        "gear": "",
+        "output": spindle.unit,
+        "ramp_time": "s",
+        "speed": "rpm",
+        "gear_low": "rpm",
+        "gear_high": "rpm",
+    }
+    if gear is None:
+        return {name: (None, unit) for name, unit in units.items()}
+    figures = (float(gear.name), gear.output_at(commanded), lasts, commanded, gear.low, gear.high)
+    return {name: (figure, unit) for (name, unit), figure in zip(units.items(), figures, strict=True)}
 
 
 def spindle_of(machine: BoundMachine, settings: Settings) -> Spindle:

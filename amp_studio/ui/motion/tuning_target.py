@@ -11,8 +11,9 @@ from PySide6.QtCore import QObject, Signal
 
 from amp_studio.calibration import with_followers
 from amp_studio.files import ParameterFile
+from amp_studio.report import takes_effect
 from amp_studio.schema import Address, Schema, Value
-from amp_studio.ui.base.translated import tr
+from amp_studio.ui.base.translated import worded
 from amp_studio.ui.base.workspace import Workspace
 
 if TYPE_CHECKING:
@@ -26,16 +27,7 @@ RunExchange = Callable[[str, ControlWork], Any]
 
 def effect_words(schema: Schema, address: Address) -> str:
     """Return when a changed value takes effect by the manual, in words."""
-    effect = schema.parameters[address[0]].effect or schema.family.effect
-    words = {
-        "at-once": tr("at once"),
-        "reset": tr("on reset"),
-        "restart": tr("on restart"),
-        "online": tr("on restart, at once with {command} at the control").format(command=effect.command),
-        "command": tr("on {command}").format(command=effect.command),
-        "unknown": tr("not in the manual"),
-    }
-    return words[effect.level]
+    return worded(takes_effect(schema, schema.parameters[address[0]]))
 
 
 class TuningTarget(QObject):

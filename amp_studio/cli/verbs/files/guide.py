@@ -87,7 +87,6 @@ def run(options: Options) -> int:
     """Print the steps of a family, or how far a file has come in them; tick a step, keep its defaults,
     print the check list.
     """
-    from amp_studio import edit
     from amp_studio.guide import progress
 
     asked_for = options.step or options.at
@@ -100,14 +99,8 @@ def run(options: Options) -> int:
     path = options.path
     if options.output:
         check_replaced(options.output, path)
-    if any(getattr(options, key) for key in _CHANGING):
-        with edit(path) as machine:
-            _change(options, machine)
-            if machine.document and machine.document.is_dirty:
-                machine.save(verb="guide")
-                note_all(machine.notes)
-    else:
-        machine = opened(path, options)
+    is_changing = any(getattr(options, key) for key in _CHANGING)
+    machine = _changed(options) if is_changing else opened(path, options)
     file = machine.file
     step = _step(file.schema, asked_for) if asked_for else None
     validator = machine.validator()
@@ -118,17 +111,26 @@ def run(options: Options) -> int:
         return _next(options, file, come, step)
     if options.json:
         print_json(_as_json(file, come, path, step))
-    elif changed := [
-        *(options.done or ()),
-        *(options.not_done or ()),
-        *filter(None, [options.keep_defaults]),
-    ]:
-        print("\n".join(_step_line(come.of(_step(file.schema, name)), 0) for name in changed))
+    elif is_changing:
+        changed = (*(options.done or ()), *(options.not_done or ()), options.keep_defaults)
+        print("\n".join(_step_line(come.of(_step(file.schema, name)), 0) for name in changed if name))
     elif step is not None:
         print("\n".join(_step_lines(file, come.of(step))))
     else:
         print("\n".join(_overview(file, come, path)))
     return 0
+
+
+def _changed(options: Options) -> MachineParameters:
+    """Tick steps, or keep their defaults, in the file; returns it as it is then."""
+    from amp_studio import edit
+
+    with edit(options.path) as machine:
+        _change(options, machine)
+        if machine.document and machine.document.is_dirty:
+            machine.save(verb="guide")
+            note_all(machine.notes)
+    return machine
 
 
 def _step(schema: Schema, text: str) -> SetupStep:
