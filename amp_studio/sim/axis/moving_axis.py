@@ -125,6 +125,7 @@ class MovingAxis:
     """
 
     def __init__(self, axis: AxisLaw, *, engine: Engine = "auto", keep: bool = True, coast: float = 0.0):
+        # An axis that follows another one is moved by orders here, not by the motion of its leader.
         self.axis = replace(axis, after=None)
         self.position = self.velocity = 0.0
         """Of the command, now."""
@@ -266,6 +267,7 @@ class MovingAxis:
         seen = self._step(limit, (*own, *watches), to_end=True)
         if seen is not None and own:
             seen = replace(seen, watch=seen.watch - 1)
+        # A watch of the caller ends the step, and the order goes on with the next one.
         if self.is_over or (seen is not None and seen.watch >= 0):
             return seen
         if seen is not None or self._is_at_end():
@@ -291,6 +293,7 @@ class MovingAxis:
         if not isinstance(order, PauseOrder) and (not isinstance(order, StopOrder) or order.waits):
             pieces.append(Piece(self.axis.servo_period, kind=IN_POSITION))
             lasts = sum(piece.duration for piece in pieces)
+            # Twice the command and some time constants: an axis that is not there then does not come.
             self._patience = self.time + 2.0 * lasts + SETTLE / self.axis.position_rate + LONGEST_WAIT
         self.order(pieces, sign)
 
@@ -383,6 +386,7 @@ class MovingAxis:
         alarm.
         """
         timing, x = self._vectors[TIMING], self._vectors[STATE]
+        # A quarter of a period off, so that rounding makes no sample more or less of it.
         last = until / self.axis.servo_period - 0.25 if math.isfinite(until) else math.inf
         timing[kernel.TO_END], timing[kernel.WATCHES] = float(to_end), float(len(watches))
         for n, watch in enumerate(watches):
@@ -393,6 +397,7 @@ class MovingAxis:
         found: Seen | None = None
         while not self.is_over:
             before = x[kernel.SAMPLE]
+            # In pieces: the rows of a call have a fixed room.
             timing[kernel.LAST_SAMPLE] = min(last, before + CHUNK)
             self._call()
             x, timing = self._vectors[STATE], self._vectors[TIMING]
@@ -407,6 +412,7 @@ class MovingAxis:
         law = self.axis.position_sample, self.axis.velocity_sample
         wanted = self._engine == "compiled" or (self._engine == "auto" and pays(*law, self._last_steps))
         if not self._is_compiled and wanted and can_compile():
+            # Once, when machine code begins to pay: lists are faster for the plain engine.
             self._vectors = [np.array(each, dtype=np.float64) for each in self._vectors]
             self._is_compiled = True
         x = self._vectors[STATE]

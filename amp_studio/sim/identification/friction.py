@@ -128,6 +128,7 @@ def _refuse_limit(torque: Series, speed: Series) -> None:
     moves = np.abs(speed) > STANDSTILL * float(np.abs(speed).max())
     flat = 0
     for limit in (torque.max(), torque.min()):
+        # A zero at each end, so that every run has a beginning and an end in the differences.
         at_limit = np.concatenate([[0], ((torque == limit) & moves).astype(np.int8), [0]])
         edges = np.flatnonzero(np.diff(at_limit))
         lengths = edges[1::2] - edges[::2]
@@ -186,6 +187,7 @@ def _noise(moved: Series) -> float:
     """Return the variance of the noise of a signal, counts included: of its third differences,
     which motion hardly has.
     """
+    # A third difference has the taps 1, -3, 3, -1, whose squares add up to 20.
     return float(np.mean(np.diff(moved, 3) ** 2)) / 20.0
 
 
@@ -196,6 +198,8 @@ def _mean(values: Series, side: float) -> Series:
 
 def _widths(rows: int) -> list[int]:
     found = [1]
+    # A filter of three boxes is three widths long; a tenth of the record is the longest that leaves
+    # enough rows.
     while 3 * found[-1] < rows // 10:
         found.append(max(found[-1] + 1, round(1.5 * found[-1])))
     return found
@@ -221,6 +225,7 @@ def _filtered(width: int, *signals: Series) -> tuple[Series, ...]:
 
 def _gain(taps: Series, width: int) -> float:
     """Return the variance that a variance of 1 at each row leaves in the filtered acceleration."""
+    # Long enough for the response of the three boxes to an impulse, 3 width - 2, to lie in it whole.
     impulse = np.zeros(6 * width - 5)
     impulse[3 * width - 3] = 1.0
     response = _box(_box(_box(impulse, width), width), width)
@@ -248,6 +253,7 @@ def _solved(
     table = np.column_stack([acceleration, speed, forward, ~forward]).astype(np.float64)
     known, given = table[used], torque[used]
     sizes = np.sqrt((known**2).sum(axis=0))
+    # Columns of one length, so that the condition is one of the motion and not of its units.
     if (sizes == 0.0).any() or np.linalg.cond(known / sizes) > MOST_CONDITION:
         raise SimulationError(
             "Acceleration, speed and direction change together in this record: record moves at several speeds"
@@ -282,6 +288,7 @@ def _solved(
         )
     standing = np.abs(speed) < STANDSTILL * float(np.abs(speed).max())
     predicted = table @ coefficients
+    # At rest dry friction has any value up to the static one, and only the weight can be predicted.
     predicted[standing] = table[standing, :2] @ coefficients[:2] + 0.5 * (coefficients[2] + coefficients[3])
     return FrictionFit(
         coefficients,
@@ -302,6 +309,8 @@ def _solved(
 def _least_squares(known: Matrix, given: Series, noise: float) -> Series:
     """Return the coefficients; ``noise`` is the variance of the noise in the first column."""
     squares = known.T @ known
+    # Noise in a regressor makes its square larger and the coefficient smaller: what is known of it is
+    # taken out.
     squares[0, 0] -= noise * len(known)
     return np.asarray(np.linalg.solve(squares, known.T @ given))
 
@@ -314,10 +323,12 @@ def _covariance(
     Neighbouring filters share rows, and what the model leaves out lasts for a while:
     the errors are not independent.
     """
+    # Filters that share nearly all of their rows bring nothing new: every half width one is enough.
     step = max(1, width // 2)
     scaled = (table / sizes)[::step]
     pushes = np.where(used[::step, None], scaled * rest[::step, None], 0.0)
     count = int(used[::step].sum())
+    # The usual length of the window, 4 (n / 100)^(2/9), and never less than a dozen.
     lags = max(12, round(4.0 * (count / 100.0) ** (2.0 / 9.0)))
     middle = pushes.T @ pushes
     for lag in range(1, min(lags, len(pushes) - 1) + 1):

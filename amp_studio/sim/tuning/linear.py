@@ -152,6 +152,8 @@ class LinearModel(SampledLoop):
         least distance of the Nyquist curve from -1.
         """
         grid = self.grid()
+        # Twice closer around the largest one: the peak of a sharp resonance lies between two points of
+        # the first grid.
         for _ in range(2):
             size = np.abs(1.0 / (1.0 + self.loop(grid)))
             most = int(np.argmax(size))
@@ -190,6 +192,7 @@ class LinearModel(SampledLoop):
         slowest = float(np.max(np.abs(self._poles), initial=0.0))
         if slowest >= 1.0 - 1e-12:
             return math.inf, math.inf
+        # Until the slowest pole has left a ten thousandth.
         needed = math.log(1e-4) / math.log(slowest) if slowest > 0.0 else 1.0
         steps = math.ceil(min(max(needed, window / self.period + 1.0), longest / self.period))
         way = np.abs(self.pushed_way(steps))
@@ -248,6 +251,7 @@ class LinearModel(SampledLoop):
         if self._modes is None:
             return _response(self.closed, b, c, z)
         values, vectors, inverse = self._modes
+        # A sum of first-order terms, one for each pole: many frequencies cost one multiplication each.
         shares = (c @ vectors)[0] * (inverse @ b)[:, 0]
         return np.asarray((shares / (z[:, None] - values)).sum(axis=1))
 
@@ -339,6 +343,8 @@ def velocity_model(axis: AxisLaw, law: LawMatrices | None = None) -> LinearModel
     if law.velocity is None:
         return None
     signal = law.places.signals
+    # Cut where it measures the motor, as the position loop is cut at its position: the two signals
+    # change places.
     swapped = {**signal, "position": signal["motor"], "motor": signal["position"]}
     period = axis.servo_period / max(1, round(axis.servo_period / axis.velocity_period))
     loop = sampled(plant_of(axis.machine), law.velocity, None, Places(swapped), period, period)
@@ -363,6 +369,7 @@ def _law_matrix(axis: AxisLaw, function: Sample) -> Matrix:
     given = axis.parameters if axis.linear_parameters is None else axis.linear_parameters
     parameters, states = [float(each) for each in given], axis.state_size
     rest = np.zeros(states + signals.MONITOR + len(axis.monitors))
+    # Differentiated where the loop is closed and the feed full: elsewhere a law has other branches.
     rest[states + signals.FEED_SHARE], rest[states + signals.MODE] = 1.0, signals.POSITION_LOOP
 
     def sample(z: Matrix) -> Matrix:
@@ -392,6 +399,7 @@ def _around(poles: Response, period: float, points: int, close: int) -> Matrix:
         return even
     peaks, widths = sharp.imag / (2.0 * math.pi * period), -sharp.real / np.abs(sharp)
     wide = peaks[:, None] * np.geomspace(0.8, 1.25, close)[None, :]
+    # Close to the pole in widths of its resonance, and farther out in shares of its frequency.
     fine = peaks[:, None] * (1.0 + widths[:, None] * _WIDTHS[None, :])
     near = np.concatenate([wide.ravel(), fine.ravel()])
     return np.unique(np.concatenate([even, near[(near > even[0]) & (near < even[-1])]]))

@@ -77,6 +77,7 @@ def measure(
     samples, first = (driven + every - 1) // every, 0
     for n in range(samples):
         peak = max(peak, abs(rows[n * every, 5]))
+        # Settled is the sample after the last one outside of the band.
         if abs(wanted[TARGET] - rows[n * every, 1] + rows[n * every, 5]) > wanted[BAND] * EDGE:
             first = n + 1
     at = (samples - 1) * every
@@ -86,6 +87,8 @@ def measure(
     out[8] = abs(wanted[TARGET] - rows[at, 1] + rows[at, 5])
     if stop != 0.0 or end < 0.0 or first >= samples - 2:
         return
+    # A swing that grows from the first half of the rest to the second is no settling, however small it
+    # is now.
     half = (samples - first) // 2
     if half >= 4:
         before = span(rows, first, first + half, every, wanted[TARGET])

@@ -62,6 +62,7 @@ class Kept:
     def _read(self, width: int, count: int) -> None:
         assert self.path is not None
         head, *lines = read_file(self.path, follow=False).decode("ascii").splitlines()
+        # Of another job or of other points: nothing of it is used.
         if json.loads(head) != {"sweep": self.digest}:
             return
         for line in lines:
@@ -142,6 +143,8 @@ def _here(job: SweepJob, points: Matrix, starts: list[int], cores: str) -> Itera
         for start in starts:
             yield start, figures_of(job, points[start : start + AT_ONCE])
         return
+    # Spawned, because a copy of a process with threads (of numba, of the window) may wait for a lock
+    # for ever.
     pool = ProcessPoolExecutor(int(cores) - 1, mp_context=get_context("spawn"), initializer=_begin)
     try:
         yield from _beside(pool, job, points, starts)
@@ -153,8 +156,11 @@ def _beside(
     pool: ProcessPoolExecutor, job: SweepJob, points: Matrix, starts: list[int]
 ) -> Iterator[tuple[int, Matrix]]:
     """Yield the parts: this process takes the last one that has not begun, until none is left."""
+    # All at once: the pool hands them out in this order, and whatever has not begun can still be taken
+    # back.
     waiting = {start: pool.submit(figures_of, job, points[start : start + AT_ONCE]) for start in starts}
     for start in reversed(starts):
+        # From the end, where the others come last; cancel answers False for a part that has begun.
         if waiting[start].cancel():
             del waiting[start]
             yield start, figures_of(job, points[start : start + AT_ONCE])
@@ -187,6 +193,7 @@ def _on_cluster(
     except (OSError, ValueError) as error:
         raise SimulationError(f"No scheduler answers at {scheduler}: {error}") from None
     with client, client.as_current():
+        # The job goes to each worker once, not with each part.
         shared = client.scatter(job, broadcast=True)
         futures = {
             client.submit(figures_of, shared, points[start : start + AT_ONCE], pure=False): start
