@@ -139,7 +139,7 @@ def readable_content(file: ParameterFile, path: Path, previous: bytes | None = N
             content = without_stray_tabs(content)
             found = _fault_of(file, path, content)
     except UnicodeEncodeError as error:
-        found = f"the sign U+{ord(error.object[error.start]):04X} is in no file"
+        found = f"the character U+{ord(error.object[error.start]):04X} is in no file"
     if found:
         raise SaveError(f"{path} was not written: {found}")
     return content

@@ -99,7 +99,8 @@ def read_yaml(
         raise YamlError(f"is too large: {len(text):,} characters, and {LARGEST:,} are the most")
     if odd := _UNREADABLE.search(text):
         raise YamlError(
-            f"is not readable: the sign U+{ord(odd[0]):04X} has no place in it", _line_at(text, odd.start())
+            f"is not readable: the character U+{ord(odd[0]):04X} has no place in it",
+            _line_at(text, odd.start()),
         )
     start = _BLANK.match(text)
     if start and text.startswith("%", start.end()):

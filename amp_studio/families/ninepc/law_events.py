@@ -68,12 +68,14 @@ def manual_ramp(read: AxisParameters, linear: Ramp, homing: bool) -> Ramp:
     """Return the ramp of manual moves (10-14, 10-18): exponential, or linear as Manual ACC./DEC Mode is set,
     but for homing.
     """
+    # Homing is exponential whatever the mode of jogs is (10-14).
     if not homing and read.value(ids.manual_mode, everywhere=True) == "linear":
         return linear
     delay = read.optional(ids.manual_delay)
     fine = read.optional(ids.fine_foreground, everywhere=True)
     if delay is None or fine is None:
         return linear
+    # The delay counts scans of the logic program: each is so many fine iterations long.
     scans = read.optional(ids.scans_per_logic, everywhere=True)
     return Ramp("exponential", time=delay * fine * (1.0 if scans is None else scans) / 1000.0)
 

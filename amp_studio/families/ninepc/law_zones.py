@@ -37,6 +37,7 @@ def zones(machine: BoundMachine, axes: Sequence[str]) -> Iterator[Zone]:
             for axis in members:
                 own = machine.read(axis)
                 low, high = (own.optional(ids[f"zone_limit{zone}_{side}"]) for side in ("min", "max"))
+                # Equal or crossed limits enclose nothing, so that there is no zone.
                 if low is not None and high is not None and low < high:
                     sides[axis] = (low, high)
             if sides:

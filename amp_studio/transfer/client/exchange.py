@@ -144,6 +144,7 @@ def download(
     content = wanted.of(old)
     if content == old:
         return _nothing_to_do(control, hashlib.sha256(content).hexdigest())
+    # From here on the old content may be lost: not a byte goes out before its copy is on the disk.
     kept = _keep(keep, old) if old else None
     try:
         receipt = driver.send(Replacement(content, old, wanted.signature), exchange)
@@ -176,6 +177,8 @@ def _replaceable(
         _check_signature(control, wanted.signature)
     _check_expected(wanted.expected, control.sha256)
     _check_stop(control, wanted)
+    # The preview has just fetched it; where the control states its digest a slow line need not carry it
+    # again.
     is_known = wanted.known is not None and control.sha256 == hashlib.sha256(wanted.known).digest()
     old = wanted.known if wanted.known is not None and is_known else driver.fetch(exchange, "keep")
     _check_expected(wanted.expected, hashlib.sha256(old).digest())
@@ -271,6 +274,8 @@ class _Proof:
 
     def _differs(self, where: str, fetched: bytes, restart: RestartState) -> Outcome:
         is_whole = self.driver.abilities.all_or_nothing
+        # A control that commits all or nothing has answered that it did: the old content then is a
+        # contradiction.
         if fetched == self.old and not is_whole:
             text = f"The control has taken nothing of it: {AT_CONTROL_TEXT['old']}."
             return self._ended("old", restart, text, is_verified=False)

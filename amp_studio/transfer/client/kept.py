@@ -82,12 +82,14 @@ def keep_image(image: bytes, folder: Path, stem: str, *, readable: bool = True) 
     Without ``readable`` the parameter file is left to ``keep_readable``, for which there is time later: the
     image is the copy. Raises OSError, and then nothing is left behind.
     """
+    # By bytes, for that is what a disk counts; a character that was cut in two is left out.
     stem = stem.encode()[:_STEM].decode(errors="ignore")
     stamp = datetime.now().astimezone().strftime("%Y%m%d-%H%M%S")
     number = 1
     while True:
         path = folder / f"{stem}{BEFORE}{stamp}{'' if number == 1 else f'-{number}'}{IMAGE}"
         try:
+            # The parameter file beside it must not replace another one of that name.
             _need_free(path.with_suffix(ENDING))
             save_image(image, path)
         except FileExistsError:
@@ -133,6 +135,7 @@ def keep_readable(image: bytes, kept: Path) -> None:
         file = kind.decode(image)
         file.header.name = path.stem
         content = content_of(file)
+        # Only a file that means every byte of the image may be put back in its place.
         if kind.encode(read_content(path, content), image) == image:
             write_atomic(path, content, expected=None)
 

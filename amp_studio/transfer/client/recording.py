@@ -49,6 +49,7 @@ class Recording:
                 driver, replace(wanted, content=content), keep, self.exchange, meanwhile=meanwhile
             )
         except TransferError as error:
+            # An attempt that never reached the control is no exchange.
             if self._current is not None or error.at_control not in ("", "old"):
                 self._add(error.at_control, error.kept, str(error))
             raise
@@ -74,6 +75,7 @@ class Recording:
         for path in (folder / name for name in names):
             try:
                 earlier = open_copy(path).image
+                # Another protocol keeps another kind, of which nothing can be missing here.
                 is_alike = earlier.partition(b"\n")[0] == content.partition(b"\n")[0]
                 lacking = kind.lacks(content, earlier) if is_alike else ""
             except (OSError, ValueError):

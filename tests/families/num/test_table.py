@@ -202,7 +202,7 @@ def test_what_a_word_cannot_hold_is_not_written(
         (["P9N0:t0n0", "#0"], "line 2, column 9: the number of words is expected here"),
         (["P9N0:t0n32 ", "#0"], "line 2, column 11: the header goes on"),
         (["Q9N0:t0n32", "#0"], "line 2, column 1: 'P' is expected here"),
-        (["P9N0:t0n32", "#0\t1"], "line 3, column 3: the sign with the code 9 has no place in a line"),
+        (["P9N0:t0n32", "#0\t1"], "line 3, column 3: the character with the code 9 has no place in a line"),
         (["P12N0:t0n4", "#0 0 0 0"], "line 2, column 1: Small NUM has no P12N0"),
         (["P12N0", "#0 0 0 0"], "line 2, column 1: Small NUM has no P12N0"),
         (["P5N0:t0n3", "#0 0 1"], "line 3, column 6: Small NUM has no P5N2"),

@@ -32,7 +32,7 @@ KIND = "ACR script 1"
 FAMILY = "acromill"
 TABLE = "ballscrew.table"
 LONGEST = 250
-"""Signs of a line; the longest figure that a card shows has some hundred."""
+"""Characters of a line; the longest figure that a card shows has some hundred."""
 DIGITS = 7
 """Digits that a card shows (pages 92 and 94)."""
 _HEAD = re.compile(rf"{KIND}\nREM units ([a-z]+)\n")

@@ -68,6 +68,7 @@ def _read(text: str, schema: Schema, options: ReadOptions) -> TextRead:
     if machine not in schema.machines:
         raise FormatError(f"{schema.family.name} has no machine type {quoted(machine)}")
     found = TextRead(machine=machine)
+    # A number means what it means on the machine of the sheet: it is looked up in a file of that type.
     file = ParameterFile(schema)
     if schema.family.machine_parameter:
         file.set((schema.family.machine_parameter, ""), Value(machine))

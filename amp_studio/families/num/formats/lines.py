@@ -48,7 +48,9 @@ def _content(text: str, n: int) -> str:
     if found is None:
         raise _unmeasured(text, n)
     if odd := re.search(r"[^ -~]", found[1]):
-        raise FormatError(f"the sign with the code {ord(odd[0])} has no place in a line", n, odd.start() + 1)
+        raise FormatError(
+            f"the character with the code {ord(odd[0])} has no place in a line", n, odd.start() + 1
+        )
     length = len(found[1])
     if int(found[2], 16) != length:
         raise FormatError(
@@ -92,12 +94,14 @@ def split_table(text: str) -> tuple[list[str], TableLayout]:
         before = f"{body}{xoff}{tail[: behind.end() if behind else 0]}"
         line, column = before.count("\n") + 1, len(before.rpartition("\n")[2]) + 1
         raise FormatError("something comes after Xoff, which ends the table", line, column)
+    # By the first line: one that ends otherwise was joined from two files, or damaged.
     line_end = "\r\n" if body.partition("\n")[0].endswith("\r") else "\n"
     lines = body.split(line_end)
     end = xoff + tail
     if lines[-1] == "":
         lines.pop()
         end = line_end + end
+    # The length of each line is its only checksum.
     lines = [_content(line, n) for n, line in enumerate(lines, 1)]
     start = _START.fullmatch(lines[0]) if lines else None
     if start is None:

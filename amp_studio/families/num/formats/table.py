@@ -66,6 +66,7 @@ class _Reader:
         (parameter, n), count = block.first, self._count(block)
         form = self.known.form(parameter, self.heads)
         alone = form is not None and form.is_text and count == 1
+        # A text alone in its parameter may contain blanks, which elsewhere part the values.
         texts, spelled = [block.data] if alone else block.data.split(" "), []
         kept: list[tuple[Word, str]] = []
         line, column = block.line + 1, 2
@@ -161,6 +162,7 @@ class _Reader:
         values, later = {}, []
         for word in self.contents:
             meanings = self.known.meanings[word]
+            # What a word means may hang on the axes that other words describe: those come first.
             if len(meanings) > 1 or meanings[0].unit is None:
                 later.append(word)
             else:
@@ -222,6 +224,7 @@ def _read(text: str, schema: Schema, options: ReadOptions) -> TextRead:
     found.notes = list(reader.missing())
     layout.old_headers = bool(placed) and not any(block.typed for block in placed)
     layout.heads = {a: h for a, h in reader.heads.items() if a in known.counts and h != known.heads.get(a)}
+    # The order of the blocks is remembered only where it is not the usual one.
     if placed != list(runs(sorted(reader.places), not layout.old_headers)):
         layout.blocks = placed
     if header := layout.as_header():
@@ -264,6 +267,7 @@ def _write(file: ParameterFile) -> str:
         for place, text in enumerate([data] if parameter in alone else data.split(" ")):
             cells[parameter, first + place] = text
     for word, meanings in known.meanings.items():
+        # A word with several meanings is written by the one that is active and set.
         there = tuple(meaning for meaning in meanings if meaning.address in file.values)
         if there:
             cells[word] = _spelled(file, active_meaning(file, there), known.form(word[0], heads))

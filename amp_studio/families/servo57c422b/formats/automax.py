@@ -38,10 +38,10 @@ _CODE_PAGE = "cp437"
 def _remark(file: ParameterFile, registers: Registers, address: Address) -> str:
     """Return ``Command Velocity (X axis), 160000 counts/s`` in characters that a DOS file has."""
     message = f"{registers.label(address)}, {show_value(registers.parameter(address), file.get(address))}"
-    return _in_signs(message)
+    return _in_code_page(message)
 
 
-def _in_signs(text: str) -> str:
+def _in_code_page(text: str) -> str:
     return " ".join(text.encode(_CODE_PAGE, "replace").decode(_CODE_PAGE).split())
 
 
@@ -51,6 +51,7 @@ def _number(registers: Registers, of: NumberInRegisters) -> str:
     """
     storage = registers.parameter(of.address).storage
     bits = 16 * len(of.words)
+    # An unsigned number beyond the signed range has no decimal form that a task would take.
     if (storage and storage.notation == "hex" and of.number) or of.number >= 1 << (bits - 1):
         return write_hexadecimal(of.number & ((1 << bits) - 1))
     return str(of.number)
@@ -88,7 +89,9 @@ def _write_table(file: ParameterFile) -> str:
                 remark if n == 0 else "the rest of it"
             )
     head = f"{_TABLE_HEAD} of {file.header.name or 'a module'}, {file.schema.family.name}"
-    return "\n".join([_in_signs(head), "! register\tvalue\tparameter", *(rows[n] for n in sorted(rows)), ""])
+    return "\n".join(
+        [_in_code_page(head), "! register\tvalue\tparameter", *(rows[n] for n in sorted(rows)), ""]
+    )
 
 
 def _read_table(text: str, schema: Schema, options: ReadOptions) -> TextRead:
@@ -183,11 +186,13 @@ def _write_task(file: ParameterFile) -> str:
     layout = kept(file, _KIND)
     if layout is not None:
         return _filled(layout, [(one.register, len(one.words)) for one in settings], statements)
+    # Stable: all else keeps the order of the manual, and what starts to act finds its setups there.
     settings.sort(key=lambda one: _acts_at_once(file, one.address))
+    # Gaps of ten, as people number BASIC; without them where the lines would run out.
     step = _STEP if _FIRST_LINE + _STEP * len(settings) <= _LAST_LINE else 1
     if _FIRST_LINE + step * len(settings) > _LAST_LINE:
         raise FormatError(f"{len(settings)} assignments are more than a task has lines for")
-    lines = [_in_signs(f"1000 ! {file.header.name or 'A module'}, {file.schema.family.name}")]
+    lines = [_in_code_page(f"1000 ! {file.header.name or 'A module'}, {file.schema.family.name}")]
     for n, one in enumerate(settings):
         remark = _remark(file, registers, one.address)
         lines.append(f"{_FIRST_LINE + n * step} {statements[one.register]} \\!{remark}")
@@ -232,6 +237,7 @@ def _filled(layout: list[str], settings: list[tuple[int, int]], statements: dict
                 front = []
         text.append(line.text)
     if front:
+        # No kept register comes before these: they go to the front of the first line.
         text[0] = lines[0].with_first(front)
     return "\n".join([*text, ""])
 

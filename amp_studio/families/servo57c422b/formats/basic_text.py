@@ -23,7 +23,7 @@ _TOKEN = re.compile(
 
 
 LONGEST_LINE = 5000
-"""Signs of a line with all that it goes on in."""
+"""Characters of a line with all that it goes on in."""
 
 
 @dataclass(eq=False)
@@ -78,6 +78,7 @@ class BasicLine:
             self.pieces[at] = piece.replace(statement.text, " \\ ".join(texts), 1)
             return
         self.pieces[at] = piece[: len(piece) - len(piece.lstrip())]
+        # The separator behind it goes first, the one before it where it was the last statement.
         for beside in (at + 1, at - 1):
             if 0 <= beside < len(self.pieces) and self.pieces[beside] == "\\":
                 self.pieces[beside] = ""
@@ -102,10 +103,12 @@ def read_lines(text: str) -> Iterator[BasicLine]:
         begun.append(line)
         if sum(map(len, begun)) > LONGEST_LINE:
             raise FormatError(f"the line is longer than {LONGEST_LINE} characters", first)
+        # In a remark an & is text.
         if line.rstrip().endswith("&") and not _ends_in_remark(line):
             continue
         if "".join(begun).strip():
             found = _line("\n".join(begun), first)
+            # BASIC keeps one line of a number: which of two would count cannot be seen in the text.
             before = seen.setdefault(found.number, first)
             if before != first:
                 raise FormatError(f"number {found.number} occurs twice, in line {before} already", first, 1)
