@@ -42,8 +42,8 @@ class _View(QTreeView):
     entered_on = Signal()
     menu_wanted = Signal(QPoint)
 
-    def __init__(self) -> None:
-        super().__init__()
+    def __init__(self, parent: QWidget) -> None:
+        super().__init__(parent)
         self.setHeaderHidden(True)
         self.setMouseTracking(True)
         self.setExpandsOnDoubleClick(False)
@@ -100,16 +100,20 @@ class FindingsPanel(QWidget):
     current_changed = Signal(object)
     """The selected finding, or None."""
 
-    def __init__(self, workspace: Workspace) -> None:
-        super().__init__()
+    def __init__(self, workspace: Workspace, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
         self._workspace = workspace
         self._shown_ids: frozenset[str] = frozenset()
         self._axis = ""
         self._is_withheld: Callable[[Finding], bool] = lambda _: False
         self.shown_name = self.tr("Group")
         """What the table shows one of."""
+        self._pages = QStackedWidget(self)
+        layout = QVBoxLayout(self)
+        layout.setContentsMargins(0, 0, 0, 0)
+        layout.addWidget(self._pages)
         self.model = FindingsModel(workspace)
-        self.view = _View()
+        self.view = _View(self._pages)
         self.view.setModel(self.model)
         self.view.setAccessibleName(self.tr("Findings"))
         self._delegate = FindingsDelegate(self.view, self.model, self._act)
@@ -120,7 +124,7 @@ class FindingsPanel(QWidget):
         self.view.selectionModel().currentChanged.connect(
             lambda *_: self.current_changed.emit(self.current())
         )
-        self.empty = QLabel()
+        self.empty = QLabel(self._pages)
         self.empty.setAutoFillBackground(True)
         self.empty.setBackgroundRole(QPalette.ColorRole.Base)
         self.empty.setAlignment(Qt.AlignmentFlag.AlignCenter)
@@ -129,12 +133,8 @@ class FindingsPanel(QWidget):
             Qt.TextInteractionFlag.LinksAccessibleByMouse | Qt.TextInteractionFlag.LinksAccessibleByKeyboard
         )
         self.empty.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
-        self._pages = QStackedWidget()
         self._pages.addWidget(self.view)
         self._pages.addWidget(self.empty)
-        layout = QVBoxLayout(self)
-        layout.setContentsMargins(0, 0, 0, 0)
-        layout.addWidget(self._pages)
         self.is_folded = False
         self.head = self._make_head()
         workspace.changed.connect(self._refresh)
