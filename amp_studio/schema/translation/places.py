@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator
 from string import Formatter
 from typing import Any
@@ -11,6 +12,7 @@ from amp_studio.schema.model import Commissioning, FactTranslation, HelpNote, Mo
 
 TextPlace = tuple[str | int, ...]
 """``("rules", "9pc.axis.two-spindles", "title")``: the keys of a file of a language."""
+_FIGURE = re.compile(r"\{([a-z_]+)\}")
 GRADES = ("danger", "warning", "note")
 
 
@@ -22,6 +24,11 @@ def english_texts(compiled: Compiled, further: FurtherFacts) -> dict[TextPlace, 
 def own_texts(translation: FactTranslation) -> dict[TextPlace, str]:
     """Return place -> text of a file of a language."""
     return {place: " ".join(text.split()) for place, text in _leaves((), translation) if text}
+
+
+def figures_in(phrase: str) -> set[str]:
+    """Return the names of the figures of a phrase; ``{UPDATE BACKUP}`` is a key of a control."""
+    return set(_FIGURE.findall(phrase))
 
 
 def names_in(message: str) -> set[str]:
