@@ -69,7 +69,7 @@ class Language:
 
     def sentence(self, english: str) -> str:
         """Return a sentence of the program or of the family's facts. The figures put into it are written as
-        this language writes them; numbers of its own words (``figure 4.2``) are those of the manual.
+        this language writes them; in its words a number (``figure 4.2``) is that of the manual.
         """
         text = " ".join(english.split())
         own = self._titled(text, self.sentence)
