@@ -36,21 +36,21 @@ class Forked:
             self._be(main, words, takes, writes)
         os.close(takes)
         os.close(writes)
-        self.stdin: TextIO = open(gives, "w", encoding="utf-8", closefd=True)  # noqa: PTH123, SIM115  # a handle
-        self.stdout: TextIO = open(reads, encoding="utf-8", closefd=True)  # noqa: PTH123, SIM115
+        self.stdin: TextIO = os.fdopen(gives, "w", encoding="utf-8")
+        self.stdout: TextIO = os.fdopen(reads, encoding="utf-8")
         self.returncode: int | None = None
 
     @staticmethod
     def _be(main: Callable[[list[str]], int], words: list[str], takes: int, writes: int) -> None:
-        """Become the program: nothing of the tests is flushed, closed or told when it ends."""
+        """Become the program: nothing of the tests is flushed, closed or reported when it ends."""
         code = 70
         try:
             os.dup2(takes, 0)
             os.dup2(writes, 1)
             os.closerange(3, 1_024)  # lines and files of other tests
-            sys.stdin = open(0, encoding="utf-8", closefd=False)  # noqa: SIM115
-            sys.stdout = open(1, "w", encoding="utf-8", closefd=False)  # noqa: SIM115
-            sys.stderr = open(os.devnull, "w", encoding="utf-8")  # noqa: PTH123, SIM115
+            sys.stdin = os.fdopen(0, encoding="utf-8")
+            sys.stdout = os.fdopen(1, "w", encoding="utf-8")
+            sys.stderr = os.fdopen(os.open(os.devnull, os.O_WRONLY), "w", encoding="utf-8")
             signal.signal(signal.SIGINT, signal.default_int_handler)
             code = main(words)
             sys.stdout.flush()
