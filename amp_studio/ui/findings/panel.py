@@ -30,7 +30,7 @@ from amp_studio.ui.base.theme import FINDING_ROW, GAP2, colour, font, icon, pain
 from amp_studio.ui.base.translated import counted, finding_in_words, worded
 from amp_studio.ui.base.workspace import Workspace
 from amp_studio.ui.forms.segment import Segment, chip
-from amp_studio.validate import NOT_SET, SEVERITIES, Finding, addresses_not_set
+from amp_studio.validate import NOT_SET, SEVERITIES, Finding, Suppressed, addresses_not_set
 
 from .delegate import FindingsDelegate, Part
 from .model import FindingsModel
@@ -255,6 +255,15 @@ class FindingsPanel(QWidget):
             return self._axis in finding_axes(self._workspace.file, finding)
         return True
 
+    def _suppressed_finding(self, suppressed: Suppressed) -> Finding:
+        """Return a suppressed finding as it is listed: without its fix, and with the reason."""
+        message = self.tr("{message} Suppressed by {name}: {reason}").format(
+            message=finding_in_words(suppressed.finding),
+            name=suppressed.suppression.by,
+            reason=suppressed.suppression.reason,
+        )
+        return replace(suppressed.finding, fix=(), figures=None, message=message)
+
     def _refresh(self, *_: object) -> None:
         """List the findings that there are now; the same row stays selected and open,
         or the one that took its place.
@@ -265,19 +274,7 @@ class FindingsPanel(QWidget):
         suppressed = workspace.validator.suppressed
         listed = [finding for finding in reached if self._is_listed(finding)]
         if self.suppressed.isChecked():
-            listed += [
-                replace(
-                    s.finding,
-                    fix=(),
-                    figures=None,
-                    message=self.tr("{message} Suppressed by {name}: {reason}").format(
-                        message=finding_in_words(s.finding),
-                        name=s.suppression.by,
-                        reason=s.suppression.reason,
-                    ),
-                )
-                for s in suppressed
-            ]
+            listed += map(self._suppressed_finding, suppressed)
         self._count(reached, len(waiting), len(suppressed))
         self._sum_up()
         self._delegate.may_edit = workspace.may_edit
