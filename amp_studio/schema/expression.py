@@ -103,11 +103,12 @@ class Remembered(dict[Hashable, Any]):
 class Circumstances:
     """What every expression may name without reading it: ``ALWAYS_THERE``."""
 
-    __slots__ = ALWAYS_THERE
+    __slots__ = (*ALWAYS_THERE, "key")
 
     def __init__(self, machine: str, application: str, instance: str) -> None:
         self.machine, self.application, self.instance = machine, application, instance
         self.part = part_of(instance)
+        self.key = (machine, application, instance)
 
 
 class Expression:

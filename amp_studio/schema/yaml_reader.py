@@ -105,7 +105,55 @@ def read_yaml(
     start = _BLANK.match(text)
     if start and text.startswith("%", start.end()):
         raise YamlError("is not readable: it begins with a YAML directive", _line_at(text, start.end()))
+    if not spans and not references and (document := _plain_lines(text, scalar or typed_scalar)) is not None:
+        return document
     return _YamlParser(text, scalar or typed_scalar, spans, references).read()
+
+
+_WORD = r"[A-Za-z0-9_.+/%()°²³µ·^*@,;<>=$&~-]"
+_PLAIN = rf"(?:[A-Za-z0-9_.+$]|-[0-9.]){_WORD}*(?: {_WORD}+)*"
+_LINE = re.compile(rf"(  )?([A-Za-z0-9_][A-Za-z0-9_.@-]*):(?: +(?:'([^']*)'|({_PLAIN})))?(?: +#.*)? *")
+"""A line that can mean but one thing in YAML: indent, key, quoted value, plain value."""
+
+
+def _plain_lines(text: str, scalar: Callable[[str], Any]) -> YamlDocument | None:
+    """Return the document of a text as this program writes it, a key and a value a line and one level of
+    sections: most of the time to open a file is that of a general parser. None for anything else, and for
+    anything wrong: the parser decides about it and names it.
+    """
+    data: dict[Any, Any] = {}
+    section: dict[Any, Any] | None = None
+    lines = iter(text.split("\n"))
+    is_closed, match = False, _LINE.fullmatch
+    for line in lines:
+        found = match(line)
+        if found is None:
+            if is_closed := line == "...":
+                break
+            if not _is_remark(line):
+                return None
+            continue
+        indent, key, quoted_text, plain = found.groups()
+        target = data if indent is None else section
+        if target is None or key in target:
+            return None
+        if plain is not None:
+            target[key] = scalar(plain)
+        elif quoted_text is not None or indent is not None:
+            target[key] = scalar("") if quoted_text is None else quoted_text
+        if indent is None:
+            section = None
+            if key not in data:
+                section = data[key] = {}
+    if not data or not all(map(_is_remark, lines)):
+        return None
+    empty = {key: scalar("") for key, value in data.items() if value == {}}
+    return YamlDocument(text, {**data, **empty}, is_closed)
+
+
+def _is_remark(line: str) -> bool:
+    text = line.strip(" ")
+    return not text or text[0] == "#"
 
 
 def _line_at(text: str, at: int) -> int:

@@ -109,7 +109,9 @@ class Expressions:
             *(n for n in rule.reads if is_list(rule.reads[n])),
         )
         self.remembered = Remembered()
-        """Keys of the values of the rule -> whether it is broken, where that hangs on nothing else."""
+        """Keys of the values of the rule, with the circumstances where it hangs on them -> whether it is
+        broken.
+        """
 
     def verdict(self, keys: tuple[Key, ...], circumstances: Circumstances) -> bool | None:
         """Return whether values break the rule: it applies and is not satisfied;
@@ -126,12 +128,13 @@ class Expressions:
             part = self._not_satisfied if applies is True else self._broken
             found = part.result(keys, circumstances)
         verdict = None if found is NO_RESULT else found is True
-        if verdict is not None and self._hangs_on_values_alone:
-            self.remembered[keys] = verdict
+        if verdict is not None:
+            self.remembered[keys if self.hangs_on_values_alone else (keys, circumstances.key)] = verdict
         return verdict
 
     @cached_property
-    def _hangs_on_values_alone(self) -> bool:
+    def hangs_on_values_alone(self) -> bool:
+        """Whether equal values decide alike for every instance and machine type."""
         return not any(name in self._rule.when or name in self._rule.check for name in ALWAYS_THERE)
 
     @cached_property

@@ -137,7 +137,10 @@ class RuleChecks:
         None where a builder's rule makes no sense of values that are all there.
         Our own are tried with all that there are.
         """
-        found = check.expressions.verdict(keys, self._circumstances(check))
+        circumstances = self._circumstances(check)
+        found = check.expressions.remembered.get((keys, circumstances.key))
+        if found is None:
+            found = check.expressions.verdict(keys, circumstances)
         return None if found is None and check.is_own and not _is_any_missing(keys) else found is True
 
     def context_of(self, check: RuleCheck) -> Context:

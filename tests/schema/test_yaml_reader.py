@@ -4,12 +4,22 @@ from __future__ import annotations
 
 import contextlib
 import time
+from pathlib import Path
 
 import pytest
-from hypothesis import given
+from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
-from amp_studio.schema.yaml_reader import LARGEST, YamlError, read_yaml, spelled_scalar, text_scalar
+from amp_studio.files.example_files import examples_folder
+from amp_studio.schema.yaml_reader import (
+    LARGEST,
+    YamlError,
+    _plain_lines,
+    read_yaml,
+    spelled_scalar,
+    text_scalar,
+)
+from tests.campaigns import examples
 
 
 def refused(text: str) -> tuple[str, int | None]:
@@ -125,3 +135,40 @@ def test_any_text_is_read_or_refused(text: str) -> None:
     for scalar in (None, text_scalar, spelled_scalar):
         with contextlib.suppress(YamlError):
             read_yaml(text, scalar, spans=True)
+
+
+# -- lines that can mean but one thing ---------------------------------------------------------------------
+
+LINES = """a: 1|b:|  c: 'x'|  d: 2 mm|  e:|# r||  # r|...|f: x y|  g@X: -5 mm # c|h: 'it''s'|i: "x"|j: [1]|  k: '#'
+l: x#y|m: x #y|n:x|  o: ~|p: null|q: 0x1F|r: 1.10|---| s: 1|    t: 1|u: - 1|v: -|w: 'a' b|x: .|y: +|  z: 10 %
+aa: a: b|1300: 5|bb: yes|cc: 5  6|dd: 5 |\tee: 1|ff: 1\r|  a: 3|gg: %x|hh: @x|ii: 1, 2|jj: a;b|kk: <x>|ll: =1
+...x|... # c|mm: a-|nn: -.5|oo: -x|pp: °|qq: é|rr: .inf|- a|? a|ss: 2001-01-01|tt: *a|uu: a*b@c|vv: ''
+ww: ' a '|xx: $FF (default)|yy: G22 - 2 & 3|zz: &a b|ab: C16 ~ C19|ac: ~x|ad: !x|ae: |af: >|ag: %""".replace(
+    "\n", "|"
+).split("|")
+
+
+@settings(max_examples=examples(300))
+@given(st.lists(st.sampled_from(LINES), min_size=1, max_size=8), st.sampled_from(["", "\n", "\n...\n"]))
+@example(["a: 1", "  b: 2"], "")
+@example(["b:", "  c: 'x'", "  c: 'y'"], "\n")
+@example(["b:", "# r", "a: 1"], "\n...\n")
+def test_a_text_of_plain_lines_is_what_the_parser_makes_of_it(lines: list[str], end: str) -> None:
+    text = "\n".join(lines) + end
+    for scalar in (text_scalar, spelled_scalar):
+        quick = _plain_lines(text, scalar)
+        if quick is not None:
+            whole = read_yaml(text, scalar, spans=True)
+            assert (repr(quick.data), quick.is_closed) == (repr(whole.data), whole.is_closed)
+
+
+@pytest.mark.parametrize("path", sorted(examples_folder().glob("*/*.amp")), ids=lambda path: path.stem)
+def test_a_file_of_this_program_needs_no_parser(path: Path) -> None:
+    text = path.read_text("utf-8")
+    quick, whole = _plain_lines(text, text_scalar), read_yaml(text, text_scalar, spans=True)
+    assert quick is not None
+    assert (quick.data, list(quick.data["values"]), quick.is_closed) == (
+        whole.data,
+        list(whole.data["values"]),
+        True,
+    )

@@ -6,9 +6,10 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Iterator
+from functools import lru_cache
 
 from amp_studio.files import ParameterFile
-from amp_studio.schema import Address, show_value
+from amp_studio.schema import Address, Schema, show_value
 from amp_studio.validate.finding import Finding
 
 from .slip import slip_between
@@ -26,22 +27,29 @@ _NO_FIGURES = (0.0, 1.0, -1.0)
 """What a row with nothing in it has; nothing is ten times that by a slip."""
 
 
+@lru_cache(maxsize=64)
+def _tables_of(schema: Schema, machine: str) -> tuple[str, ...]:
+    """Return the parameters with several numbers on a machine type; the files of a shop are of few."""
+    here, others = schema.on(machine), {*schema.plausible.smooth, *schema.plausible.equal_rows}
+    return tuple(
+        p.id
+        for p in schema.parameters.values()
+        if p.type in ("integer", "real")
+        and not p.secret
+        and p.access != "read"
+        and p.id not in others
+        and len(here.instances(p)) >= _LEAST
+    )
+
+
 class EqualRows:
     """The tables of one file that belong to no axis."""
 
     def __init__(self, file: ParameterFile) -> None:
         self._file = file
-        evaluation, here = file.evaluation, file.schema.on(file.machine)
-        self._tables = frozenset(
-            p.id
-            for p in file.schema.parameters.values()
-            if p.type in ("integer", "real")
-            and not p.secret
-            and p.access != "read"
-            and p.id not in (*file.schema.plausible.smooth, *file.schema.plausible.equal_rows)
-            and evaluation.scope((p.id, "")) == "global"
-            and len(here.instances(p)) >= _LEAST
-        )
+        scope = file.evaluation.scope
+        tables = _tables_of(file.schema, file.machine)
+        self._tables = frozenset(name for name in tables if scope((name, "")) == "global")
         self._equal = file.schema.plausible.equal_rows
         self._found: dict[str, Finding] = {}
 

@@ -69,11 +69,12 @@ class SmoothTables:
     def look_at_all(self) -> None:
         """Look at every table."""
         self._tables.clear()
-        if not self._names:
+        points = {address for address in self._file.values if address[0] in self._names}
+        if not points:
             return
         parts: dict[Address, list[Address]] = {}
         for address in self._file.addresses():
-            if address[0] in self._names and self._number(address) is not None:
+            if address in points and self._number(address) is not None:
                 parts.setdefault(_whole(address), []).append(address)
         for whole, addresses in parts.items():
             self._tables[whole] = _Table(addresses, [self._number(a) or 0.0 for a in addresses])

@@ -54,11 +54,12 @@ class StepTables:
     def look_at_all(self) -> None:
         """Look at every table."""
         self._motions.clear()
-        if not self._names:
+        points = {address for address in self._file.values if address[0] in self._names}
+        if not points:
             return
         parts: dict[Address, dict[Address, float]] = {}
         for address in self._file.addresses():
-            if address[0] in self._names and (step := self._step(address)) is not None:
+            if address in points and (step := self._step(address)) is not None:
                 parts.setdefault(_whole(address), {})[address] = step
         self._motions = {whole: _Motion(steps) for whole, steps in parts.items()}
 
