@@ -30,8 +30,8 @@ def origin_of(file: ParameterFile, path: Path) -> Path | None:
     return path.parent / source if isinstance(source, str) and source else None
 
 
-def origin_named(content: bytes, path: Path) -> Path | None:
-    """Return the same of the text of a file, without reading all of it."""
+def origin_named(content: bytes, folder: str) -> Path | None:
+    """Return the same of the text of a file in a folder, without reading all of it."""
     # The expression looks at each line; few files have one with the word.
     found = _NAMED.search(content) if b"made_from:" in content else None
-    return path.parent / os.fsdecode(found[2]) if found else None
+    return Path(folder, os.fsdecode(found[2])) if found else None

@@ -76,19 +76,20 @@ class CheckCache:
         text = os.fspath(path)
         try:
             content = read_file(path)
-            folder, name = self._folder(os.fspath(path.parent)), path.name
+            parent, name = os.path.split(text)  # of thousands of files a Path for each step counts
+            folder = self._folder(parent or os.curdir)
             if folder.links.get(name, True) or len(name) > _LONG_NAME:
                 # A link leads to another folder; a name that is not listed may be another spelling of one
                 # that is.
-                real = real_path(path)
+                real = os.fspath(real_path(path).parent)
                 beside = [self._companion(os.fspath(other)) for other in companions_of(path)]
             else:
-                real = Path(folder.real, name)
+                real = folder.real
                 beside = [
                     self._companion(f"{folder.real}{os.sep}{other}") if other in folder.links else b""
                     for other in companion_names(name, folder.machines)
                 ]
-            rules = self._rules_part(os.fspath(self._rules or real.parent / RULES_FILE))
+            rules = self._rules_part(os.fspath(self._rules or f"{real}{os.sep}{RULES_FILE}"))
             if (origin := origin_named(content, real)) is not None:
                 beside.append(self._companion(os.fspath(origin)))
         except OSError:
