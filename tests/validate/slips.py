@@ -11,7 +11,7 @@ from __future__ import annotations
 import argparse
 import re
 from collections import defaultdict
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from random import Random
@@ -23,6 +23,18 @@ from amp_studio.schema.units import dimension
 from amp_studio.validate import Earlier, Validator
 from amp_studio.validate.findings_between import new_findings
 
+FACTORS = {"x 10": 10.0, "/ 10": 0.1, "x 25.4": 25.4, "sign": -1.0, "zero": 0.0, "x 2": 2.0}
+"""What a hand or a unit does to a number."""
+OTHER_FACTORS = {
+    "x 100": 100.0,
+    "/ 25.4": 1 / 25.4,
+    "x 60": 60.0,
+    "/ 60": 1 / 60,
+    "x 1000": 1e3,
+    "/ 1000": 1e-3,
+    "x 5": 5.0,
+}
+"""Of which no fact was chosen with an eye on the campaign: they judge the facts."""
 KINDS = ("x 10", "/ 10", "x 25.4", "sign", "zero", "x 2", "swapped", "neighbour", "bit", "choice")
 NEIGHBOURS = re.compile(r"(\d)(?=(\.?)(\d))")
 """Two neighbouring digits, a point between them or not."""
@@ -37,7 +49,7 @@ class Slip:
     value: Value
 
 
-def slips(file: ParameterFile, random: Random) -> Iterator[Slip]:
+def slips(file: ParameterFile, random: Random, factors: Mapping[str, float] = FACTORS) -> Iterator[Slip]:
     """Yield every slip of a file, in the manual's order:
     of each active value one of every kind that it can have.
     """
@@ -45,7 +57,7 @@ def slips(file: ParameterFile, random: Random) -> Iterator[Slip]:
     for at, address in enumerate(active):
         parameter, value = file.schema.parameters[address[0]], file.values[address]
         if parameter.type in ("integer", "real") and isinstance(value.value, int | float):
-            for kind, raw in _numbers(value.value):
+            for kind, raw in _numbers(value.value, factors):
                 number = round(raw) if parameter.type == "integer" else raw
                 if number != value.value:
                     yield Slip(kind, address, Value(number, value.unit))
@@ -63,19 +75,12 @@ def slips(file: ParameterFile, random: Random) -> Iterator[Slip]:
                 yield Slip("choice", address, Value(random.choice(others)))
 
 
-def _numbers(number: int | float) -> Iterator[tuple[str, int | float]]:
+def _numbers(number: int | float, factors: Mapping[str, float]) -> Iterator[tuple[str, int | float]]:
     """Yield what becomes of a number, rounded as a person would write it."""
     if number == 0:
         return
-    for kind, factor in (
-        ("x 10", 10),
-        ("/ 10", 0.1),
-        ("x 25.4", 25.4),
-        ("sign", -1),
-        ("zero", 0),
-        ("x 2", 2),
-    ):
-        yield kind, float(f"{number * factor:.12g}") if isinstance(number, float) else number * factor
+    for kind, factor in factors.items():
+        yield kind, float(f"{number * factor:.12g}")
     text = repr(number)
     for found in NEIGHBOURS.finditer(text) if "e" not in text else ():
         first, point, second = found.groups()
@@ -139,21 +144,31 @@ def examples() -> list[Path]:
     return sorted(examples_folder().glob("*/*.amp"))
 
 
-def campaign(share: float = 1.0, seed: int = 1, *, alone: bool = False) -> Campaign:
+def campaign(
+    share: float = 1.0, seed: int = 1, *, alone: bool = False, factors: Mapping[str, float] = FACTORS
+) -> Campaign:
     """Plant a share of all slips; the same ones for a seed. ``alone``:
     nothing is known of what a file was before.
     """
     done = Campaign(defaultdict(Count), [])
     for path in examples():
-        plant(open_file(path).file, share, Random(seed), done, alone=alone)
+        plant(open_file(path).file, share, Random(seed), done, alone=alone, factors=factors)
     return done
 
 
-def plant(file: ParameterFile, share: float, random: Random, done: Campaign, *, alone: bool) -> None:
+def plant(
+    file: ParameterFile,
+    share: float,
+    random: Random,
+    done: Campaign,
+    *,
+    alone: bool,
+    factors: Mapping[str, float] = FACTORS,
+) -> None:
     """Plant a share of the slips of one machine, and count."""
     validator = Validator(file, earlier=() if alone else (Earlier("in the backup", dict(file.values)),))
     before, family = validator.run(), file.schema.family.family
-    for slip in list(slips(file, random)):
+    for slip in list(slips(file, random, factors)):
         if random.random() >= share:
             continue
         old = file.values[slip.address]
@@ -172,7 +187,8 @@ def table(done: Campaign) -> str:
     """Return the counts, a line a kind and a column a family."""
     families = sorted({family for family, _ in done.counts})
     lines = [f"{'':12}" + "".join(f"{name:>17}" for name in (*families, "all"))]
-    for kind in (*KINDS, None):
+    kinds = dict.fromkeys((*KINDS, *(kind for _, kind in done.counts)))
+    for kind in (*(kind for kind in kinds if done.total(kind=kind).planted), None):
         cells = [str(done.total(family, kind)) for family in (*families, None)]
         lines.append(f"{kind or 'all':12}" + "".join(f"{cell:>17}" for cell in cells))
     return "\n".join(lines)
@@ -184,9 +200,11 @@ def main() -> None:
     parser.add_argument("--share", type=float, default=1.0, help="of all slips")
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--alone", action="store_true", help="a file of which no backup is known")
+    parser.add_argument("--others", action="store_true", help="other factors than the facts were chosen by")
     parser.add_argument("--missed", action="store_true", help="list the slips that bring no finding")
     options = parser.parse_args()
-    done = campaign(options.share, options.seed, alone=options.alone)
+    factors = OTHER_FACTORS if options.others else FACTORS
+    done = campaign(options.share, options.seed, alone=options.alone, factors=factors)
     print(table(done))
     if options.missed:
         files = {open_file(path).file.header.name: open_file(path).file for path in examples()}
