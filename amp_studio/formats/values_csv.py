@@ -13,7 +13,6 @@ from amp_studio.files import ParameterFile, cell_text, note_fault, read_stored, 
 from amp_studio.schema import (
     Address,
     InvalidValueError,
-    Parameter,
     Schema,
     Value,
     is_mask,
@@ -81,12 +80,6 @@ def _is_of(text: str, schema: Schema) -> bool:
     return bool(rows) and all(cell_text(row.get("id") or "").strip() in schema.parameters for row in rows)
 
 
-def _has_instance(schema: Schema, parameter: Parameter, instance: str) -> bool:
-    """Return whether a parameter has an instance on some machine type."""
-    machines = schema.family.machines
-    return any(instance in schema.on(machine.key).instances(parameter) for machine in machines)
-
-
 def _read_row(
     found: TextRead, schema: Schema, heads: list[str], cells: list[str], line: int, keep_unknown: bool
 ) -> None:
@@ -97,17 +90,23 @@ def _read_row(
     parameter = schema.parameters.get(address[0])
     is_text = parameter is not None and parameter.type == "text"
     text = row["value"] if is_text else f"{row['value']} {row['unit']}".strip()
-    column = heads.index("id") + 1
-    if parameter is None or not _has_instance(schema, parameter, address[1]):
+    offered = (
+        {i for m in schema.family.machines for i in schema.on(m.key).instances(parameter)}
+        if parameter
+        else ()
+    )
+    if parameter is None or address[1] not in offered:
         if not keep_unknown:
-            raise FormatError(f"{schema.family.name} has no {short(written(address))}", line, column)
+            raise FormatError(
+                f"{schema.family.name} has no {short(written(address))}", line, heads.index("id") + 1
+            )
         if written(address) in found.unknown:
-            raise FormatError(f"{short(written(address))} occurs twice", line, column)
+            raise FormatError(f"{short(written(address))} occurs twice", line, heads.index("id") + 1)
         found.unknown[written(address)] = text
         found.unknown_lines[written(address)] = line
         return
     if address in found.values:
-        raise FormatError(f"{written(address)} occurs twice", line, column)
+        raise FormatError(f"{written(address)} occurs twice", line, heads.index("id") + 1)
     if not row["value"].strip() and not is_text:
         return
     if is_mask(parameter, row["value"]):

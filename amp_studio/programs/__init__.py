@@ -12,6 +12,9 @@ if TYPE_CHECKING:
     from .at_power_up import PowerUp, PowerUpLine, power_up
     from .block import BlockReader, ReadBlock
     from .formats import digits_of, number_of
+    from .interpreter import path_letters, tool_path
+    from .source import read_program
+    from .toolpath import ARC, DWELL, EXACT, PLANES, RAPID, SLOW, ToolPath
     from .words import ProgramBlockError
 else:
     __getattr__ = front_page(__name__)

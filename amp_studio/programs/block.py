@@ -99,7 +99,7 @@ class BlockReader:
     def _word(self, word: TypedWord, here: set[str]) -> BlockWord:
         if word.letter in ("G", "M"):
             return self._code(word)
-        use = self._use(word.letter, here)
+        use = self.use(word.letter, here)
         read = self._of_use(word, use) if use else self._of_axis(word)
         calls = self.codes.facts.word_calls
         if calls and word.letter in calls.programs:
@@ -140,7 +140,7 @@ class BlockReader:
 
     # -- words -------------------------------------------------------------------
 
-    def _use(self, letter: str, here: set[str]) -> WordUse | None:
+    def use(self, letter: str, here: set[str]) -> WordUse | None:
         """Return how a letter is read now: the first of its uses whose conditions are true."""
         now = {*here, *self.active.values()}
         modes = {self.codes.known[code].facts.mode for code in now if code in self.codes.known}
@@ -167,7 +167,7 @@ class BlockReader:
 
     def _of_use(self, word: TypedWord, use: WordUse) -> BlockWord:
         unit = use.unit if isinstance(use.unit, str) else use.unit["in" if self.is_inch() else "mm"]
-        number = self._number(word, (use.format, "") if use.format else None, use.whole)
+        number = self.number(word, (use.format, "") if use.format else None, use.whole)
         named = (*((use.format,) if use.format else ()), *use.params)
         params = (*self.codes.whole(named), *self._justifying(word, use.format is None))
         return BlockWord(
@@ -184,17 +184,17 @@ class BlockReader:
 
     def _of_axis(self, word: TypedWord) -> BlockWord | None:
         axes = self.codes.facts.axes
-        found = next(iter(self._axes(word.letter)), None)
+        found = next(iter(self.axis_words(word.letter)), None)
         if axes is None or found is None:
             return None
         axis, meaning, named = found
-        number = self._number(word, (axes.format, axis) if axes.format else None, False)
+        number = self.number(word, (axes.format, axis) if axes.format else None, False)
         params = (*self.codes.whole(named, axis), *self._justifying(word, axes.format is None))
         return BlockWord(
             word.text,
             word.letter,
             number.value,
-            self._unit(axis),
+            self.unit_of(axis),
             meaning,
             params,
             axes.page,
@@ -202,7 +202,7 @@ class BlockReader:
             number.assumed,
         )
 
-    def _axes(self, letter: str) -> Iterator[tuple[str, str, tuple[str, ...]]]:
+    def axis_words(self, letter: str) -> Iterator[tuple[str, str, tuple[str, ...]]]:
         """Yield axis, meaning and parameters of a letter that names an axis, its distance or its arc
         center.
         """
@@ -232,7 +232,7 @@ class BlockReader:
             and str(self.file.evaluation.canonical((parameter, axis)) or "").upper() == letter
         )
 
-    def _unit(self, axis: str) -> str:
+    def unit_of(self, axis: str) -> str:
         family, evaluation = self.file.schema.family, self.file.evaluation
         if family.angular_when and evaluation.is_true(family.angular_when, axis, "axis"):
             return "deg"
@@ -240,7 +240,8 @@ class BlockReader:
 
     # -- numbers -------------------------------------------------------------------
 
-    def _number(self, word: TypedWord, form: Address | None, whole: bool) -> WordNumber:
+    def number(self, word: TypedWord, form: Address | None, whole: bool) -> WordNumber:
+        """Return the number of a word by its format."""
         if not word.number:
             return self._without_number()
         if "(" in word.number:
@@ -257,7 +258,7 @@ class BlockReader:
                 digits = digits_of(choice, self.is_inch())
         elif whole:
             digits = (len(word.number), 0)
-        number = number_of(word.number, digits, self._justified())
+        number = number_of(word.number, digits, self.justified())
         return replace(number, assumed=number.assumed or assumed)
 
     def _without_number(self) -> WordNumber:
@@ -269,7 +270,7 @@ class BlockReader:
             return WordNumber(None, "a letter without a number")
         return WordNumber(None, "a letter without a number", assumed="that it is an error" if facts else "")
 
-    def _justified(self) -> Justified:
+    def justified(self) -> Justified:
         zeros = self.codes.facts.zeros
         if zeros is None:
             return ""

@@ -20,7 +20,13 @@ _WITH_EXPRESSION = re.compile(r"(?P<letter>[A-Z])[ \t]*(?P<number>[+-]?" + _EXPR
 
 
 class ProgramBlockError(AmpStudioError, ValueError):
-    """A block that cannot be read at all."""
+    """A block that cannot be read at all, or that no control could use; ``key`` names what is wrong
+    where a control has a code for it.
+    """
+
+    def __init__(self, message: str, key: str = "") -> None:
+        super().__init__(message)
+        self.key = key
 
 
 @dataclass(frozen=True)

@@ -55,6 +55,7 @@ if TYPE_CHECKING:
     from .load import DatabaseError, FactEntry, UnknownFamilyError, family_ids, read_entries
     from .machine_schema import MachineSchema, labelled
     from .model import (
+        ArcTolerance,
         AxisDeclaration,
         AxisField,
         AxisProfile,
@@ -143,7 +144,7 @@ if TYPE_CHECKING:
         words_of,
         words_taken,
     )
-    from .translation.places import figures_in
+    from .translation.places import names_in
     from .translation.texts import NO_TEXTS, fact_texts
     from .units import (
         UNITS,

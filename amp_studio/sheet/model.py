@@ -77,4 +77,3 @@ class Sheet:
     after: tuple[Instruction, ...]
     warnings: tuple[str, ...]
     same: int
-    family_id: str = ""

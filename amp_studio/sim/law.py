@@ -56,6 +56,7 @@ from .engine.compiled import Sample
 from .engine.machine import Machine
 from .errors import SimulationError
 from .machine_test import MachineTest
+from .path_rules import PathRules
 from .probing import Probing
 from .scenario import Scenario
 from .spindle import Gear, Spindle, Tapping
@@ -202,6 +203,7 @@ class Law:
     ``machine_tests``  machine_tests(machine, axis) -> programs and procedures that try an axis out
     ``motion``     the facts of ``motion.yaml``, which `law_of` puts here
     ``zones``      zones(machine, axes) -> areas that axes must not enter or leave
+    ``path``       path(machine) -> how a program goes along its path; None where no page prints enough
     """
 
     bind: Callable[[AxisParameters], AxisLaw]
@@ -213,6 +215,7 @@ class Law:
     probing: Callable[[AxisParameters, AxisLaw, str], Probing] | None = None
     zones: Callable[[BoundMachine, Sequence[str]], Iterable[Zone]] | None = None
     machine_tests: Callable[[BoundMachine, AxisLaw], Sequence[MachineTest]] | None = None
+    path: Callable[[BoundMachine], PathRules] | None = None
     motion: MotionFacts = NO_MOTION
 
 

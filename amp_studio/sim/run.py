@@ -68,7 +68,7 @@ def simulate(
     whole = _whole_run(scenario, axis)
     if whole is not None:
         names = tuple(each.strip() for each in (axis or "").split(",") if each.strip())
-        trace = whole(_bound_machine(file, law, names, model, read.append), own)
+        trace = whole(bound_machine(file, law, names, model, read.append), own)
         letter = ",".join(axis_name(file.evaluation, each) or each for each in trace.axis.split(",") if each)
     else:
         bound = bind_axis(file, law, axis, model, read.append)
@@ -133,7 +133,7 @@ def _whole_run(scenario: str, axis: str | None) -> Callable[[BoundMachine, Setti
     return chosen.several
 
 
-def _bound_machine(
+def bound_machine(
     file: ParameterFile,
     law: Law,
     names: Sequence[str],
@@ -234,7 +234,7 @@ def machine_tests(file: ParameterFile, axis: str | None = None) -> tuple[Machine
     law = law_of(file.schema.family.family)
     if law.machine_tests is None:
         raise SimulationError(f"No test program is printed for {file.schema.family.name}")
-    machine = _bound_machine(file, law, (axis,) if axis else (), {}, lambda _address: None)
+    machine = bound_machine(file, law, (axis,) if axis else (), {}, lambda _address: None)
     return tuple(law.machine_tests(machine, machine.axis()))
 
 

@@ -68,6 +68,7 @@ PAST_THE_DOOR = {
         "verbs/files/migrate.py": "meaning",
         "verbs/files/note.py": "files",
         "verbs/motion/block.py": "programs",
+        "verbs/motion/program.py": "drawing files programs sim",
         "verbs/motion/calibrate.py": "calibration drawing files",
         "verbs/motion/machine_tests.py": "files sim",
         "verbs/motion/picture.py": "drawing files pictures",

@@ -61,6 +61,8 @@ def prepared(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """
     folder = tmp_path_factory.mktemp("examples")
     mill, other = (Path(shutil.copy(EXAMPLE, folder / name)) for name in (MILL, "other.amp"))
+    for name in ("ROUTER.amp", "plate.nc"):
+        shutil.copy(EXAMPLE.parents[1] / "acromill-router" / name, folder)
     assert cli.run(["set", str(other), "1300=2"]) == 0
     assert cli.run(["export", str(mill), "-o", str(folder / "values.csv")]) == 0
     for name, text in (

@@ -34,6 +34,7 @@ from . import law_sample as loop
 from .law_facts import MOTION, ids
 from .law_filters import PASS, Biquad, lopass, notch
 from .law_machine_tests import machine_tests
+from .law_path import path_rules
 from .law_spindle import probing, spindle
 
 NORMAL_DAC_GAIN = 3276.8
@@ -309,4 +310,12 @@ SAME = 0.005
 """Share of the Vel FFwd by which another one is the same."""
 
 
-LAW = Law(bind=bind, axes=axes, advise=advise, spindle=spindle, probing=probing, machine_tests=machine_tests)
+LAW = Law(
+    bind=bind,
+    axes=axes,
+    advise=advise,
+    spindle=spindle,
+    probing=probing,
+    machine_tests=machine_tests,
+    path=path_rules,
+)

@@ -26,6 +26,7 @@ from amp_studio.sim import (
 
 from . import law_sample as loop
 from .law_facts import MOTION, ids
+from .law_path import path_rules
 from .law_spindle import probing, spindle
 
 COMMON = (ids.seek_rate, ids.locate_rate)
@@ -180,4 +181,4 @@ def travel(read: AxisParameters) -> Travel:
     return Travel({"the soft limit": edges}, "ALARM:2", SOURCE, (LIMITED,), refuses=True)
 
 
-LAW = Law(bind, axes, spindle=spindle, probing=probing)
+LAW = Law(bind, axes, spindle=spindle, probing=probing, path=path_rules)

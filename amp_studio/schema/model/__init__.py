@@ -76,12 +76,13 @@ from .pictures import (
     ZoneRole,
 )
 from .plausible import Plausible, Usual
-from .program import CodeGroup, Letter, MacroCall, ProgramCode, ProgramWords, WordUse
+from .program import ArcTolerance, CodeGroup, Letter, MacroCall, ProgramCode, ProgramWords, WordUse
 from .record import Instances, Key, Model, Page, ParameterId, Scope, Unit
 from .rule import Assignment, BuilderRule, Fix, Rule, Rules, Severity, Suppression
 from .synonyms import Synonyms
 
 __all__ = [
+    "ArcTolerance",
     "Area",
     "Assignment",
     "AssumedFigure",

@@ -9,6 +9,85 @@ from .record import Key, Model, Page, ParameterId
 Codes = str | dict[str, str]
 """A code as it is programmed, or the one of each system (a mill, the types of a lathe)."""
 
+CodeAction = Literal[
+    "rapid",
+    "line",
+    "arc-cw",
+    "arc-ccw",
+    "cycle",
+    "no-cycle",
+    "level-initial",
+    "level-r",
+    "dwell",
+    "exact-once",
+    "exact",
+    "slow-corners",
+    "no-override",
+    "cutting",
+    "plane-xy",
+    "plane-zx",
+    "plane-yz",
+    "centers",
+    "reference",
+    "reference-check",
+    "reference-return",
+    "reference-other",
+    "work-system",
+    "machine-system",
+    "machine-once",
+    "local-shift",
+    "set-position",
+    "set-data",
+    "scale",
+    "no-scale",
+    "turn",
+    "no-turn",
+    "length-plus",
+    "length-minus",
+    "no-length",
+    "subroutine",
+    "end",
+    "nothing",
+]
+"""What a code does to the path of a program; ``nothing`` for one that moves no axis."""
+WordRole = Literal[
+    "feed",
+    "dwell",
+    "spindle",
+    "repeats",
+    "peck",
+    "level",
+    "radius",
+    "turn",
+    "scale",
+    "reference",
+    "length-offset",
+    "set-kind",
+    "set-number",
+    "centers",
+    "subroutine",
+]
+"""What a word is to a program that runs; none for one that moves no axis."""
+CycleStep = Literal[
+    "position",
+    "rapid to R",
+    "feed to the depth",
+    "feed by Q",
+    "rapid back by the retract distance",
+    "rapid to D before the depth reached",
+    "feed by Q and D",
+    "again to the depth",
+    "dwell P",
+    "feed to R",
+    "shift by Q in X",
+    "rapid back",
+    "to the first level in rapid with G98",
+    "spindle clockwise",
+    "spindle counterclockwise",
+    "spindle stops at its angle",
+]
+"""A step of a cycle."""
+
 
 class CodeSystem(Model):
     """What decides which set of codes a control has."""
@@ -76,6 +155,7 @@ class WordUse(Model):
     """A number of something: no unit, no decimals."""
     unit: str | dict[Literal["in", "mm"], str] = ""
     params: tuple[ParameterId, ...] = ()
+    role: WordRole | None = None
 
 
 class Letter(Model):
@@ -100,7 +180,9 @@ class ProgramCode(Model):
     """The control knows the code and does not do it."""
     only_amp: bool = False
     """A parameter can make it active, a program cannot."""
-    steps: tuple[str, ...] = ()
+    does: CodeAction | None = None
+    """None: a program that has it is refused with its name."""
+    steps: tuple[CycleStep, ...] = ()
     """What a cycle does, in its order."""
 
 
@@ -171,6 +253,49 @@ class PowerUpValue(Model):
     page: Page
 
 
+class ArcTolerance(Model):
+    """How far the radius at the end of an arc may be from that at its start."""
+
+    page: Page
+    free: float
+    """mm that always may be."""
+    share: float
+    """Share of the radius that may be besides."""
+    most: float
+    """mm that never may be passed."""
+
+
+class ProgramPath(Model):
+    """What the path of a whole program needs beside its words."""
+
+    first: tuple[str, ...] = ()
+    """Codes of groups that are active at the start where no parameter chooses one."""
+    arcs_by_radius: bool = False
+    """Whether R may give the radius of an arc."""
+    centers: ParameterId | None = None
+    """The choice of how the words of an arc center are read: ``absolute``, ``incremental_positive``
+    or ``incremental_negative``; without it they are distances from the start."""
+    arc_tolerance: ArcTolerance | None = None
+    feed: ParameterId | None = None
+    """The feed where a program names none."""
+    always_slow: ParameterId | None = None
+    """Yes: corners are always slowed down."""
+    references: tuple[ParameterId, ...] = ()
+    """Positions of the reference points, of an axis each."""
+    length_offsets: tuple[ParameterId, ...] = ()
+    """Parts of a tool length, by the number of the offset."""
+    peck_clearance: ParameterId | None = None
+    """The distance D of a cycle."""
+    retract: ParameterId | None = None
+    """How far a chip-breaking cycle goes back; without it no page prints it."""
+    depth: int = 0
+    """How deep subroutines may call each other; 0 without them."""
+    assumed: tuple[str, ...] = ()
+    """What no page prints of it, each a sentence."""
+    faults: dict[str, str] = {}
+    """What is wrong -> the code that the control shows."""
+
+
 class ProgramWords(Model):
     """A file ``program.yaml``: words and codes of a family's part programs."""
 
@@ -193,3 +318,5 @@ class ProgramWords(Model):
     backs: tuple[BackAtPowerUp, ...] = ()
     values: tuple[PowerUpValue, ...] = ()
     statements: tuple[ProgramLine, ...] = ()
+    path: ProgramPath | None = None
+    """None where no path can be worked out."""

@@ -313,6 +313,7 @@ def _view() -> Menu[PartsWindow]:
                 short=tr("Motion"),
                 follows=view.show_motion,
             ),
+            Action("view.program", tr("B&locks and Programs…"), view.open_program, "Ctrl+F9", icon="path"),
             Action(
                 "view.pictures",
                 tr("&Pictures"),

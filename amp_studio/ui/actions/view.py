@@ -4,13 +4,14 @@ the motion window.
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from functools import partial
 from typing import TYPE_CHECKING
 
 from PySide6.QtGui import QAction
 
 from amp_studio.files import ParameterFile
-from amp_studio.schema import Value, why_not_simulated
+from amp_studio.schema import Address, Value, why_not_simulated
 from amp_studio.ui.base.loading import load
 from amp_studio.ui.base.task import in_background
 from amp_studio.ui.base.translated import tr
@@ -142,6 +143,23 @@ def open_motion(window: StudioWindow) -> None:
         window, tr("Loading the simulator"), partial(_motion_view, page.workspace.file.copy())
     )
     view(page.workspace, window.selected(), page.go_to, window).show()
+
+
+def open_program(window: StudioWindow) -> None:
+    """Open the window of blocks and programs of the file in front."""
+    page = window.page_in_front
+    if not page.workspace.file.schema.program.page:
+        page.bar.say(tr("No page here prints how the blocks of this control are read."))
+        return
+    load("amp_studio.sim", "amp_studio.programs", "amp_studio.ui.motion.program_window")
+    from amp_studio.ui.motion.program_window import ProgramWindow
+
+    workspace = page.workspace
+
+    def apply(values: Mapping[Address, Value]) -> bool:
+        return workspace.edit(tr("Take from the program"), values)
+
+    ProgramWindow(workspace.file.copy(), apply, window).show()
 
 
 def _motion_view(file: ParameterFile) -> type[MotionView]:

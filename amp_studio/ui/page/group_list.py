@@ -23,10 +23,10 @@ class GroupList(QWidget):
     chosen = Signal(str, list)
     """Title and parameters."""
 
-    def __init__(self, workspace: Workspace, parent: QWidget | None = None) -> None:
-        super().__init__(parent)
+    def __init__(self, workspace: Workspace) -> None:
+        super().__init__()
         self._workspace = workspace
-        self.tree = PlaceTree(self)
+        self.tree = PlaceTree()
         self.tree.setColumnCount(3)
         self.tree.setAccessibleName(self.tr("Parameter groups"))
         layout = QVBoxLayout(self)

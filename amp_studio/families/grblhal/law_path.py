@@ -1,0 +1,65 @@
+"""How a grblHAL goes along the path of a program (planner.c, motion_control.c of the core)."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from amp_studio.sim import BoundMachine, CornerRule, Corners, PathLimit, PathRows, PathRules, Ramp
+
+from .law_facts import MOTION, ids
+
+STRAIGHT = 0.999999
+"""Cosine from which two directions are one, or opposite (plan_buffer_line)."""
+ASSUMED = (
+    (
+        "Corners, limits of the axes, pieces of arcs and the blocks known ahead are those of planner.c and"
+        " motion_control.c; ASSUMED: the program comes as fast as it is needed."
+    ),
+    "ASSUMED: no build option for jerk, backlash or another machine than one with straight axes is on.",
+)
+
+
+def path_rules(machine: BoundMachine) -> PathRules:
+    """Return the rules of a file; raises SimulationError naming what is missing."""
+    read = machine.parameters
+    speeds, accelerations = {}, {}
+    for axis in machine.fitted:
+        values, letter = machine.read(axis), machine.letter(axis) or axis
+        speeds[letter] = PathLimit(values.number(ids.max_rate) / 60.0, (ids.max_rate, axis))
+        acceleration = values.number(ids.axis_acceleration)
+        accelerations[letter] = PathLimit(acceleration, (ids.axis_acceleration, axis))
+    deviation = PathLimit(read.number(ids.junction_deviation, everywhere=True), (ids.junction_deviation, ""))
+    blocks = read.optional(ids.planner_blocks, everywhere=True)
+    return PathRules(
+        feed_ramp=Ramp("linear"),
+        rapid_ramp=Ramp("linear"),
+        axis_speed=speeds,
+        axis_acceleration=accelerations,
+        corner=_corner(deviation, [each.value for each in accelerations.values()]),
+        chord=PathLimit(read.number(ids.arc_tolerance, everywhere=True), (ids.arc_tolerance, "")),
+        look_ahead=PathLimit(blocks or MOTION.value("planner_blocks"), (ids.planner_blocks, "")),
+        assumptions=ASSUMED,
+    )
+
+
+def _corner(deviation: PathLimit, accelerations: Sequence[float]) -> CornerRule:
+    """Return the rule of junction deviation: the speed of a circle that is so far from the corner, at what
+    the axes can accelerate across it.
+    """
+
+    def rule(corners: Corners) -> Sequence[tuple[PathLimit, PathRows]]:
+        cosine = -(corners.before * corners.after).sum(axis=1)
+        across = corners.after - corners.before
+        size = np.sqrt((across * across).sum(axis=1))
+        with np.errstate(divide="ignore", invalid="ignore"):
+            unit = np.abs(across / size[:, None])
+            bound = np.min(np.where(unit > 0.0, np.array(accelerations) / unit, np.inf), axis=1)
+            half = np.sqrt(0.5 * (1.0 - cosine))
+            speed = np.sqrt(bound * deviation.value * half / (1.0 - half))
+        speed[cosine > STRAIGHT] = 0.0
+        speed[cosine < -STRAIGHT] = np.inf
+        return ((deviation, speed),)
+
+    return rule

@@ -1,0 +1,111 @@
+"""The arithmetic of a part program: numbers, program parameters, functions, comparisons."""
+
+from __future__ import annotations
+
+import math
+import re
+from collections.abc import Callable, Mapping
+
+from amp_studio.schema import quoted
+
+from .words import ProgramBlockError
+
+DEEPEST = 20
+"""Parentheses and functions inside one another."""
+_TOKEN = re.compile(r"\s*([0-9]+\.?[0-9]*|\.[0-9]+|[P#]\s*[0-9]+|[A-Z]+|<=|>=|[-+*/()<>=])")
+_FUNCTIONS: Mapping[str, Callable[[float], float]] = {
+    "SIN": lambda x: math.sin(math.radians(x)),
+    "COS": lambda x: math.cos(math.radians(x)),
+    "TAN": lambda x: math.tan(math.radians(x)),
+    "ATAN": lambda x: math.degrees(math.atan(x)),
+    "NOT": lambda x: float(x == 0.0),
+}
+_LEVELS: tuple[Mapping[str, Callable[[float, float], float]], ...] = (
+    {
+        "AND": lambda a, b: float(a != 0.0 and b != 0.0),
+        "OR": lambda a, b: float(a != 0.0 or b != 0.0),
+        "XOR": lambda a, b: float((a != 0.0) != (b != 0.0)),
+    },
+    {
+        "=": lambda a, b: float(a == b),
+        "<": lambda a, b: float(a < b),
+        ">": lambda a, b: float(a > b),
+        "<=": lambda a, b: float(a <= b),
+        ">=": lambda a, b: float(a >= b),
+    },
+    {"+": lambda a, b: a + b, "-": lambda a, b: a - b},
+    {"*": lambda a, b: a * b, "/": lambda a, b: a / b},
+)
+"""Signs and what they do, those that bind least first."""
+
+
+def worth(text: str, parameters: Mapping[int, float]) -> float:
+    """Return what an expression results in; raises ProgramBlockError for what is none,
+    a parameter without a value, and a figure that is no number.
+    """
+    tokens, place = [], 0
+    upper = text.upper().rstrip()
+    while place < len(upper):
+        found = _TOKEN.match(upper, place)
+        if found is None:
+            raise ProgramBlockError(f"{quoted(text)} is no expression")
+        tokens.append(found[1])
+        place = found.end()
+    reading = _Reading(tokens, text, parameters)
+    value = reading.level(0, 0)
+    if reading.place < len(tokens):
+        raise ProgramBlockError(f"{quoted(text)} is no expression")
+    if not math.isfinite(value):
+        raise ProgramBlockError(f"{quoted(text)} results in no number")
+    return value
+
+
+class _Reading:
+    """One expression, read from left to right."""
+
+    def __init__(self, tokens: list[str], text: str, parameters: Mapping[int, float]) -> None:
+        self._tokens, self._text, self._parameters = tokens, text, parameters
+        self.place = 0
+
+    def _next(self) -> str:
+        if self.place >= len(self._tokens):
+            raise ProgramBlockError(f"{quoted(self._text)} ends too early")
+        self.place += 1
+        return self._tokens[self.place - 1]
+
+    def level(self, level: int, depth: int) -> float:
+        """Return the value of what binds at least as ``level``."""
+        if level == len(_LEVELS):
+            return self._single(depth + 1)
+        value = self.level(level + 1, depth)
+        while self.place < len(self._tokens) and self._tokens[self.place] in _LEVELS[level]:
+            operation = _LEVELS[level][self._next()]
+            other = self.level(level + 1, depth)
+            try:
+                value = operation(value, other)
+            except ZeroDivisionError:
+                raise ProgramBlockError(f"{quoted(self._text)} divides by 0") from None
+        return value
+
+    def _single(self, depth: int) -> float:
+        if depth > DEEPEST:
+            raise ProgramBlockError(f"{quoted(self._text)} is deeper than {DEEPEST} parentheses")
+        sign = self._next()
+        if sign in ("-", "+"):
+            value = self._single(depth + 1)
+            return -value if sign == "-" else value
+        if sign == "(":
+            value = self.level(0, depth)
+            if self._next() != ")":
+                raise ProgramBlockError(f"{quoted(self._text)} has a parenthesis that is not closed")
+            return value
+        if sign in _FUNCTIONS:
+            return _FUNCTIONS[sign](self._single(depth + 1))
+        if sign[0] in "P#":
+            number = int(sign[1:])
+            if number not in self._parameters:
+                raise ProgramBlockError(f"P{number} has no value here")
+            return self._parameters[number]
+        if sign[0].isdigit() or sign[0] == ".":
+            return float(sign)
+        raise ProgramBlockError(f"{quoted(self._text)} is no expression")

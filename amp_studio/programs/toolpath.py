@@ -1,0 +1,140 @@
+"""The path of a whole program as columns: a row for each move or dwell."""
+
+from __future__ import annotations
+
+from array import array
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+
+import numpy as np
+import numpy.typing as npt
+
+RAPID, LINE, ARC, DWELL = range(4)
+"""Kinds of rows."""
+CUTTING, SLOW, EXACT = range(3)
+"""At the end of a row the control goes on, slows down in corners, or waits until it is in position."""
+PLANES = ((0, 1, 2), (2, 0, 1), (1, 2, 0))
+"""Plane XY, ZX, YZ: places of its two axes and of the third one among X, Y, Z."""
+Floats = npt.NDArray[np.float64]
+Bytes = npt.NDArray[np.uint8]
+
+
+@dataclass(frozen=True)
+class ProgramFault:
+    """Where a program ends because the control cannot use a block, or its effect is not known here."""
+
+    line: int
+    """From 1."""
+    block: str
+    message: str
+    code: str = ""
+    """As the control shows it; "" where no source has it."""
+
+
+@dataclass(frozen=True)
+class ToolPath:
+    """What a program moves; lengths in mm or deg in the coordinates of the machine, speeds per s."""
+
+    axes: tuple[str, ...]
+    start: Floats
+    """(axes,)"""
+    ends: Floats
+    """(rows, axes)"""
+    kind: Bytes
+    """(rows,)"""
+    line: npt.NDArray[np.int32]
+    """(rows,): line of the program, from 1."""
+    feed: Floats
+    """(rows,): programmed, u/s; 0 in rapid."""
+    center: Floats
+    """(rows, 2): of an arc, in the axes of its plane."""
+    sweep: Floats
+    """(rows,): rad, above 0 from the first axis of the plane to the second."""
+    plane: Bytes
+    """(rows,)"""
+    seconds: Floats
+    """(rows,): of a dwell."""
+    corner: Bytes
+    """(rows,): what happens at the end."""
+    free: Bytes
+    """(rows,): 1 where the override of the feed has no effect."""
+    blocks: int
+    """How many blocks were read, repeated ones every time."""
+    fault: ProgramFault | None
+    assumptions: tuple[str, ...]
+    zero_known: bool
+    """Whether the file, or who asked, has where the zero of the program is in the machine."""
+
+    def __len__(self) -> int:
+        return len(self.kind)
+
+
+@dataclass
+class RowsWriter:
+    """The rows of a path while a program is read."""
+
+    axes: tuple[str, ...]
+    ends: array[float] = field(default_factory=lambda: array("d"))
+    kind: array[int] = field(default_factory=lambda: array("B"))
+    line: array[int] = field(default_factory=lambda: array("i"))
+    feed: array[float] = field(default_factory=lambda: array("d"))
+    arcs: array[float] = field(default_factory=lambda: array("d"))
+    """Center and sweep of a row."""
+    plane: array[int] = field(default_factory=lambda: array("B"))
+    seconds: array[float] = field(default_factory=lambda: array("d"))
+    corner: array[int] = field(default_factory=lambda: array("B"))
+    free: array[int] = field(default_factory=lambda: array("B"))
+
+    def add(
+        self,
+        end: Sequence[float],
+        kind: int,
+        line: int,
+        feed: float,
+        corner: int,
+        free: int,
+        arc: tuple[float, float, float] = (0.0, 0.0, 0.0),
+        plane: int = 0,
+        seconds: float = 0.0,
+    ) -> None:
+        """Add a row."""
+        self.ends.extend(end)
+        self.kind.append(kind)
+        self.line.append(line)
+        self.feed.append(feed)
+        self.arcs.extend(arc)
+        self.plane.append(plane)
+        self.seconds.append(seconds)
+        self.corner.append(corner)
+        self.free.append(free)
+
+    def path(
+        self,
+        start: Sequence[float],
+        blocks: int,
+        fault: ProgramFault | None,
+        assumptions: Sequence[str],
+        *,
+        zero_known: bool,
+    ) -> ToolPath:
+        """Return the path of the rows."""
+        rows = len(self.kind)
+        arcs = np.array(self.arcs, np.float64).reshape(rows, 3)
+        return ToolPath(
+            axes=self.axes,
+            start=np.array(start, np.float64),
+            ends=np.array(self.ends, np.float64).reshape(rows, len(self.axes)),
+            kind=np.array(self.kind, np.uint8),
+            line=np.array(self.line, np.int32),
+            feed=np.array(self.feed, np.float64),
+            center=arcs[:, :2],
+            sweep=arcs[:, 2],
+            plane=np.array(self.plane, np.uint8),
+            seconds=np.array(self.seconds, np.float64),
+            corner=np.array(self.corner, np.uint8),
+            free=np.array(self.free, np.uint8),
+            blocks=blocks,
+            fault=fault,
+            assumptions=tuple(dict.fromkeys(assumptions)),
+            zero_known=zero_known,
+        )

@@ -1,0 +1,122 @@
+"""Lengths, directions and radii of the rows of a path."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+import numpy.typing as npt
+
+from amp_studio.programs import ARC, PLANES, ToolPath
+from amp_studio.sim.errors import SimulationError
+from amp_studio.sim.path_rules import PathRows
+
+MOST_PIECES = 8_000_000
+"""PathRows after arcs have become straight pieces."""
+
+
+@dataclass(frozen=True)
+class Geometry:
+    """PathRows as the control plans them; (rows,) or (rows, axes)."""
+
+    row: npt.NDArray[np.int64]
+    """Row of the program's path."""
+    begins: PathRows
+    ends: PathRows
+    length: PathRows
+    first: PathRows
+    """Direction at the start; 0 without length."""
+    last: PathRows
+    share: PathRows
+    """Largest share of the speed that an axis has in the row."""
+    radius: PathRows
+    """Infinite on a line."""
+    is_arc: npt.NDArray[np.bool_]
+
+
+def places_of(path: ToolPath, row: int) -> tuple[int, int]:
+    """Return the columns of the two axes of a row's plane."""
+    first, second, _ = PLANES[int(path.plane[row])]
+    return path.axes.index("XYZ"[first]), path.axes.index("XYZ"[second])
+
+
+def geometry_of(path: ToolPath, chord: float | None) -> Geometry:
+    """Return the geometry of a path, with its arcs as straight pieces that are at most ``chord`` off."""
+    count = len(path)
+    begins = np.vstack([path.start[None, :], path.ends[:-1]]) if count else np.zeros((0, len(path.axes)))
+    arcs = np.flatnonzero(path.kind == ARC)
+    if chord is not None and len(arcs):
+        return _chorded(path, begins, arcs, chord)
+    delta = path.ends - begins
+    length = np.sqrt((delta * delta).sum(axis=1))
+    radius, is_arc = np.full(count, math.inf), path.kind == ARC
+    first = _unit(delta, length)
+    last, share = first.copy(), np.abs(first)
+    for plane in range(3):
+        rows = arcs[path.plane[arcs] == plane]
+        if not len(rows):
+            continue
+        a, b = places_of(path, int(rows[0]))
+        x, y = begins[rows, a] - path.center[rows, 0], begins[rows, b] - path.center[rows, 1]
+        r, sweep = np.hypot(x, y), path.sweep[rows]
+        along = delta[rows].copy()
+        along[:, a] = along[:, b] = 0.0
+        whole = np.sqrt((r * sweep) ** 2 + (along * along).sum(axis=1))
+        sign, begun = np.sign(sweep), np.arctan2(y, x)
+        planar = r * np.abs(sweep) / whole
+        for tangents, angle in ((first, begun), (last, begun + sweep)):
+            tangents[rows] = along / whole[:, None]
+            tangents[rows, a] = -sign * np.sin(angle) * planar
+            tangents[rows, b] = sign * np.cos(angle) * planar
+        share[rows] = np.abs(along) / whole[:, None]
+        share[rows, a] = planar * _most_sine(begun, sweep)
+        share[rows, b] = planar * _most_sine(begun + 0.5 * math.pi, sweep)
+        length[rows], radius[rows] = whole, r
+    return Geometry(np.arange(count), begins, path.ends, length, first, last, share, radius, is_arc)
+
+
+def _most_sine(begun: PathRows, sweep: PathRows) -> PathRows:
+    """Return the greatest |sin| over an arc of angles."""
+    low, high = np.minimum(begun, begun + sweep), np.maximum(begun, begun + sweep)
+    top = np.ceil((low - 0.5 * math.pi) / math.pi) * math.pi + 0.5 * math.pi
+    ends = np.maximum(np.abs(np.sin(low)), np.abs(np.sin(high)))
+    most: PathRows = np.where(top <= high, 1.0, ends)
+    return most
+
+
+def _unit(delta: PathRows, length: PathRows) -> PathRows:
+    unit: PathRows = delta / np.where(length > 0.0, length, 1.0)[:, None]
+    return unit
+
+
+def _chorded(path: ToolPath, begins: PathRows, arcs: npt.NDArray[np.int64], chord: float) -> Geometry:
+    """Return straight rows, arcs as pieces whose ends are on them: as many as grblHAL's mc_arc makes."""
+    pieces = np.ones(len(path), np.int64)
+    for row in arcs.tolist():
+        a, b = places_of(path, row)
+        r = math.hypot(begins[row, a] - path.center[row, 0], begins[row, b] - path.center[row, 1])
+        if 2.0 * r > chord:
+            wanted = abs(0.5 * path.sweep[row] * r) / math.sqrt(chord * (2.0 * r - chord))
+            pieces[row] = max(1, math.floor(wanted))
+    if pieces.sum() > MOST_PIECES:
+        raise SimulationError("The arcs of the program become more straight pieces than can be planned")
+    row = np.repeat(np.arange(len(path)), pieces)
+    last = np.cumsum(pieces) - 1
+    ends = path.ends[row]
+    for arc in arcs.tolist():
+        n = int(pieces[arc])
+        a, b = places_of(path, arc)
+        share = np.arange(1, n) / n
+        x, y = begins[arc, a] - path.center[arc, 0], begins[arc, b] - path.center[arc, 1]
+        angle = share * path.sweep[arc]
+        inside = slice(last[arc] - n + 1, last[arc])
+        ends[inside] = begins[arc] + share[:, None] * (path.ends[arc] - begins[arc])
+        ends[inside, a] = path.center[arc, 0] + x * np.cos(angle) - y * np.sin(angle)
+        ends[inside, b] = path.center[arc, 1] + x * np.sin(angle) + y * np.cos(angle)
+    starts = np.vstack([path.start[None, :], ends[:-1]])
+    delta = ends - starts
+    length = np.sqrt((delta * delta).sum(axis=1))
+    unit = _unit(delta, length)
+    none = np.zeros(len(row), bool)
+    return Geometry(row, starts, ends, length, unit, unit, np.abs(unit), np.full(len(row), math.inf), none)

@@ -1,0 +1,136 @@
+"""A program drawn: its path in plan and tilted, by what limits it; speed and contour error over time."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from itertools import pairwise
+
+import numpy as np
+
+from amp_studio.drawing import Curve, Picture, Polyline, Scale, Scene, ShapeSort, Text, panel_of
+from amp_studio.files import ParameterFile
+from amp_studio.sim.path_rules import Indices, PathRows
+from amp_studio.sim.rounding import value_text
+
+from .planner import ProgramPlan
+from .profiles import path_points
+from .program import ProgramRun
+from .result import limit_letters, limit_name, main_cause
+
+MOST_POINTS = 20_000
+"""Points of a drawn path; a longer one is thinned."""
+WITHIN = 0.01
+"""u between an arc and what is drawn of it."""
+SORTS: tuple[ShapeSort, ...] = ("now", "outside", "second", "limit", "error", "output")
+"""Colours of the limits beside the programmed feed, the longest first."""
+TILT = ((0.866, 0.5), (-0.5, 0.433), (0.0, 0.75))
+"""What a unit of X, Y, Z is in the tilted picture: right, up."""
+
+
+def path_picture(file: ParameterFile, run: ProgramRun) -> Picture:
+    """Return the picture of a program."""
+    plan = run.plan
+    facts = [f"{plan.path.blocks} blocks, {value_text(plan.time, 's', 4)}"]
+    letters = limit_letters(run)
+    times = plan.time_by_cause()
+    facts += [
+        f"{letter} {limit_name(file, plan.causes[n])} {100.0 * times[n] / plan.time:.0f} %"
+        for n, letter in letters.items()
+        if times[n] > 0.0
+    ]
+    if run.contour is not None:
+        facts.append(f"largest contour error {value_text(1000.0 * run.contour.largest, 'µm', 3)}")
+    panels = [_speed(plan)]
+    if run.contour is not None:
+        error = Curve("contour error", run.contour.time, 1000.0 * run.contour.error, "now", dense=True)
+        panels.append(panel_of("contour error", (error,), ("time", "s"), "µm"))
+    plan_scene = path_scene(file, run, letters, tilted=False)
+    tilted = path_scene(file, run, letters, tilted=True)
+    return Picture(
+        "program", tuple(facts), tuple(panels), plan_scene, tilted, bool(run.alarms), run.assumptions
+    )
+
+
+def _speed(plan: ProgramPlan) -> Scene:
+    start, times = plan.start[:, None], plan.times
+    moments = np.column_stack(
+        [start[:, 0], start[:, 0] + times[:, 0], start[:, 0] + times[:, 0] + times[:, 1]]
+    )
+    time = np.append(moments.ravel(), plan.time)
+    speed = np.append(np.column_stack([plan.entry, plan.peak, plan.peak]).ravel(), 0.0)
+    curve = Curve("speed", time, 60.0 * speed, "now")
+    return panel_of("speed along the path", (curve,), ("time", "s"), "mm/min")
+
+
+def path_scene(file: ParameterFile, run: ProgramRun, letters: dict[int, str], *, tilted: bool) -> Scene:
+    """Return the path in plan (the first two axes) or tilted (three), coloured by what limits it."""
+    plan = run.plan
+    points, rows = path_points(plan, WITHIN)
+    flat = _flat(points, tilted=tilted)
+    by = main_cause(plan) if len(plan.entry) else np.zeros(0, np.int64)
+    step = max(1, len(flat) // MOST_POINTS)
+    lines: list[Polyline] = []
+    texts: list[Text] = []
+    seen: set[str] = set()
+    for first, last in _stretches(plan, rows, by):
+        row = int(rows[last])
+        rapid = bool(plan.is_rapid[row])
+        letter = "R" if rapid else letters.get(int(by[row]), "")
+        kept = [*range(first, last, step), last]
+        lines.append(
+            Polyline(tuple((float(flat[n, 0]), float(flat[n, 1])) for n in kept), _sort(letter), rapid)
+        )
+        if letter and letter not in seen:
+            seen.add(letter)
+            middle = flat[(first + last) // 2 if last - first > 1 else last]
+            near = 0.5 * (flat[first] + flat[last]) if last - first == 1 else middle
+            texts.append(Text((float(near[0]), float(near[1])), letter, anchor="above"))
+    names = {letter: limit_name(file, plan.causes[n]) for n, letter in letters.items()} | {"R": "rapid"}
+    title = "in space" if tilted else "in plan"
+    key = ", ".join(f"{letter} {names[letter]}" for letter in sorted(seen))
+    (left, right), (low, high) = (_span(flat[:, n]) for n in (0, 1))
+    axes = plan.path.axes
+    return Scene(
+        name=f"path-{'tilted' if tilted else 'plan'}",
+        part="program",
+        title=f"path {title}",
+        subtitle=key,
+        x=Scale("" if tilted else axes[0], "mm", left, right, is_written=not tilted),
+        y=Scale("" if tilted else axes[min(1, len(axes) - 1)], "mm", low, high, is_written=not tilted),
+        equal=True,
+        lines=tuple(lines),
+        texts=tuple(texts),
+        share=2.2,
+    )
+
+
+def _flat(points: PathRows, *, tilted: bool) -> PathRows:
+    """Return points on paper, (n, 2)."""
+    wide = np.zeros((len(points), 3))
+    count = min(points.shape[1], 3)
+    wide[:, :count] = points[:, :count]
+    found: PathRows = wide @ np.array(TILT) if tilted else wide[:, :2]
+    return found
+
+
+def _span(values: PathRows) -> tuple[float, float]:
+    low, high = float(values.min()), float(values.max())
+    room = 0.06 * (high - low) or 1.0
+    return low - room, high + room
+
+
+def _sort(letter: str) -> ShapeSort:
+    if letter == "R":
+        return "dim"
+    place = ord(letter) - ord("B") if letter else -1
+    return SORTS[min(place, len(SORTS) - 1)] if place >= 0 else "ink"
+
+
+def _stretches(plan: ProgramPlan, rows: Indices, by: Indices) -> Sequence[tuple[int, int]]:
+    """Return (first, last) point of each part of the path with one cause and one kind of move."""
+    if len(rows) < 2:
+        return ()
+    kind = np.stack([by[rows[1:]], plan.is_rapid[rows[1:]].astype(np.int64)])
+    change = np.flatnonzero((kind[:, 1:] != kind[:, :-1]).any(axis=0)) + 1
+    edges = [0, *change.tolist(), len(rows) - 1]
+    return list(pairwise(edges))

@@ -1,0 +1,341 @@
+"""The speed along a path: limits of each row, corners, look-ahead, ramps; and what limits each piece.
+
+Backward, every row gets the highest speed from which the rows after it can be kept to; forward, the highest
+that the rows before it let it reach (J. Huang, L.-M. Zhu, Feed scheduling of a path in two passes, as every
+planner of short blocks does it). What a row leaves over is run at its own limit.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+
+import numpy as np
+import numpy.typing as npt
+
+from amp_studio.programs import DWELL, EXACT, RAPID, SLOW, ToolPath
+from amp_studio.sim.command.changes import SYMMETRIC, change_time, change_way, peaks, reached
+from amp_studio.sim.command.events import Ramp
+from amp_studio.sim.errors import SimulationError
+from amp_studio.sim.path_rules import Causes, Corners, PathLimit, PathRows, PathRules
+
+from .geometry import Geometry, geometry_of
+
+AS_PROGRAMMED = PathLimit(math.inf, None, "feed as programmed")
+DWELLS = PathLimit(0.0, None, "dwell")
+EVERY = 16384
+"""PathRows from one look at whether to stop to the next."""
+SAME = 1e-12
+
+
+class CauseTable:
+    """What limits, numbered."""
+
+    def __init__(self) -> None:
+        self.limits: list[PathLimit] = [AS_PROGRAMMED, DWELLS]
+        self._numbers: dict[tuple[object, str], int] = {
+            (None, each.title): n for n, each in enumerate(self.limits)
+        }
+
+    def number(self, limit: PathLimit) -> int:
+        """Return the number of a limit; limits of one parameter are one."""
+        key = (limit.param, "" if limit.param else limit.title)
+        if key not in self._numbers:
+            self._numbers[key] = len(self.limits)
+            self.limits.append(limit)
+        return self._numbers[key]
+
+
+@dataclass(frozen=True)
+class ProgramPlan:
+    """When every row is where; (rows,) unless noted. Speeds u/s, times s."""
+
+    path: ToolPath
+    geometry: Geometry
+    entry: PathRows
+    peak: PathRows
+    leave: PathRows
+    acceleration: PathRows
+    times: PathRows
+    """(rows, 3): faster, even, slower."""
+    rest: PathRows
+    """Dwell and wait for in position at the end of the row."""
+    start: PathRows
+    faster_by: Causes
+    even_by: Causes
+    slower_by: Causes
+    rest_by: Causes
+    causes: tuple[PathLimit, ...]
+    ramps: tuple[Ramp, Ramp]
+    """Of feed and of rapid."""
+    is_rapid: npt.NDArray[np.bool_]
+    wanted: PathRows
+    """Programmed speed."""
+
+    @property
+    def time(self) -> float:
+        """Of the whole program."""
+        return float(self.start[-1] + self.times[-1].sum() + self.rest[-1]) if len(self.start) else 0.0
+
+    def time_by_cause(self) -> PathRows:
+        """Return the time in s of each limit, (causes,)."""
+        found = np.zeros(len(self.causes))
+        for cause, time in (
+            (self.faster_by, self.times[:, 0]),
+            (self.even_by, self.times[:, 1]),
+            (self.slower_by, self.times[:, 2]),
+            (self.rest_by, self.rest),
+        ):
+            found += np.bincount(cause, time, len(found))
+        return found
+
+    def time_of_lines(self) -> dict[int, float]:
+        """Return line of the program -> its time in s."""
+        whole = self.times.sum(axis=1) + self.rest
+        lines = self.path.line[self.geometry.row]
+        sums = np.bincount(lines, whole)
+        return {int(line): float(sums[line]) for line in np.unique(lines)}
+
+
+def plan_program(
+    path: ToolPath,
+    rules: PathRules,
+    waits: Callable[[int], float] = lambda _row: 0.0,
+    progress: Callable[[float], None] = lambda _share: None,
+) -> ProgramPlan:
+    """Return when every row of a path is where.
+
+    ``waits`` gives the time in s that the axes need to be in position after a row that ends exactly;
+    ``progress`` gets the share that is done, and may raise to cancel. Raises SimulationError.
+    """
+    for ramp in (rules.feed_ramp, rules.rapid_ramp):
+        if ramp.kind not in SYMMETRIC:
+            raise SimulationError(f"A path with {ramp.kind} ramps is not simulated")
+    geometry = geometry_of(path, rules.chord.value if rules.chord else None)
+    progress(0.1)
+    table = CauseTable()
+    kind = path.kind[geometry.row]
+    is_rapid = kind == RAPID
+    wanted, top, top_by = _tops(path, geometry, rules, table, is_rapid)
+    acceleration, ramp_by = _accelerations(path, geometry, rules, table, is_rapid)
+    joint, joint_by = _joints(path, geometry, rules, table, top)
+    progress(0.3)
+    entry, entry_by = _look_ahead(geometry, rules, table, is_rapid, acceleration, joint, joint_by, progress)
+    leave = np.append(entry[1:], 0.0)
+    leave_by = np.append(entry_by[1:], -1)
+    peak, times = _ramps(geometry, rules, is_rapid, entry, leave, top, acceleration)
+    ahead = table.number(rules.look_ahead) if rules.look_ahead else -1
+    rest, rest_by = _rests(path, geometry, rules, table, waits)
+    whole = times.sum(axis=1) + rest
+    start = np.concatenate([[0.0], np.cumsum(whole)[:-1]]) if len(whole) else whole
+    progress(1.0)
+    return ProgramPlan(
+        path,
+        geometry,
+        entry,
+        peak,
+        leave,
+        acceleration,
+        times,
+        rest,
+        start,
+        np.where(entry_by == ahead, ahead, ramp_by).astype(np.int16) if ahead >= 0 else ramp_by,
+        top_by,
+        np.where(leave_by == ahead, ahead, ramp_by).astype(np.int16) if ahead >= 0 else ramp_by,
+        rest_by,
+        tuple(table.limits),
+        (rules.feed_ramp, rules.rapid_ramp),
+        is_rapid,
+        wanted,
+    )
+
+
+def _lowered(
+    value: PathRows, by: Causes, bound: PathRows, cause: int, where: npt.NDArray[np.bool_] | None = None
+) -> None:
+    """Lower values to a bound where it is lower, and write down by what."""
+    lower = bound < value
+    if where is not None:
+        lower &= where
+    value[lower], by[lower] = bound[lower], cause
+
+
+def _of_axes(
+    value: PathRows,
+    by: Causes,
+    geometry: Geometry,
+    path: ToolPath,
+    limits: Mapping[str, PathLimit],
+    table: CauseTable,
+) -> None:
+    """Lower values along the path to what the axes allow."""
+    for n, axis in enumerate(path.axes):
+        limit = limits.get(axis)
+        if limit is None:
+            continue
+        share = geometry.share[:, n]
+        bound = np.full(len(share), math.inf)
+        np.divide(limit.value, share, out=bound, where=share > SAME)
+        _lowered(value, by, bound, table.number(limit))
+
+
+def _tops(
+    path: ToolPath, geometry: Geometry, rules: PathRules, table: CauseTable, is_rapid: npt.NDArray[np.bool_]
+) -> tuple[PathRows, PathRows, Causes]:
+    """Return the programmed speed of each row, the one at which it can be run, and what bounds that."""
+    free = path.free[geometry.row] == 1
+    wanted = path.feed[geometry.row] * np.where(free, 1.0, rules.override)
+    wanted[is_rapid] = math.inf
+    top, by = wanted.copy(), np.zeros(len(wanted), np.int16)
+    for limits, where, share in ((rules.feed, ~is_rapid, 1.0), (rules.rapid, is_rapid, rules.rapid_override)):
+        for limit in limits:
+            _lowered(top, by, np.full(len(top), limit.value * share), table.number(limit), where)
+    _of_axes(top, by, geometry, path, rules.axis_speed, table)
+    if rules.rapid_override < 1.0 and not rules.rapid:
+        top[is_rapid] *= rules.rapid_override
+    if rules.arc is not None and geometry.is_arc.any():
+        for limit, bound in rules.arc(geometry.radius):
+            _lowered(top, by, bound, table.number(limit), geometry.is_arc)
+    moving = geometry.length > 0.0
+    if not np.isfinite(top[moving]).all():
+        raise SimulationError(
+            "No parameter of the file bounds the speed of a rapid move: set the rapid speed"
+        )
+    if (top[moving] <= 0.0).any():
+        cause = table.limits[int(by[moving][np.argmin(top[moving])])]
+        named = cause.param[0] if cause.param else cause.title
+        raise SimulationError(f"A move would never end: {named} is 0", named)
+    top[~moving] = 0.0
+    return wanted, top, by
+
+
+def _accelerations(
+    path: ToolPath, geometry: Geometry, rules: PathRules, table: CauseTable, is_rapid: npt.NDArray[np.bool_]
+) -> tuple[PathRows, Causes]:
+    count = len(geometry.length)
+    value, by = np.full(count, math.inf), np.zeros(count, np.int16)
+    for limits, where in ((rules.feed_acceleration, ~is_rapid), (rules.rapid_acceleration, is_rapid)):
+        for limit in limits:
+            bound = np.full(count, limit.value if limit.value > 0.0 else math.inf)
+            _lowered(value, by, bound, table.number(limit), where)
+    axes = {name: limit for name, limit in rules.axis_acceleration.items() if limit.value > 0.0}
+    _of_axes(value, by, geometry, path, axes, table)
+    return value, by
+
+
+def _joints(
+    path: ToolPath, geometry: Geometry, rules: PathRules, table: CauseTable, top: PathRows
+) -> tuple[PathRows, Causes]:
+    """Return the highest speed between each row and the next, and what bounds it;
+    the last one ends at rest.
+    """
+    count = len(top)
+    joint, by = np.zeros(count), np.full(count, -1, np.int16)
+    if count < 2:
+        return joint, by
+    joint[:-1] = np.minimum(top[:-1], top[1:])
+    corner = path.corner[geometry.row]
+    inside = geometry.row[:-1] == geometry.row[1:]  # pieces of one arc: no end of a block
+    slow = (corner[:-1] == SLOW) & ~inside
+    for limit, bound in rules.corner(Corners(geometry.last[:-1], geometry.first[1:], slow)):
+        _lowered(joint[:-1], by[:-1], bound, table.number(limit))
+    kind = path.kind[geometry.row]
+    stops = (corner[:-1] == EXACT) & ~inside
+    _lowered(joint[:-1], by[:-1], np.zeros(count - 1), table.number(rules.stop), stops)
+    rests = (kind == DWELL) | ((kind == RAPID) & rules.rapid_rests)
+    joint[:-1][rests[:-1] | rests[1:]] = 0.0
+    joint[-1] = 0.0
+    return joint, by
+
+
+def _look_ahead(
+    geometry: Geometry,
+    rules: PathRules,
+    table: CauseTable,
+    is_rapid: npt.NDArray[np.bool_],
+    acceleration: PathRows,
+    joint: PathRows,
+    joint_by: Causes,
+    progress: Callable[[float], None],
+) -> tuple[PathRows, Causes]:
+    """Return the speed at which each row begins, and what bounds it."""
+    count = len(joint)
+    entry_by = np.concatenate([[-1], joint_by[:-1]]).astype(np.int16) if count else joint_by
+    most = np.concatenate([[0.0], joint[:-1]]) if count else joint
+    straight = all(ramp.kind in ("none", "linear") for ramp in (rules.feed_ramp, rules.rapid_ramp))
+    if rules.look_ahead is not None and straight:
+        # The rows that are known must be enough to stop in: their braking ways are added up. That bound is
+        # all a shorter look-ahead changes, as every bound of a row farther ahead is higher than it.
+        known = max(1, int(rules.look_ahead.value))
+        slopes = np.where(np.isfinite(acceleration), acceleration, 1e12)
+        gain = np.concatenate([[0.0], np.cumsum(2.0 * slopes * geometry.length)])
+        room = gain[np.minimum(np.arange(count) + known, count)] - gain[:-1]
+        _lowered(most, entry_by, np.sqrt(room), table.number(rules.look_ahead))
+    step = _straight_step if straight else _any_step(rules)
+    length, slope, rapid = geometry.length.tolist(), acceleration.tolist(), is_rapid.tolist()
+    speeds = most.tolist()
+    for n in range(count - 2, -1, -1):
+        can = step(speeds[n + 1], length[n], slope[n], rapid[n])
+        speeds[n] = min(speeds[n], can)
+        if n % EVERY == 0:
+            progress(0.3 + 0.3 * (count - n) / count)
+    for n in range(count - 1):
+        can = step(speeds[n], length[n], slope[n], rapid[n])
+        speeds[n + 1] = min(speeds[n + 1], can)
+        if n % EVERY == 0:
+            progress(0.6 + 0.3 * n / count)
+    return np.array(speeds), entry_by
+
+
+def _straight_step(speed: float, length: float, acceleration: float, _rapid: bool) -> float:
+    return math.sqrt(speed * speed + 2.0 * acceleration * length)
+
+
+def _any_step(rules: PathRules) -> Callable[[float, float, float, bool], float]:
+    def step(speed: float, length: float, acceleration: float, rapid: bool) -> float:
+        if length == 0.0:
+            return speed
+        return reached(rules.rapid_ramp if rapid else rules.feed_ramp, speed, length, acceleration)
+
+    return step
+
+
+def _ramps(
+    geometry: Geometry,
+    rules: PathRules,
+    is_rapid: npt.NDArray[np.bool_],
+    entry: PathRows,
+    leave: PathRows,
+    top: PathRows,
+    acceleration: PathRows,
+) -> tuple[PathRows, PathRows]:
+    """Return the highest speed of each row, and its times faster, even, slower."""
+    peak, times = np.zeros_like(entry), np.zeros((len(entry), 3))
+    for ramp, chosen in ((rules.feed_ramp, ~is_rapid), (rules.rapid_ramp, is_rapid)):
+        rows = np.flatnonzero(chosen & (geometry.length > 0.0))
+        if not len(rows):
+            continue
+        v, w, a, way = entry[rows], leave[rows], acceleration[rows], geometry.length[rows]
+        most = np.maximum(np.maximum(top[rows], v), w)
+        high = np.maximum(peaks(ramp, v, w, way, most, a), np.maximum(v, w))
+        even = np.maximum(way - change_way(ramp, v, high, a) - change_way(ramp, high, w, a), 0.0)
+        peak[rows] = high
+        times[rows, 0] = change_time(ramp, high - v, a)
+        times[rows, 1] = np.where(high > 0.0, even / np.where(high > 0.0, high, 1.0), 0.0)
+        times[rows, 2] = change_time(ramp, high - w, a)
+    return peak, times
+
+
+def _rests(
+    path: ToolPath, geometry: Geometry, rules: PathRules, table: CauseTable, waits: Callable[[int], float]
+) -> tuple[PathRows, Causes]:
+    rest = path.seconds[geometry.row].copy()
+    by = np.ones(len(rest), np.int16)
+    if rules.waits:
+        last = np.append(geometry.row[:-1] != geometry.row[1:], True)
+        exact = (path.corner[geometry.row] == EXACT) & (path.kind[geometry.row] != DWELL) & last
+        cause = table.number(rules.stop)
+        for n in np.flatnonzero(exact).tolist():
+            rest[n], by[n] = waits(n), cause
+    return rest, by

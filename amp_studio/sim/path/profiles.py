@@ -1,0 +1,126 @@
+"""The command of every axis along a planned path, as pieces of `engine/profiles.py`."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+
+from amp_studio.sim.command.events import Ramp
+from amp_studio.sim.command.pieces import Piece, change
+from amp_studio.sim.engine.profiles import POLYNOMIAL, SINE
+from amp_studio.sim.errors import SimulationError
+from amp_studio.sim.path_rules import Indices, PathRows
+
+from .geometry import places_of
+from .planner import ProgramPlan
+
+MOST_ROWS = 50_000
+"""PathRows of a path that the servo loops are run on."""
+
+
+def axis_profiles(plan: ProgramPlan) -> list[list[float]]:
+    """Return the flat profile of each axis; positions from 0 on.
+
+    Raises SimulationError for a path that is too long to be run, or whose arcs have curved ramps.
+    """
+    count = len(plan.path.axes)
+    if len(plan.entry) > MOST_ROWS:
+        raise SimulationError(f"The path has more than {MOST_ROWS} moves")
+    profiles: list[list[float]] = [[] for _ in range(count)]
+    geometry, now = plan.geometry, 0.0
+    origin = plan.path.start
+    for n in range(len(plan.entry)):
+        gone = 0.0
+        if geometry.length[n] > 0.0:
+            ramp = plan.ramps[int(plan.is_rapid[n])]
+            for piece in _pieces(plan, n, ramp):
+                for axis, rows in enumerate(profiles):
+                    rows.extend(_row(plan, n, axis, now, gone, piece, float(origin[axis])))
+                gone += piece.length()
+                now += piece.duration
+        if plan.rest[n] > 0.0:
+            for axis, rows in enumerate(profiles):
+                end = float(geometry.ends[n, axis] - origin[axis])
+                rows.extend([now, float(plan.rest[n]), end, 0.0, 0.0, 0.0, POLYNOMIAL, 0.0])
+            now += float(plan.rest[n])
+    for axis, rows in enumerate(profiles):
+        last = geometry.ends[-1, axis] if len(geometry.ends) else origin[axis]
+        rows.extend([now, math.inf, float(last - origin[axis]), 0.0, 0.0, 0.0, POLYNOMIAL, 0.0])
+    return profiles
+
+
+def _pieces(plan: ProgramPlan, n: int, ramp: Ramp) -> list[Piece]:
+    """Return the pieces of a row along the path."""
+    entry, peak, leave = float(plan.entry[n]), float(plan.peak[n]), float(plan.leave[n])
+    own = Ramp(ramp.kind, float(plan.acceleration[n]), jerk=ramp.jerk, time=ramp.time)
+    even = [Piece(float(plan.times[n, 1]), peak)] if plan.times[n, 1] > 0.0 else []
+    every = [*change(own, entry, peak), *even, *change(own, peak, leave)]
+    return [piece for piece in every if piece.duration > 0.0]
+
+
+def _row(
+    plan: ProgramPlan, n: int, axis: int, now: float, gone: float, piece: Piece, origin: float
+) -> list[float]:
+    """Return one piece of one axis."""
+    geometry = plan.geometry
+    if geometry.is_arc[n] and axis in (places := places_of(plan.path, int(geometry.row[n]))):
+        if piece.kind != POLYNOMIAL or piece.jerk != 0.0:
+            raise SimulationError("Arcs with curved ramps are not run on the servo loops")
+        row = int(geometry.row[n])
+        first, second = places
+        center, sweep = plan.path.center[row], float(plan.path.sweep[row])
+        begun = math.atan2(geometry.begins[n, second] - center[1], geometry.begins[n, first] - center[0])
+        rate = sweep / float(geometry.length[n])
+        is_second = axis == second
+        # x = R cos(angle) = R sin(angle + 90°), y = R sin(angle); the angle goes with the way.
+        phase = begun + rate * gone + (0.0 if is_second else 0.5 * math.pi)
+        middle = float(center[1 if is_second else 0]) - origin
+        radius = float(geometry.radius[n])
+        return [
+            now,
+            piece.duration,
+            middle,
+            radius,
+            rate * piece.velocity,
+            rate * piece.acceleration,
+            SINE,
+            phase,
+        ]
+    share = float(geometry.ends[n, axis] - geometry.begins[n, axis]) / float(geometry.length[n])
+    position = float(geometry.begins[n, axis]) - origin + share * gone
+    return [
+        now,
+        piece.duration,
+        position,
+        share * piece.velocity,
+        share * piece.acceleration,
+        share * piece.jerk,
+        piece.kind,
+        piece.figure,
+    ]
+
+
+def path_points(plan: ProgramPlan, within: float) -> tuple[PathRows, Indices]:
+    """Return points on the programmed path (n, axes), arcs at most ``within`` u off, and their rows (n,)."""
+    geometry = plan.geometry
+    points, rows = [plan.path.start[None, :]], [np.zeros(1, np.int64)]
+    for n in range(len(geometry.length)):
+        if geometry.length[n] <= 0.0:
+            continue
+        parts = 1
+        if geometry.is_arc[n]:
+            row = int(geometry.row[n])
+            a, b = places_of(plan.path, row)
+            sweep, center = float(plan.path.sweep[row]), plan.path.center[row]
+            parts = max(2, math.ceil(abs(sweep) * math.sqrt(float(geometry.radius[n]) / (8.0 * within))))
+            share = np.arange(1, parts + 1) / parts
+            x, y = geometry.begins[n, a] - center[0], geometry.begins[n, b] - center[1]
+            between = geometry.begins[n] + share[:, None] * (geometry.ends[n] - geometry.begins[n])
+            between[:, a] = center[0] + x * np.cos(share * sweep) - y * np.sin(share * sweep)
+            between[:, b] = center[1] + x * np.sin(share * sweep) + y * np.cos(share * sweep)
+        else:
+            between = geometry.ends[n][None, :]
+        points.append(between)
+        rows.append(np.full(parts, n))
+    return np.vstack(points), np.concatenate(rows)

@@ -1,0 +1,226 @@
+"""A program in motion in words, as JSON and as CSV."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from typing import Any
+
+import numpy as np
+
+from amp_studio.files import ParameterFile
+from amp_studio.schema import Address, show_value
+from amp_studio.sim.path_rules import Indices, PathLimit
+from amp_studio.sim.rounding import rounded, value_text
+from amp_studio.sim.unit_system import in_text, length_unit
+
+from .job import WhatIf
+from .planner import ProgramPlan
+from .program import ProgramRun
+
+SMALL = 0.0005
+"""Share of the time below which a limit is not listed."""
+
+
+def limit_name(file: ParameterFile, limit: PathLimit) -> str:
+    """Return a limit as a person reads it."""
+    if limit.param is None:
+        return limit.title
+    parameter = file.schema.parameters[limit.param[0]]
+    axis = f" {limit.param[1]}" if limit.param[1] else ""
+    return f"{parameter.name}{axis}"
+
+
+def limit_letters(run: ProgramRun) -> dict[int, str]:
+    """Return cause -> its letter in picture and list: A for the programmed feed, the others by their time."""
+    times = run.plan.time_by_cause()
+    order = sorted((n for n in range(1, len(times)) if times[n] > 0.0), key=lambda n: -times[n])
+    return {0: "A", **{n: chr(ord("B") + place) for place, n in enumerate(order[:24])}}
+
+
+def main_cause(plan: ProgramPlan) -> Indices:
+    """Return for each row the cause of most of its time, (rows,)."""
+    causes = np.column_stack([plan.faster_by, plan.even_by, plan.slower_by]).astype(np.int64)
+    times = plan.times.copy()
+    # A ramp up and down by the same limit is one share of the row.
+    same = causes[:, 0] == causes[:, 2]
+    times[same, 0] += times[same, 2]
+    chosen: Indices = causes[np.arange(len(causes)), np.argmax(times, axis=1)]
+    return chosen
+
+
+def line_rows(run: ProgramRun) -> dict[int, tuple[str, float]]:
+    """Return line of the program -> letter of what limits it longest ("R" in rapid), and its time in s."""
+    plan, letters = run.plan, limit_letters(run)
+    times, causes = plan.times.sum(axis=1), main_cause(plan)
+    lines = plan.path.line[plan.geometry.row]
+    found: dict[int, tuple[str, float]] = {}
+    longest: dict[int, float] = {}
+    for line, time, cause, rapid in zip(
+        lines.tolist(), times.tolist(), causes.tolist(), plan.is_rapid.tolist(), strict=True
+    ):
+        if time > longest.get(line, -1.0):
+            longest[line] = time
+            found[line] = ("R" if rapid else letters.get(cause, ""), 0.0)
+    return {line: (found[line][0], time) for line, time in plan.time_of_lines().items()}
+
+
+def limited_by(file: ParameterFile, run: ProgramRun) -> list[dict[str, Any]]:
+    """Return what limits, the longest first: ``param`` as it is typed ("" for none), name, letter, time,
+    share.
+    """
+    times, whole, letters = run.plan.time_by_cause(), run.plan.time, limit_letters(run)
+    rows = [
+        {
+            "param": file.machine_schema.short(limit.param) if limit.param else "",
+            "name": limit_name(file, limit),
+            "letter": letters.get(n, ""),
+            "time_s": rounded(float(time), 6),
+            "share": rounded(float(time) / whole, 4) if whole else 0.0,
+        }
+        for n, (limit, time) in enumerate(zip(run.plan.causes, times, strict=True))
+        if whole and time > 0.0
+    ]
+    return sorted(rows, key=lambda row: -float(row["time_s"]))
+
+
+def program_summary(file: ParameterFile, run: ProgramRun, tries: Sequence[WhatIf] = ()) -> dict[str, Any]:
+    """Return a program as JSON; lengths in mm or deg."""
+    plan, contour = run.plan, run.contour
+    lines = plan.time_of_lines()
+    return {
+        "file": str(file.header.name),
+        "time": {"value": rounded(plan.time, 7), "unit": "s"},
+        "limited_by": limited_by(file, run),
+        "contour_error": None
+        if contour is None
+        else {
+            "max": {"value": rounded(contour.largest, 5), "unit": "mm"},
+            "p95": {"value": rounded(contour.p95, 5), "unit": "mm"},
+            "where": {"line": _line(run), "time_s": rounded(float(contour.time[contour.worst]), 6)},
+            "following_error": {
+                axis: {"value": rounded(float(np.abs(contour.following[:, n]).max()), 5), "unit": "mm"}
+                for n, axis in enumerate(plan.path.axes)
+            },
+        },
+        "why_no_contour_error": run.why_no_contour,
+        "alarms": [
+            {
+                "line": alarm.line,
+                "time_s": rounded(alarm.time_s, 6),
+                "code": alarm.code,
+                "message": alarm.message,
+            }
+            for alarm in run.alarms
+        ],
+        "blocks": [{"line": line, "time_s": rounded(time, 6)} for line, time in lines.items()],
+        "read_blocks": plan.path.blocks,
+        "what_if": [try_summary(file, run, each) for each in tries],
+        "assumptions": list(run.assumptions),
+    }
+
+
+def _line(run: ProgramRun) -> int:
+    assert run.contour is not None
+    row = int(run.contour.row[run.contour.worst])
+    return int(run.plan.path.line[run.plan.geometry.row[row]])
+
+
+def try_summary(file: ParameterFile, before: ProgramRun, each: WhatIf) -> dict[str, Any]:
+    found: dict[str, Any] = {
+        "changes": [
+            {"param": file.machine_schema.short(address), "from": before_it, "to": after_it}
+            for address, before_it, after_it in _changes(file, each)
+        ],
+        "not_allowed": list(each.not_allowed),
+    }
+    if each.run is None:
+        return {**found, "error": each.why_not}
+    time = each.run.plan.time
+    found["time"] = {"value": rounded(time, 7), "unit": "s"}
+    found["time_change"] = rounded(time / before.plan.time - 1.0, 4) if before.plan.time else 0.0
+    if each.run.contour is not None and before.contour is not None:
+        found["contour_error"] = {"value": rounded(each.run.contour.largest, 5), "unit": "mm"}
+        change = each.run.contour.largest - before.contour.largest
+        found["contour_error_change"] = {"value": rounded(change, 4), "unit": "mm"}
+    found["alarms"] = len(each.run.alarms)
+    return found
+
+
+def _changes(file: ParameterFile, each: WhatIf) -> Iterator[tuple[Address, str, str]]:
+    """Yield address, value of the file and tried value, as a person reads them."""
+    for address, (old, new) in each.changes.items():
+        parameter = file.schema.parameters[address[0]]
+        yield address, show_value(parameter, old), show_value(parameter, new)
+
+
+def program_text(file: ParameterFile, run: ProgramRun, tries: Sequence[WhatIf] = ()) -> str:
+    """Return a program as lines of text, in the unit of the file."""
+    length = length_unit(file)
+    return "\n".join(in_text(line, length) for line in _lines(file, run, tries))
+
+
+def _lines(file: ParameterFile, run: ProgramRun, tries: Sequence[WhatIf]) -> Iterator[str]:
+    plan = run.plan
+    yield f"{plan.path.blocks} blocks, {len(plan.path)} moves, {value_text(plan.time, 's', 5)}"
+    yield "Where the time goes:"
+    for row in limited_by(file, run):
+        if row["share"] >= SMALL:
+            param = f"  {row['param']}" if row["param"] else ""
+            time = value_text(row["time_s"], "s", 4)
+            yield f"  {100.0 * row['share']:5.1f} %  {time:>10}  {row['name']}{param}"
+    if run.contour is not None:
+        contour = run.contour
+        yield (
+            f"Contour error: at most {value_text(1000.0 * contour.largest, 'µm', 3)} in line {_line(run)}"
+            f" after {value_text(float(contour.time[contour.worst]), 's', 4)};"
+            f" 95 % of the time below {value_text(1000.0 * contour.p95, 'µm', 3)}"
+        )
+    else:
+        yield f"No contour error: {run.why_no_contour}"
+    if tries:
+        yield "What if:"
+        for each in tries:
+            yield _try_line(file, run, each)
+    for alarm in run.alarms:
+        code = f"{alarm.code}: " if alarm.code else ""
+        yield f"Line {alarm.line}: {code}{alarm.message}"
+    for note in run.assumptions:
+        yield note if note.startswith("ASSUMED") else f"ASSUMED: {note}"
+
+
+def _try_line(file: ParameterFile, before: ProgramRun, each: WhatIf) -> str:
+    changed = ", ".join(
+        f"{file.machine_schema.short(address)} {before_it} -> {after_it}"
+        for address, before_it, after_it in _changes(file, each)
+    )
+    if each.run is None:
+        return f"  {changed}: {each.why_not}"
+    share = each.run.plan.time / before.plan.time - 1.0 if before.plan.time else 0.0
+    text = f"  {changed}: {value_text(each.run.plan.time, 's', 5)}, {100.0 * share:+.1f} % time"
+    if each.run.contour is not None and before.contour is not None:
+        text += f", {1000.0 * (each.run.contour.largest - before.contour.largest):+.3g} µm"
+    if each.not_allowed:
+        text += f"; not allowed: {'; '.join(each.not_allowed)}"
+    return text
+
+
+def program_csv(file: ParameterFile, run: ProgramRun) -> str:
+    """Return a row for each planned move: line, start, time, speeds, ends of the axes, what limits it."""
+    plan = run.plan
+    names = [limit_name(file, limit) for limit in plan.causes]
+    head = ["line", "start_s", "time_s", "length_mm", "entry_mm_s", "peak_mm_s", "leave_mm_s"]
+    head += [f"{axis}_mm" for axis in plan.path.axes] + ["faster_by", "even_by", "slower_by"]
+    whole = plan.times.sum(axis=1) + plan.rest
+    numbers = np.column_stack(
+        [plan.start, whole, plan.geometry.length, plan.entry, plan.peak, plan.leave, plan.geometry.ends]
+    )
+    causes = np.column_stack([plan.faster_by, plan.even_by, plan.slower_by])
+    lines = plan.path.line[plan.geometry.row]
+    rows = [",".join(head)]
+    for n in range(len(whole)):
+        named = [
+            f'"{names[cause]}"' if time > 0.0 else ""
+            for cause, time in zip(causes[n].tolist(), plan.times[n].tolist(), strict=True)
+        ]
+        rows.append(",".join([str(int(lines[n])), *(repr(float(each)) for each in numbers[n]), *named]))
+    return "\n".join(rows) + "\n"

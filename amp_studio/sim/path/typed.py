@@ -1,0 +1,57 @@
+"""What a person types for a program: places of axes, and other values of parameters."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Sequence
+
+from amp_studio.files import ParameterFile
+from amp_studio.schema import Address, InvalidValueError, UnknownParameterError, Value, quoted
+from amp_studio.sim.errors import SimulationError
+from amp_studio.sim.unit_system import MM_PER_INCH, length_unit
+from amp_studio.validate import read_plain
+
+from .job import scaled
+
+_PLACE = re.compile(r"([A-Z])([+-]?(?:[0-9]+\.?[0-9]*|\.[0-9]+))")
+_SHARE = re.compile(r"([+-][0-9]+(?:\.[0-9]+)?) ?%")
+
+
+def typed_places(text: str, file: ParameterFile) -> dict[str, float]:
+    """Return axis letter -> place in mm or deg of ``X10,Y-20`` in the unit of the file; raises
+    SimulationError.
+    """
+    size = MM_PER_INCH if length_unit(file) == "in" else 1.0
+    found: dict[str, float] = {}
+    for part in text.upper().split(","):
+        word = _PLACE.fullmatch(part.strip())
+        if word is None or word[1] in found:
+            raise SimulationError(f"{quoted(text)} has to be places of axes, as X10,Y-20")
+        found[word[1]] = float(word[2]) * size
+    return found
+
+
+def typed_values(file: ParameterFile, texts: Sequence[str]) -> dict[Address, Value]:
+    """Return the values of ``PARAM=VALUE`` and ``PARAM=+20%``; raises SimulationError."""
+    found: dict[Address, Value] = {}
+    for text in texts:
+        param, sign, wanted = text.partition("=")
+        if not sign or not param.strip() or not wanted.strip():
+            raise SimulationError(f"{quoted(text)} is not PARAM=VALUE")
+        try:
+            address = file.find(param.strip())
+            present = file.get(address)
+            share = _SHARE.fullmatch(wanted.strip())
+            if share is not None and (present is None or present.unit != "%"):
+                found[address] = scaled(file, address, 1.0 + float(share[1]) / 100.0)
+            else:
+                found[address] = read_plain(file, address, wanted.strip(), lambda at: _unit(file, at))
+        except (InvalidValueError, UnknownParameterError) as error:
+            raise SimulationError(f"{error}") from None
+    return found
+
+
+def _unit(file: ParameterFile, address: Address) -> str:
+    """Return the unit of a number without one: that of the present value, else the file's."""
+    present = file.get(address)
+    return present.unit if present and present.unit else file.evaluation.unit(address, file.header.units)

@@ -1,0 +1,78 @@
+"""How a control goes along a path, as a family fills it in: limits, ramps, corners, look-ahead."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, field
+
+import numpy as np
+import numpy.typing as npt
+
+from amp_studio.schema import Address
+from amp_studio.sim.command.events import Ramp
+
+PathRows = npt.NDArray[np.float64]
+Causes = npt.NDArray[np.int16]
+Indices = npt.NDArray[np.int64]
+
+
+@dataclass(frozen=True)
+class PathLimit:
+    """A figure that bounds something on the path, and where it comes from."""
+
+    value: float
+    """u/s, u/s2 or blocks."""
+    param: Address | None
+    """None for what the control does by itself."""
+    title: str = ""
+    """What it is where it has no parameter."""
+
+
+@dataclass(frozen=True)
+class Corners:
+    """Where a row follows another without a stop; (n,) or (n, axes)."""
+
+    before: PathRows
+    """Direction at the end of the first row, of length 1."""
+    after: PathRows
+    """Direction at the start of the second one."""
+    slow: npt.NDArray[np.bool_]
+    """Whether the program asks for slower corners."""
+
+
+CornerRule = Callable[[Corners], Sequence[tuple[PathLimit, PathRows]]]
+"""rule(corners) -> the highest speeds (n,) in u/s by what bounds them; infinite where it does not."""
+
+
+@dataclass(frozen=True)
+class PathRules:
+    """One control; speeds u/s along the path or of an axis, accelerations u/s2."""
+
+    feed_ramp: Ramp
+    rapid_ramp: Ramp
+    """Their kind, jerk and time; the accelerations are the limits below."""
+    feed: Sequence[PathLimit] = ()
+    rapid: Sequence[PathLimit] = ()
+    """Along the path."""
+    feed_acceleration: Sequence[PathLimit] = ()
+    rapid_acceleration: Sequence[PathLimit] = ()
+    """Along the path."""
+    axis_speed: Mapping[str, PathLimit] = field(default_factory=dict)
+    axis_acceleration: Mapping[str, PathLimit] = field(default_factory=dict)
+    """Axis -> its own limit in every move."""
+    corner: CornerRule = lambda _corners: ()
+    arc: Callable[[PathRows], Sequence[tuple[PathLimit, PathRows]]] | None = None
+    """arc(radius in u) -> the highest speeds by what bounds them."""
+    chord: PathLimit | None = None
+    """u between an arc and the straight pieces that the control makes of it; None for true arcs."""
+    look_ahead: PathLimit | None = None
+    """Blocks that are known, the present one too; None for all."""
+    rapid_rests: bool = False
+    """Whether every rapid move begins and ends at rest."""
+    waits: bool = False
+    """Whether an exact stop waits until the axes are in position."""
+    stop: PathLimit = field(default_factory=lambda: PathLimit(0.0, None, "exact stop"))
+    """What an exact stop belongs to."""
+    override: float = 1.0
+    rapid_override: float = 1.0
+    assumptions: tuple[str, ...] = ()

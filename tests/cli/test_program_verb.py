@@ -1,0 +1,101 @@
+"""The verb program."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Callable
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import pytest
+
+if TYPE_CHECKING:
+    from .conftest import Said
+
+EXAMPLES = Path(__file__).parents[2] / "examples"
+ROUTER = EXAMPLES / "acromill-router" / "ROUTER.amp"
+PLATE = "%\nG20 G90 G62\nG0 X-2 Y-1 Z-0.5\nG1 Z-0.6 F24\nX-3 F190\nG3 X-3.5 Y-1.5 I-3 J-1.5\nG1 X-3\nG0 Z-0.5\nM2\n"
+
+
+@pytest.fixture
+def plate(tmp_path: Path) -> Path:
+    path = tmp_path / "plate.nc"
+    path.write_text(PLATE)
+    return path
+
+
+def test_a_program_as_json_has_time_limits_and_error(amp: Callable[..., Said], plate: Path) -> None:
+    said = amp("program", plate, "--machine", ROUTER, "--json", "--what-if", "speeds.feed_acc_dec=+20%")
+    assert said.code == 0
+    found = json.loads(said.out)
+    assert found["time"]["unit"] == "s"
+    assert sum(row["share"] for row in found["limited_by"]) == pytest.approx(1.0, abs=0.002)
+    assert {"speeds.rapid", "speeds.feed_acc_dec"} <= {row["param"] for row in found["limited_by"]}
+    assert found["contour_error"]["max"]["value"] >= found["contour_error"]["p95"]["value"] > 0.0
+    assert sum(block["time_s"] for block in found["blocks"]) == pytest.approx(
+        found["time"]["value"], rel=1e-4
+    )
+    tried = found["what_if"][0]
+    assert tried["changes"] == [{"param": "speeds.feed_acc_dec", "from": "100 in/s²", "to": "120 in/s²"}]
+    assert tried["time_change"] < 0.0
+
+
+def test_text_csv_and_picture(amp: Callable[..., Said], plate: Path, tmp_path: Path) -> None:
+    said = amp("program", plate, "--machine", ROUTER, "--no-contour", "-o", tmp_path / "a.csv")
+    assert said.code == 0
+    assert "Where the time goes:" in said.out
+    rows = (tmp_path / "a.csv").read_text().splitlines()
+    assert rows[0].startswith("line,start_s,time_s")
+    assert len(rows) == 7
+    assert amp("program", plate, "--machine", ROUTER, "--no-contour", "-o", tmp_path / "a.svg").code == 0
+    assert "path" in (tmp_path / "a.svg").read_text()
+
+
+def test_a_block_that_cannot_be_used_ends_with_1_and_is_named(
+    amp: Callable[..., Said], tmp_path: Path
+) -> None:
+    path = tmp_path / "a.nc"
+    path.write_text("G20\nG1 X-1 F10\nG41 X-2\n")
+    said = amp("program", path, "--machine", ROUTER, "--no-contour")
+    assert said.code == 1
+    assert "Line 3: G41 is not simulated" in said.out
+
+
+def test_two_changes_are_tried_each_and_together(amp: Callable[..., Said], plate: Path) -> None:
+    changes = ("--what-if", "speeds.rapid=150", "--what-if", "speeds.min_corner=20")
+    said = amp("program", plate, "--machine", ROUTER, "--no-contour", "--json", *changes)
+    tries = json.loads(said.out)["what_if"]
+    assert [len(each["changes"]) for each in tries] == [1, 1, 2]
+    assert tries[2]["time"]["value"] <= min(each["time"]["value"] for each in tries[:2])
+
+
+@pytest.mark.parametrize(
+    ("arguments", "sentence"),
+    [
+        (("--start", "Q1"), "has no axis Q"),
+        (("--start", "X"), "has to be places of axes"),
+        (("--override", "0"), "takes per cent"),
+        (("--retract", "much"), "takes a length"),
+        (("-o", "a.txt"), "is written as .csv or .svg"),
+        (("--what-if", "nothing=1"), "nothing"),
+        (("--what-if", "speeds.rapid"), "is not PARAM=VALUE"),
+        (("--what-if", "control.default_units=+5%"), "has no number"),
+    ],
+)
+def test_what_is_no_option_ends_with_2(
+    amp: Callable[..., Said], plate: Path, arguments: tuple[str, ...], sentence: str
+) -> None:
+    said = amp("program", plate, "--machine", ROUTER, *arguments)
+    assert said.code == 2
+    assert sentence in said.err
+
+
+def test_a_family_without_printed_paths_and_a_file_that_is_none_end_with_2(
+    amp: Callable[..., Said], plate: Path, tmp_path: Path
+) -> None:
+    said = amp("program", plate, "--machine", EXAMPLES / "57c422b-label-press" / "LABEL_PRESS.amp")
+    assert (said.code, "no page here prints" in said.err) == (2, True)
+    binary = tmp_path / "a.nc"
+    binary.write_bytes(bytes(1000))
+    said = amp("program", binary, "--machine", ROUTER)
+    assert (said.code, "is no text" in said.err) == (2, True)

@@ -1,0 +1,122 @@
+"""Short programs and the times that a real grblHAL needed for them: the firmware's own simulator counts ticks.
+
+``python -m tests.sim.real_programs`` measures them again (``make peers`` builds the simulator; minutes).
+"""
+
+from __future__ import annotations
+
+import math
+import subprocess
+import sys
+import tempfile
+from dataclasses import dataclass
+from pathlib import Path
+
+FIRMWARE = Path(__file__).resolve().parents[2] / "build" / "peers" / "grblhal" / "grblHAL_sim"
+BASE: dict[str, float] = (
+    dict.fromkeys(("100", "101", "102"), 250)
+    | {"110": 6000, "111": 6000, "112": 3000, "120": 500, "121": 500, "122": 300}
+    | {"11": 0.01, "12": 0.002, "398": 100}
+    | dict.fromkeys(("20", "21", "22", "13"), 0)
+)
+"""Settings by number: alike in all but for what a program has."""
+
+
+@dataclass(frozen=True)
+class RealProgram:
+    """A program, its further settings, and what was measured."""
+
+    name: str
+    lines: tuple[str, ...]
+    settings: dict[str, float]
+    time: float
+    """s from the start of its first block to its last step."""
+
+
+def _wave(count: int, step: float) -> tuple[str, ...]:
+    return tuple(f"X{n * step:.3f} Y{2.0 * math.sin(0.35 * n):.3f}" for n in range(1, count))
+
+
+def _programs() -> list[RealProgram]:
+    made = [
+        ("rapid", ("G0 X40", "G0 X0"), {}),
+        ("diagonal", ("G0 X30 Y20 Z5", "X0"), {"120": 300}),
+        ("feed", ("G1 X20 F1200", "X40 F2400", "X60 F600"), {}),
+        ("square", ("G1 X20 F3000", "Y20", "X0", "Y0"), {}),
+        ("square-exact", ("G1 X20 F3000", "Y20", "X0", "Y0"), {"11": 0.2}),
+        ("zigzag", ("F4000", *(f"G1 X{3 * n} Y{5 * (n % 2)}" for n in range(1, 12))), {}),
+        ("acute", ("F3000", "G1 X15 Y2", "X0 Y4", "X15 Y6", "X0 Y8"), {}),
+        ("wave", ("F3000 G1", *_wave(60, 0.8)), {}),
+        ("short", ("F4000 G1", *_wave(150, 0.2)), {}),
+        ("short-ahead", ("F6000 G1", *(f"X{0.1 * n:.2f}" for n in range(1, 300))), {"398": 30}),
+        ("circle", ("G2 X0 Y0 I8 J0 F3000", "G1 X-5"), {}),
+        ("circle-coarse", ("G3 X0 Y0 I6 J2 F2500", "G1 X-5"), {"12": 0.05}),
+        ("rounded", ("F3000", "G1 X20", "G3 X25 Y5 I0 J5", "G1 Y20", "G2 X30 Y25 R5", "G1 X45"), {}),
+        ("helix", ("G17 G2 X0 Y0 Z-4 I5 J0 F2000", "G1 X-5"), {}),
+        ("plane-zx", ("G18 G2 X10 Z0 I5 K0 F2000", "G1 X20"), {"122": 150}),
+        ("inch", ("G20 G1 X1 F100", "Y0.5", "X0"), {}),
+        ("slow-z", ("F3000 G1 X10 Z-3", "X20 Z0", "X30 Z-3"), {"112": 600, "122": 80}),
+        ("uneven", ("F5000 G1 X20 Y10", "X40 Y0", "X30 Y-15"), {"120": 200, "121": 800}),
+        ("mixed", ("G0 X10 Y10", "G1 Z-2 F600", "X30 F3000", "G0 Z2", "X0 Y0"), {}),
+        ("incremental", ("G91 F2500", *("G1 X2 Y1", "X2 Y-1") * 8), {"11": 0.002}),
+        ("inverse-time", ("G93 G1 X20 F60", "X40 Y10 F90", "G94 X50 F1500"), {}),
+    ]
+    return [RealProgram(name, ("G21 G90", *lines), own, MEASURED.get(name, 0.0)) for name, lines, own in made]
+
+
+MEASURED: dict[str, float] = {}
+
+
+def measured(program: RealProgram) -> tuple[float, tuple[int, ...]]:
+    """Return the time of a program on the real firmware in s, and where its axes are at the end in steps."""
+    settings = [f"${number}={value:g}" for number, value in {**BASE, **program.settings}.items()]
+    with tempfile.TemporaryDirectory() as folder:
+        place = Path(folder)
+        text = "\n".join(["$X", *settings, *program.lines]) + "\n"
+        if program.settings.get("398", BASE["398"]) != 100:  # counts from the next start on
+            _run(place, "\n".join(["$X", *settings]) + "\n")
+        _run(place, text)
+        rows = [line for line in (place / "steps").read_text().splitlines() if line[:1] == " "]
+    start = previous = None
+    end, at = 0.0, (0, 0, 0)
+    for row in rows:
+        moment, _, figures = row.strip().partition(" ")
+        places = tuple(int(each) for each in figures.split(",")[:3])
+        start = float(moment) if start is None else start
+        if previous is not None and places != previous:
+            end, at = float(moment), places
+        previous = places
+    return end - (start or 0.0), at
+
+
+def _run(folder: Path, text: str) -> None:
+    (folder / "program").write_text(text + "\x06")  # control-F ends it when it is idle
+    command = [
+        FIRMWARE,
+        "-n",
+        "-t",
+        "0.1",
+        "-r",
+        "0.001",
+        "-e",
+        folder / "EEPROM.DAT",
+        "-s",
+        folder / "steps",
+    ]
+    with (folder / "program").open() as given, (folder / "answers").open("w") as answers:
+        process = subprocess.Popen(command, cwd=folder, stdin=given, stdout=answers, stderr=answers)
+        try:
+            process.wait(150)
+        except subprocess.TimeoutExpired:
+            process.kill()
+            process.wait()
+
+
+PROGRAMS = _programs()
+
+if __name__ == "__main__":
+    chosen = sys.argv[1:]
+    for each in PROGRAMS:
+        if not chosen or each.name in chosen:
+            seconds, places = measured(each)
+            print(f'    "{each.name}": {seconds:.4f},  # {places}', flush=True)

@@ -1,0 +1,212 @@
+"""Programs on their path: ramps, corners, look-ahead against planners of this test, what limits, contour error."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from amp_studio.files import ParameterFile
+from amp_studio.programs import tool_path
+from amp_studio.sim import PathRules, ProgramJob, Ramp, run_axis
+from amp_studio.sim.axis.motion import Until
+from amp_studio.sim.binding import bind_axis
+from amp_studio.sim.command.changes import change_time, change_way, peaks, reached
+from amp_studio.sim.command.pieces import change, length
+from amp_studio.sim.law import law_of
+from amp_studio.sim.path.contour import distances
+from amp_studio.sim.path.planner import ProgramPlan, plan_program
+from amp_studio.sim.path.profiles import axis_profiles
+from amp_studio.sim.path.program import ProgramRun, run_program
+from amp_studio.sim.path_rules import Corners, PathLimit
+from tests.programs.test_block import example
+
+LINEAR = Ramp("linear")
+ZIGZAG = ["G21 G90", *(f"G1 X{-3 - n * 0.7:.2f} Y{-(n * 7) % 5} F{1500 + 500 * (n % 3)}" for n in range(40))]
+
+
+@pytest.fixture(scope="module")
+def router() -> ParameterFile:
+    return example("acromill-router")
+
+
+def rules(acceleration: float = 500.0, **others: object) -> PathRules:
+    """Return rules of a control that keeps an acceleration along the path and slows down in corners."""
+
+    def corner(corners: Corners) -> list[tuple[PathLimit, np.ndarray]]:
+        cosine = (corners.before * corners.after).sum(axis=1)
+        return [
+            (PathLimit(0.0, ("corner", "")), np.where(cosine < 0.99, 5.0 + 10.0 * (1.0 + cosine), np.inf))
+        ]
+
+    given = {"feed_ramp": LINEAR, "rapid_ramp": LINEAR, "corner": corner} | others
+    limit = (PathLimit(acceleration, ("acceleration", "")),)
+    return PathRules(feed_acceleration=limit, rapid_acceleration=limit, **given)
+
+
+def planned(file: ParameterFile, lines: list[str], with_rules: PathRules) -> ProgramPlan:
+    return plan_program(tool_path(file, lines), with_rules)
+
+
+def fine_time(plan: ProgramPlan, joint: np.ndarray, top: np.ndarray, acceleration: float) -> float:
+    """Return the shortest time on a fine grid of the path: v² rises and falls by at most 2 a ds."""
+    steps = np.maximum(np.ceil(plan.geometry.length / 0.001), 1).astype(int)
+    ds = np.repeat(plan.geometry.length / steps, steps)
+    square = np.concatenate([[0.0], np.repeat(top**2, steps)])
+    for n, at in enumerate(np.cumsum(steps)[:-1]):
+        square[at] = min(joint[n] ** 2, top[n] ** 2, top[n + 1] ** 2)
+    square[-1] = 0.0
+    for n in range(len(ds) - 1, -1, -1):
+        square[n] = min(square[n], square[n + 1] + 2.0 * acceleration * ds[n])
+    for n in range(len(ds)):
+        square[n + 1] = min(square[n + 1], square[n] + 2.0 * acceleration * ds[n])
+    speed = np.sqrt(square)
+    return float((2.0 * ds / (speed[1:] + speed[:-1])).sum())
+
+
+def test_the_time_is_that_of_a_search_over_a_fine_grid(router: ParameterFile) -> None:
+    plan = planned(router, ZIGZAG, rules())
+    cosine = (plan.geometry.last[:-1] * plan.geometry.first[1:]).sum(axis=1)
+    joint = np.where(cosine < 0.99, 5.0 + 10.0 * (1.0 + cosine), np.inf)
+    assert plan.time == pytest.approx(fine_time(plan, joint, plan.wanted, 500.0), rel=2e-3)
+
+
+@pytest.mark.parametrize("known", [1, 2, 5, 40])
+def test_a_short_look_ahead_is_that_of_a_control_that_knows_so_many_blocks(
+    router: ParameterFile, known: int
+) -> None:
+    """Against a planner that begins again at each block, with the blocks it knows, the last one to rest."""
+    ahead = PathLimit(float(known), ("ahead", ""))
+    plan = planned(router, ZIGZAG, rules(60.0, look_ahead=ahead))
+    whole = planned(router, ZIGZAG, rules(60.0, corner=lambda _corners: ()))
+    cosine = (plan.geometry.last[:-1] * plan.geometry.first[1:]).sum(axis=1)
+    joint = np.where(cosine < 0.99, 5.0 + 10.0 * (1.0 + cosine), np.inf)
+    speed, entries, count = 0.0, [], len(plan.entry)
+    for n in range(count):
+        entries.append(speed)
+        following = min(n + 1 + known, count)  # at the start of the next block one more is known
+        later = 0.0
+        for k in range(following - 1, n, -1):
+            most = min(joint[k - 1], plan.wanted[k - 1], plan.wanted[k])
+            later = min(most, math.sqrt(later**2 + 120.0 * plan.geometry.length[k]))
+        speed = min(later, math.sqrt(speed**2 + 120.0 * plan.geometry.length[n]))
+    assert plan.entry.tolist() == pytest.approx(entries)
+    assert plan.time >= whole.time
+
+
+@pytest.mark.parametrize(
+    "ramp",
+    [Ramp("linear"), Ramp("s-curve", jerk=4000.0), Ramp("sine-squared", time=0.2)],
+    ids=lambda r: r.kind,
+)
+def test_closed_figures_of_changes_are_those_of_their_pieces(ramp: Ramp) -> None:
+    for before, after, acceleration in ((0.0, 30.0, 200.0), (12.0, 13.0, 500.0), (5.0, 80.0, 300.0)):
+        pieces = change(replace(ramp, acceleration=acceleration), before, after)
+        one = np.array([acceleration])
+        time = change_time(ramp, np.array([after - before]), one)[0]
+        way = change_way(ramp, np.array([before]), np.array([after]), one)[0]
+        assert time == pytest.approx(math.fsum(piece.duration for piece in pieces))
+        assert way == pytest.approx(length(pieces))
+        assert reached(ramp, before, float(way), acceleration) == pytest.approx(after)
+        peak = peaks(
+            ramp, np.array([before]), np.array([before]), 2.0 * one * 0.0 + 2.0 * way, one * 1e9, one
+        )
+        assert peak[0] == pytest.approx(after)
+
+
+def test_no_time_is_shorter_than_that_of_time_optimal_axes(router: ParameterFile) -> None:
+    """ruckig, which needs no path: each axis from rest to rest alone is a lower bound of a straight move."""
+    ruckig = pytest.importorskip("ruckig")
+    plan = planned(router, ["G21", "G0 X-30 Y-40 Z-5"], rules(rapid=(PathLimit(40.0, ("rapid", "")),)))
+    trajectory = ruckig.Trajectory(3)
+    given = ruckig.InputParameter(3)
+    given.current_position, given.target_position = [0.0] * 3, [-30.0, -40.0, -5.0]
+    given.max_velocity, given.max_acceleration = [40.0] * 3, [500.0] * 3
+    ruckig.Ruckig(3).calculate(given, trajectory)
+    assert plan.time >= trajectory.duration
+
+
+def test_every_second_is_given_to_one_limit(router: ParameterFile) -> None:
+    plan = planned(router, ZIGZAG, rules())
+    assert plan.time_by_cause().sum() == pytest.approx(plan.time)
+    assert sum(plan.time_of_lines().values()) == pytest.approx(plan.time)
+    named = {limit.param: time for limit, time in zip(plan.causes, plan.time_by_cause(), strict=True)}
+    assert named["acceleration", ""] > 0.0
+
+
+def run(file: ParameterFile, text: str, **given: bool) -> ProgramRun:
+    return run_program(file, tool_path(file, [block.strip() for block in text.split("|")]), **given)
+
+
+def test_an_acromill_goes_from_rest_to_rest_in_rapid(router: ParameterFile) -> None:
+    """Page 26: 100 in/min in rapid, Master Rapid ACC/DEC 100 in/s2."""
+    found = run(router, "G20|G0 X-2|G0 X-4", with_contour=False)
+    speed, slope = 100.0 / 60.0, 100.0
+    assert found.plan.time == pytest.approx(2.0 * (2.0 / speed + speed / slope))
+    assert found.plan.entry.tolist() == [0.0, 0.0]
+
+
+def test_overrides_are_clamped_by_the_machine_and_ignored_under_g63(router: ParameterFile) -> None:
+    path = tool_path(router, ["G20 F150", "G1 X-4", "G63 X-8"])
+    peaks_of = run_program(router, path, override=2.0, with_contour=False).plan.peak * 60.0 / 25.4
+    highest = 200.0
+    assert peaks_of.tolist() == pytest.approx([highest, 150.0])
+
+
+def test_corners_of_g62_are_slow_and_those_of_g64_are_not(router: ParameterFile) -> None:
+    """Page 61: Acute Angle1 90 in the example, Min Corner Speed 5 in/min."""
+    slow = run(router, "G20 F100 G62|X-2|Y-2", with_contour=False).plan
+    cutting = run(router, "G20 F100 G64|X-2|Y-2", with_contour=False).plan
+    assert slow.leave[0] * 60.0 / 25.4 == pytest.approx(5.0)
+    assert cutting.leave[0] * 60.0 / 25.4 == pytest.approx(100.0)
+
+
+def test_the_first_block_beyond_a_soft_limit_is_named(router: ParameterFile) -> None:
+    found = run(router, "G20 F100|X-2|G3 X-2 Y0 I-2 J-0.5|G1 Z-9", with_contour=False)
+    assert [(alarm.line, alarm.code) for alarm in found.alarms] == [(4, "SOFT LIMIT")]
+    over = run(router, "G20 F100|X-2|G3 X-2 Y0 I-2 J-2|G1 X-3", with_contour=False)
+    assert over.alarms == ()
+    arc = run(router, "G20 F100|Y-4|G3 X0 Y-3.9 I0 J-3.95|G1 X-3", with_contour=False)
+    assert arc.alarms == ()
+
+
+def test_the_command_of_the_axes_is_the_planned_path(router: ParameterFile) -> None:
+    found = run(router, "G20 F100|X-2|G3 X-3 Y-1 I-2 J-1|G0 Z-1", with_contour=False)
+    law = law_of("acromill")
+    for n, profile in enumerate(axis_profiles(found.plan)):
+        axis = bind_axis(router, law, found.plan.path.axes[n])
+        motion = run_axis(axis, profile, Until(found.plan.time))
+        command, time = motion.columns["command_position"], motion.columns["time_s"]
+        assert np.abs(np.diff(command)).max() <= 100.0 * 25.4 / 60.0 * np.diff(time).max() * 1.01
+        assert command[-1] == pytest.approx(found.plan.geometry.ends[-1, n], abs=1e-3)
+
+
+def test_the_contour_error_of_a_circle_is_its_radius_error(router: ParameterFile) -> None:
+    found = run(router, "G21|G200 F1|F4000|X-40|G3 X-40 Y0 I-20 J0", with_contour=True)
+    assert found.contour is not None
+    contour = found.contour
+    assert contour.largest >= contour.p95 > 0.0
+    row = contour.row == 1
+    assert row.sum() > 100
+    assert np.median(contour.error[row]) < 0.01
+
+
+def test_the_distance_from_a_path_is_to_the_part_that_is_meant() -> None:
+    points = np.array([[0.0, 0.0], [10.0, 0.0], [10.0, 0.2], [0.0, 0.2]])
+    place = np.array([[5.0, 0.15], [10.0, -0.1], [9.95, 0.1]])
+    commanded = np.array([[5.0, 0.0], [10.0, 0.0], [10.0, 0.1]])
+    found = distances(place, commanded, np.array([5.0, 10.0, 10.1]), points)
+    assert found.tolist() == pytest.approx([0.15, 0.1, 0.05])
+
+
+def test_a_program_is_cancelled_by_its_progress(router: ParameterFile) -> None:
+    class StopAskedError(Exception):
+        pass
+
+    def stop(_what: str, _share: float) -> None:
+        raise StopAskedError
+
+    with pytest.raises(StopAskedError):
+        ProgramJob(ZIGZAG).run(router, stop)

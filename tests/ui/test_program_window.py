@@ -1,0 +1,74 @@
+"""Blocks and programs as a window."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+from pytestqt.qtbot import QtBot
+
+from amp_studio.files import open_file
+from amp_studio.schema import Address, Value
+from amp_studio.ui.base.task import Task
+from amp_studio.ui.motion.program_window import ProgramWindow
+
+from .conftest import WAIT_MS
+
+ROUTER = Path(__file__).parents[2] / "examples" / "acromill-router"
+
+
+@pytest.fixture
+def applied() -> list[dict[Address, Value]]:
+    return []
+
+
+@pytest.fixture
+def window(qtbot: QtBot, applied: list[dict[Address, Value]]) -> Iterator[ProgramWindow]:
+    made = ProgramWindow(open_file(ROUTER / "ROUTER.amp").file, lambda values: applied.append(dict(values)))
+    qtbot.addWidget(made)
+    yield made
+    Task.end_all()
+
+
+def enter(window: ProgramWindow, key: str, text: str) -> None:
+    window.form.set_answer(key, text)
+    window.form.entered.emit(key)
+
+
+def test_a_typed_block_is_read_word_by_word(window: ProgramWindow) -> None:
+    enter(window, "block", "G1 X-10.5 F20")
+    texts = [window.words.item(n, 1).text() for n in range(window.words.rowCount())]
+    assert texts == ["1", "-10.5 in", "20 in/min"]
+    enter(window, "block", "X@")
+    assert "is no word" in window.summary.text()
+
+
+def test_a_program_shows_its_time_what_limits_it_and_another_value(
+    window: ProgramWindow, qtbot: QtBot, applied: list[dict[Address, Value]]
+) -> None:
+    enter(window, "change", "speeds.rapid=150")
+    assert "Open a part program first" in window.summary.text()
+    window.open_program(ROUTER / "plate.nc")
+    qtbot.waitUntil(lambda: window.outcome is not None, timeout=10 * WAIT_MS)
+    assert window.summary.text().startswith("plate.nc: 21 blocks")
+    assert "feed as programmed" in [window.limits.item(n, 1).text() for n in range(window.limits.rowCount())]
+    assert [window.lines.item(n, 1).text() for n in (3, 4)] == ["R", "A"]
+    assert window.plot.picture is not None
+    window.view.buttons["tilted"].click()
+    enter(window, "change", "speeds.rapid=150; speeds.min_corner=+20%")
+    qtbot.waitUntil(lambda: window.tries.rowCount() == 1, timeout=10 * WAIT_MS)
+    assert window.tries.item(0, 2).text().startswith("-")
+    window.apply_button.click()
+    assert applied == [
+        {("speeds.rapid", ""): Value(150.0, "in/min"), ("speeds.min_corner", ""): Value(6.0, "in/min")}
+    ]
+
+
+def test_what_cannot_be_read_is_a_sentence(window: ProgramWindow, tmp_path: Path) -> None:
+    (tmp_path / "a.nc").write_bytes(bytes(10))
+    window.open_program(tmp_path / "a.nc")
+    assert "is no text" in window.summary.text()
+    enter(window, "zero", "here")
+    window.open_program(ROUTER / "plate.nc")
+    assert "places of axes" in window.summary.text()
