@@ -5,6 +5,7 @@ and compared before it replaces anything.
 from __future__ import annotations
 
 from dataclasses import replace
+from itertools import chain
 from pathlib import Path
 from typing import Any
 
@@ -154,10 +155,19 @@ def _fault_of(file: ParameterFile, path: Path, content: bytes) -> str:
 
 
 def _difference(file: ParameterFile, again: ParameterFile) -> str:
-    """Return in what a file differs from what was read back; empty where it does not.
+    """Return in what a file differs from what was read back; empty where it does not."""
+    if found := _lost_value(file, again) or _other_entry(file, again):
+        return found
+    if file.forced != again.forced:
+        return "the marks of force would be read back as others"
+    plain = replace(file.header, extra={}) == replace(again.header, extra={})
+    if not plain or repr(file.header.extra) != repr(again.header.extra):
+        return "the head of the file would be read back otherwise"
+    return ""
 
-    An entry of the other machine type becomes a value when the machine type changes, or a value an entry.
-    """
+
+def _lost_value(file: ParameterFile, again: ParameterFile) -> str:
+    """Return which value would be another one or lost; one of the other machine type may be an entry."""
     for address, value in file.values.items():
         name = written(address)
         if address in again.values:
@@ -165,18 +175,18 @@ def _difference(file: ParameterFile, again: ParameterFile) -> str:
                 return f"{name} would be read back as another value"
         elif again.unknown.get(name) != write_value(file.schema.parameters[address[0]], value):
             return f"{name} would be lost"
-    lost = next(
-        (k for k in file.unknown if k not in again.unknown and read_address(k) not in again.values), None
-    )
-    added = next((a for a in again.values if a not in file.values and written(a) not in file.unknown), None)
-    if lost or added:
-        return f"{short(lost or written(added or ('', '')))} would be another entry"
-    kept = {key: text for key, text in file.unknown.items() if key in again.unknown}
-    if any(again.unknown[key] != text for key, text in kept.items()):
+    return ""
+
+
+def _other_entry(file: ParameterFile, again: ParameterFile) -> str:
+    """Return which entry would be lost, added or another one.
+
+    An entry of the other machine type becomes a value when the machine type changes, or a value an entry.
+    """
+    lost = (k for k in file.unknown if k not in again.unknown and read_address(k) not in again.values)
+    added = (written(a) for a in again.values if a not in file.values and written(a) not in file.unknown)
+    if odd := next(chain(lost, added), ""):
+        return f"{short(odd)} would be another entry"
+    if any(again.unknown.get(key, text) != text for key, text in file.unknown.items()):
         return "an entry that the schema does not know would be read back as another"
-    if file.forced != again.forced:
-        return "the marks of force would be read back as others"
-    plain = replace(file.header, extra={}) == replace(again.header, extra={})
-    if not plain or repr(file.header.extra) != repr(again.header.extra):
-        return "the head of the file would be read back otherwise"
     return ""

@@ -13,6 +13,7 @@ from amp_studio.files import ParameterFile, cell_text, note_fault, read_stored, 
 from amp_studio.schema import (
     Address,
     InvalidValueError,
+    Parameter,
     Schema,
     Value,
     is_mask,
@@ -80,6 +81,12 @@ def _is_of(text: str, schema: Schema) -> bool:
     return bool(rows) and all(cell_text(row.get("id") or "").strip() in schema.parameters for row in rows)
 
 
+def _has_instance(schema: Schema, parameter: Parameter, instance: str) -> bool:
+    """Return whether a parameter has an instance on some machine type."""
+    machines = schema.family.machines
+    return any(instance in schema.on(machine.key).instances(parameter) for machine in machines)
+
+
 def _read_row(
     found: TextRead, schema: Schema, heads: list[str], cells: list[str], line: int, keep_unknown: bool
 ) -> None:
@@ -90,23 +97,17 @@ def _read_row(
     parameter = schema.parameters.get(address[0])
     is_text = parameter is not None and parameter.type == "text"
     text = row["value"] if is_text else f"{row['value']} {row['unit']}".strip()
-    offered = (
-        {i for m in schema.family.machines for i in schema.on(m.key).instances(parameter)}
-        if parameter
-        else ()
-    )
-    if parameter is None or address[1] not in offered:
+    column = heads.index("id") + 1
+    if parameter is None or not _has_instance(schema, parameter, address[1]):
         if not keep_unknown:
-            raise FormatError(
-                f"{schema.family.name} has no {short(written(address))}", line, heads.index("id") + 1
-            )
+            raise FormatError(f"{schema.family.name} has no {short(written(address))}", line, column)
         if written(address) in found.unknown:
-            raise FormatError(f"{short(written(address))} occurs twice", line, heads.index("id") + 1)
+            raise FormatError(f"{short(written(address))} occurs twice", line, column)
         found.unknown[written(address)] = text
         found.unknown_lines[written(address)] = line
         return
     if address in found.values:
-        raise FormatError(f"{written(address)} occurs twice", line, heads.index("id") + 1)
+        raise FormatError(f"{written(address)} occurs twice", line, column)
     if not row["value"].strip() and not is_text:
         return
     if is_mask(parameter, row["value"]):

@@ -16,7 +16,7 @@ A download and its preview know nothing of steps.
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Literal
 
@@ -111,49 +111,64 @@ class GuideProgress:
         return self.steps[step.number - 1]
 
 
+class _StepCounts:
+    """What the active values of a file make of each step, by its number."""
+
+    def __init__(self, validator: Validator, places: Mapping[str, SetupStep]) -> None:
+        file, not_set = validator.file, set(validator.not_set)
+        self.total, self.active, self.own = Counter[int](), Counter[int](), Counter[int]()
+        self.open: dict[int, list[Address]] = {}
+        for address in validator.needed():
+            number = places[address[0]].number
+            self.active[number] += 1
+            if address in not_set:
+                self.open.setdefault(number, []).append(address)
+                self.total[number] += 1
+            elif address in file.values:
+                has_default = file.schema.parameters[address[0]].default is not None
+                self.total[number] += not has_default
+                self.own[number] += not has_default or not file.is_default(address)
+
+
+class _StepFindings:
+    """The findings of each step, by its number: those of steps that lie beyond ``come_to`` are deferred."""
+
+    def __init__(
+        self, belongs: Iterable[tuple[Finding, int, bool]], places: Mapping[str, SetupStep], come_to: int
+    ) -> None:
+        self.about: dict[int, list[Finding]] = {}
+        self.errors = Counter[int]()
+        self.deferred: list[tuple[Finding, int]] = []
+        for finding, number, is_own in belongs:
+            its = {places[name].number for name, _ in finding.causes if name in places}
+            if finding.severity == "error":
+                self.errors.update(its)
+            if number > come_to and not is_own:
+                self.deferred.append((finding, number))
+                continue
+            for place in its:
+                self.about.setdefault(place, []).append(finding)
+
+
 def progress(validator: Validator, findings: Sequence[Finding] | None = None) -> GuideProgress:
     """Return how far the file of a validator, which has run, has come; ``findings`` are its present ones."""
     file, findings = validator.file, validator.findings() if findings is None else findings
     places, steps = step_of(file.schema), steps_of(file.schema)
-    not_set = set(validator.not_set)
-    total, active, own = Counter[int](), Counter[int](), Counter[int]()
-    open_of: dict[int, list[Address]] = {}
-    parameters = file.schema.parameters
-    for address in validator.needed():
-        number = places[address[0]].number
-        active[number] += 1
-        if address in not_set:
-            open_of.setdefault(number, []).append(address)
-            total[number] += 1
-        elif address in file.values:
-            has_default = parameters[address[0]].default is not None
-            total[number] += not has_default
-            own[number] += not has_default or not file.is_default(address)
+    counts = _StepCounts(validator, places)
     belongs = [(f, *_belongs_to(file, f)) for f in findings if f.rule != NOT_SET]
     errors = [number for f, number, _ in belongs if f.severity == "error" and number]
-    reached = min([*open_of, *errors], default=len(steps) + 1)
-    come_to = len(steps) if not not_set else 0 if _is_fresh(file) else reached
-    about: dict[int, list[Finding]] = {}
-    errors_about = Counter[int]()
-    deferred: list[tuple[Finding, int]] = []
-    for finding, number, is_own in belongs:
-        its = {places[name].number for name, _ in finding.causes if name in places}
-        if finding.severity == "error":
-            errors_about.update(its)
-        if number > come_to and not is_own:
-            deferred.append((finding, number))
-            continue
-        for place in its:
-            about.setdefault(place, []).append(finding)
+    reached = min([*counts.open, *errors], default=len(steps) + 1)
+    come_to = len(steps) if not validator.not_set else 0 if _is_fresh(file) else reached
+    found = _StepFindings(belongs, places, come_to)
     each = tuple(
         StepProgress(
             step,
-            total[step.number],
-            _in_order(step, open_of.get(step.number, ())),
-            active[step.number],
-            own[step.number],
-            tuple(about.get(step.number, ())),
-            errors_about[step.number],
+            counts.total[step.number],
+            _in_order(step, counts.open.get(step.number, ())),
+            counts.active[step.number],
+            counts.own[step.number],
+            tuple(found.about.get(step.number, ())),
+            found.errors[step.number],
             file.header.done.get(step.id, ""),
         )
         for step in steps
@@ -161,8 +176,8 @@ def progress(validator: Validator, findings: Sequence[Finding] | None = None) ->
     return GuideProgress(
         each,
         each[reached - 1] if reached <= len(steps) else None,
-        tuple(finding for finding, _ in deferred),
-        tuple(sorted({number for _, number in deferred})),
+        tuple(finding for finding, _ in found.deferred),
+        tuple(sorted({number for _, number in found.deferred})),
         file.machine_schema.places,
     )
 

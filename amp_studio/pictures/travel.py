@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, replace
+from itertools import product
 from typing import Literal
 
 from amp_studio.drawing import Drag, FilledArea, Handle, Polyline, Scale, Scene, ShapeSort, Text
@@ -146,18 +147,11 @@ def _boxes(
     """Return the bodies that a zone is: one for each group of axes,
     over the whole travel of an axis that is not in it.
     """
-    groups: dict[object, list[str]] = {}
-    for axis in axes:
-        address = figures.address(zone.group, axis) if zone.group else None
-        value = figures.file.get(address) if address else None
-        if address:
-            figures.read[address] = None
-        if zone.group is None or (value is not None and value.value != zone.group_none):
-            groups.setdefault(value.value if value else "", []).append(axis)
+    groups = _groups(figures, zone, axes)
     if not groups:
         figures.note(f"{zone.name}: no axis of this picture belongs to a group")
     boxes = []
-    for members in groups.values():
+    for members in groups:
         if all(_is_not_set(figures, zone, axis) for axis in members):
             figures.note(f"{zone.name} is not set", figures.address(zone.low, members[0]))
             continue
@@ -169,6 +163,21 @@ def _boxes(
         if all(math.isfinite(edge) for ends in drawn for edge in (ends.low, ends.high)):
             boxes.append(box)
     return boxes
+
+
+def _groups(figures: ValueReader, zone: ZoneRole, axes: tuple[str, ...]) -> list[list[str]]:
+    """Return the axes of each group that a zone is for; all axes where it knows no groups."""
+    if zone.group is None:
+        return [list(axes)]
+    groups: dict[object, list[str]] = {}
+    for axis in axes:
+        address = figures.address(zone.group, axis)
+        value = figures.file.get(address) if address else None
+        if address:
+            figures.read[address] = None
+        if value is not None and value.value != zone.group_none:
+            groups.setdefault(value.value, []).append(axis)
+    return list(groups.values())
 
 
 def _is_not_set(figures: ValueReader, zone: ZoneRole, axis: str) -> bool:
@@ -229,15 +238,12 @@ def _draw_box(
             drags[n, k] = edge, drag
             at = (edge, middles[1]) if n == 0 else (middles[0], edge)
             drawing.handles.append(figures.handle(figure, at, drag))
-    for k in (0, 1):
-        for m in (0, 1):
-            if (0, k) in drags and (1, m) in drags:
-                (x, along_x), (y, along_y) = drags[0, k], drags[1, m]
-                pair = [row[0].figures[k], row[1].figures[m]]
-                label, value_text = (
-                    ", ".join(getattr(f, name) for f in pair if f) for name in ("label", "text")
-                )
-                drawing.handles.append(Handle((x, y), (along_x, along_y), label, value_text, second=True))
+    for k, m in product((0, 1), repeat=2):
+        if (0, k) in drags and (1, m) in drags:
+            (x, along_x), (y, along_y) = drags[0, k], drags[1, m]
+            pair = [figure for figure in (row[0].figures[k], row[1].figures[m]) if figure]
+            label, value_text = ", ".join(f.label for f in pair), ", ".join(f.text for f in pair)
+            drawing.handles.append(Handle((x, y), (along_x, along_y), label, value_text, second=True))
 
 
 def _edge_drag(

@@ -9,13 +9,14 @@ stay as the control shows them, and help stays English.
 from __future__ import annotations
 
 import re
+from collections.abc import Callable
 from dataclasses import dataclass, field, replace
 from datetime import datetime
 from functools import cache
 from html import escape, unescape
 
 from amp_studio.languages import TextSection, name_of_language, own_texts
-from amp_studio.schema import NO_TEXTS, UNITS, FactTexts, fact_texts, names_in, unit_text
+from amp_studio.schema import NO_TEXTS, UNITS, FactTexts, fact_texts, figures_in, unit_text
 from amp_studio.validate import Finding
 
 from .wording import counted
@@ -52,13 +53,8 @@ class Language:
 
     def text(self, english: str) -> str:
         """Return a phrase in this language; as it is where the language has no other words for it."""
-        known = self.phrases.get(english)
-        if known is not None:
-            return known
-        for pattern, own in self.patterns:
-            if found := pattern.fullmatch(english):
-                return own.format(*(self.text(group) for group in found.groups("0")))
-        return english
+        own = self._phrase(english, self.text)
+        return english if own is None else own
 
     def of_help(self, title: str) -> str:
         """Return the title of a part of a parameter's help: its Note is the manual's, not a person's."""
@@ -68,29 +64,38 @@ class Language:
         """Return what the program itself calls something: the title of a step or a picture, a heading,
         a note of a picture.
         """
-        known = self.fact(english) or self.titles.get(english)
-        if known is not None:
-            return known
-        for pattern, own in self.title_patterns:
-            if found := pattern.fullmatch(english):
-                return own.format(*(self.title(group) for group in found.groups()))
-        return self.text(english)
+        own = self._titled(english, self.title)
+        return english if own is None else own
 
-    def fact(self, english: str) -> str | None:
-        """Return a sentence of the family's facts in this language; None where there is none."""
-        known = self.facts.sentences.get(english)
+    def sentence(self, english: str) -> str:
+        """Return a sentence of the program or of the family's facts. The figures put into it are written as
+        this language writes them; in its words a number (``figure 4.2``) is that of the manual.
+        """
+        text = " ".join(english.split())
+        own = self._titled(text, self.sentence)
+        return self.unit(self.quantity(text)) if own is None else own
+
+    def _titled(self, english: str, part: Callable[[str], str]) -> str | None:
+        """Return what is known of a text by facts, titles and phrases; ``part`` words what changes in it."""
+        known = self.facts.sentences.get(english) or self.titles.get(english)
         if known is not None:
             return known
         for pattern, own in self.fact_patterns:
             if found := pattern.fullmatch(english):
-                return own.format_map({name: self.title(text) for name, text in found.groupdict().items()})
-        return None
+                return own.format_map({name: part(text) for name, text in found.groupdict().items()})
+        for pattern, own in self.title_patterns:
+            if found := pattern.fullmatch(english):
+                return own.format(*map(part, found.groups()))
+        return self._phrase(english, part)
 
-    def sentence(self, english: str) -> str:
-        """Return a sentence of the program or of the family's facts, with its figures as this language
-        writes them.
-        """
-        return self.quantity(self.title(" ".join(english.split())))
+    def _phrase(self, english: str, part: Callable[[str], str]) -> str | None:
+        known = self.phrases.get(english)
+        if known is not None:
+            return known
+        for pattern, own in self.patterns:
+            if found := pattern.fullmatch(english):
+                return own.format(*map(part, found.groups("0")))
+        return None
 
     def finding(self, finding: Finding) -> str:
         """Return the message of a finding in this language; a builder's rule has the words of its builder."""
@@ -100,6 +105,10 @@ class Language:
         if message is None or finding.figures is None:
             return self.quantity(self.message(finding.message))
         return message.format_map({name: self._given(text) for name, text in finding.figures})
+
+    def cited(self, finding: Finding) -> str:
+        """Return the message of a finding in this language, and where it is from."""
+        return self.finding(finding) + (f" ({self.title(finding.cited)})" if finding.cited else "")
 
     def _given(self, text: str) -> str:
         """Return what a rule puts into its message: a phrase of its facts, or a value with its unit."""
@@ -190,8 +199,8 @@ def language_of(code: str, family: str = "") -> Language:
 
 def _pattern_of(sentence: str) -> re.Pattern[str]:
     """Return what finds a sentence whose figures are ``{names}``, each a group."""
-    names = names_in(sentence)
-    parts = re.split(r"\{(\w+)\}", sentence)
+    names = figures_in(sentence)
+    parts = re.split(r"\{([a-z_]+)\}", sentence)
     return re.compile(
         "".join(
             f"(?P<{part}>.+?)" if n % 2 and part in names else re.escape(part) for n, part in enumerate(parts)

@@ -144,7 +144,7 @@ if TYPE_CHECKING:
         words_of,
         words_taken,
     )
-    from .translation.places import names_in
+    from .translation.places import figures_in
     from .translation.texts import NO_TEXTS, fact_texts
     from .units import (
         UNITS,

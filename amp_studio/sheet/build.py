@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Hashable, Iterable, Sequence
+from collections.abc import Callable, Hashable, Iterable, Sequence
 from dataclasses import dataclass, field
 
 from amp_studio.errors import AmpStudioError
@@ -17,6 +17,11 @@ from .order import bad, safe_order
 
 class SheetError(AmpStudioError, ValueError):
     """Two files of which no sheet can be made; one clear sentence."""
+
+
+def with_source(finding: Finding) -> str:
+    """Return the message of a finding and where it is from."""
+    return finding.message + (f" ({finding.cited})" if finding.cited else "")
 
 
 @dataclass
@@ -39,11 +44,13 @@ def make_sheet(
     against: str = "",
     own: BuilderRules = NO_RULES,
     secrets: bool = False,
+    message: Callable[[Finding], str] = with_source,
 ) -> Sheet:
     """Return what has to be keyed in at a control that contains ``present`` so that it contains ``wanted``.
 
     Values that ``wanted`` does not set stay as they are. ``of`` and ``against`` name the two sides; ``own``
-    are a builder's rules. Secrets are on the sheet only with ``secrets``. Raises SheetError where the two are
+    are a builder's rules. Secrets are on the sheet only with ``secrets``; ``message`` words a finding in the
+    language of the sheet. Raises SheetError where the two are
     of different families or machine types.
     """
     _check_sides(wanted, present)
@@ -66,8 +73,8 @@ def make_sheet(
             same += 1
     lines, otherwise = _same_in_control(keying, lines, wanted, present)
     left_out += otherwise
-    lines = _in_order(lines, wanted, present, own)
-    warnings = _warnings(lines, present, own)
+    lines = _in_order(lines, wanted, present, own, message)
+    warnings = _warnings(lines, present, own, message)
     entries = tuple(_entry(line, wanted, secrets) for line in lines)
     name = wanted.header.name or present.header.name
     return Sheet(
@@ -83,6 +90,7 @@ def make_sheet(
         keying.after,
         warnings,
         same,
+        wanted.schema.family.family,
     )
 
 
@@ -175,7 +183,11 @@ def _final(lines: Iterable[_Line], present: ParameterFile) -> ParameterFile:
 
 
 def _in_order(
-    lines: Sequence[_Line], wanted: ParameterFile, present: ParameterFile, own: BuilderRules
+    lines: Sequence[_Line],
+    wanted: ParameterFile,
+    present: ParameterFile,
+    own: BuilderRules,
+    message: Callable[[Finding], str],
 ) -> list[_Line]:
     """Return the lines in a safe order, each with why it comes so late and what it breaks for how long."""
     lines = sorted(lines, key=lambda line: line.stage)
@@ -185,7 +197,7 @@ def _in_order(
     interim = Interim(present, own)
     allowed = _broken_after(lines, present, own)
     order = [line_of[step] for step in safe_order(interim, [line.step for line in lines], allowed)]
-    _explain(order, lines, wanted, present, own, allowed)
+    _explain(order, lines, wanted, present, own, allowed, message)
     return order
 
 
@@ -203,6 +215,7 @@ def _explain(
     present: ParameterFile,
     own: BuilderRules,
     allowed: dict[Hashable, Finding],
+    message: Callable[[Finding], str],
 ) -> None:
     """Walk the order once more: this is the proof,
     and it shows why a line waits and what is broken on the way.
@@ -214,19 +227,24 @@ def _explain(
     for n, line in enumerate(order):
         for late in order[n + 1 :]:
             if wish[late.step] < wish[line.step] and not read_by[late.step].isdisjoint(read_by[line.step]):
-                _ask_why(late, line, interim, wanted, allowed)
+                _ask_why(late, line, interim, wanted, allowed, message)
         new = bad(interim.set(line.step), allowed, ("error", "warning"))
         broken = interim.broken
         for key in [key for key in open_from if key not in broken]:
             first, finding = open_from.pop(key)
-            first.until.append(f"Until step {n + 1}: {_short(finding)}")
+            first.until.append(f"Until step {n + 1}: {message(finding)}")
         open_from |= {finding.key: (line, finding) for finding in new}
     for first, finding in open_from.values():
-        first.until.append(f"From here on: {_short(finding)}")
+        first.until.append(f"From here on: {message(finding)}")
 
 
 def _ask_why(
-    late: _Line, first: _Line, interim: Interim, wanted: ParameterFile, allowed: dict[Hashable, Finding]
+    late: _Line,
+    first: _Line,
+    interim: Interim,
+    wanted: ParameterFile,
+    allowed: dict[Hashable, Finding],
+    message: Callable[[Finding], str],
 ) -> None:
     """Note why a line comes after another, which is about to be keyed in: what it would break before."""
     old = NewValue(late.step.address, interim.file.get(late.step.address))
@@ -234,14 +252,12 @@ def _ask_why(
     interim.set(old)
     if stopped:
         after = _number_and_name(wanted, first.step.address)[0]
-        late.order = f"After {after}, or else: {_short(stopped[0])}"
+        late.order = f"After {after}, or else: {message(stopped[0])}"
 
 
-def _short(finding: Finding) -> str:
-    return finding.message + (f" ({finding.cited})" if finding.cited else "")
-
-
-def _warnings(lines: Sequence[_Line], present: ParameterFile, own: BuilderRules) -> tuple[str, ...]:
+def _warnings(
+    lines: Sequence[_Line], present: ParameterFile, own: BuilderRules, message: Callable[[Finding], str]
+) -> tuple[str, ...]:
     """Return the errors that the control has when all is keyed in; those of the file itself are among
     them.
     """
@@ -251,7 +267,7 @@ def _warnings(lines: Sequence[_Line], present: ParameterFile, own: BuilderRules)
     return (
         *(fault.message for fault in own.faults),
         *(
-            f"Error {'as before' if key in before else 'when all is keyed in'}: {_short(finding)}"
+            f"Error {'as before' if key in before else 'when all is keyed in'}: {message(finding)}"
             for key, finding in errors
         ),
     )

@@ -77,3 +77,4 @@ class Sheet:
     after: tuple[Instruction, ...]
     warnings: tuple[str, ...]
     same: int
+    family_id: str = ""

@@ -105,7 +105,13 @@ class MainWindow(PartsWindow):
 
     def show_workspace(self, workspace: Workspace, instead: FilePage | None = None) -> FilePage:
         """Show a file in a new tab, or in the place of another one, which is closed."""
-        page = FilePage(workspace, self.edits.commit_to, self.menus.of_a_cell())
+        page = FilePage(
+            workspace,
+            self.edits.commit_to,
+            self.menus.of_a_cell(),
+            self.tabs.place_of(instead),
+            self.docks.places,
+        )
         page.front_wanted.connect(self.leave_control)
         page.front_wanted.connect(self.tabs.bring)
         page.selected.connect(self._show_value)

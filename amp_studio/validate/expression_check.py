@@ -247,19 +247,7 @@ class ExpressionCheck:
         elif operator == "%" and "decimal" in kinds:
             self._slip(f"'%' takes whole numbers only: write mod({', '.join(p.text for p in node.parts)})")
         elif len(kinds) > 1 or not kinds <= {"decimal", "whole"}:
-            odd = next(
-                (n, p)
-                for n, p in zip(node.parts, parts, strict=True)
-                if p.kind not in (*_NUMBERS, "any", "null")
-            )
-            hint = (
-                ": write string(...) around the number"
-                if kinds & {*_NUMBERS} and odd[1].kind == "text"
-                else ""
-            )
-            self._slip(
-                f"{quoted(odd[0].text)} is {_CALLED[odd[1].kind]}, and '{operator}' cannot use it here{hint}"
-            )
+            self._slip(_unusable(node, parts, operator))
         if kinds == {"whole"}:
             return WHOLE
         sizes = list_worth(sum(p.length for p in parts), any_of([p.item for p in parts if p.item]))
@@ -359,6 +347,15 @@ def _literal(node: Node) -> Worth:
             return WHOLE
         case _:
             return DECIMAL
+
+
+def _unusable(node: Node, parts: list[Worth], operator: str) -> str:
+    """Return which part of a sum or a product is no number, in words."""
+    pairs = zip(node.parts, parts, strict=True)
+    odd, kind = next((n, p.kind) for n, p in pairs if p.kind not in (*_NUMBERS, "any", "null"))
+    is_beside_number = any(part.kind in _NUMBERS for part in parts)
+    hint = ": write string(...) around the number" if is_beside_number and kind == "text" else ""
+    return f"{quoted(odd.text)} is {_CALLED[kind]}, and '{operator}' cannot use it here{hint}"
 
 
 def _mixed(node: Node, parts: list[Worth]) -> str:

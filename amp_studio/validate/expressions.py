@@ -202,21 +202,7 @@ def check_rule(rule: Rule, functions: Mapping[str, Callable[..., Any]]) -> Findi
             raise RuleError(rule.id, f"{place} calls {quoted(name)}, which is no function")
         called |= named & set(functions)
     printed_names = _check_names(rule)
-    spoken_of |= printed_names
-    replaced = {used.set: f"({used.value}\n) != it" for used in rule.effective}
-    blames = rule.blames or replaced or dict.fromkeys(list(rule.reads)[:1], "true")
-    others = [
-        name
-        for name, text in rule.reads.items()
-        if name not in blames and name not in rule.compares and not is_list(text)
-    ]
-    compares = {
-        **rule.compares,
-        **{name: "true" for name in others if name in spoken_of},
-        **{
-            name: "true" for name in others if name in asked_of
-        },  # what decides whether the rule applies: last
-    }
+    blames, compares = _about(rule, spoken_of | printed_names, asked_of)
 
     def expression(text: str) -> Expression:
         return Expression(program(text), functions)
@@ -230,6 +216,18 @@ def check_rule(rule: Rule, functions: Mapping[str, Callable[..., Any]]) -> Findi
         tuple(sorted(called)),
         frozenset(printed_names),
     )
+
+
+def _about(rule: Rule, spoken_of: set[str], asked_of: set[str]) -> tuple[dict[str, str], dict[str, str]]:
+    """Return what a finding of a rule is about, and what that is compared with, each with its condition:
+    what the rule checks or shows comes before what decides whether it applies.
+    """
+    replaced = {used.set: f"({used.value}\n) != it" for used in rule.effective}
+    blames = rule.blames or replaced or dict.fromkeys(list(rule.reads)[:1], "true")
+    singles = [name for name, text in rule.reads.items() if not is_list(text)]
+    others = [name for name in singles if name not in blames and name not in rule.compares]
+    named = [name for of in (spoken_of, asked_of) for name in others if name in of]
+    return blames, {**rule.compares, **dict.fromkeys(named, "true")}
 
 
 def _texts(rule: Rule) -> Iterator[tuple[str, str]]:

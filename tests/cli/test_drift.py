@@ -6,10 +6,7 @@ from __future__ import annotations
 
 import json
 import shutil
-import subprocess
-import sys
 from collections.abc import Callable, Iterator
-from contextlib import ExitStack
 from pathlib import Path
 
 import pytest
@@ -18,6 +15,7 @@ from amp_studio import cli
 from amp_studio.transfer.client import record
 from amp_studio.transfer.client.drift import ControlWithFile, known_controls
 from amp_studio.transfer.client.record import RecordedExchange, add_exchange
+from tests.forked import emulated
 
 from .conftest import Said
 
@@ -101,26 +99,8 @@ def test_a_file_that_is_gone_is_a_fault(
 @pytest.fixture
 def control(tmp_path: Path) -> Iterator[str]:
     """Return the address of an emulated 9/PC in a separate process."""
-    with ExitStack() as running:
-        command = [
-            sys.executable,
-            "-m",
-            "amp_studio.cli",
-            "emulate",
-            "9pc",
-            "--listen",
-            "tcp://127.0.0.1:0",
-            "--state",
-            str(tmp_path / "state"),
-            "--machine",
-            "mill",
-        ]
-        process = running.enter_context(
-            subprocess.Popen(command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True)
-        )
-        running.callback(process.kill)
-        assert process.stdout is not None
-        yield process.stdout.readline().removeprefix("listening on ").strip()
+    with emulated("9pc", tmp_path / "state", "--machine", "mill") as (_, address):
+        yield address
 
 
 @pytest.fixture

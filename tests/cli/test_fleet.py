@@ -5,8 +5,6 @@ from __future__ import annotations
 import csv
 import json
 import shutil
-import subprocess
-import sys
 from collections.abc import Callable, Iterator
 from contextlib import ExitStack
 from pathlib import Path
@@ -19,6 +17,7 @@ from amp_studio.transfer.client.fleet import with_each
 from amp_studio.transfer.client.record import read_exchanges
 from amp_studio.transfer.errors import TransferError
 from amp_studio.transfer.exchange import Exchange
+from tests.forked import emulated
 
 from .conftest import Said
 
@@ -39,25 +38,7 @@ def start_control(tmp_path: Path) -> Iterator[Callable[[], str]]:
 
         def start() -> str:
             state = tmp_path / f"control-{len(list(tmp_path.glob('control-*')))}"
-            command = [
-                sys.executable,
-                "-m",
-                "amp_studio.cli",
-                "emulate",
-                "9pc",
-                "--listen",
-                "tcp://127.0.0.1:0",
-                "--state",
-                str(state),
-                "--machine",
-                "mill",
-            ]
-            process = running.enter_context(
-                subprocess.Popen(command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True)
-            )
-            running.callback(process.kill)
-            assert process.stdout is not None
-            return process.stdout.readline().removeprefix("listening on ").strip()
+            return running.enter_context(emulated("9pc", state, "--machine", "mill"))[1]
 
         yield start
 

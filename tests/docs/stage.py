@@ -15,6 +15,7 @@ from amp_studio import cli
 from amp_studio.schema import load_schema
 from amp_studio.schema.load import load_compiled
 from amp_studio.schema.registration import Registration, register, unregister
+from tests.forked import Program, start_program
 
 from .pages import PROGRAMS, ROOT
 
@@ -31,7 +32,7 @@ class Stage:
         self.folder = folder
         self.replaced: dict[str, str] = {}
         """A text of the document -> what is used here."""
-        self._controls: list[subprocess.Popen[str]] = []
+        self._controls: list[Program] = []
         self._families: list[str] = []
 
     def here(self, line: str) -> str:
@@ -82,20 +83,16 @@ class Stage:
             hosts = {"127.0.0.1": "127.0.0.1", "localhost": "localhost", OF_A_PLANT: "127.0.0.1"}
             self.replaced |= {f"{host}:{place.port}": f"{here}:{used}" for host, here in hosts.items()}
 
-    def control(self, words: list[str]) -> tuple[subprocess.Popen[str], str]:
+    def control(self, words: list[str]) -> tuple[Program, str]:
         """Start an emulated control; returns it and where it listens, "" where it has ended."""
-        command = [sys.executable, "-m", "amp_studio.cli", "emulate", *words]
-        pipe = subprocess.PIPE
-        control = subprocess.Popen(command, stdin=pipe, stdout=pipe, stderr=pipe, text=True)
+        control = start_program("emulate", *words)
         self._controls.append(control)
-        assert control.stdout is not None
         return control, control.stdout.readline().strip().removeprefix("listening on ")
 
-    def keys_of(self, control: subprocess.Popen[str]) -> Callable[[str], None]:
+    def keys_of(self, control: Program) -> Callable[[str], None]:
         """Return what presses a key of a control."""
 
         def press(key: str) -> None:
-            assert control.stdin is not None
             control.stdin.write(f"{key}\n")
             control.stdin.flush()
 

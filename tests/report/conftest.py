@@ -18,6 +18,11 @@ from amp_studio.schema import Value
 LOOPS = ("digital", "analog", "sercos")
 
 
+IN_EVERY_ORDER = pytest.mark.parametrize(
+    ("which", "sort"),
+    [("mill", "axis"), ("eight axes", "number"), ("eight axes", "group"), ("mill", "steps")],
+)
+"""Each order once, of one machine or the other: a full machine takes two seconds to be set."""
 DATE = datetime(2026, 7, 1, 14, 5, tzinfo=UTC)
 
 

@@ -85,13 +85,12 @@ def texts_of(record: Any) -> Iterator[str]:
 def english_in(report: Report) -> list[str]:
     """Return the texts that read as English once names of parameters and choices are taken out."""
     words = language_of("de")
-    names = sorted(
-        {row.name for row in report.rows()} | {row.figure for row in report.rows()}, key=len, reverse=True
-    )
+    types = {dict(report.machine)[name] for name in ("Machine type", "Application")}
+    names = types | {report.family} | {name for row in report.rows() for name in (row.name, row.figure)}
     found = []
     for text in dict.fromkeys(texts_of(report)):
         bare = words.title(text)
-        for name in names:
+        for name in sorted(names, key=len, reverse=True):
             if len(name) > 3:
                 bare = bare.replace(name, "")
         if FUNCTION_WORDS.search(bare):

@@ -126,8 +126,7 @@ def test_a_comparison_and_a_form_in_german(tmp_path: Path, mill: ParameterFile) 
 
 @pytest.mark.parametrize("sort", SORTS)
 def test_a_german_report(tmp_path: Path, mill: ParameterFile, sort: Sort) -> None:
-    for ending in (".html", ".pdf"):
-        print_report(mill, tmp_path / f"r{ending}", Contents(sort, language="de"))
+    print_report(mill, tmp_path / "r.html", Contents(sort, language="de"))
     page = (tmp_path / "r.html").read_text("utf-8")
     assert '<html lang="de">' in page
     assert "Unterschriften" in page
@@ -137,7 +136,8 @@ def test_a_german_report(tmp_path: Path, mill: ParameterFile, sort: Sort) -> Non
     assert "UNTERSCHRIFTEN" in plain
     assert not re.search(r"\b(SIGNATURES|FINDINGS|NOT SET|FORCED|recommendations?|Suggested|fitted)\b", plain)
     assert max(map(len, plain.splitlines())) <= 100
-    if shutil.which("pdftotext"):
+    if sort == "axis" and shutil.which("pdftotext"):  # a page has the same words in every order
+        print_report(mill, tmp_path / "r.pdf", Contents(sort, language="de"))
         text = subprocess.run(
             ["pdftotext", tmp_path / "r.pdf", "-"], capture_output=True, text=True, check=True
         ).stdout

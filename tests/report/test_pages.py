@@ -16,7 +16,7 @@ from amp_studio.files.notes import set_value_note
 from amp_studio.files.storage import save_file
 from amp_studio.report import Contents, PrintedFigure, print_report
 from amp_studio.report.build import build_report
-from amp_studio.report.contents import Chapter
+from amp_studio.report.contents import Chapter, Sort
 from amp_studio.report.model import Listing, Report
 from amp_studio.report.output.pdf import render_pdf
 from amp_studio.report.rows import rows_of
@@ -63,9 +63,11 @@ def small_words(path: Path) -> set[str]:
 
 
 @poppler
-@pytest.mark.parametrize("which", ["eight axes", "mill"])
-def test_no_type_is_smaller_than_eight_and_a_half_points(printed: Callable[..., Path], which: str) -> None:
-    assert small_words(printed(which, "group")) == set()
+@pytest.mark.parametrize(("which", "sort"), [("eight axes", "group"), ("mill", "axis")])
+def test_no_type_is_smaller_than_eight_and_a_half_points(
+    printed: Callable[..., Path], which: str, sort: Sort
+) -> None:
+    assert small_words(printed(which, sort)) == set()
 
 
 @poppler

@@ -11,10 +11,11 @@ from pathlib import Path
 import pytest
 
 from amp_studio.files import ParameterFile
-from amp_studio.report import SORTS, Contents, print_report
+from amp_studio.report import Contents, print_report
 from amp_studio.report.build import build_report
 from amp_studio.report.contents import Sort
 from amp_studio.report.output.pdf import typeset
+from tests.report.conftest import IN_EVERY_ORDER
 
 poppler = pytest.mark.skipif(shutil.which("pdfinfo") is None, reason="needs poppler's tools")
 
@@ -36,9 +37,11 @@ def texts_of(path: Path, *options: str) -> list[str]:
 
 
 @poppler
-@pytest.mark.parametrize("sort", SORTS)
-def test_every_page_bears_machine_file_and_its_number(printed: Callable[..., Path], sort: Sort) -> None:
-    path = printed("mill", sort)
+@IN_EVERY_ORDER
+def test_every_page_bears_machine_file_and_its_number(
+    printed: Callable[..., Path], which: str, sort: Sort
+) -> None:
+    path = printed(which, sort)
     pages = texts_of(path, "-layout")
     assert len(pages) == pages_of(path) >= 3
     for number, text in enumerate(pages, 1):
@@ -49,17 +52,15 @@ def test_every_page_bears_machine_file_and_its_number(printed: Callable[..., Pat
 
 
 @poppler
-@pytest.mark.parametrize("sort", SORTS)
+@IN_EVERY_ORDER
 def test_every_value_is_printed_and_table_heads_are_repeated(
-    printed: Callable[..., Path], eight_axes: ParameterFile, sort: Sort
+    printed: Callable[..., Path], eight_axes: ParameterFile, mill: ParameterFile, which: str, sort: Sort
 ) -> None:
-    path = printed("eight axes", sort)
+    path, file = printed(which, sort), mill if which == "mill" else eight_axes
     text = said_by("pdftotext", "-raw", path, "-")
     words = set(text.split())
     if sort not in ("group", "steps"):
-        assert {
-            r.number for r in build_report(eight_axes, Contents(inactive=True)).rows() if r.number
-        } <= words
+        assert {r.number for r in build_report(file, Contents(inactive=True)).rows() if r.number} <= words
     assert "Set up by" in text
     assert "Released by" in text
     heads = {"Where", "Number", "Code"}  # of findings, of values, of what is active after power-up
@@ -102,7 +103,7 @@ def test_nothing_runs_over_the_edge_of_its_column(tmp_path: Path, eight_axes: Pa
 
 @poppler
 def test_only_fonts_that_travel_in_the_file_are_used(printed: Callable[..., Path]) -> None:
-    lines = said_by("pdffonts", printed("mill", "group")).splitlines()[2:]
+    lines = said_by("pdffonts", printed("eight axes", "group")).splitlines()[2:]
     assert lines
     assert all(re.search(r"\byes yes (yes|no)\b", line) for line in lines), lines
     assert {line.split("+")[1].split("-")[0] for line in lines} == {"LibertinusSerif"}

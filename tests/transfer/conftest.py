@@ -3,9 +3,6 @@
 from __future__ import annotations
 
 import json
-import os
-import subprocess
-import sys
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -20,15 +17,16 @@ from amp_studio.transfer.emulated.faults import Faults, FaultyLine
 from amp_studio.transfer.emulated.record import Identity
 from amp_studio.transfer.house.session import Session
 from amp_studio.transfer.links.link import Link, LinkError
+from tests.forked import Program, start_program
 
-from . import images
+from . import emulated_control, images
 from .null_modem import NullModem, VirtualClock
 
 OLD = b"".join(b"%d\told.value.%d\t%d mm\n" % (n, n, n * 7) for n in range(12))
 NEW = b"".join(b"%d\tnew.value.%d\t%d mm\n" % (n, n, n * 9) for n in range(14))
 SIGNATURE = "s1"
 EXAMPLE = Path(__file__).parents[2] / "examples" / "mill-1394" / "MILL_1394.amp"
-StartControl = Callable[..., tuple[subprocess.Popen[str], str]]
+StartControl = Callable[..., tuple[Program, str]]
 
 
 @pytest.fixture(autouse=True)
@@ -115,18 +113,16 @@ def rig(new_control: Callable[..., Control]) -> Callable[..., Rig]:
 class Emulated:
     """An emulated control in a separate process; ``address`` is where it listens."""
 
-    process: subprocess.Popen[str]
+    process: Program
     address: str
 
     def command(self, line: str) -> str:
         """Give an operator's command and return the control's answer."""
-        assert self.process.stdin is not None
         self.process.stdin.write(line + "\n")
         self.process.stdin.flush()
         return self.hear()
 
     def hear(self) -> str:
-        assert self.process.stdout is not None
         return self.process.stdout.readline().strip()
 
     @property
@@ -139,20 +135,13 @@ class Emulated:
 
 
 @pytest.fixture
-def emulate(checkout: Path) -> Iterator[Callable[..., Emulated]]:
+def emulate() -> Iterator[Callable[..., Emulated]]:
     """Give a function that starts an emulated control: ``emulate(folder, address, **options)``."""
-    started: list[subprocess.Popen[str]] = []
+    started: list[Program] = []
 
     def start(folder: Path, address: str = "tcp://127.0.0.1:0", **options: Any) -> Emulated:
-        script = Path(__file__).with_name("emulated_control.py")
         options.setdefault("initial", OLD.decode())
-        process = subprocess.Popen(
-            [sys.executable, str(script), address, str(folder), json.dumps(options)],
-            stdin=subprocess.PIPE,
-            stdout=subprocess.PIPE,
-            text=True,
-            env=os.environ | {"PYTHONPATH": str(checkout)},
-        )
+        process = start_program(address, folder, json.dumps(options), script=emulated_control)
         started.append(process)
         emulated = Emulated(process, "")
         said = emulated.hear()
@@ -163,10 +152,7 @@ def emulate(checkout: Path) -> Iterator[Callable[..., Emulated]]:
     yield start
     for process in started:
         process.kill()
-        process.wait(60)
-        for stream in (process.stdin, process.stdout):
-            if stream is not None:
-                stream.close()
+        process.communicate()
 
 
 @pytest.fixture
@@ -180,33 +166,16 @@ def start_control(tmp_path: Path) -> Iterator[StartControl]:
     """Give a function that starts ``amp-studio emulate`` and returns the process
     and the address to connect to.
     """
-    started: list[subprocess.Popen[str]] = []
+    started: list[Program] = []
 
-    def start(listen: str = "tcp://127.0.0.1:0", *options: str) -> tuple[subprocess.Popen[str], str]:
-        command = [
-            sys.executable,
-            "-m",
-            "amp_studio.cli",
-            "emulate",
-            "9pc",
-            "--listen",
-            listen,
-            "--state",
-            str(tmp_path / "control"),
-            "--machine",
-            "mill",
-            *options,
-        ]
-        process = subprocess.Popen(command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True)
-        started.append(process)
-        assert process.stdout is not None
-        line = process.stdout.readline()
-        return process, line.removeprefix("listening on ").strip()
+    def start(listen: str = "tcp://127.0.0.1:0", *options: str) -> tuple[Program, str]:
+        place = ("--listen", listen, "--state", tmp_path / "control", "--machine", "mill")
+        started.append(start_program("emulate", "9pc", *place, *options))
+        return started[-1], started[-1].stdout.readline().removeprefix("listening on ").strip()
 
     yield start
     for process in started:
-        if process.poll() is None:
-            process.kill()
+        process.kill()
         process.communicate()
 
 

@@ -82,6 +82,9 @@ def test_enter_shows_the_parameter_of_a_finding(wrong: MainWindow) -> None:
 
 def click(panel: FindingsPanel, part: str, row: int, child: int | None = None) -> None:
     """Click a button or a link that is painted in a row."""
+    if panel.is_folded:
+        panel.fold.click()
+        QApplication.processEvents()
     index = panel.model.index(row, 0)
     index = index if child is None else panel.model.index(child, 0, index)
     panel.view.setExpanded(index.parent(), True)

@@ -2,7 +2,7 @@
 
 Of every rule of every family the expressions of its fixes, of what the control uses instead and of the
 figures in its message are changed as ``test_rule_mutants.py`` changes what decides. A case notices by its
-``fix``, ``effective`` and ``message``; also, as ``test_rules.py`` does, when there is no longer a fix, or one
+``fix``, ``effective`` and ``message`` (``make test`` tries one change in three); also, as ``test_rules.py`` does, when there is no longer a fix, or one
 that should not be there, or when what the control uses instead breaks the rule as well.
 """
 
@@ -12,9 +12,10 @@ import re
 from collections.abc import Iterator, Mapping, Sequence
 from copy import copy
 from dataclasses import dataclass, replace
+from itertools import islice
 
 import pytest
-from mutations import EVERY_MUTANT, variations
+from mutations import EACH, EVERY_MUTANT, variations
 from rule_machines import FAMILIES, HERE, Case, cases, read
 
 from amp_studio.schema import InvalidValueError, Rule, load_schema, program
@@ -152,7 +153,7 @@ def alive(case: Case, rule: Rule, mutants: Sequence[Mutant]) -> tuple[Mutant, ..
 @pytest.mark.parametrize("family", FAMILIES)
 def test_no_mutant_of_what_a_rule_tells_passes_the_tables(family: str) -> None:
     rules = {rule.id: rule for rule in load_schema(family).rules}
-    left = {rule.id: tuple(mutants_of(rule)) for rule in rules.values()}
+    left = {rule.id: tuple(islice(mutants_of(rule), None, None, EACH)) for rule in rules.values()}
     total = sum(map(len, left.values()))
     for case in cases(family):
         if case.breaks is not None and left[case.rule]:

@@ -1,7 +1,7 @@
 """Whatever fix is offered in any state that the tables of cases bring about keeps its promises,
 whosever it is.
 
-Applied alone it is within range, ends its finding and brings nothing as severe; and one that is marked as
+One case in three in ``make test``, each in ``make campaign``. Applied alone it is within range, ends its finding and brings nothing as severe; and one that is marked as
 safe sets what the control uses anyway, or what no motion depends on.
 """
 
@@ -14,6 +14,7 @@ from fix_campaign import unkept
 from rule_machines import FAMILIES, Case, cases
 
 from amp_studio.schema import fault, load_schema
+from tests.campaigns import CAMPAIGN
 
 NO_MOTION = {
     "57c422b.interrupt.source-in-file": (
@@ -37,6 +38,7 @@ NO_MOTION = {
 def broken_promises(case: Case) -> Iterator[str]:
     """Apply each fix that is offered while a case is broken, and yield what it does not keep."""
     here = case.machine
+    here.validator.is_alone = False
     with here.changed(case.given), here.changed(case.breaks or {}):
         before = here.findings
         for finding in [finding for finding in before if finding.fix]:
@@ -50,7 +52,7 @@ def broken_promises(case: Case) -> Iterator[str]:
 
 @pytest.mark.parametrize("family", FAMILIES)
 def test_an_offered_fix_keeps_what_it_promises(family: str) -> None:
-    broken = [case for case in cases(family) if case.breaks is not None]
+    broken = [case for case in cases(family) if case.breaks is not None][:: 1 if CAMPAIGN else 3]
     assert [f"{case}: {said}" for case in broken for said in broken_promises(case)] == []
 
 

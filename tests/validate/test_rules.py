@@ -13,10 +13,10 @@ from collections import Counter
 from collections.abc import Callable, Iterable, Iterator
 
 import pytest
-from rule_machines import FAMILIES, HERE, Case, all_cases, cases, machines, trial_machine
+from rule_machines import FAMILIES, HERE, Case, all_cases, cases, machines, sound
 
 from amp_studio.schema import Value, canonical_unit, load_schema, program
-from amp_studio.validate import Finding
+from amp_studio.validate import Finding, Validator
 from amp_studio.validate.rules import RuleChecks
 
 RULES = {rule.id: rule for family in FAMILIES for rule in load_schema(family).rules}
@@ -80,9 +80,8 @@ def test_no_check_of_a_case_is_lost() -> None:
     ("family", "name"), [(f, name) for f in FAMILIES for name in machines(f)["machines"]]
 )
 def test_a_sound_machine_has_no_finding(family: str, name: str) -> None:
-    assert [
-        finding for finding in trial_machine(family, name).findings if finding.rule != "schema.unset"
-    ] == []
+    findings = Validator(sound(family, name)).run()
+    assert [finding for finding in findings if finding.rule != "schema.unset"] == []
 
 
 @pytest.mark.parametrize("family", FAMILIES)

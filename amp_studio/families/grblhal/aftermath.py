@@ -53,14 +53,12 @@ def state_of(
     wanted = {name: text for name, text in wanted.items() if name in names or name in present}
     wanted |= {name: text for name, text in present.items() if name not in names}
     now = names_of(found)
-    for name in {*present, *wanted}:
-        if name in names:
-            is_new = _is_shown(writing, found, name, wanted[name], now.get(name, ""))
-            if is_new and (now.get(name) != present.get(name) or name in writing.sent.names):
-                now[name] = wanted[name]
-        # The firmware moves these itself: they may be others without the download.
-        elif name in _MOVED:
-            now[name] = present[name]
+    for name in names & {*present, *wanted}:
+        is_new = _is_shown(writing, found, name, wanted[name], now.get(name, ""))
+        if is_new and (now.get(name) != present.get(name) or name in writing.sent.names):
+            now[name] = wanted[name]
+    # The firmware moves these itself: they may be others without the download.
+    now |= {name: present[name] for name in (_MOVED - names) & present.keys()}
     changed = [n for n in present if n not in names and now.get(n) != present[n]]
     at, new = state_after_break(
         present, wanted, {n: t for n, t in now.items() if n in present or n in wanted}

@@ -33,14 +33,7 @@ def zones(machine: BoundMachine, axes: Sequence[str]) -> Iterator[Zone]:
         if not any(axis in axes for axis in members):
             continue
         for zone in ("2", "3"):
-            sides = {}
-            for axis in members:
-                own = machine.read(axis)
-                low, high = (own.optional(ids[f"zone_limit{zone}_{side}"]) for side in ("min", "max"))
-                # Equal or crossed limits enclose nothing, so that there is no zone.
-                if low is not None and high is not None and low < high:
-                    sides[axis] = (low, high)
-            if sides:
+            if sides := _sides(machine, zone, members):
                 yield Zone(
                     f"programmable zone {zone}, group {n}",
                     sides,
@@ -50,3 +43,15 @@ def zones(machine: BoundMachine, axes: Sequence[str]) -> Iterator[Zone]:
                     page="6-3 to 6-9",
                     notes=(NOTE,) if zone == "2" else (NOTE, THIRD),
                 )
+
+
+def _sides(machine: BoundMachine, zone: str, axes: Sequence[str]) -> dict[str, tuple[float, float]]:
+    """Return axis -> limits of a zone, of the axes that have both."""
+    sides = {}
+    for axis in axes:
+        read = machine.read(axis)
+        low, high = (read.optional(ids[f"zone_limit{zone}_{side}"]) for side in ("min", "max"))
+        # Equal or crossed limits enclose nothing, so that there is no zone.
+        if low is not None and high is not None and low < high:
+            sides[axis] = (low, high)
+    return sides

@@ -74,17 +74,11 @@ def render_workbook(report: Report) -> bytes:
         )
     if report.not_set:
         sheets.append(WorkbookSheet("Not set", ("number", "parameter", "belongs to"), report.not_set))
-    if report.power_up:
-        names = report.power_up[0].__slots__
-        lines = [tuple(getattr(each, name) for name in names) for each in report.power_up]
-        sheets.append(WorkbookSheet("Power-up", tuple(names), lines))
-    if report.exchanges:
-        own = report.exchanges[0].__slots__
-        sheets.append(
-            WorkbookSheet(
-                "Exchanges", tuple(own), [tuple(getattr(e, name) for name in own) for e in report.exchanges]
-            )
-        )
+    for title, records in (("Power-up", report.power_up), ("Exchanges", report.exchanges)):
+        if records:
+            names = tuple(records[0].__slots__)
+            lines = [tuple(getattr(each, name) for name in names) for each in records]
+            sheets.append(WorkbookSheet(title, names, lines))
     noted = [("Machine", report.remarks), *report.remarked] if report.remarks else report.remarked
     if noted:
         sheets.append(WorkbookSheet("Notes", ("about", "note"), noted))

@@ -12,12 +12,12 @@ from pathlib import Path
 
 from amp_studio.files import Notify, ParameterFile, axis_letter, with_local_times
 from amp_studio.guide import GuideProgress, StepProgress
-from amp_studio.report.language import language_of
+from amp_studio.report.language import ENGLISH, Language, language_of
 from amp_studio.report.model import printable
 from amp_studio.report.output.page import filled_page
 from amp_studio.report.output.pdf import filled_template, typeset
 from amp_studio.report.wording import counted
-from amp_studio.schema import Address, limits
+from amp_studio.schema import Address, limits, unit_text
 from amp_studio.validate import SEVERITIES
 from amp_studio.version import __version__
 
@@ -47,6 +47,8 @@ class ListedStep:
     """One step of the list."""
 
     progress: StepProgress
+    title: str
+    what: str
     values: tuple[OpenValue, ...]
     summary: str
     findings: tuple[str, ...]
@@ -88,10 +90,10 @@ def build_check_list(
     """Return the check list of a file: the steps that its machine needs;
     ``language`` is a code of ``language_codes``.
     """
-    order = file.schema.commissioning
-    source = (
-        "" if order is None else f"{order.why} (page {order.page})" if order.order == "manual" else order.why
-    )
+    order, words = file.schema.commissioning, language_of(language, file.schema.family.family)
+    source = words.sentence(order.why) if order else ""
+    if order and order.order == "manual":
+        source += f" ({words.text(f'page {order.page}')})"
     done = f"{now.done} of {len(now.needed)} steps done, {now.set} of {now.total} values set."
     return CheckList(
         title=file.header.name or (path.name if path else file.schema.family.name),
@@ -99,13 +101,13 @@ def build_check_list(
         file_name=path.name if path else "",
         order=source,
         summary=done,
-        steps=tuple(_listed(file, each) for each in now.needed),
-        when=(date or datetime.now().astimezone()).strftime("%Y-%m-%d %H:%M"),
+        steps=tuple(_listed(file, each, words) for each in now.needed),
+        when=words.moment(date or datetime.now().astimezone()),
         language=language,
     )
 
 
-def _listed(file: ParameterFile, each: StepProgress) -> ListedStep:
+def _listed(file: ParameterFile, each: StepProgress, words: Language) -> ListedStep:
     defaults = each.active - each.own - len(each.open)
     parts = [
         *([f"{len(each.open)} not set"] if each.open else []),
@@ -114,12 +116,13 @@ def _listed(file: ParameterFile, each: StepProgress) -> ListedStep:
         *(counted(n, severity) for severity in SEVERITIES if (n := each.count(severity))),
         *([f"ticked {with_local_times(each.ticked)}"] if each.ticked else []),
     ]
-    errors = tuple(dict.fromkeys(f.message for f in each.findings if f.severity == "error"))
-    values = tuple(open_value(file, address) for address in each.open)
-    return ListedStep(each, values, ", ".join(parts), errors)
+    errors = tuple(dict.fromkeys(words.finding(f) for f in each.findings if f.severity == "error"))
+    values = tuple(open_value(file, address, words) for address in each.open)
+    title, what = words.title(each.step.title), words.sentence(each.step.what)
+    return ListedStep(each, title, what, values, ", ".join(parts), errors)
 
 
-def open_value(file: ParameterFile, address: Address) -> OpenValue:
+def open_value(file: ParameterFile, address: Address, words: Language = ENGLISH) -> OpenValue:
     """Return what is printed about a value that is not set."""
     here, parameter = file.machine_schema, file.schema.parameters[address[0]]
     number = here.number(address) if not here.is_disputed(address[0]) else None
@@ -127,15 +130,21 @@ def open_value(file: ParameterFile, address: Address) -> OpenValue:
     allowed = ""
     if parameter.choices:
         labels = [choice.label for choice in parameter.choices]
-        allowed = " / ".join(labels) if len(labels) <= _MOST_CHOICES else f"one of {len(labels)} choices"
+        allowed = (
+            " / ".join(labels)
+            if len(labels) <= _MOST_CHOICES
+            else words.text(f"one of {len(labels)} choices")
+        )
     elif parameter.type in ("integer", "real"):
         found = limits(file.evaluation, address, unit)
-        allowed = found.text() if found else ""
+        allowed = words.quantity(words.message(found.text())) if found else ""
     place = here.instance_label(address)
     if here.scopes[address[0]] == "axis" and (letter := axis_letter(file, address[1])):
         place = letter
     page = file.schema.page(address)
-    return OpenValue(number or "", parameter.name, place, unit, allowed, page)
+    return OpenValue(
+        number or "", parameter.name, words.text(place), words.unit(unit_text(unit)), allowed, page
+    )
 
 
 def render_check_list_text(checks: CheckList) -> bytes:
@@ -145,27 +154,29 @@ def render_check_list_text(checks: CheckList) -> bytes:
 
 def check_list_lines(checks: CheckList) -> Iterator[str]:
     """Yield the lines of the list as text."""
+    words = language_of(checks.language)
+    head = f"{words.text('Check list').upper()}  {printable(checks.title)}"
     yield "=" * WIDTH
-    yield f"CHECK LIST  {printable(checks.title)}".ljust(WIDTH - len(checks.when)) + checks.when
+    yield head.ljust(WIDTH - len(checks.when)) + checks.when
     yield "=" * WIDTH
     for name, text in (("Control", checks.family), ("File", checks.file_name), ("Order", checks.order)):
         if text:
-            yield from _wrapped(text, f"{name + ' ':.<12} ")
-    yield checks.summary
+            yield from _wrapped(text, f"{words.text(name) + ' ':.<12} ")
+    yield words.text(checks.summary)
     for each in checks.steps:
         step = each.progress.step
-        page = f" (page {step.page})" if step.page else ""
+        page = f" ({words.text(f'page {step.page}')})" if step.page else ""
         yield ""
-        yield from _wrapped(f"{step.title}{page}", f"[{'x' if each.is_done else ' '}] {step.number:>2}  ")
-        for text in filter(None, (step.what, each.summary, *each.findings)):
+        yield from _wrapped(f"{each.title}{page}", f"[{'x' if each.is_done else ' '}] {step.number:>2}  ")
+        for text in filter(None, (each.what, each.summary_in(words.text), *each.findings)):
             yield from _wrapped(text, " " * 8)
         for value in each.values:
-            yield from _value_lines(value)
+            yield from _value_lines(value, words)
 
 
-def _value_lines(value: OpenValue) -> Iterator[str]:
+def _value_lines(value: OpenValue, words: Language) -> Iterator[str]:
     what = " ".join(filter(None, (value.number, value.name, value.place)))
-    about = "; ".join(filter(None, (value.allowed, f"page {value.page}")))
+    about = "; ".join(filter(None, (value.allowed, words.text(f"page {value.page}"))))
     yield from _wrapped(f"{what} ({about})", f"        [ ] {'_' * 14} {value.unit:<7} ")
 
 

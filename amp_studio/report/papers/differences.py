@@ -68,7 +68,9 @@ def _by_group(file: ParameterFile, differences: Sequence[Difference], language: 
         for each in members:
             sides = (_value_text(file, each.address, value) for value in each.in_one_unit())
             rows.append((*_named(file, each.address, language), *sides))
-        yield PaperTable(title, ("Number", "Parameter", "Belongs to", "A", "B"), tuple(rows), _SHARES)
+        yield PaperTable(
+            title, ("Number", "Parameter", "Belongs to", "A", "B"), tuple(rows), _SHARES, values_from=3
+        )
 
 
 def machines_paper(
@@ -114,7 +116,7 @@ def _side_by_side(lines: Sequence[MachineLine], names: Sequence[str]) -> tuple[P
     cells = [(*line.named, *line.texts) for line in lines]
     strong = {(at, 3 + n) for at, line in enumerate(lines) for n in line.departing}
     shares = (2.0, 4.0, 1.6, *(2.4 for _ in names))
-    return (PaperTable("", heads, tuple(cells), shares, frozenset(strong)),)
+    return (PaperTable("", heads, tuple(cells), shares, frozenset(strong), 3),)
 
 
 def _grouped(lines: Sequence[MachineLine], names: Sequence[str], language: str) -> Iterator[PaperTable]:
@@ -146,6 +148,7 @@ def _grouped(lines: Sequence[MachineLine], names: Sequence[str], language: str) 
         tuple(rows),
         _SHARES,
         frozenset(strong),
+        3,
     )
 
 

@@ -65,29 +65,29 @@ def _tables(file: ParameterFile, everything: bool, language: Language) -> Iterat
                         number,
                         parameter.name,
                         language.text(place_of(file, address)),
-                        _allowed(file, parameter),
+                        _allowed(file, parameter, language),
                         blank,
                     )
                 )
         if rows:
             title = f"{group.name}: {group.section}" if group.section else group.name
-            yield PaperTable(title, _HEADS, tuple(rows), _SHARES)
+            yield PaperTable(title, _HEADS, tuple(rows), _SHARES, values_from=3)
 
 
-def _bit(bit: Bit) -> str:
+def _bit(bit: Bit, language: Language) -> str:
     """Return a box for a bit, a blank for a field of several; a line does not end within a short one."""
     last = bit.bit + bit.width - 1
     if last > bit.bit:
-        return f"bits {bit.bit} to {last}: {bit.label} ____"
+        return f"{language.text(f'bits {bit.bit} to {last}')}: {bit.label} ____"
     text = f"[ ] {bit.bit} {bit.label}"
     return text.replace(" ", "\u00a0", -1 if len(text) < _SHORT else 3)
 
 
-def _allowed(file: ParameterFile, parameter: Parameter) -> str:
+def _allowed(file: ParameterFile, parameter: Parameter, language: Language) -> str:
     if parameter.choices:
         labels = [choice.label for choice in parameter.choices]
         more = f" … ({len(labels)})" if len(labels) > _MOST_CHOICES else ""
         return " / ".join(labels[:_MOST_CHOICES]) + more
     if parameter.bits:
-        return "   ".join(map(_bit, parameter.bits))
-    return "; ".join(range_text(parameter.ranges, file.schema))
+        return "   ".join(_bit(bit, language) for bit in parameter.bits)
+    return "; ".join(map(language.message, range_text(parameter.ranges, file.schema)))

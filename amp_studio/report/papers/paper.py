@@ -35,6 +35,8 @@ class PaperTable:
     """Widths of the columns on paper, in relation to each other; equal where there are none."""
     strong: frozenset[tuple[int, int]] = frozenset()
     """Cells (row, column) in bold."""
+    values_from: int = _MOST_COLUMNS
+    """First column that has values with units and not names."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -67,6 +69,10 @@ class Paper:
     def fact(self, name: str, body: str) -> str:
         """Return a fact in its language; what a person wrote stays as it is."""
         return self.words.text(body) if name in _OWN_FACTS else body
+
+    def cell(self, table: PaperTable, column: int, text: str) -> str:
+        """Return a cell for the eye, its figures as the language writes them."""
+        return self.words.quantity(text) if column >= table.values_from else text
 
     @property
     def program(self) -> str:

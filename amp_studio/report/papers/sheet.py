@@ -11,7 +11,7 @@ from datetime import datetime
 from pathlib import Path
 
 from amp_studio.files import Notify, text_cell
-from amp_studio.report.language import language_of
+from amp_studio.report.language import Language, language_of
 from amp_studio.report.model import printable
 from amp_studio.report.output.page import filled_page
 from amp_studio.report.output.pdf import filled_template, typeset
@@ -55,7 +55,12 @@ class PrintedSheet:
     @property
     def when(self) -> str:
         """Date and time in printed form."""
-        return (self.date or datetime.now().astimezone()).strftime("%Y-%m-%d %H:%M")
+        return self.words.moment(self.date or datetime.now().astimezone())
+
+    @property
+    def words(self) -> Language:
+        """Its language, with the facts of the family."""
+        return language_of(self.language, self.sheet.family_id)
 
     @property
     def program(self) -> str:
@@ -99,9 +104,9 @@ def render_sheet_text(printed: PrintedSheet) -> bytes:
 
 def text_lines(printed: PrintedSheet) -> Iterator[str]:
     """Yield the lines of the sheet as text."""
-    sheet = printed.sheet
+    sheet, words = printed.sheet, printed.words
     yield "=" * WIDTH
-    yield sheet.title.upper().ljust(WIDTH - len(printed.when)) + printed.when
+    yield words.title(sheet.title).upper().ljust(WIDTH - len(printed.when)) + printed.when
     yield "=" * WIDTH
     facts = (
         ("Machine", sheet.machine),
@@ -111,48 +116,55 @@ def text_lines(printed: PrintedSheet) -> Iterator[str]:
     )
     for name, text in facts:
         if text:
-            yield from _wrapped(text, f"{name + ' ':.<16} ")
-    yield from _wrapped(printed.summary, "")
+            yield from _wrapped(text, f"{words.text(name) + ' ':.<16} ")
+    yield from _wrapped(words.text(printed.summary), "")
     for warning in sheet.warnings:
-        yield from _wrapped(warning, "! ")
-    yield from _instructions("BEFORE", sheet.before)
+        yield from _wrapped(words.sentence(warning), "! ")
+    yield from _instructions("Before", sheet.before, words)
     for stage, steps in printed.parts():
         yield ""
         if stage.title:
-            yield from _wrapped(stage.title.upper() + (f" (page {stage.page})" if stage.page else ""), "")
+            page = f" ({words.text(f'page {stage.page}')})" if stage.page else ""
+            yield from _wrapped(words.title(stage.title).upper() + page, "")
             if stage.why:
-                yield from _wrapped(stage.why, "")
-        yield f"{'':4}{'Step':>4}  {'Number':<12}{'Key in':>16} {'Unit':<8}{'Now':>14}  Parameter"
+                yield from _wrapped(words.sentence(stage.why), "")
+        step_head, number, key, unit, now = map(words.text, ("Step", "Number", "Key in", "Unit", "Now"))
+        head = f"{step_head:>8}  {number:<12}{key:>16} {unit:<8}{now:>14}  {words.text('Parameter')}"
+        yield head
         for step in steps:
-            yield from _step_lines(step)
-    yield from _instructions("AFTER", sheet.after)
+            yield from _step_lines(step, words)
+    yield from _instructions("After", sheet.after, words)
     if sheet.left_out:
         yield ""
-        yield "NOT ON THIS SHEET"
+        yield words.text("Not on this sheet").upper()
         for left in sheet.left_out:
-            yield from _wrapped(f"{left.name}: {left.why}", f"  {left.number:<12} ")
+            yield from _wrapped(
+                f"{words.text(left.name)}: {words.sentence(left.why)}", f"  {left.number:<12} "
+            )
 
 
-def _step_lines(step: Step) -> Iterator[str]:
+def _step_lines(step: Step, words: Language) -> Iterator[str]:
     entry = step.entry
     head = (
         f"[{'x' if step.is_ticked else ' '}] {step.at:>4}  {entry.number:<12}{entry.new:>16}"
         f" {entry.unit:<8}{entry.old or '?':>14}  "
     )
-    about = f"{entry.name}" + (f" = {entry.meaning}" if entry.meaning else "") + f" (page {entry.page})"
+    about = words.text(entry.name) + (f" = {words.quantity(entry.meaning)}" if entry.meaning else "")
+    about += f" ({words.text(f'page {entry.page}')})"
     if step.screen_text:
-        about += f"; read back {step.screen_text}"
+        about += f"; {words.text('read back')} {step.screen_text}"
     yield from _wrapped(about, head)
     for note in step.notes:
-        yield from _wrapped(note, " " * 12 + "- ")
+        yield from _wrapped(words.sentence(note), " " * 12 + "- ")
 
 
-def _instructions(title: str, steps: tuple[Instruction, ...]) -> Iterator[str]:
+def _instructions(title: str, steps: tuple[Instruction, ...], words: Language) -> Iterator[str]:
     if steps:
         yield ""
-        yield title
+        yield words.text(title).upper()
         for n, each in enumerate(steps, 1):
-            yield from _wrapped(each.text + (f" (page {each.page})" if each.page else ""), f"{n:>3}. ")
+            page = f" ({words.text(f'page {each.page}')})" if each.page else ""
+            yield from _wrapped(words.sentence(each.text) + page, f"{n:>3}. ")
 
 
 def _wrapped(text: str, head: str) -> list[str]:
@@ -190,17 +202,13 @@ def render_sheet_csv(printed: PrintedSheet) -> bytes:
 
 def render_sheet_html(printed: PrintedSheet) -> bytes:
     """Return one web page that can be printed."""
-    return filled_page(
-        "sheet.html.j2", language=language_of(printed.language), printed=printed, sheet=printed.sheet
-    )
+    return filled_page("sheet.html.j2", language=printed.words, printed=printed, sheet=printed.sheet)
 
 
 def render_sheet_pdf(printed: PrintedSheet) -> bytes:
     """Return the PDF."""
     return typeset(
-        filled_template(
-            "sheet.typ.j2", language=language_of(printed.language), printed=printed, sheet=printed.sheet
-        )
+        filled_template("sheet.typ.j2", language=printed.words, printed=printed, sheet=printed.sheet)
     )
 
 

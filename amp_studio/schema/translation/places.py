@@ -2,15 +2,17 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator
 from string import Formatter
 from typing import Any
 
 from amp_studio.schema.load import Compiled, FurtherFacts
-from amp_studio.schema.model import Commissioning, FactTranslation, HelpNote, Model
+from amp_studio.schema.model import Commissioning, FactTranslation, HelpNote, Messages, Model, MotionFacts
 
 TextPlace = tuple[str | int, ...]
 """``("rules", "9pc.axis.two-spindles", "title")``: the keys of a file of a language."""
+_FIGURE = re.compile(r"\{([a-z_]+)\}")
 GRADES = ("danger", "warning", "note")
 
 
@@ -22,6 +24,11 @@ def english_texts(compiled: Compiled, further: FurtherFacts) -> dict[TextPlace, 
 def own_texts(translation: FactTranslation) -> dict[TextPlace, str]:
     """Return place -> text of a file of a language."""
     return {place: " ".join(text.split()) for place, text in _leaves((), translation) if text}
+
+
+def figures_in(phrase: str) -> set[str]:
+    """Return the names of the figures of a phrase; ``{UPDATE BACKUP}`` is a key of a control."""
+    return set(_FIGURE.findall(phrase))
 
 
 def names_in(message: str) -> set[str]:
@@ -47,19 +54,26 @@ def _english(compiled: Compiled, further: FurtherFacts) -> Iterator[tuple[TextPl
         for n, each in enumerate(guide.steps):
             yield ("guides", guide.id, "steps", n, "title"), each.title
             yield ("guides", guide.id, "steps", n, "what"), each.what
-    motion = further.motion
+    yield from _of_motion(further.motion)
+    for listed in further.messages:
+        yield from _of_messages(listed)
+
+
+def _of_motion(motion: MotionFacts) -> Iterator[tuple[TextPlace, str]]:
     if motion.scenarios:
         yield ("motion", "without_axes"), motion.without_axes
     yield from ((("motion", "assumed", name), figure.why) for name, figure in motion.assumed.items())
     yield from ((("motion", "settings", name), what) for name, what in motion.settings.items())
-    for listed in further.messages:
-        yield from ((("message_lists", listed.id, part), getattr(listed, part)) for part in ("title", "note"))
-        for message in listed.messages:
-            for part in ("title", "means", "note"):
-                yield ("messages", message.id, part), getattr(message, part)
-            for part in ("causes", "cures"):
-                texts: tuple[str, ...] = getattr(message, part)
-                yield from ((("messages", message.id, part, n), text) for n, text in enumerate(texts))
+
+
+def _of_messages(listed: Messages) -> Iterator[tuple[TextPlace, str]]:
+    yield from ((("message_lists", listed.id, part), getattr(listed, part)) for part in ("title", "note"))
+    for message in listed.messages:
+        for part in ("title", "means", "note"):
+            yield ("messages", message.id, part), getattr(message, part)
+        for part in ("causes", "cures"):
+            texts: tuple[str, ...] = getattr(message, part)
+            yield from ((("messages", message.id, part, n), text) for n, text in enumerate(texts))
 
 
 def _of_order(order: Commissioning) -> Iterator[tuple[TextPlace, str]]:

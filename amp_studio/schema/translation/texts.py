@@ -21,7 +21,7 @@ from amp_studio.schema.load import (
 from amp_studio.schema.model import FactTexts, FactTranslation
 from amp_studio.schema.model.compiled_json import record_text, text_record
 
-from .places import TextPlace, english_texts, names_in, own_texts
+from .places import TextPlace, english_texts, figures_in, names_in, own_texts
 
 NO_TEXTS = FactTexts.model_construct()
 """Of English, and of a family that has no other language."""
@@ -71,9 +71,9 @@ def compile_texts(compiled: Compiled, files: list[Path]) -> FactTexts:
             else:
                 sentences[english[place]] = text
         for phrase, text in translation.phrases.items():
-            if names_in(phrase) != names_in(text):
+            if figures_in(phrase) != figures_in(text):
                 raise DatabaseError(path, line(("phrases", phrase)), _OTHER_NAMES)
-            (patterns if names_in(phrase) else sentences)[phrase] = text
+            (patterns if figures_in(phrase) else sentences)[phrase] = text
     return FactTexts.model_construct(sentences=sentences, patterns=patterns, messages=messages)
 
 

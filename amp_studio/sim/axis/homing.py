@@ -133,49 +133,62 @@ def _again(axis: MovingAxis, homing: Homing, ramp: Ramp, around: Around, found: 
 
 def _off(axis: MovingAxis, homing: Homing, ramp: Ramp, around: Around, found: Homed, edge: float) -> Orders:
     """Leave the switch over ``edge``, go to the marker and to the home position."""
-    sign, turn = math.copysign(1.0, homing.leave), homing.turn
-    stuck, missing = homing.failures.get("stuck"), homing.failures.get("marker")
     if homing.approach and found.left is None:
-        reach = min(_way(axis, around, sign, turn), stuck.reach if stuck else math.inf)
-        # The edge is known here: the axis goes a little past it; a stuck switch is left for as far as
-        # the control tries.
-        way = reach if around.is_stuck else abs(axis.position - edge) + MARKERS * turn
-        if not around.is_stuck and stuck and abs(axis.position - edge) > stuck.reach:
-            way = stuck.reach
-        place = sign * math.inf if around.is_stuck else edge
-        found.left = yield GoOrder(homing.leave, ramp, Watch(place, sign), way)
+        yield from _left(axis, homing, ramp, around, found, edge)
         if found.left is None:
-            if not axis.is_over:
-                yield from _failed(homing, "stuck", ramp, found, "The axis does not leave the switch")
             return
     start = found.left.measured if found.left else axis.measured
-    first = around.marker
     if homing.marker == "nearest":
         yield StopOrder(ramp)
-        found.marker = first + turn * round((start - first) / turn)
+        found.marker = around.marker + homing.turn * round((start - around.marker) / homing.turn)
     elif homing.marker == "next":
-        least = start + sign * homing.skipped * turn
-        # The first marker strictly beyond: one exactly at the edge has been passed.
-        turns = math.floor(sign * (least - first) / turn) + 1
-        marker = first + sign * turns * turn
-        far = min(missing.reach if missing else MARKERS * turn, _way(axis, around, sign, turn))
-        # A marker that the control would not wait for never comes for it.
-        place = marker if around.has_markers and sign * (marker - start) <= far else sign * math.inf
-        speed = math.copysign(homing.search or abs(homing.leave), homing.leave)
-        if (yield GoOrder(speed, ramp, Watch(place, sign, device=True), far)) is None:
-            if not axis.is_over:
-                yield from _failed(homing, "marker", ramp, found, "No marker comes")
+        yield from _next_marker(axis, homing, ramp, around, found, start)
+        if found.marker is None:
             return
-        found.marker = marker
-        yield StopOrder(ramp)
+    elif homing.again:
+        found.marker = axis.position
     else:
-        found.marker = axis.position if homing.again else start
-        if not homing.again:
-            yield StopOrder(ramp)
+        found.marker = start
+        yield StopOrder(ramp)
     found.home = found.marker + homing.offset
     if homing.final:
         yield MoveOrder(found.home, homing.final, ramp)
     found.coordinate = homing.coordinate
+
+
+def _left(axis: MovingAxis, homing: Homing, ramp: Ramp, around: Around, found: Homed, edge: float) -> Orders:
+    """Leave the switch; ``found.left`` stays None where it does not go off."""
+    sign, stuck = math.copysign(1.0, homing.leave), homing.failures.get("stuck")
+    reach = min(_way(axis, around, sign, homing.turn), stuck.reach if stuck else math.inf)
+    # The edge is known here: the axis goes a little past it; a stuck switch is left for as far as
+    # the control tries.
+    way = reach if around.is_stuck else abs(axis.position - edge) + MARKERS * homing.turn
+    if not around.is_stuck and stuck and abs(axis.position - edge) > stuck.reach:
+        way = stuck.reach
+    place = sign * math.inf if around.is_stuck else edge
+    found.left = yield GoOrder(homing.leave, ramp, Watch(place, sign), way)
+    if found.left is None and not axis.is_over:
+        yield from _failed(homing, "stuck", ramp, found, "The axis does not leave the switch")
+
+
+def _next_marker(
+    axis: MovingAxis, homing: Homing, ramp: Ramp, around: Around, found: Homed, start: float
+) -> Orders:
+    """Go on to the next marker and stop; ``found.marker`` stays None where none comes."""
+    sign, turn, missing = math.copysign(1.0, homing.leave), homing.turn, homing.failures.get("marker")
+    least = start + sign * homing.skipped * turn
+    # The first marker strictly beyond: one exactly at the edge has been passed.
+    turns = math.floor(sign * (least - around.marker) / turn) + 1
+    marker = around.marker + sign * turns * turn
+    far = min(missing.reach if missing else MARKERS * turn, _way(axis, around, sign, turn))
+    # A marker that the control would not wait for never comes for it.
+    place = marker if around.has_markers and sign * (marker - start) <= far else sign * math.inf
+    speed = math.copysign(homing.search or abs(homing.leave), homing.leave)
+    if (yield GoOrder(speed, ramp, Watch(place, sign, device=True), far)) is not None:
+        found.marker = marker
+        yield StopOrder(ramp)
+    elif not axis.is_over:
+        yield from _failed(homing, "marker", ramp, found, "No marker comes")
 
 
 def _coded(

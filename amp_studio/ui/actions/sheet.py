@@ -9,7 +9,7 @@ from PySide6.QtWidgets import QFileDialog
 
 from amp_studio.files import ParameterFile, open_file
 from amp_studio.ui.base.task import in_background
-from amp_studio.ui.base.translated import tr
+from amp_studio.ui.base.translated import facts_in_words, tr
 from amp_studio.ui.control.page import ControlPage
 from amp_studio.validate import rules_beside
 
@@ -63,6 +63,7 @@ def _make(page: ControlPage, present: ParameterFile, against: str, seen: object 
             against=against,
             own=own,
             secrets=workspace.secrets,
+            message=facts_in_words(workspace.file.schema).cited,
         )
         return sheet, Ticks(ticks_path(workspace.path), sheet)
 

@@ -30,7 +30,7 @@ from amp_studio.ui.base.theme import FINDING_ROW, GAP2, colour, font, icon, pain
 from amp_studio.ui.base.translated import counted, finding_in_words, worded
 from amp_studio.ui.base.workspace import Workspace
 from amp_studio.ui.forms.segment import Segment, chip
-from amp_studio.validate import NOT_SET, SEVERITIES, Finding, addresses_not_set
+from amp_studio.validate import NOT_SET, SEVERITIES, Finding, Suppressed, addresses_not_set
 
 from .delegate import FindingsDelegate, Part
 from .model import FindingsModel
@@ -42,8 +42,8 @@ class _View(QTreeView):
     entered_on = Signal()
     menu_wanted = Signal(QPoint)
 
-    def __init__(self) -> None:
-        super().__init__()
+    def __init__(self, parent: QWidget) -> None:
+        super().__init__(parent)
         self.setHeaderHidden(True)
         self.setMouseTracking(True)
         self.setExpandsOnDoubleClick(False)
@@ -100,16 +100,20 @@ class FindingsPanel(QWidget):
     current_changed = Signal(object)
     """The selected finding, or None."""
 
-    def __init__(self, workspace: Workspace) -> None:
-        super().__init__()
+    def __init__(self, workspace: Workspace, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
         self._workspace = workspace
         self._shown_ids: frozenset[str] = frozenset()
         self._axis = ""
         self._is_withheld: Callable[[Finding], bool] = lambda _: False
         self.shown_name = self.tr("Group")
         """What the table shows one of."""
+        self._pages = QStackedWidget(self)
+        layout = QVBoxLayout(self)
+        layout.setContentsMargins(0, 0, 0, 0)
+        layout.addWidget(self._pages)
         self.model = FindingsModel(workspace)
-        self.view = _View()
+        self.view = _View(self._pages)
         self.view.setModel(self.model)
         self.view.setAccessibleName(self.tr("Findings"))
         self._delegate = FindingsDelegate(self.view, self.model, self._act)
@@ -120,7 +124,7 @@ class FindingsPanel(QWidget):
         self.view.selectionModel().currentChanged.connect(
             lambda *_: self.current_changed.emit(self.current())
         )
-        self.empty = QLabel()
+        self.empty = QLabel(self._pages)
         self.empty.setAutoFillBackground(True)
         self.empty.setBackgroundRole(QPalette.ColorRole.Base)
         self.empty.setAlignment(Qt.AlignmentFlag.AlignCenter)
@@ -129,12 +133,8 @@ class FindingsPanel(QWidget):
             Qt.TextInteractionFlag.LinksAccessibleByMouse | Qt.TextInteractionFlag.LinksAccessibleByKeyboard
         )
         self.empty.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
-        self._pages = QStackedWidget()
         self._pages.addWidget(self.view)
         self._pages.addWidget(self.empty)
-        layout = QVBoxLayout(self)
-        layout.setContentsMargins(0, 0, 0, 0)
-        layout.addWidget(self._pages)
         self.is_folded = False
         self.head = self._make_head()
         workspace.changed.connect(self._refresh)
@@ -255,6 +255,15 @@ class FindingsPanel(QWidget):
             return self._axis in finding_axes(self._workspace.file, finding)
         return True
 
+    def _suppressed_finding(self, suppressed: Suppressed) -> Finding:
+        """Return a suppressed finding as it is listed: without its fix, and with the reason."""
+        message = self.tr("{message} Suppressed by {name}: {reason}").format(
+            message=finding_in_words(suppressed.finding),
+            name=suppressed.suppression.by,
+            reason=suppressed.suppression.reason,
+        )
+        return replace(suppressed.finding, fix=(), figures=None, message=message)
+
     def _refresh(self, *_: object) -> None:
         """List the findings that there are now; the same row stays selected and open,
         or the one that took its place.
@@ -265,19 +274,7 @@ class FindingsPanel(QWidget):
         suppressed = workspace.validator.suppressed
         listed = [finding for finding in reached if self._is_listed(finding)]
         if self.suppressed.isChecked():
-            listed += [
-                replace(
-                    s.finding,
-                    fix=(),
-                    figures=None,
-                    message=self.tr("{message} Suppressed by {name}: {reason}").format(
-                        message=finding_in_words(s.finding),
-                        name=s.suppression.by,
-                        reason=s.suppression.reason,
-                    ),
-                )
-                for s in suppressed
-            ]
+            listed += map(self._suppressed_finding, suppressed)
         self._count(reached, len(waiting), len(suppressed))
         self._sum_up()
         self._delegate.may_edit = workspace.may_edit

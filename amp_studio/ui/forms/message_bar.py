@@ -64,8 +64,8 @@ class MessageBar(QFrame):
             self._layout.insertWidget(self._layout.count() - 1, button)
             self.buttons.append(button)
         self._kind = kind
-        self._colour()
         self.text.setText(text)
+        self._colour()
         self.setAccessibleDescription(text)
         self.show()
         QAccessible.updateAccessibility(QAccessibleEvent(self, QAccessible.Event.Alert))
@@ -76,6 +76,8 @@ class MessageBar(QFrame):
 
     def _colour(self) -> None:
         """Show the severity by the left edge and by the shape of the icon."""
+        if self.isHidden() and not self.text.text():  # it has had no message yet
+            return
         shade = severity_colour(self._kind).name()
         self.setStyleSheet(
             f"MessageBar {{ border: 0; border-left: 3px solid {shade}; border-bottom: 1px solid"

@@ -6,7 +6,7 @@ from __future__ import annotations
 
 from PySide6.QtCore import QRect, QSize, Qt, Signal
 from PySide6.QtGui import QFontMetrics, QKeyEvent, QPainter, QPalette
-from PySide6.QtWidgets import QStyle, QStyledItemDelegate, QStyleOptionViewItem, QTreeWidget
+from PySide6.QtWidgets import QStyle, QStyledItemDelegate, QStyleOptionViewItem, QTreeWidget, QWidget
 
 from amp_studio.ui.base.model_index import ModelIndex
 from amp_studio.ui.base.theme import (
@@ -35,8 +35,8 @@ class PlaceTree(QTreeWidget):
     toggled = Signal(object)
     """Space was pressed on this item."""
 
-    def __init__(self) -> None:
-        super().__init__()
+    def __init__(self, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
         self.setHeaderHidden(True)
         self.setUniformRowHeights(True)
         self.setIndentation(GAP2 * 2)

@@ -4,7 +4,7 @@ and the panels that the docks show while it is in front.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Mapping
 from functools import partial
 
 from PySide6.QtCore import Signal
@@ -51,17 +51,26 @@ class FilePage(QWidget):
     """A save was refused because another program has changed the file on disk."""
 
     def __init__(
-        self, workspace: Workspace, commit: CommitValue, cell_actions: Iterable[QAction] = ()
+        self,
+        workspace: Workspace,
+        commit: CommitValue,
+        cell_actions: Iterable[QAction] = (),
+        parent: QWidget | None = None,
+        places: Mapping[str, QWidget] | None = None,
     ) -> None:
-        super().__init__()
+        """Make the page in the widget that will show it, and each panel in its place by the name of its
+        dock: Qt applies the style sheet again to all that gets another parent.
+        """
+        super().__init__(parent)
+        places = places or {}
         self.workspace = workspace
         commit_here = partial(commit, workspace)
         self.table = ParameterTable(workspace)
         self.table_view = ValueTable(self.table, cell_actions)
-        self.left = LeftPanel(workspace)
+        self.left = LeftPanel(workspace, places.get("Groups"))
         self.groups = self.left.groups
-        self.detail = DetailPanel(workspace, commit_here)
-        self.findings = FindingsPanel(workspace)
+        self.detail = DetailPanel(workspace, commit_here, places.get("Parameter"))
+        self.findings = FindingsPanel(workspace, places.get("Findings"))
         self.findings.withhold(workspace.is_deferred)
         self.bar = MessageBar()
         self._title = ""

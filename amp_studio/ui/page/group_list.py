@@ -23,10 +23,10 @@ class GroupList(QWidget):
     chosen = Signal(str, list)
     """Title and parameters."""
 
-    def __init__(self, workspace: Workspace) -> None:
-        super().__init__()
+    def __init__(self, workspace: Workspace, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
         self._workspace = workspace
-        self.tree = PlaceTree()
+        self.tree = PlaceTree(self)
         self.tree.setColumnCount(3)
         self.tree.setAccessibleName(self.tr("Parameter groups"))
         layout = QVBoxLayout(self)

@@ -39,8 +39,8 @@ class LeftPanel(QWidget):
     defaults_wanted, print_wanted = Signal(object), Signal()
     """Those of the steps."""
 
-    def __init__(self, workspace: Workspace) -> None:
-        super().__init__()
+    def __init__(self, workspace: Workspace, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
         self._workspace = workspace
         self._make_project: Callable[[], QWidget] = QWidget
         self.side: LeftSide = "groups"
@@ -52,7 +52,7 @@ class LeftPanel(QWidget):
         layout.setContentsMargins(0, 0, 0, 0)
         layout.setSpacing(0)
         layout.addWidget(self._stack, 1)
-        self.groups = GroupList(workspace)
+        self.groups = GroupList(workspace, self._stack)
         self.groups.chosen.connect(self.chosen)
         self.head = self._head()
         """What the dock shows above the panel."""
@@ -61,7 +61,7 @@ class LeftPanel(QWidget):
     @cached_property
     def steps(self) -> StepsPanel:
         """The steps, made when they are first asked for."""
-        steps = StepsPanel(self._workspace)
+        steps = StepsPanel(self._workspace, self._stack)
         steps.chosen.connect(self.chosen)
         steps.wanted.connect(self.wanted)
         steps.next_wanted.connect(self.next_wanted)

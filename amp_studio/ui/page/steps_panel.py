@@ -69,12 +69,12 @@ class StepsPanel(QWidget):
     """What is not set in a step is to be set to the defaults."""
     print_wanted = Signal()
 
-    def __init__(self, workspace: Workspace) -> None:
-        super().__init__()
+    def __init__(self, workspace: Workspace, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
         self._workspace, self._family = workspace, workspace.file.schema.family.family
         self._here: SetupStep | None = None
         """The step whose values the table shows, if it shows a step."""
-        self.tree = PlaceTree()
+        self.tree = PlaceTree(self)
         self.tree.setAccessibleName(self.tr("Steps of commissioning"))
         self.setFocusProxy(self.tree)
         layout = QVBoxLayout(self)

@@ -5,6 +5,7 @@ where else it has a value, and facts.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable
+from functools import cached_property
 
 from PySide6.QtCore import Qt, QTimer, QUrl, Signal
 from PySide6.QtGui import QResizeEvent, QShowEvent
@@ -43,9 +44,11 @@ class DetailPanel(QWidget):
     calculator_wanted = Signal()
     """The formulas of the parameter are to be opened."""
 
-    def __init__(self, workspace: Workspace, commit: Callable[[Address, str], bool]) -> None:
-        super().__init__()
-        self._workspace = workspace
+    def __init__(
+        self, workspace: Workspace, commit: Callable[[Address, str], bool], parent: QWidget | None = None
+    ) -> None:
+        super().__init__(parent)
+        self._workspace, self._commit = workspace, commit
         self._address: Address | None = None
         self._is_stale = False
         self._writer = DetailPage(workspace)
@@ -62,20 +65,17 @@ class DetailPanel(QWidget):
         self.page.setAccessibleName(self.tr("Parameter"))
         self.page.document().setDocumentMargin(GAP3)
         self.page.anchorClicked.connect(self._follow)
-        self.word = WordPanel(workspace, commit)
         top = QHBoxLayout()
         top.setContentsMargins(GAP3, GAP2, GAP3, 0)
         top.addWidget(self.axes)
         top.addStretch(1)
         top.addWidget(self.value)
-        side = QVBoxLayout()
-        side.addLayout(top)
-        side.addWidget(self.bar)
-        side.addWidget(self.word)
-        side.addStretch()
-        self._side = QWidget()
-        side.setContentsMargins(0, 0, 0, 0)
-        self._side.setLayout(side)
+        self._side = QWidget(self)
+        self._beside = QVBoxLayout(self._side)
+        self._beside.setContentsMargins(0, 0, 0, 0)
+        self._beside.addLayout(top)
+        self._beside.addWidget(self.bar)
+        self._beside.addStretch()
         self._rows = QBoxLayout(QBoxLayout.Direction.TopToBottom, self)
         self._rows.setContentsMargins(0, 0, 0, 0)
         self._rows.setSpacing(GAP2)
@@ -87,10 +87,17 @@ class DetailPanel(QWidget):
         self._rest.setInterval(_REST_MS)
         self._rest.timeout.connect(self._ask_rules)
         workspace.changed.connect(self._show)
-        workspace.changed.connect(lambda _: self.word.refresh())
         workspace.saved.connect(self._show)
         scheme().changed.connect(self._show)
         self._show()
+
+    @cached_property
+    def word(self) -> WordPanel:
+        """The bits and fields of a word, made for the first parameter that has some."""
+        word = WordPanel(self._workspace, self._commit, self._side)
+        self._beside.insertWidget(self._beside.count() - 1, word)
+        self._workspace.changed.connect(lambda _: word.refresh())
+        return word
 
     def _make_head(self) -> QWidget:
         head = QWidget()
@@ -115,7 +122,9 @@ class DetailPanel(QWidget):
         if address != self._address:
             self._writer.last_download = None
         self._address = address
-        self.word.show_address(address)
+        has_bits = address is not None and self._workspace.file.schema.parameters[address[0]].bits
+        if has_bits or "word" in vars(self):
+            self.word.show_address(address)
         self._show()
 
     def resizeEvent(self, event: QResizeEvent) -> None:

@@ -161,6 +161,11 @@ class Docks(Translated):
         head.setFixedHeight(HEAD)
         below.setTitleBarWidget(head)
 
+    @property
+    def places(self) -> dict[str, QWidget]:
+        """Name of a dock -> the widget that shows the panels of all pages there."""
+        return dict(self._stacks)
+
     def _dock(self, title: str) -> QDockWidget:
         return next(dock for dock in self.docks if dock.objectName() == title)
 

@@ -7,7 +7,7 @@ from functools import partial
 
 from PySide6.QtCore import QPoint, Qt, Signal
 from PySide6.QtGui import QGuiApplication
-from PySide6.QtWidgets import QApplication, QMenu, QSplitter, QTabBar, QTabWidget, QWidget
+from PySide6.QtWidgets import QApplication, QMenu, QSplitter, QStackedWidget, QTabBar, QTabWidget, QWidget
 
 from amp_studio.ui.base.modal import pop_up
 from amp_studio.ui.page.file_page import FilePage
@@ -77,6 +77,13 @@ class FileTabs(QSplitter):
         """The page in front."""
         found = self._active.currentWidget()
         return found if isinstance(found, FilePage) else None
+
+    def place_of(self, before: FilePage | None = None) -> QWidget:
+        """Return the widget that shows a new page, in the tabs of another page if one is given."""
+        side = self._side_of(before) if before else self._active
+        pages = side.findChild(QStackedWidget, options=Qt.FindChildOption.FindDirectChildrenOnly)
+        assert pages is not None
+        return pages
 
     def add(self, page: FilePage, before: FilePage | None = None) -> None:
         """Show a page in a new tab, at the place of another page if one is given."""

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import subprocess
 from pathlib import Path
 
 import pytest
@@ -12,13 +11,12 @@ from amp_studio.files import new_file, open_file
 from amp_studio.files.range_decisions import out_of_range
 from amp_studio.schema import Value
 from amp_studio.transfer.image import decode_image
+from tests.forked import Program
 from tests.transfer.conftest import StartControl
 
 
-def panel(process: subprocess.Popen[str], command: str) -> str:
+def panel(process: Program, command: str) -> str:
     """Do something at the control's panel and return what it answers; its earlier answers are read over."""
-    assert process.stdin is not None
-    assert process.stdout is not None
     process.stdin.write(command + "\n")
     process.stdin.flush()
     verb = command.partition(" ")[0]

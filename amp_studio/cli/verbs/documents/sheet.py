@@ -72,7 +72,7 @@ def run(options: Options) -> int:
     """Print or write the sheet; with ``--check`` compare what the screen shows:
     1 where something is not as keyed in.
     """
-    from amp_studio.report import counted
+    from amp_studio.report import counted, language_of
     from amp_studio.sheet import SheetError, Ticks, TicksError, make_sheet, ticks_path
 
     path: Path = options.path
@@ -82,9 +82,16 @@ def run(options: Options) -> int:
     if options.output:
         check_replaced(options.output, *inputs)
     present, against = _present(options)
+    words = language_of(options.language, file.schema.family.family)
     try:
         sheet = make_sheet(
-            file, present, of=path.name, against=against, own=machine.builder_rules(), secrets=options.secrets
+            file,
+            present,
+            of=path.name,
+            against=against,
+            own=machine.builder_rules(),
+            secrets=options.secrets,
+            message=words.cited,
         )
         ticks = Ticks(ticks_path(path), sheet)
     except (SheetError, TicksError) as error:
@@ -93,7 +100,7 @@ def run(options: Options) -> int:
     if ticks.forgotten:
         note(f"{counted(ticks.forgotten, 'tick')} left out: the values have changed since")
     for warning in sheet.warnings:
-        note(warning)
+        note(words.sentence(warning))
     if options.check:
         return _check(options, file, sheet, ticks)
     _print(options, sheet, ticks, {})
