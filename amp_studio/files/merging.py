@@ -5,13 +5,14 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Literal, NamedTuple
+from typing import Literal, NamedTuple, TypeVar
 
 from amp_studio.schema import Address, Schema, Value, read_address, same_value
 
 from .other_schema import by_schema
 from .parameter_file import Change, ParameterFile
 
+K = TypeVar("K")
 Side = Literal["base", "a", "b"]
 RowPart = Literal["value", "header", "entry"]
 """What a row is about: a parameter, an entry of the header, or an entry that the schema does not know."""
@@ -107,23 +108,23 @@ class Merge:
     # -- the rows --------------------------------------------------------------
 
     def _rows(self) -> Iterator[Row]:
-        texts = [_header_texts(file) for file in (self.base, self.a, self.b)]
+        sources = (self.base, self.a, self.b)
+        texts = [_header_texts(file) for file in sources]
         for place in dict.fromkeys(place for text in texts for place in text):
-            yield self._row(
-                RowId("header", place, ".".join(filter(None, place))), *(t.get(place) for t in texts)
-            )
-        empty: Mapping[Address, Value] = {}
-        base, a, b = (empty if self.base is None else self.base.values), self.a.values, self.b.values
-        for address in in_order(self.a.schema, {*a, *b, *base}):
-            yield self._row(RowId("value", address), base.get(address), a.get(address), b.get(address))
-        entries: list[dict[str, str]] = [
-            {} if file is None else file.unknown for file in (self.base, self.a, self.b)
+            yield self._row(RowId("header", place, ".".join(filter(None, place))), texts, place)
+        values: list[Mapping[Address, Value]] = [{} if file is None else file.values for file in sources]
+        for address in in_order(self.a.schema, {address for known in values for address in known}):
+            yield self._row(RowId("value", address), values, address)
+        entries = [
+            {} if file is None else {key: Value(text) for key, text in file.unknown.items()}
+            for file in sources
         ]
         for key in dict.fromkeys(key for known in entries for key in known):
-            row_id = RowId("entry", read_address(key), key)
-            yield self._row(row_id, *(None if (t := e.get(key)) is None else Value(t) for e in entries))
+            yield self._row(RowId("entry", read_address(key), key), entries, key)
 
-    def _row(self, row_id: RowId, base: Value | None, a: Value | None, b: Value | None) -> Row:
+    def _row(self, row_id: RowId, sources: Sequence[Mapping[K, Value]], key: K) -> Row:
+        """Return the row of what base, A and B have under a key."""
+        base, a, b = (source.get(key) for source in sources)
         return Row(row_id, base, a, b, self._kind(base, a, b))
 
     def _kind(self, base: Value | None, a: Value | None, b: Value | None) -> RowKind:

@@ -4,12 +4,12 @@ and which of its rules are broken.
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from typing import NamedTuple
 
 from amp_studio.files import ParameterFile
-from amp_studio.schema import Address, ControlMessage, Rule, Schema, show_value
+from amp_studio.schema import Address, ControlMessage, Parameter, Rule, Schema, show_value
 from amp_studio.validate import Finding
 
 from .places import place_of
@@ -59,6 +59,14 @@ class MessagePage:
         return tuple(linked for linked in self.rules if linked.findings)
 
 
+def _values(file: ParameterFile, parameter: Parameter, instances: Iterable[str]) -> Iterator[LinkedValue]:
+    """Yield the active values of a parameter."""
+    for instance in instances:
+        address = (parameter.id, instance)
+        if file.evaluation.state(address).state == "in-force":
+            yield LinkedValue(address, place_of(file, address), show_value(parameter, file.get(address)))
+
+
 def message_page(
     schema: Schema,
     machine: str,
@@ -80,15 +88,8 @@ def message_page(
         instances = here.instances(parameter) if parameter is not None else ()
         if parameter is None or not instances:
             continue
-        values = []
-        for instance in instances if file is not None and parameter.access != "read" else ():
-            address = (name, instance)
-            if file is not None and file.evaluation.state(address).state == "in-force":
-                values.append(
-                    LinkedValue(address, place_of(file, address), show_value(parameter, file.get(address)))
-                )
-        linked.append(
-            LinkedParameter(name, parameter.name, here.number((name, instances[0])) or "", tuple(values))
-        )
+        values = () if file is None or parameter.access == "read" else _values(file, parameter, instances)
+        number = here.number((name, instances[0])) or ""
+        linked.append(LinkedParameter(name, parameter.name, number, tuple(values)))
     found = (LinkedRule(rules[name], tuple(by_rule.get(name, ()))) for name in message.rules if name in rules)
     return MessagePage(message, tuple(linked), tuple(found))

@@ -38,10 +38,13 @@ class PowerUp:
 def power_up(file: ParameterFile) -> PowerUp:
     """Return what is active after power-up under a file; empty for a family of which no page prints it."""
     codes = ControlCodes(file)
-    return PowerUp(tuple(_in_force(codes)), tuple(_changes(codes)), tuple(_calls(codes)))
+    return PowerUp(
+        (*_active_codes(codes), *_active_values(codes)), tuple(_changes(codes)), tuple(_calls(codes))
+    )
 
 
-def _in_force(codes: ControlCodes) -> Iterator[PowerUpLine]:
+def _active_codes(codes: ControlCodes) -> Iterator[PowerUpLine]:
+    """Yield the code of each group that is active after power-up."""
     file = codes.file
     for group in codes.groups:
         named = (group.power_up,) if group.power_up else ()
@@ -54,6 +57,11 @@ def _in_force(codes: ControlCodes) -> Iterator[PowerUpLine]:
         if known or group.power_up:
             meaning = known.facts.meaning if known else "none" if is_set else "not set"
             yield PowerUpLine(group.name, known.code if known else "", meaning, address, group.page)
+
+
+def _active_values(codes: ControlCodes) -> Iterator[PowerUpLine]:
+    """Yield the values that programs begin with."""
+    file = codes.file
     for value in codes.facts.values:
         for each in codes.whole(value.params):
             if file.evaluation.state(each).is_active:

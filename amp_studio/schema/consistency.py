@@ -102,7 +102,8 @@ def _named_by_experience(plausible: Plausible) -> dict[str, tuple[tuple[str, ...
     }
 
 
-def _in_family(family: Family, ids: set[str]) -> Iterator[Inconsistency]:
+def _in_conditions(family: Family, ids: set[str]) -> Iterator[Inconsistency]:
+    """Yield each condition that cannot be compiled, and what the conditions read that does not exist."""
     for name, condition in family.conditions.items():
         here: KeyPath = ("conditions", name)
         try:
@@ -114,11 +115,12 @@ def _in_family(family: Family, ids: set[str]) -> Iterator[Inconsistency]:
             yield Inconsistency(None, (*here, "when"), f"condition {name}: {_first_line(error)}")
         for short, text in condition.reads.items():
             if text.partition("@")[0] not in ids:
-                yield Inconsistency(
-                    None,
-                    (*here, "reads", short),
-                    f"condition {name} reads {quoted(text)}, which does not exist",
-                )
+                what = f"condition {name} reads {quoted(text)}, which does not exist"
+                yield Inconsistency(None, (*here, "reads", short), what)
+
+
+def _in_family(family: Family, ids: set[str]) -> Iterator[Inconsistency]:
+    yield from _in_conditions(family, ids)
     if family.angular_when is not None and family.angular_when not in family.conditions:
         yield Inconsistency(None, ("angular_when",), f"there is no condition {quoted(family.angular_when)}")
     yield from _axis_faults(family, ids)
@@ -204,17 +206,20 @@ def _in_parameter(
         if variant.when not in family.conditions:
             yield ("range_variants", n, "when"), f"there is no condition {quoted(variant.when)}"
     yield from _in_commands(parameter, ids)
+    yield from _in_bounds(parameter, ids)
+    for place, scope in _all_scopes(parameter):
+        if scope not in family.scopes:
+            yield place, f"the family has no scope {quoted(scope)}"
+
+
+def _in_bounds(parameter: Parameter, ids: set[str]) -> Iterator[tuple[KeyPath, str]]:
+    """Yield every bound of a range that is no parameter."""
     for place, ranges in _all_ranges(parameter):
         for unit, pair in ranges:
             for end, bound in enumerate(pair):
                 if isinstance(bound, BoundRef) and bound.param not in ids:
-                    yield (
-                        (*place, unit, end, "param"),
-                        f"there is no parameter {quoted(bound.param)} to bound it",
-                    )
-    for place, scope in _all_scopes(parameter):
-        if scope not in family.scopes:
-            yield place, f"the family has no scope {quoted(scope)}"
+                    what = f"there is no parameter {quoted(bound.param)} to bound it"
+                    yield (*place, unit, end, "param"), what
 
 
 def _in_commands(parameter: Parameter, ids: set[str]) -> Iterator[tuple[KeyPath, str]]:

@@ -41,18 +41,28 @@ def probing(read: AxisParameters, axis: AxisLaw, cycle: str) -> Probing:
     seen = f"The signal counts as it goes {'off' if edge == 'high-to-low' else 'on'} (602, 29-4)."
     speed = (read.optional(parameter, everywhere=True) or 0.0) / 60.0
     if name.startswith("G38"):
-        return Probing(
-            f"{name} at Probe Rate behind Approach Distance",
-            speed,
-            axis.servo_period,
-            LATENCY,
-            approach=(read.optional(ids.approach_rate, everywhere=True) or 0.0) / 60.0,
-            approach_distance=read.optional(ids.approach_distance, everywhere=True) or 0.0,
-            band=read.number(ids.tolerance_band, everywhere=True),
-            outside="PROBE ERROR",
-            page="29-6",
-            notes=(seen, "Approach Distance counts from the start of the cycle (29-4)."),
-        )
+        return _touch(read, axis, name, speed, seen)
+    return _skip(read, axis, name, skip, speed, seen)
+
+
+def _touch(read: AxisParameters, axis: AxisLaw, name: str, speed: float, seen: str) -> Probing:
+    """Return a probing cycle: quick up to the approach distance, then at the probe rate."""
+    return Probing(
+        f"{name} at Probe Rate behind Approach Distance",
+        speed,
+        axis.servo_period,
+        LATENCY,
+        approach=(read.optional(ids.approach_rate, everywhere=True) or 0.0) / 60.0,
+        approach_distance=read.optional(ids.approach_distance, everywhere=True) or 0.0,
+        band=read.number(ids.tolerance_band, everywhere=True),
+        outside="PROBE ERROR",
+        page="29-6",
+        notes=(seen, "Approach Distance counts from the start of the cycle (29-4)."),
+    )
+
+
+def _skip(read: AxisParameters, axis: AxisLaw, name: str, skip: str, speed: float, seen: str) -> Probing:
+    """Return a skip cycle, which changes an offset where ``skip`` names its table."""
     is_own = read.value(ids.use_skip_feedrate, everywhere=True) is True
     notes = [seen] if is_own else [seen, PROGRAMMED]
     band = float("inf")

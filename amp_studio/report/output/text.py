@@ -39,23 +39,33 @@ def _lines(report: Report, words: Language) -> Iterator[str]:
             for mark, why in part.reasons:
                 yield from _wrapped(why, f"  {mark} ")
             yield ""
-    if report.power_up:
-        yield from _heading(words.text("Part programs after power-up").upper())
-        for line in report.power_up:
-            yield from _wrapped(f"{line.what}: {line.code} {line.meaning}".replace("  ", " "), "")
-            yield from _wrapped(f"{line.numbers} ({words.text('page')} {line.page})".strip(), "    ")
-        yield ""
-    if report.exchanges:
-        yield from _heading(words.text("Exchanges with controls").upper())
-        for each in report.exchanges:
-            yield from _wrapped(f"{each.when}  {each.who}  {each.verb}  {each.control}", "")
-            yield from _wrapped(f"{each.before or '?'} → {each.after or '?'}  {each.text}", "    ")
-        yield ""
+    yield from _power_up(report, words)
+    yield from _exchanges(report, words)
     if "signatures" not in report.contents.without:
         yield from _heading(words.text("Signatures").upper())
         for label in ("Set up by", "Checked by", "Released by", "Taken over by"):
             yield ""
             yield f"{words.text(label) + ' ':_<60}  {words.text('Date') + ' ':_<38}"
+
+
+def _power_up(report: Report, words: Language) -> Iterator[str]:
+    if not report.power_up:
+        return
+    yield from _heading(words.text("Part programs after power-up").upper())
+    for line in report.power_up:
+        yield from _wrapped(f"{line.what}: {line.code} {line.meaning}".replace("  ", " "), "")
+        yield from _wrapped(f"{line.numbers} ({words.text('page')} {line.page})".strip(), "    ")
+    yield ""
+
+
+def _exchanges(report: Report, words: Language) -> Iterator[str]:
+    if not report.exchanges:
+        return
+    yield from _heading(words.text("Exchanges with controls").upper())
+    for each in report.exchanges:
+        yield from _wrapped(f"{each.when}  {each.who}  {each.verb}  {each.control}", "")
+        yield from _wrapped(f"{each.before or '?'} → {each.after or '?'}  {each.text}", "    ")
+    yield ""
 
 
 # -- before the values ---------------------------------------------

@@ -4,7 +4,9 @@ or refused with the reason.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import asdict
+from pathlib import Path
 from typing import TYPE_CHECKING
 
 from amp_studio.cli.arguments import AXIS, JSON, OUTPUT, PATH, TEXT
@@ -37,7 +39,6 @@ VERB = Verb(
 
 def run(options: Options) -> int:
     """List the tests of an axis, or write the program of one; 1 where one that was named is refused."""
-    from amp_studio.files import write_atomic
     from amp_studio.sim import machine_tests
 
     if options.output:
@@ -51,14 +52,7 @@ def run(options: Options) -> int:
             known = ", ".join(test.name for test in machine_tests(file, axis))
             raise UsageError(f"Unknown test '{options.name}'. Known: {known}")
     if options.output:
-        if len(tests) != 1:
-            raise UsageError("Name the test whose program is written")
-        if tests[0].refusal:
-            raise UsageError(tests[0].refusal)
-        write_atomic(
-            options.output, "".join(f"{line}\n" for line in tests[0].lines).encode("ascii"), keep_backup=False
-        )
-        note(f"{options.output}: {len(tests[0].lines)} lines")
+        _write(options.output, tests)
     if options.json:
         print_json({"tests": [asdict(test) for test in tests]})
     else:
@@ -74,3 +68,16 @@ def text(test: MachineTest) -> str:
     lines += [f"    {line}" for line in test.lines]
     lines += [f"  [ ] {step.do}.\n      Must be seen: {step.see}." for step in test.steps]
     return "\n".join([*lines, *(f"  {note}" for note in test.notes)])
+
+
+def _write(path: Path, tests: Sequence[MachineTest]) -> None:
+    """Write the program of the one test that was named."""
+    from amp_studio.files import write_atomic
+
+    if len(tests) != 1:
+        raise UsageError("Name the test whose program is written")
+    test = tests[0]
+    if test.refusal:
+        raise UsageError(test.refusal)
+    write_atomic(path, "".join(f"{line}\n" for line in test.lines).encode("ascii"), keep_backup=False)
+    note(f"{path}: {len(test.lines)} lines")

@@ -181,7 +181,26 @@ class TerminalDriver(AcrContent, LineDriver):
         ImageDamagedError where an earlier reading has it: what is short is no copy.
         """
         found = CardContent(self.system)
-        asked = [*settings(), *AXES]
+        for what in self._read_all(found, stage):
+            self._read_into(found, what)
+        missing = [setting for setting in settings() if setting.name not in found.figures]
+        for setting in missing:
+            self._read_into(found, setting)
+        # A setting missing in both readings may not exist on this card; one that ever was there has
+        # been lost on the line.
+        self._answered |= found.figures.keys()
+        lost = [setting.name for setting in missing if setting.name in self._answered]
+        if lost:
+            raise ImageDamagedError(
+                f"the card answers for {names_of(lost)} in one reading and not in another"
+            )
+        return found.written()
+
+    def _read_all(self, found: CardContent, stage: str) -> list[CommandSetting | str]:
+        """Ask for every setting and table; returns those to be read again,
+        which came before the line showed damage for the first time.
+        """
+        asked: list[CommandSetting | str] = [*settings(), *AXES]
         early, end = [], self._waiting.now() + FETCH_WAIT
         for n, what in enumerate(asked, 1):
             if self._waiting.now() > end:
@@ -198,18 +217,7 @@ class TerminalDriver(AcrContent, LineDriver):
             if what is settings()[-1] and not any(found.figures.values()):
                 raise ProtocolMismatchError("this terminal answers for no setting of an ACR card")
             self._waiting.notify(stage, n, len(asked))
-        for what in early if self._terminal.faults else ():
-            self._read_into(found, what)
-        missing = [setting for setting in settings() if setting.name not in found.figures]
-        for setting in missing:
-            self._read_into(found, setting)
-        # A setting missing in both readings may not exist on this card; one that ever was there has
-        # been lost on the line.
-        self._answered |= found.figures.keys()
-        if any(setting.name in self._answered for setting in missing):
-            names = names_of([setting.name for setting in missing if setting.name in self._answered])
-            raise ImageDamagedError(f"the card answers for {names} in one reading and not in another")
-        return found.written()
+        return early if self._terminal.faults else []
 
     def _read_into(self, found: CardContent, what: CommandSetting | str) -> None:
         """Ask for a setting, or for the ballscrew table of an axis."""

@@ -83,10 +83,7 @@ def _read(text: str, schema: Schema, options: ReadOptions) -> TextRead:
         except UnknownParameterError as error:
             if not options.keep_unknown:
                 raise FormatError(str(error), n, 1) from None
-            if number.strip() in found.unknown:
-                raise FormatError(f"{quoted(number)} occurs twice", n, 1) from None
-            found.unknown[number.strip()] = " ".join(cell for cell in cells[:2] if cell)
-            found.unknown_lines[number.strip()] = n
+            _keep(found, number.strip(), cells, n)
             continue
         if not schema.parameters[address[0]].patchable:
             raise FormatError(f"{number} cannot be keyed in at the control", n, 1)
@@ -94,6 +91,14 @@ def _read(text: str, schema: Schema, options: ReadOptions) -> TextRead:
             raise FormatError(f"{number} occurs twice", n, 1)
         found.values[address] = _value(file, address, cells, n, len(number) + 2)
     return found
+
+
+def _keep(found: TextRead, number: str, cells: list[str], line: int) -> None:
+    """Keep a number that the family does not have, with its value and unit."""
+    if number in found.unknown:
+        raise FormatError(f"{quoted(number)} occurs twice", line, 1)
+    found.unknown[number] = " ".join(cell for cell in cells[:2] if cell)
+    found.unknown_lines[number] = line
 
 
 def _value(file: ParameterFile, address: tuple[str, str], cells: list[str], line: int, column: int) -> Value:
