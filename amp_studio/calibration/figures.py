@@ -11,6 +11,7 @@ import math
 import statistics
 from collections.abc import Iterable
 from dataclasses import dataclass
+from fractions import Fraction
 
 from .measurement import Measurement
 
@@ -74,16 +75,7 @@ def figures(measurement: Measurement) -> AxisFigures:
         {at: [float(v) for v in values] for at, values in measurement.errors(rising=side).items()}
         for side in (True, False)
     )
-    targets = tuple(
-        TargetFigures(
-            float(at),
-            _mean(rising.get(at)),
-            _mean(falling.get(at)),
-            _spread(rising.get(at)),
-            _spread(falling.get(at)),
-        )
-        for at in measurement.targets
-    )
+    targets = tuple(_target(at, rising.get(at), falling.get(at)) for at in measurement.targets)
     reversals = [t.reversal for t in targets if t.reversal is not None]
     up = [(t.mean_rising, t.spread_rising) for t in targets if t.mean_rising is not None]
     down = [(t.mean_falling, t.spread_falling) for t in targets if t.mean_falling is not None]
@@ -98,13 +90,17 @@ def figures(measurement: Measurement) -> AxisFigures:
         _range([mean for mean, _ in up]),
         _range([mean for mean, _ in down]),
         _range([mean for mean, _ in both]),
-        _largest(None if s is None else 4 * s for _, s in up),
-        _largest(None if s is None else 4 * s for _, s in down),
+        _fourfold(up),
+        _fourfold(down),
         _largest(_repeatability(t) for t in targets) if both else None,
         _accuracy(up),
         _accuracy(down),
         _accuracy(both),
     )
+
+
+def _target(at: Fraction, rising: list[float] | None, falling: list[float] | None) -> TargetFigures:
+    return TargetFigures(float(at), _mean(rising), _mean(falling), _spread(rising), _spread(falling))
 
 
 def _mean(values: list[float] | None) -> float | None:
@@ -123,6 +119,11 @@ def _largest(values: Iterable[float | None]) -> float | None:
     """Return the largest; None where one of them is not known."""
     known = list(values)
     return max((v for v in known if v is not None), default=None) if None not in known else None
+
+
+def _fourfold(side: list[tuple[float, float | None]]) -> float | None:
+    """Return the repeatability of one direction: four times the largest standard deviation."""
+    return _largest(None if spread is None else 4 * spread for _, spread in side)
 
 
 def _repeatability(target: TargetFigures) -> float | None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from itertools import pairwise
 
 from amp_studio.drawing import FilledArea, Handle, Polyline, Scale, Scene, ShapeSort, Text
@@ -165,21 +166,27 @@ def _handles(figures: ValueReader, roles: GearRoles, gear: _Gear, across: float,
         found.append(figures.handle(limit, at, figures.drag(limit, "x", across), second=True))
     if low is not None:
         found.append(figures.handle(low, (gear.low, gear.output_low), figures.drag(low, "x", across)))
-    if output is not None and output_low is None and gear.high:
+    if output is not None:
+        found += _output_handles(figures, gear, output, output_low, top)
+    return found
+
+
+def _output_handles(
+    figures: ValueReader, gear: _Gear, output: DrawnValue, output_low: DrawnValue | None, top: float
+) -> Iterator[Handle]:
+    """Yield the handles of what is put out: on the middle of the line, or near each of its ends."""
+    if output_low is None:
+        if not gear.high:
+            return
         middle = 0.5 * (gear.low + gear.high)
         share = middle / gear.high or 1.0
-        at = (middle, gear.output * share)
-        found.append(
-            figures.handle(
-                output, at, figures.drag(output, "y", top, lambda level: level / share), second=True
-            )
-        )
-    elif output is not None and output_low is not None:
-        for figure, share in ((output, 0.8), (output_low, 0.2)):
-            place = gear.low + share * (gear.high - gear.low)
-            level = gear.output_low + share * (gear.output - gear.output_low)
-            other = gear.output_low if figure is output else gear.output
-            weight = share if figure is output else 1.0 - share
-            drag = figures.drag(figure, "y", top, lambda y, o=other, w=weight: o + (y - o) / w)  # type: ignore[misc]  # the defaults bind the figures of this turn
-            found.append(figures.handle(figure, (place, level), drag, second=True))
-    return found
+        drag = figures.drag(output, "y", top, lambda level: level / share)
+        yield figures.handle(output, (middle, gear.output * share), drag, second=True)
+        return
+    for figure, share in ((output, 0.8), (output_low, 0.2)):
+        place = gear.low + share * (gear.high - gear.low)
+        level = gear.output_low + share * (gear.output - gear.output_low)
+        other = gear.output_low if figure is output else gear.output
+        weight = share if figure is output else 1.0 - share
+        drag = figures.drag(figure, "y", top, lambda y, o=other, w=weight: o + (y - o) / w)  # type: ignore[misc]  # the defaults bind the figures of this turn
+        yield figures.handle(figure, (place, level), drag, second=True)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from amp_studio.drawing import Handle, Point, Polyline, Scale, Scene, ShapeSort, Text, figure_text, round_step
 from amp_studio.files import ParameterFile
@@ -149,49 +149,55 @@ def _bounds(figures: ValueReader, roles: RampRoles, feed: DrawnValue, axis: str)
 
 def _drawn(figures: ValueReader, role: RampKind, axis: str, speed: float, base: str) -> _Drawn | None:
     """Return a kind of ramp with its figures; None where one that it needs is not set or impossible."""
+    if role.rise:
+        return _by_rise(figures, role, axis, speed)
+    time, factor = _time(figures, role.time, axis)
+    least = time.number * factor if time and time.number else 0.0
+    if role.kind == "exponential":
+        if least <= 0.0:
+            return None
+        return _Drawn(role, Ramp("exponential", time=least), time=time, factor=factor)
+    return _by_slopes(figures, role, axis, base, _Drawn(role, Ramp(), time=time, factor=factor), least)
+
+
+def _by_slopes(
+    figures: ValueReader, role: RampKind, axis: str, base: str, drawn: _Drawn, least: float
+) -> _Drawn | None:
+    """Return a ramp that is given by its accelerations and its jerk; ``least`` s it takes at least."""
 
     def number(parameter: str | None, unit: str) -> DrawnValue | None:
         return figures.figure(parameter, axis, unit) if parameter else None
 
-    step_figure = number(role.step, f"{base}/s")
-    step = step_figure.number if step_figure and step_figure.number else 0.0
-    if role.rise:
-        return _by_rise(figures, role, axis, speed)
-    time, factor = _time(figures, role.time, axis)
-    if role.kind == "exponential":
-        if time is None or time.number is None or time.number * factor <= 0.0:
-            return None
-        return _Drawn(role, Ramp("exponential", time=time.number * factor), time=time, factor=factor)
-    up, down, jerk = (
-        number(role.acceleration, f"{base}/s2"),
-        number(role.deceleration, f"{base}/s2"),
-        number(role.jerk, f"{base}/s3"),
-    )
-    if up is None or up.number is None or (role.jerk and (jerk is None or not jerk.number)):
+    step = _number_of(number(role.step, f"{base}/s"))
+    up, down = number(role.acceleration, f"{base}/s2"), number(role.deceleration, f"{base}/s2")
+    jerk = number(role.jerk, f"{base}/s3")
+    if up is None or up.number is None or (role.jerk and not _number_of(jerk)):
         return None
     if up.number <= 0.0:
         figures.note(f"{up.label}: {up.text} is no ramp", up.address, wrong=up.wrong)
         return None
-    if jerk is not None and jerk.number is not None and jerk.number < 0.0:
+    given = _number_of(jerk)
+    if jerk is not None and given < 0.0:
         figures.note(f"{jerk.label}: {jerk.text} is no ramp", jerk.address, wrong=True)
         return None
-    used = jerk.number if jerk and jerk.number else 0.0
-    if role.jerk_scans and jerk and used:
-        used = _within_scans(figures, role, axis, up.number, jerk, used)
-    slower = down.number if down and down.number else 0.0
+    slower = _number_of(down)
     if slower < 0.0:
         return None
-    least = time.number * factor if time and time.number else 0.0
-    ramp = Ramp(role.kind, up.number, slower or up.number, used, least, step)
-    return _Drawn(
-        role,
-        ramp,
-        up,
-        down if slower else None,
-        jerk if used == (jerk.number if jerk else None) else None,
-        time,
-        factor,
+    used = given
+    if role.jerk_scans and jerk and given:
+        used = _within_scans(figures, role, axis, up.number, jerk, given)
+    return replace(
+        drawn,
+        ramp=Ramp(role.kind, up.number, slower or up.number, used, least, step),
+        acceleration=up,
+        deceleration=down if slower else None,
+        jerk=jerk if used == given else None,
     )
+
+
+def _number_of(figure: DrawnValue | None) -> float:
+    """Return the number of a figure; 0 where it is not set."""
+    return figure.number if figure and figure.number else 0.0
 
 
 def _by_rise(figures: ValueReader, role: RampKind, axis: str, speed: float) -> _Drawn | None:

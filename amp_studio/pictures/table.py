@@ -51,12 +51,12 @@ def draw_table(file: ParameterFile, roles: TableRoles, axis: str, like: Scene | 
     address = (roles.param, axis)
     figures.read[address] = None
     value, letter, label = file.get(address), figures.axis(axis), figures.label(address)
-    points: list[Point] = []
     unit_at = figures.address(roles.unit_from, axis)
     unit = figures.unit(unit_at) if unit_at else ""
     state = figures.evaluation.state(address)
     if not state.is_active:
         figures.note(f"{label}: inactive, {state.why}", address)
+    points: list[Point] = []
     if value is None or form is None:
         figures.note(f"{label}: not set", address)
     else:
@@ -65,19 +65,7 @@ def draw_table(file: ParameterFile, roles: TableRoles, axis: str, like: Scene | 
             unit = form.unit(str(value.value)) or unit
         except ValueError as error:
             figures.note(f"{label}: {error}", address, wrong=True)
-    low, high = (f([y for _, y in points] or [0.0]) for f in (min, max))
-    margin = 0.25 * (high - low) or abs(high) or 0.01
-    x = (
-        like.x
-        if like
-        else Scale(
-            "position",
-            unit,
-            0.0 if not points else points[0][0] - 0.02 * _span(points),
-            1.0 if not points else points[-1][0] + 0.08 * _span(points),
-        )
-    )
-    y = like.y if like else Scale("compensation", unit, min(low - margin, 0.0), max(high + margin, 0.0))
+    x, y = (like.x, like.y) if like else _scales(points, unit)
     handles = (
         [_handle(form, (address, letter, label, str(value.value)), points, n, y) for n in range(len(points))]
         if form and value
@@ -97,6 +85,19 @@ def draw_table(file: ParameterFile, roles: TableRoles, axis: str, like: Scene | 
 
     subtitle = f"{letter}, {len(points)} points"
     return shapes.scene("calibration", axis, roles.name, subtitle, x, y, with_point=with_point)
+
+
+def _scales(points: Sequence[Point], unit: str) -> tuple[Scale, Scale]:
+    """Return the scales of position and compensation, with room around the points."""
+    low, high = (f([y for _, y in points] or [0.0]) for f in (min, max))
+    margin = 0.25 * (high - low) or abs(high) or 0.01
+    first, last = 0.0, 1.0
+    if points:
+        first, last = points[0][0] - 0.02 * _span(points), points[-1][0] + 0.08 * _span(points)
+    return (
+        Scale("position", unit, first, last),
+        Scale("compensation", unit, min(low - margin, 0.0), max(high + margin, 0.0)),
+    )
 
 
 def _span(points: Points) -> float:

@@ -76,13 +76,7 @@ def _drawn(file: ParameterFile, roles: TravelRoles, axes: tuple[str, ...], like:
     scales += [Scale("", "", -1.0, 1.0, rows=((0.0, "", ""),))] * (2 - len(axes))
     if like is not None:
         scales = [like.x, like.y]
-    ranges = [scale.high - scale.low for scale in scales]
-    equal = (
-        len(axes) == 2
-        and units[0] == units[1]
-        and max(ranges) < 20.0 * min(ranges)
-        and not any(s.rows for s in scales)
-    )
+    equal = len(axes) == 2 and units[0] == units[1] and _are_alike(scales)
     views = [(scale.low, scale.high) for scale in scales]
     for zone, box in zones:
         _draw_zone(figures, drawing, zone, box, views, len(axes))
@@ -97,6 +91,12 @@ def _drawn(file: ParameterFile, roles: TravelRoles, axes: tuple[str, ...], like:
     return drawing.scene(
         "travel", "+".join(axes), "Travel and zones", subtitle, scales[0], scales[1], equal=equal
     )
+
+
+def _are_alike(scales: list[Scale]) -> bool:
+    """Return whether both axes can have one scale without one of them becoming a line."""
+    ranges = [scale.high - scale.low for scale in scales]
+    return max(ranges) < 20.0 * min(ranges) and not any(scale.rows for scale in scales)
 
 
 def _unit(figures: ValueReader, roles: TravelRoles, axis: str) -> str:

@@ -234,12 +234,9 @@ def _doubts(axis: AxisLaw, homing: Homing, around: Around, found: Homed) -> list
     return notes
 
 
-def _figures(
-    axis: AxisLaw, homing: Homing, found: Homed, others: Sequence[Homed], motion: Motion, alarmed: bool
-) -> dict[str, Figure]:
-    """Return the named figures; none of the home position where it was not reached."""
-    u, columns = axis.unit, motion.columns
-    reached = found.home is not None and not alarmed
+def _on_the_way(axis: AxisLaw, homing: Homing, found: Homed) -> dict[str, Figure]:
+    """Return the figures of switch and marker, as far as the sequence has them."""
+    u = axis.unit
     figures: dict[str, Figure] = {}
     if homing.approach:
         figures["approach_feedrate"] = (abs(homing.approach) * 60.0, f"{u}/min")
@@ -251,6 +248,16 @@ def _figures(
         from_end = None if found.marker is None or found.left is None else found.marker - found.left.measured
         figures["marker_distance"] = (from_end, u)
         figures["home_grid"] = (_grid(homing, found), "%")
+    return figures
+
+
+def _figures(
+    axis: AxisLaw, homing: Homing, found: Homed, others: Sequence[Homed], motion: Motion, alarmed: bool
+) -> dict[str, Figure]:
+    """Return the named figures; none of the home position where it was not reached."""
+    u, columns = axis.unit, motion.columns
+    reached = found.home is not None and not alarmed
+    figures = _on_the_way(axis, homing, found)
     off = None if not reached or found.home is None else float(columns["position"][-1]) - found.home
     figures |= {
         "home_position": (homing.coordinate if reached else None, u),

@@ -182,16 +182,7 @@ def run(options: Options) -> int:
         raise UsageError("Name a scenario; amp-studio simulate PATH --list lists them")
     if options.scenario == IDENTIFY:
         return _identify(options, machine)
-    spoken = _spoken(options)
-    if (options.record and not spoken) or options.scale:
-        raise UsageError(f"a record and its scale belong to {IDENTIFY}, not to {options.scenario}")
-    named, own = _settings(options.assignments)
-    settings: dict[str, Any] = {**spoken, **named}
-    if options.aim:
-        if options.scenario != "tune":
-            raise UsageError(f"--for belongs to tune, not to {options.scenario}")
-        settings["tune.for"] = options.aim
-    settings |= _sweep_settings(options)
+    settings, own = _asked_for(options)
     messages: list[str] = []
     tried = machine.with_values(assignments(own), notify=messages.append)
     file, axis = tried.file, _axis(options, tried)
@@ -214,6 +205,20 @@ def run(options: Options) -> int:
     else:
         print(trace_text(trace))
     return 1 if trace.alarms else 0
+
+
+def _asked_for(options: Options) -> tuple[dict[str, Any], list[str]]:
+    """Return the settings of the scenario and the machine, and the assignments of parameters."""
+    spoken = _spoken(options)
+    if (options.record and not spoken) or options.scale:
+        raise UsageError(f"a record and its scale belong to {IDENTIFY}, not to {options.scenario}")
+    named, own = _settings(options.assignments)
+    settings: dict[str, Any] = {**spoken, **named}
+    if options.aim:
+        if options.scenario != "tune":
+            raise UsageError(f"--for belongs to tune, not to {options.scenario}")
+        settings["tune.for"] = options.aim
+    return settings | _sweep_settings(options), own
 
 
 def _spoken(options: Options) -> dict[str, float | str]:
