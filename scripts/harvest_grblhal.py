@@ -1,12 +1,13 @@
 """Harvest the settings of grblHAL and its plugins from their sources: numbers, names, units, bounds,
 bits and build conditions.
 
-    python scripts/harvest_grblhal.py FOLDER/core FOLDER/Plugins_motor … [--write]
+    python scripts/harvest_grblhal.py FOLDER/core FOLDER/Plugins_motor … [--write | --counts]
 
 Each folder is a checkout, or a git directory, of one repository; the core is the first. Only facts are taken,
 none of the sources' help. What parameter_db describes by hand stays as it is; of it, a mask or a choice that
 is wider in some build is listed. ``--write`` writes the rest to ``parameter_db/grblhal/groups``,
-one file a group.
+one file a group. ``--counts`` counts settings, numbers, bits, alarms and errors, and lists those that
+parameter_db does not have.
 """
 
 from __future__ import annotations
@@ -85,6 +86,10 @@ SETS = {"ESET_OPTS": (5, 10), "MSET_OPTS": (8, 5)}
 """Options of settings of which there are several sets: how many,
 and numbers from one to the next (settings.h)."""
 PORTS = 16
+CONTROL_INPUTS = 14
+"""The number of the mask of control inputs, the widest one."""
+NO_CODES = {0, 253}
+"""What no control sends: no error, and what it keeps to itself (``Status_Unhandled``)."""
 GROUP_NAMES = {
     "Group_UserSettings": "User settings",
     "Group_AuxPorts": "Aux ports",
@@ -466,6 +471,9 @@ def main() -> None:
         "--write", action="store_true", help="write the groups of what is not described by hand"
     )
     parser.add_argument("--print", action="store_true", help="print them")
+    parser.add_argument(
+        "--counts", action="store_true", help="count what there is, and list what is not described here"
+    )
     options = parser.parse_args()
     sources, all_files = Sources(), []
     for folder in options.folders:
@@ -487,7 +495,47 @@ def main() -> None:
     by_number: dict[int, list[Found]] = {}
     for setting in sources.settings:
         by_number.setdefault(setting.number, []).append(setting)
+    if options.counts:
+        print(*counted(by_number, dict(all_files)), sep="\n")
+        return
     report(by_number, sources, write=options.write, show=options.print)
+
+
+def counted(by_number: dict[int, list[Found]], files: dict[str, str]) -> Iterator[str]:
+    """Yield how much the sources have of each kind, and what of it parameter_db does not have."""
+    schema = load_schema("grblhal")
+    here = schema.on("grblhal")
+    texts = {name: text for name, text in files.items() if name.endswith((".h", ".c"))}
+    enum = re.search(r"typedef enum \{([^}]*)\}\s*setting_id_t", "\n".join(texts.values()))
+    constants = set(re.findall(r"\bSetting_\w+", enum[1])) if enum else set()
+    numbers = {int(plain) for address in here.addresses if (plain := here.plain_number(address))}
+    yield f"{len(by_number)} settings are described, {len(constants)} have an id in setting_id_t"
+    yield from _lacking("settings", by_number.keys() - numbers)
+    control = by_number.get(CONTROL_INPUTS, [])
+    bits = {n for one in control for n, label in enumerate(one.labels.split(",")) if label not in ("", "N/A")}
+    address = next((a for a in here.addresses if here.plain_number(a) == str(CONTROL_INPUTS)), None)
+    known = {bit.bit for bit in schema.parameters[address[0]].bits or ()} if address else set()
+    yield f"${CONTROL_INPUTS} has {len(bits)} bits"
+    yield from _lacking(f"bits of ${CONTROL_INPUTS}", bits - known)
+    for kind, prefix in (("alarms", "Alarm"), ("errors", "Status")):
+        codes = {
+            int(code)
+            for text in texts.values()
+            for code in re.findall(rf"\b{prefix}_\w+\s*=\s*([0-9]+)\s*,", text)
+        } - NO_CODES
+        listed = {
+            m.code.rpartition(":")[2]
+            for each in schema.message_lists
+            if each.id == kind
+            for m in each.messages
+        }
+        yield f"{len(codes)} {kind}"
+        yield from _lacking(kind, {code for code in codes if str(code) not in listed})
+
+
+def _lacking(what: str, numbers: set[int]) -> Iterator[str]:
+    if numbers:
+        yield f"not described here: {what} {', '.join(map(str, sorted(numbers)))}"
 
 
 def report(by_number: dict[int, list[Found]], sources: Sources, *, write: bool, show: bool) -> None:

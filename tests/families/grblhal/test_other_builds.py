@@ -173,6 +173,74 @@ def test_the_harvest_finds_numbers_bounds_bits_and_conditions(checkout: Path, tm
     assert "Old" not in done.stdout
 
 
+CORE = {
+    "settings.h": "typedef enum {\n    Setting_ControlInvertMask = 14,\n    Setting_Unheard = 999,\n} setting_id_t;\n",
+    "alarms.h": "enum { Alarm_None = 0, Alarm_Known = 1, Alarm_Unheard = 98, };\n",
+    "errors.h": "enum { Status_OK = 0, Status_Known = 20, Status_Unheard = 199, Status_Unhandled = 253, };\n",
+    "settings.c": """static char signals[] = "A,B,C,D,E,F,G,H,I,J,K,L,M,N";
+static const setting_detail_t details[] = {
+    { Setting_ControlInvertMask, Group_X, "Inputs", NULL, Format_Bitfield, signals, NULL, NULL, 0, &a, NULL, NULL },
+    { Setting_Unheard, Group_X, "New", NULL, Format_Bool, NULL, NULL, NULL, 0, &a, NULL, NULL },
+};
+""",
+}
+
+
+def test_the_harvest_counts_what_the_firmware_has_and_names_what_is_missing_here(
+    checkout: Path, tmp_path: Path
+) -> None:
+    """Of the core of 2026-08-18 it counts 146 settings (135 in the core of the issue), 13 bits of $14, 22 alarms
+    and 88 errors, and finds none missing. The same is asked of the sources of ``make peer-grblhal`` where they
+    are.
+    """
+    (tmp_path / "core").mkdir()
+    for name, text in CORE.items():
+        (tmp_path / "core" / name).write_text(text, "utf-8")
+    lines = counts(checkout, tmp_path / "core")
+    assert lines == [
+        "2 settings are described, 2 have an id in setting_id_t",
+        "not described here: settings 999",
+        "$14 has 14 bits",
+        "not described here: bits of $14 13",
+        "2 alarms",
+        "not described here: alarms 98",
+        "2 errors",
+        "not described here: errors 199",
+    ]
+    core = checkout / "build" / "peers" / "grblhal" / "src" / "src" / "grbl"
+    if core.is_dir():
+        assert not [line for line in counts(checkout, core) if line.startswith("not described here")]
+
+
+def counts(checkout: Path, folder: Path) -> list[str]:
+    command = [sys.executable, str(checkout / "scripts" / "harvest_grblhal.py"), str(folder), "--counts"]
+    return subprocess.run(command, capture_output=True, encoding="utf-8", check=True).stdout.splitlines()
+
+
+OF_THE_CORE = (
+    "0-49 56-69 90-92 95 100 110 120 130 160 170 180 190 340-349 370-372 374-376 384 392-395 398-399 481 484-489"
+    " 519 534 536-539 640-648 650 671 673 676 680-681 700-701 709 716 730-731 733-740 742-745 800"
+)
+"""The numbers that ``--counts`` found described in grblHAL/core f80fc34 (2026-08-18)."""
+
+
+def test_every_setting_that_the_core_describes_is_known_and_has_its_build_condition() -> None:
+    numbers = [
+        n
+        for part in OF_THE_CORE.split()
+        for n in range(int(part.split("-")[0]), int(part.split("-")[-1]) + 1)
+    ]
+    here = GRBLHAL.on("grblhal")
+    known = {here.plain_number(a): a[0] for a in here.addresses}
+    assert len(numbers) == 146
+    assert [n for n in numbers if str(n) not in known] == []
+    described = [GRBLHAL.parameters[known[str(n)]] for n in numbers]
+    others = [p for p in described if not p.in_signature]
+    assert len(others) >= 50
+    assert all(p.needs for p in others), "a setting of other builds has its condition"
+    assert {bit.bit for bit in GRBLHAL.parameters[known["14"]].bits or ()} == set(range(13))
+
+
 def test_a_masked_password_and_an_empty_one_are_text_and_no_value() -> None:
     found = read("$74=\n$75=\n$77=hunter2222\n$331=********\n$300=mill\n")
     assert found.unknown == {"$75": "", "$331": "********"}
