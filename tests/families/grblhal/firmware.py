@@ -117,6 +117,34 @@ CLOSED = (
 )
 
 
+NO_LIMIT = float("inf")
+OF_GRBLHAL: dict[int, Range] = {
+    1: (0, 65_535),
+    9: (0, 31),
+    14: (0, (1 << 13) - 1),
+    21: (0, 7),
+    22: (0, (1 << 11) - 1),
+    29: (0, 20),
+    32: (0, 2),
+    **dict.fromkeys((34, 35, 36, 347, 734, 735, 736), (0, 100)),
+    42: (0, 2),
+    43: (1, 128),
+    58: (-100_000, NO_LIMIT),
+    **{170 + axis: (-10, 10) for axis in range(8)},
+    341: (0, 4),
+    **dict.fromkeys((392, 393, 394, 539, 673), (0.5, 20)),
+    398: (30, 1000),
+    481: (100, 1000),
+    **dict.fromkeys((536, 537), (0, 255)),
+    676: (0, 15),
+    680: (0, 500),
+}
+"""Least and most of ``setting_detail`` in grblHAL/core settings.c (f80fc34, lines 2305 to 2477); of masks and
+choices by the labels there. Every other figure is not negative (``validate_value``, line 3189)."""
+MAY_BE_ZERO = {392, 393, 394, 539, 673, 481}
+"""Those with ``allow_null``."""
+
+
 def machine_of(listing: Mapping[int, str]) -> str:
     """Return the machine type of a listing: the firmware of whose lines fewest are missing;
     grblHAL where none lists it.
@@ -131,6 +159,16 @@ def machine_of(listing: Mapping[int, str]) -> str:
     return CLOSED[min(fits)[1]].machine if fits else "grblhal"
 
 
+def refusals_of_grblhal(figures: Mapping[int, float]) -> Iterator[str]:
+    """Yield what ``settings_store_setting`` of grblHAL would answer with an error."""
+    if figures.get(40) and not int(figures.get(22, 1)) & 1:
+        yield "$40: limits of jogging need homing"  # set_jog_soft_limited, line 1057
+    for n, figure in figures.items():
+        low, high = OF_GRBLHAL.get(n, (0, NO_LIMIT))
+        if not low <= figure <= high and not (figure == 0 and n in MAY_BE_ZERO):
+            yield f"${n}: {figure:g} is not within {low:g} to {high:g}"
+
+
 def refusals(listing: Mapping[int, str], machine: str) -> Iterator[str]:
     """Yield the settings that the firmware would answer with an error, or with which an axis could not
     move.
@@ -138,6 +176,8 @@ def refusals(listing: Mapping[int, str], machine: str) -> Iterator[str]:
     figures = {n: float(text) for n, text in listing.items() if re.fullmatch(r"-?[0-9]+(\.[0-9]*)?", text)}
     if figures.get(20) and not figures.get(22, 1):
         yield "$20: soft limits need homing"  # STATUS_SOFT_LIMIT_ERROR, in all of them
+    if machine == "grblhal":
+        yield from refusals_of_grblhal(figures)
     least = 2.0 if machine == "grblhal" else 3.0
     if figures.get(0, least) < least:
         yield "$0: the pulse is too short"

@@ -10,11 +10,13 @@ from typing import Any
 import pytest
 
 from amp_studio.cli import run
+from amp_studio.families.grblhal.settings import addresses_by_number, value_of_text
+from amp_studio.files import Change
 from amp_studio.formats import export_file, import_file
 from amp_studio.schema.yaml_reader import read_yaml
 from amp_studio.validate import Validator
 
-from .firmware import machine_of, refusals
+from .firmware import MAY_BE_ZERO, NO_LIMIT, OF_GRBLHAL, machine_of, refusals
 
 LISTINGS: list[dict[str, Any]] = read_yaml(Path(__file__).with_name("listings.yaml").read_text("utf-8")).data[
     "listings"
@@ -72,6 +74,34 @@ def test_the_expected_verdict_is_that_of_the_firmware_s_own_rules(one: dict[str,
     assert one["machine"] == machine_of(settings)
     refused = list(refusals(settings, one["machine"]))
     assert bool(one["errors"]) == bool(refused), refused
+
+
+def test_what_is_refused_of_a_setting_is_what_the_source_of_grblhal_refuses(tmp_path: Path) -> None:
+    """The bounds are those that firmware.py took from settings.c; 0 is allowed beside some of them, and there a
+    figure between 0 and the least one is left to the control.
+    """
+    path = tmp_path / "small.txt"
+    settings = "0=5.0 1=255 10=511 22=1 100=80 101=80 102=400 103=80 110=5000 120=500 130=400"
+    path.write_text("".join(f"${one}\n" for one in settings.split()), "utf-8")
+    file = import_file(path, machine="grblhal")
+    known, validator = addresses_by_number(file.machine_schema), Validator(file)
+    validator.run()
+
+    def errors(number: int, figure: float) -> list[str]:
+        address = known[number]
+        before = file.get(address)
+        value = value_of_text(file.schema.parameters[address[0]], f"{figure:g}")
+        file.apply(Change(address, before, value))
+        found = [each.rule for each in validator.update([address]) if each.severity == "error"]
+        file.apply(Change(address, value, before))
+        validator.update([address])
+        return found
+
+    for number, (least, most) in OF_GRBLHAL.items():
+        for figure in (least, most):
+            assert figure == NO_LIMIT or errors(number, figure) == [], number
+        for figure in (most + 1, -1.0 if number in MAY_BE_ZERO else least - 1):
+            assert figure == NO_LIMIT or errors(number, figure), f"${number}={figure:g}"
 
 
 # -- relatives
