@@ -81,7 +81,8 @@ def test_what_is_refused_of_a_setting_is_what_the_source_of_grblhal_refuses(tmp_
     figure between 0 and the least one is left to the control.
     """
     path = tmp_path / "small.txt"
-    settings = "0=5.0 1=255 10=511 22=1 100=80 101=80 102=400 103=80 110=5000 120=500 130=400"
+    axes = " ".join(f"{number}=80" for number in range(100, 108))
+    settings = f"0=5.0 1=255 10=511 22=1 {axes} 110=5000 120=500 130=400"
     path.write_text("".join(f"${one}\n" for one in settings.split()), "utf-8")
     file = import_file(path, machine="grblhal")
     known, validator = addresses_by_number(file.machine_schema), Validator(file)
