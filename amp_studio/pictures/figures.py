@@ -92,7 +92,7 @@ class ValueReader:
         self.read[address] = None
         found = self._figure(address, unit)
         if found.problem and not quiet:
-            self.note(f"{found.label}: {found.problem}", address, wrong=found.wrong)
+            self.add_note(f"{found.label}: {found.problem}", address, wrong=found.wrong)
         return found
 
     def _figure(self, address: Address, unit: str) -> DrawnValue:
@@ -159,7 +159,7 @@ class ValueReader:
         """Return the letter of an axis, or what it is called without one."""
         return axis_name(self.evaluation, instance) or instance
 
-    def note(
+    def add_note(
         self, text: str, address: Address | None = None, *, wrong: bool = False, is_remark: bool = False
     ) -> None:
         """Say something about the picture, once."""
@@ -170,7 +170,9 @@ class ValueReader:
         if each.number is None:
             return False
         if each.number <= 0.0:
-            self.note(f"{each.label}: {each.text} has no place on this scale", each.address, wrong=each.wrong)
+            self.add_note(
+                f"{each.label}: {each.text} has no place on this scale", each.address, wrong=each.wrong
+            )
             return False
         return True
 
@@ -182,7 +184,7 @@ class ValueReader:
         self.read[address] = None
         value = self.file.get(address)
         if value is None:
-            self.note(f"{self.label(address)}: not set, so the direction is not drawn", address)
+            self.add_note(f"{self.label(address)}: not set, so the direction is not drawn", address)
             return 0.0
         if role.bits and instance in axes and not isinstance(value.value, str):
             is_set = int(value.value) >> axes.index(instance) & 1

@@ -88,7 +88,7 @@ def _note_order(figures: ValueReader, at: DrawnValue, drawn: list[DrawnValue]) -
     number = at.number or 0.0
     last = drawn[-1]
     if last is not at and (last.number or 0.0) < number:
-        figures.note(
+        figures.add_note(
             f"{at.label}: {at.text} is above {last.label}, {last.text}: the break is never reached",
             at.address,
             wrong=True,

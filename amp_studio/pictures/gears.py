@@ -46,7 +46,7 @@ def draw_gears(file: ParameterFile, roles: GearRoles, spindle: str, like: Scene 
             shapes.areas.append(FilledArea(b.low, y.low, a.high, y.high, "overlap", ""))
         elif b.low > a.high:
             about = b.figures[0].address if b.figures[0] else None
-            figures.note(f"No gear has the speeds from {a.high:g} to {b.low:g} rpm", about)
+            figures.add_note(f"No gear has the speeds from {a.high:g} to {b.low:g} rpm", about)
     for n, gear in enumerate(found):
         _draw_gear(shapes, gear, is_first=n == 0)
         shapes.handles += _handles(figures, roles, gear, x.high, y.high)
@@ -143,7 +143,7 @@ def _scaled(figures: ValueReader, roles: GearRoles) -> _Gear | None:
     if found is None or found.number is None or roles.full is None:
         return None
     if found.number <= 0.0:
-        figures.note(f"{found.label}: {found.text} puts nothing out at any speed", found.address)
+        figures.add_note(f"{found.label}: {found.text} puts nothing out at any speed", found.address)
         return None
     return _Gear(
         "full output", 0.0, roles.full / found.number, roles.full, 0.0, (None, found, None, None, None)

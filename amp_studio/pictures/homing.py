@@ -66,7 +66,7 @@ def read_home(figures: ValueReader, roles: TravelRoles, axis: str, file: Paramet
     way = off or (towards and -towards)
     if way and speed is not None and speed.number is not None:
         sign = "plus" if way > 0.0 else "minus"
-        figures.note(
+        figures.add_note(
             f"{figures.axis(axis)} leaves its switch in {sign} direction at {speed.text}",
             speed.address,
             is_remark=True,
@@ -163,7 +163,7 @@ def _assumed_switch(rail: _Rail, place: float) -> None:
     """Draw a switch whose place is not known on its side of the marker."""
     if math.isfinite(place):
         rail.shapes.dots.append(Dot(rail.at(place), "switch"))
-        rail.shapes.figures.note(
+        rail.shapes.figures.add_note(
             "Where a home switch lies is no value of this file: it is drawn on its side of the marker.",
             is_remark=True,
         )

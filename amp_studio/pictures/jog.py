@@ -52,7 +52,7 @@ def _draw_row(shapes: SceneShapes, row: list[DrawnValue], bounds: list[DrawnValu
         number = each.number or 0.0
         beyond = highest is not None and number > highest
         if beyond:
-            figures.note(
+            figures.add_note(
                 f"{each.label}: {each.text} is above {bounds[0].label}, {bounds[0].text}",
                 each.address,
                 wrong=True,

@@ -64,7 +64,7 @@ def draw_ramps(file: ParameterFile, roles: RampRoles, axis: str, like: Scene | N
         try:
             pieces = _pieces(each.ramp, speed, distance)
         except SimulationError as error:
-            figures.note(f"{each.role.name}: {error}", wrong=True)
+            figures.add_note(f"{each.role.name}: {error}", wrong=True)
             continue
         is_used = used in each.role.modes if roles.mode else not shapes.lines
         end = _draw_move(shapes, each, pieces, feed.number, feed.number / speed, n, is_used=is_used)
@@ -103,7 +103,7 @@ def _draw_move(
     at = (0.45 * curve[-1][0], (0.25 + 0.12 * n) * top)
     shapes.texts.append(Text(at, each.role.name, _described(each, pieces), "left", about, sort))
     if each.role.note:
-        shapes.figures.note(each.role.note, is_remark=True)
+        shapes.figures.add_note(each.role.note, is_remark=True)
     return curve[-1][0]
 
 
@@ -117,7 +117,7 @@ def _speed(figures: ValueReader, feed: DrawnValue | None) -> float | None:
         speed = 0.0
     if speed > 0.0:
         return speed
-    figures.note(f"{feed.label}: {feed.text} is no speed to ramp to", feed.address, wrong=True)
+    figures.add_note(f"{feed.label}: {feed.text} is no speed to ramp to", feed.address, wrong=True)
     return None
 
 
@@ -131,7 +131,7 @@ def _mode(figures: ValueReader, roles: RampRoles, axis: str) -> str | None:
         return None
     figures.read[address] = None
     if value is None:
-        figures.note(f"{figures.label(address)}: not set, so the ramp of moves is not marked", address)
+        figures.add_note(f"{figures.label(address)}: not set, so the ramp of moves is not marked", address)
         return None
     if roles.mode_bit is None or isinstance(value.value, str):
         return str(value.value)
@@ -174,11 +174,11 @@ def _by_slopes(
     if up is None or up.number is None or (role.jerk and not _number_of(jerk)):
         return None
     if up.number <= 0.0:
-        figures.note(f"{up.label}: {up.text} is no ramp", up.address, wrong=up.wrong)
+        figures.add_note(f"{up.label}: {up.text} is no ramp", up.address, wrong=up.wrong)
         return None
     given = _number_of(jerk)
     if jerk is not None and given < 0.0:
-        figures.note(f"{jerk.label}: {jerk.text} is no ramp", jerk.address, wrong=True)
+        figures.add_note(f"{jerk.label}: {jerk.text} is no ramp", jerk.address, wrong=True)
         return None
     slower = _number_of(down)
     if slower < 0.0:
@@ -207,7 +207,7 @@ def _by_rise(figures: ValueReader, role: RampKind, axis: str, speed: float) -> _
     if found is None or not found.number or found.number <= 0.0:
         named = found or own[0]
         if named is not None:
-            figures.note(
+            figures.add_note(
                 f"{named.label}: {named.problem or f'{named.text} is no time'}",
                 named.address,
                 wrong=found is not None,
@@ -240,13 +240,13 @@ def _within_scans(
         return given
     scan = first.number * factor
     if scan <= 0.0:
-        figures.note(
+        figures.add_note(
             f"{first.label}: without a scan above 0 the bounds of the jerk are not known", first.address
         )
         return given
     used = min(max(given, up / (role.jerk_scans.most * scan)), up / (role.jerk_scans.least * scan))
     if used != given:
-        figures.note(
+        figures.add_note(
             f"{jerk.label}: {jerk.text} is outside {role.jerk_scans.least:g} to {role.jerk_scans.most:g}"
             f" scans, drawn with {used:.6g} {unit_text(jerk.unit)}",
             jerk.address,

@@ -55,16 +55,16 @@ def draw_table(file: ParameterFile, roles: TableRoles, axis: str, like: Scene | 
     unit = figures.unit(unit_at) if unit_at else ""
     state = figures.evaluation.state(address)
     if not state.is_active:
-        figures.note(f"{label}: inactive, {state.why}", address)
+        figures.add_note(f"{label}: inactive, {state.why}", address)
     points: list[Point] = []
     if value is None or form is None:
-        figures.note(f"{label}: not set", address)
+        figures.add_note(f"{label}: not set", address)
     else:
         try:
             points = form.read(letter, str(value.value))
             unit = form.unit(str(value.value)) or unit
         except ValueError as error:
-            figures.note(f"{label}: {error}", address, wrong=True)
+            figures.add_note(f"{label}: {error}", address, wrong=True)
     x, y = (like.x, like.y) if like else _scales(points, unit)
     handles = (
         [_handle(form, (address, letter, label, str(value.value)), points, n, y) for n in range(len(points))]

@@ -116,7 +116,7 @@ def _span(figures: ValueReader, span: SpanRole, axis: str) -> _Ends:
         none = (-math.inf, math.inf)[n]
         value = figures.file.get(figure.address) if figure else None
         if figure is not None and value is not None and span.none is not None and value.value == span.none[n]:
-            figures.note(f"{figure.label}: {figure.text} is no limit", figure.address, is_remark=True)
+            figures.add_note(f"{figure.label}: {figure.text} is no limit", figure.address, is_remark=True)
             found[n] = None
             ends.append(none)
         else:
@@ -132,7 +132,7 @@ def _reach(figures: ValueReader, roles: TravelRoles, axis: str, file: ParameterF
     if found is None or found.number is None or not sign:
         return _Ends(-math.inf, math.inf)
     far = -sign * found.number
-    figures.note("Coordinates are counted from the home switch.", is_remark=True)
+    figures.add_note("Coordinates are counted from the home switch.", is_remark=True)
     return _Ends(far, 0.0, (found, None), sign) if far <= 0.0 else _Ends(0.0, far, (None, found), sign)
 
 
@@ -149,11 +149,11 @@ def _boxes(
     """
     groups = _groups(figures, zone, axes)
     if not groups:
-        figures.note(f"{zone.name}: no axis of this picture belongs to a group")
+        figures.add_note(f"{zone.name}: no axis of this picture belongs to a group")
     boxes = []
     for members in groups:
         if all(_is_not_set(figures, zone, axis) for axis in members):
-            figures.note(f"{zone.name} is not set", figures.address(zone.low, members[0]))
+            figures.add_note(f"{zone.name} is not set", figures.address(zone.low, members[0]))
             continue
         box = [
             _span(figures, zone, axis) if axis in members else _Ends(*travel[n])
@@ -296,7 +296,7 @@ def _side(figures: ValueReader, zone: ZoneRole) -> str:
         return "inside"
     if value is not None and value.value in role.outside:
         return "outside"
-    figures.note(
+    figures.add_note(
         f"{figures.label(address)}: not set, so {zone.name} is drawn without what it forbids", address
     )
     return ""

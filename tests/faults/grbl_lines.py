@@ -134,7 +134,7 @@ def fuzz_devices(folder: Path, seed: int, count: int) -> list[str]:
             memory.replace(MEMORY, damaged(memory.read(MEMORY) or b"", chance))
             device.power_cycle()
         with contextlib.suppress(ValueError):
-            assert len(device.command(key)) < 500
+            assert len(device.operate(key)) < 500
         device.receive(data)
         for _ in range(2_000):
             if not device.answer():

@@ -150,7 +150,7 @@ def fuzz_devices(folder: Path, seed: int, count: int) -> list[str]:
     def look(case: tuple[LineDevice, str, bytes]) -> None:
         device, key, data = case
         with contextlib.suppress(ValueError):
-            assert len(device.command(key)) < 5_000
+            assert len(device.operate(key)) < 5_000
         device.receive(data)
         for _ in range(2_000):
             if not device.answer():

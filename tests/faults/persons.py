@@ -318,7 +318,7 @@ def fuzz_commands(folder: Path, seed: int, count: int) -> list[str]:
     def look(text: str) -> None:
         said.clear()
         before = control.image
-        emulator.command(text)
+        emulator.operate(text)
         emulator._obey()
         assert len(said) <= 1
         assert all(line == visible(line) and len(line) < 1500 for line in said), said
@@ -350,7 +350,7 @@ def fuzz_panel(folder: Path, seed: int, count: int) -> list[str]:
         before = control.image
         for line in ("password AB-D4", "patch-amp LOCK", text, "update"):
             shown.clear()
-            emulator.command(line)
+            emulator.operate(line)
             emulator._obey()
             assert len(shown) <= 1
             assert all(line == visible(line) and len(line) < 1500 for line in shown), shown

@@ -73,7 +73,7 @@ def fuzz_racks(folder: Path, seed: int, count: int) -> list[str]:
             RegisterContent().decode(damaged(CONTENT, chance))
         elif way == 1:
             with contextlib.suppress(ValueError):
-                rack.command(damaged(chance.choice(COMMANDS).encode(), chance).decode("latin-1"))
+                rack.operate(damaged(chance.choice(COMMANDS).encode(), chance).decode("latin-1"))
             rack.receive(damaged(framed(chance.randrange(1_000), chance.choice(REQUESTS).decode()), chance))
             assert len(rack.answer()) < 500
             assert len(rack._line) < 100

@@ -116,7 +116,7 @@ class Emulated:
     process: Program
     address: str
 
-    def command(self, line: str) -> str:
+    def operate(self, line: str) -> str:
         """Give an operator's command and return the control's answer."""
         self.process.stdin.write(line + "\n")
         self.process.stdin.flush()

@@ -220,7 +220,7 @@ def operator(room: Room, chance: random.Random) -> Iterator[None]:
         "\x00",
     ]
     for _ in range(60):
-        room.emulator.command(chance.choice(lines))
+        room.emulator.operate(chance.choice(lines))
         yield
 
 

@@ -161,7 +161,7 @@ def bookmark_filter_note_and_save(day: Day) -> None:
     assert [row.parameter.id for row in window.table.rows] == [EXCESS[0]]
     window.page.filters.clear()
     day.accept(NoteDialog, lambda dialog: dialog.form.set_answer("note", "measured with the new drives"))
-    window.edits.note()
+    window.edits.edit_notes()
     assert window.save()
     assert "measured with the new drives" in day.path.read_text(encoding="utf-8")
 

@@ -322,7 +322,7 @@ def test_a_note_is_marked_in_its_cell_shown_in_its_tip_and_undone(
 ) -> None:
     window.go_to((EXCESS, "1"))
     accept(NoteDialog, lambda dialog: dialog.form.set_answer("note", "long spindle"))
-    window.edits.note()
+    window.edits.edit_notes()
     index = window.table.index_of((EXCESS, "1"))
     assert value_note(file, (EXCESS, "1")) == "long spindle"
     assert window.table.look(index.row(), index.column()).has_note

@@ -106,7 +106,7 @@ class Emulator:
         self._now = clock()
         arm(control, faults)
 
-    def command(self, line: str) -> None:
+    def operate(self, line: str) -> None:
         """Give an operator's command; it is done between two messages. May be called from any other thread,
         and waits there while too many are waiting.
         """
@@ -286,7 +286,7 @@ class Emulator:
             case "patch", _ if "=" in rest:
                 self._patched(*rest.split("=", 1))
             case _:
-                answer = self._panel.command(self._control, verb, rest)
+                answer = self._panel.operate(self._control, verb, rest)
                 if answer is None:
                     words = ", ".join(filter(None, (COMMANDS, self._panel.words)))
                     raise ValueError(f"{quoted(line)} is no command: {words}")
@@ -349,7 +349,7 @@ def serve(
 
         def forward() -> None:
             for line in lines:
-                emulator.command(line)
+                emulator.operate(line)
 
         threading.Thread(target=forward, name="operator", daemon=True).start()
         show(f"listening on {listener.endpoint}")

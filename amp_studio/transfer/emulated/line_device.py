@@ -40,7 +40,7 @@ class LineDevice(Protocol):
     def answer(self) -> bytes:
         """Return the next bytes to be sent, some hundred at most; b"" for nothing."""
 
-    def command(self, line: str) -> str:
+    def operate(self, line: str) -> str:
         """Do what the operator asks for and return what he reads; raises ValueError with what he is to
         read.
         """
@@ -106,7 +106,7 @@ class DeviceService:
         self._has_quit = False
         self._clock, self._now = clock, clock()
 
-    def command(self, line: str) -> None:
+    def operate(self, line: str) -> None:
         """Give an operator's command; may be called from any other thread,
         and waits there while too many are waiting.
         """
@@ -164,7 +164,7 @@ class DeviceService:
                 try:
                     if len(line) > LONGEST_COMMAND:
                         raise ValueError(f"a command has {LONGEST_COMMAND} bytes at most")
-                    self._show(self._device.command(line))
+                    self._show(self._device.operate(line))
                 except (ValueError, OSError) as error:
                     self._show(f"refused: {one_line(str(error))}")
 
@@ -198,7 +198,7 @@ def serve_device(
 
         def forward() -> None:
             for line in standard_input() if commands is None else commands:
-                service.command(line)
+                service.operate(line)
 
         threading.Thread(target=forward, name="operator", daemon=True).start()
         show(f"listening on {listener.endpoint}")

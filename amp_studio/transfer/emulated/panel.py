@@ -33,7 +33,7 @@ class OperatorPanel(Protocol):
     def started(self, control: Control) -> Start:
         """Return what happens at a start of the control, whatever its content is."""
 
-    def command(self, control: Control, verb: str, rest: str) -> str | None:
+    def operate(self, control: Control, verb: str, rest: str) -> str | None:
         """Do an operator's command and return what he reads; None for one of others. Raises ValueError,
         RefusalError, OSError.
         """
@@ -56,6 +56,6 @@ class PlainPanel:
         """Return that nothing happens."""
         return Start()
 
-    def command(self, _control: Control, _verb: str, _rest: str) -> str | None:
+    def operate(self, _control: Control, _verb: str, _rest: str) -> str | None:
         """Know no command."""
         return None

@@ -237,7 +237,7 @@ class ControlDesk(Translated):
         """Remember how an exchange ended, and the values of the control beside those of the file."""
         seen = session.seen
         family, name = (seen.control.family, seen.control.name) if seen is not None else (session.family, "")
-        self.exchanges.note(session.address, verb, reached=reached, family=family, name=name)
+        self.exchanges.remember_contact(session.address, verb, reached=reached, family=family, name=name)
         if workspace is None or not reached:
             return
         if verb == "download" and session.outcome is not None and session.outcome.verified:

@@ -82,7 +82,7 @@ class Edits(Translated):
             view.setFocus()
             view.edit_current()
 
-    def note(self) -> None:
+    def edit_notes(self) -> None:
         """Edit the notes about the selected value, its group and the machine."""
         from amp_studio.ui.dialogs.note_dialog import NoteDialog
 

@@ -107,7 +107,7 @@ def _edit() -> Menu[PartsWindow]:
             Action(
                 "edit.note",
                 tr("N&ote…"),
-                lambda w: w.edits.note(),
+                lambda w: w.edits.edit_notes(),
                 "Alt+Return",
                 icon="note-pencil",
                 of_a_cell=True,

@@ -94,7 +94,7 @@ class ControlExchange(Translated):
         )
         return list(dict.fromkeys(address for address in known if address))
 
-    def note(
+    def remember_contact(
         self, address: str, verb: ControlVerb, *, reached: bool, family: str = "", name: str = ""
     ) -> None:
         """Remember an exchange with a control, for the welcome page."""
@@ -114,7 +114,7 @@ class ControlExchange(Translated):
 
         run = partial(run_exchange, self.tr("Connect"), work, self.window)
         found: ControlIdentity = self._noted(address, "connect", run, family)
-        self.note(address, "connect", reached=True, family=found.family, name=found.name)
+        self.remember_contact(address, "connect", reached=True, family=found.family, name=found.name)
         return found
 
     def _noted(self, address: str, verb: ControlVerb, act: Callable[[], Any], family: str) -> Any:
@@ -124,7 +124,7 @@ class ControlExchange(Translated):
         try:
             return act()
         except TransferError:
-            self.note(address, verb, reached=False, family=family)
+            self.remember_contact(address, verb, reached=False, family=family)
             raise
 
     def remember(self, workspace: Workspace, present: ParameterFile) -> None:

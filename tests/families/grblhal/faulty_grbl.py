@@ -214,7 +214,7 @@ def _strike(bench: Bench, fault: str, choose: random.Random, every: int) -> None
         case "runs":
             firmware.state = "Run"
         case "alarm":
-            firmware.command("alarm 1")
+            firmware.operate("alarm 1")
         case "messages":
             bench.spoil_out = lambda data: (
                 data + b"[MSG:Caution: Unlocked]\r\n<Idle|MPos:0>\r\n" if data.endswith(b"\n") else data

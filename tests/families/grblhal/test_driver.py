@@ -128,16 +128,16 @@ def test_a_refusal_is_a_sentence_with_the_name_of_the_setting_and_the_rest_is_ol
 
 def test_a_machine_that_moves_is_not_touched(bench: Bench) -> None:
     content = bench.driver.fetch()
-    bench.firmware.command("state Run")
+    bench.firmware.operate("state Run")
     with pytest.raises(TransferError, match="the machine moves"):
         bench.driver.fetch()
-    bench.firmware.command("state Idle")
+    bench.firmware.operate("state Idle")
     wanted = write_content(
         replace(read_content(content), settings={**read_content(content).settings, 130: "5.000"})
     )
 
     def starts(_: bytes) -> str:
-        bench.firmware.command("state Run")
+        bench.firmware.operate("state Run")
         return "kept"
 
     with pytest.raises(
@@ -154,7 +154,7 @@ def test_in_check_mode_nothing_is_written_because_it_would_not_last(bench: Bench
     """The firmware answers "ok" there and keeps the setting
     in RAM only (protocol.c ``protocol_execute_realtime``).
     """
-    bench.firmware.command("state Check")
+    bench.firmware.operate("state Check")
     with pytest.raises(
         TransferError, match=r"in the state Check: .* leave check mode \(\$C\) first"
     ) as caught:
@@ -164,7 +164,7 @@ def test_in_check_mode_nothing_is_written_because_it_would_not_last(bench: Bench
 
 
 def test_what_the_emulated_control_takes_in_check_mode_is_gone_after_the_power(bench: Bench) -> None:
-    bench.firmware.command("state Check")
+    bench.firmware.operate("state Check")
     line = GrblLine(bench.open, Waiting(bench.clock, bench.clock.sleep))
     assert line.ask("$130=301.500") == []
     assert line.ask("$130") == ["$130=301.500"]
@@ -173,7 +173,7 @@ def test_what_the_emulated_control_takes_in_check_mode_is_gone_after_the_power(b
 
 
 def test_a_locked_control_keeps_what_is_written(bench: Bench) -> None:
-    bench.firmware.command("state Alarm")
+    bench.firmware.operate("state Alarm")
     assert put(bench, {130: "301.500"}).verified
     bench.driver.close()
     bench.firmware.power_cycle()
@@ -185,7 +185,7 @@ def test_a_locked_control_keeps_what_is_written(bench: Bench) -> None:
     ("state", "words"), [("Hold:0", "in a feed hold it answers"), ("Door:0", "safety door")]
 )
 def test_a_control_that_reads_no_line_is_refused_at_once(bench: Bench, state: str, words: str) -> None:
-    bench.firmware.command(f"state {state}")
+    bench.firmware.operate(f"state {state}")
     for asks in (bench.driver.identify, bench.driver.fetch):
         with pytest.raises(TransferError, match=words):
             asks()

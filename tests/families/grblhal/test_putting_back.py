@@ -77,7 +77,7 @@ def test_a_locked_control_takes_no_offsets_and_nothing_else_of_the_copy_is_sent(
         settings={**present.settings, 130: "5.000"},
         offsets={**present.offsets, "G54": "1.000,0.000,0.000"},
     )
-    bench.firmware.command("alarm 1")
+    bench.firmware.operate("alarm 1")
     with pytest.raises(
         TransferError, match=r"the control is locked, and takes no offsets .*; nothing was replaced"
     ):

@@ -29,7 +29,7 @@ class Bench:
 
     def give(self, line: str) -> str:
         verb, _, rest = line.partition(" ")
-        return self.panel.command(self.control, verb, rest) or ""
+        return self.panel.operate(self.control, verb, rest) or ""
 
     def after(self, seconds: float) -> str:
         for _ in range(round(seconds / 0.1)):

@@ -32,7 +32,7 @@ def at(tmp_path: Path) -> Iterator[Callable[[str], str | None]]:
 
     def give(line: str) -> str | None:
         verb, _, rest = line.partition(" ")
-        return panel.command(control, verb, rest)
+        return panel.operate(control, verb, rest)
 
     give.control = control
     yield give

@@ -46,7 +46,7 @@ class Operator:
     def keys(self, line: str) -> str:
         """Give one command and return what is shown."""
         self._shown.clear()
-        self._emulator.command(line)
+        self._emulator.operate(line)
         self._emulator._obey()
         if line == "restart":
             self._emulator._restart_due = False

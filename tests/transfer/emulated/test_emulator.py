@@ -78,7 +78,7 @@ def test_the_whole_exchange_over_a_real_line(emulate: Callable[..., Any], tmp_pa
         assert (outcome.at_control, outcome.verified, outcome.restart) == ("new", True, "done")
         assert upload(HouseDriver(session)) == NEW
     assert emulated.hear() == "restarted 2"
-    assert emulated.command("quit") == "bye"
+    assert emulated.operate("quit") == "bye"
     assert emulated.process.wait(60) == 0
     assert (tmp_path / "previous.img").read_bytes() == OLD
     assert not list(tmp_path.glob("staged-*"))
@@ -184,11 +184,11 @@ def test_estop_is_what_the_operator_says(emulate: Callable[..., Any], tmp_path: 
     with session_at(emulated.address) as session:
         with pytest.raises(NotInEmergencyStopError):
             download(HouseDriver(session), WantedContent(NEW, "s1"), keep)
-        assert emulated.command("estop on") == "estop on"
-        assert emulated.command("autostart off") == "autostart off"
+        assert emulated.operate("estop on") == "estop on"
+        assert emulated.operate("autostart off") == "autostart off"
         outcome = download(HouseDriver(session), WantedContent(NEW, "s1"), keep)
         assert (outcome.verified, outcome.restart) == (True, "needed")
-        assert emulated.command("restart") == "restarting"
+        assert emulated.operate("restart") == "restarting"
         assert emulated.hear() == "restarted 2"
         assert not session_at(emulated.address).hello().flags & Flags.RESTART_NEEDED
 
@@ -197,15 +197,15 @@ def test_the_operator_patches_the_image_and_asks_for_the_state(
     emulate: Callable[..., Any], tmp_path: Path
 ) -> None:
     emulated = emulate(tmp_path, initial="1 0\n")
-    assert emulated.command("patch 11=5") == "patch 11=5"
-    assert emulated.command("patch 11=abc") == "refused: patch values are plain numbers"
-    assert emulated.command("estop off") == "estop off"
-    assert "E-stop" in emulated.command("patch 11=6")
+    assert emulated.operate("patch 11=5") == "patch 11=5"
+    assert emulated.operate("patch 11=abc") == "refused: patch values are plain numbers"
+    assert emulated.operate("estop off") == "estop off"
+    assert "E-stop" in emulated.operate("patch 11=6")
     assert (
-        emulated.command("jump") == "refused: 'jump' is no command: "
+        emulated.operate("jump") == "refused: 'jump' is no command: "
         "estop on|off, autostart on|off, restart, patch KEY=VALUE, status, quit"
     )
-    said = emulated.command("status")
+    said = emulated.operate("status")
     digest = hashlib.sha256(b"1 0\n11 5\n").hexdigest()
     assert (
         said == "status estop=off running=on restart-needed=on autostart=on changed-at-control=on "
@@ -275,7 +275,7 @@ def test_a_client_that_has_long_been_silent_loses_the_line_to_the_next(
             gone.read(5)
         gone.close()
     finally:
-        emulator.command("quit")
+        emulator.operate("quit")
         thread.join(60)
         listener.close()
 
@@ -327,7 +327,7 @@ def test_the_port_is_there_again_at_once_after_a_kill(emulate: Callable[..., Any
 
 def test_while_a_control_restarts_nobody_gets_through(emulate: Callable[..., Any], tmp_path: Path) -> None:
     emulated = emulate(tmp_path, restart_seconds=0.4)
-    emulated.command("restart")
+    emulated.operate("restart")
     with pytest.raises((NoConnectionError, ControlSilentError)):
         session_at(emulated.address).hello()
     assert emulated.hear() == "restarted 2"

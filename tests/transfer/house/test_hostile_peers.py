@@ -360,7 +360,7 @@ def test_an_image_that_upsets_the_control_is_not_taken(
 def test_no_word_of_the_operator_ends_the_control(tmp_path: Path) -> None:
     room = Room(tmp_path, [])
     for line in ("patch 1300=1e999", "y" * 5_000, "\x1b[2J", "status"):
-        room.emulator.command(line)
+        room.emulator.operate(line)
     for _ in range(4):
         room.turn()
     assert room.said[0] == "refused: OverflowError: cannot convert float infinity to integer"

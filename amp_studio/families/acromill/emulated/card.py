@@ -116,7 +116,7 @@ class AcrCard:
         value = self.motion.parameter(number)
         return "" if value is None else f"{value:.10g}".upper()
 
-    def command(self, line: str) -> str:
+    def operate(self, line: str) -> str:
         """Do what the operator asks for: ``power`` goes off and on,
         ``patch`` is a command from another terminal.
         """

@@ -481,7 +481,7 @@ class Firmware:
 
     # -- the operator --------------------------------------------------------------------------------
 
-    def command(self, line: str) -> str:
+    def operate(self, line: str) -> str:
         """Do what the operator asks for: ``state Run``, ``alarm 1``, ``message TEXT``, ``power``,
         ``status``.
         """

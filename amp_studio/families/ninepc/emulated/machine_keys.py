@@ -43,7 +43,7 @@ class MachineKeys:
             self._machine.switch_off()
         self._machine.advance(duration)
 
-    def command(self, control: Control, verb: str, rest: str) -> str | None:
+    def operate(self, control: Control, verb: str, rest: str) -> str | None:
         """Do what a key does; None for other commands. Raises ValueError."""
         if verb not in ("jog", "release", "manual-home", "mdi", "position"):
             return None

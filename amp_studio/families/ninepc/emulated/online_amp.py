@@ -47,7 +47,7 @@ class OnlineAmp:
         """Forget what was switched off."""
         self._off = set()
 
-    def command(self, control: Control, verb: str, rest: str) -> str | None:
+    def operate(self, control: Control, verb: str, rest: str) -> str | None:
         """Do what a softkey does; None for other commands. Raises ValueError, RefusalError, OSError."""
         match verb, rest.split():
             case "axis-param", [number, *words] if words:

@@ -83,7 +83,7 @@ class NinePcPanel:
 
     # -- at the keys -----------------------------------------------------------------
 
-    def command(self, control: Control, verb: str, rest: str) -> str | None:
+    def operate(self, control: Control, verb: str, rest: str) -> str | None:
         """Do what a key does."""
         match verb:
             case "password":
@@ -105,8 +105,8 @@ class NinePcPanel:
                 return "cleared"
             case "messages" if not rest:
                 return "; ".join(self._messages) or "no message"
-        moved = self._keys.command(control, verb, rest)
-        return self._online.command(control, verb, rest) if moved is None else moved
+        moved = self._keys.operate(control, verb, rest)
+        return self._online.operate(control, verb, rest) if moved is None else moved
 
     def _password(self, control: Control, word: str) -> str:
         if word.ljust(_CHARACTERS) != _master_password(control):

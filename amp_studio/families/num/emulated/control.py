@@ -215,11 +215,11 @@ class NumControl:
 
     # -- the keys ---------------------------------------------------------------------------------
 
-    def command(self, line: str) -> str:
+    def operate(self, line: str) -> str:
         """Press a key of the control, or set what its maker's menus set; returns what its screen shows."""
         verb, _, rest = line.partition(" ")
         if verb in VERBS:
-            return self._keys.command(verb, rest)
+            return self._keys.operate(verb, rest)
         match verb:
             case "load" | "unload" | "verify" if not rest:
                 return self._select(verb)

@@ -35,7 +35,7 @@ class NumKeys:
         """Let time pass, s."""
         self._machine.advance(duration)
 
-    def command(self, verb: str, rest: str) -> str:
+    def operate(self, verb: str, rest: str) -> str:
         """Do what one of VERBS asks for; raises ValueError."""
         if verb == "position":
             return self._machine.screen()

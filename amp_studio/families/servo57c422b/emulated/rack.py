@@ -79,7 +79,7 @@ class Rack:
 
     # -- the operator ----------------------------------------------------------------
 
-    def command(self, line: str) -> str:
+    def operate(self, line: str) -> str:
         """Do what the operator asks for; raises ValueError."""
         verb, _, rest = line.partition(" ")
         rest = rest.strip()

@@ -118,7 +118,7 @@ def test_what_is_not_saved_is_lost_with_the_power(terminal: Terminal, tmp_path: 
     terminal.obey("PPU X5000")
     terminal.obey("P3=5")
     assert Terminal(tmp_path).obey("PPU X") == "4096\r\n"
-    terminal.card.command("power")
+    terminal.card.operate("power")
     assert (terminal.obey("PPU X"), terminal.obey("PRINT P3")) == ("4096\r\n", "0\r\n")
     assert terminal.obey("BSC X") == "X0E.00325\r\n"
 

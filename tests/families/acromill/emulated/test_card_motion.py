@@ -52,10 +52,10 @@ def test_a_jog_moves_the_axis_and_the_terminal_shows_where(card: MovingCard) -> 
 
 
 def test_home_goes_by_priority_and_g28_over_the_point_between(card: MovingCard) -> None:
-    assert card.card.command("home XY").startswith("homing")
+    assert card.card.operate("home XY").startswith("homing")
     homed = card.after(60.0)
     assert [abs(axis.position or 0.0) < 0.01 for axis in homed.axes[:2]] == [True, True]
-    card.card.command("mdi G28 X2 Y1")
+    card.card.operate("mdi G28 X2 Y1")
     assert (card.after(0.5).axes[0].position or 0.0) > 0.5
     assert abs(card.after(6.0).axes[0].position or 0.0) < 0.02
 
@@ -66,7 +66,7 @@ def test_home_goes_by_priority_and_g28_over_the_point_between(card: MovingCard) 
 )
 def test_what_the_machine_cannot_do_is_refused_in_words(card: MovingCard, line: str, words: str) -> None:
     with pytest.raises(ValueError, match=words):
-        card.card.command(line)
+        card.card.operate(line)
 
 
 def test_an_axis_that_leaves_its_excess_error_band_loses_its_bit(card: MovingCard) -> None:

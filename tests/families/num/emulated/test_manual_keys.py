@@ -26,7 +26,7 @@ class Bench:
     def after(self, seconds: float) -> str:
         for _ in range(round(seconds / 0.1)):
             self.control.advance(0.1)
-        return self.control.command("position")
+        return self.control.operate("position")
 
 
 @pytest.fixture
@@ -35,15 +35,15 @@ def bench(tmp_path: Path) -> Bench:
 
 
 def test_a_jog_moves_an_axis_until_release(bench: Bench) -> None:
-    assert bench.control.command("jog X+ slow").startswith("X+ at ")
+    assert bench.control.operate("jog X+ slow").startswith("X+ at ")
     assert "moving" in bench.after(0.5)
-    bench.control.command("release")
+    bench.control.operate("release")
     assert "moving" not in bench.after(2.0)
 
 
 def test_homing_ends_at_the_encoder_zero_and_limits_count_from_then_on(bench: Bench) -> None:
     """Pages 7-8 to 7-12."""
-    assert bench.control.command("homing X") == "homing X"
+    assert bench.control.operate("homing X") == "homing X"
     assert " homed" in bench.after(60.0)
 
 
@@ -58,4 +58,4 @@ def test_homing_ends_at_the_encoder_zero_and_limits_count_from_then_on(bench: Be
 )
 def test_what_is_not_possible_is_said_in_words(bench: Bench, line: str, words: str) -> None:
     with pytest.raises(ValueError, match=words):
-        bench.control.command(line)
+        bench.control.operate(line)

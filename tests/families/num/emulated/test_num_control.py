@@ -21,11 +21,11 @@ class Bench:
     def __init__(self, folder: Path) -> None:
         self.screen: list[str] = []
         self.control = NumControl(DeviceSetup("num", Memory(folder), self.screen.append))
-        self.control.command("parity none")
+        self.control.operate("parity none")
 
     def press(self, *keys: str) -> None:
         for key in keys:
-            self.screen.append(self.control.command(key))
+            self.screen.append(self.control.operate(key))
 
     def unload(self, *keys: str) -> bytes:
         self.press("unload", "enter", *keys, "start")

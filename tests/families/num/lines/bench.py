@@ -44,7 +44,7 @@ class NumBench:
 
     def press(self, *keys: str) -> None:
         for key in keys:
-            self.screen.append(self.control.command(key))
+            self.screen.append(self.control.operate(key))
 
     def progress(self, stage: str, done: int, total: int) -> None:
         if total != OPERATOR:

@@ -41,7 +41,7 @@ def control(
             for operation, item in (("unload", "3 UNLOAD"), ("load", "2 LOAD")):
                 if item in text:
                     for key in ("exit", operation, "enter", "start")[: 4 if operation == "unload" else 3]:
-                        service.command(key)
+                        service.operate(key)
 
         monkeypatch.setattr(console, "print_notice", read)
         separator = "&" if "?" in address else "?"
@@ -83,7 +83,7 @@ def test_stop_bits_of_the_address_reach_the_line(
     path = tmp_path / "mill.amp"
     assert run(["upload", "--from", address, "-o", str(path), "--on-fault", "keep"]) == 0
     assert run(["set", str(path), "P9N0=7", "--force"]) == 0
-    device.command("line 0 2")
+    device.operate("line 0 2")
     ended = run(["download", str(path), "--to", f"{address}&stop={stop}", "--accept-errors"])
     assert ended == code
     assert device._parameters.words[9][0] == ("7" if code == 0 else "0")

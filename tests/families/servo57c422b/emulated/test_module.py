@@ -286,4 +286,4 @@ def test_registers_that_there_are_not_are_refused(rack: Rack, request_: str) -> 
 )
 def test_an_odd_word_of_the_operator_is_refused(rack: Rack, line: str) -> None:
     with pytest.raises(ValueError, match="is no command"):
-        rack.command(line)
+        rack.operate(line)

@@ -92,7 +92,7 @@ def test_registers_that_start_motions_are_no_part_of_a_content_and_are_never_wri
 
 
 def test_nothing_is_written_while_a_control_loop_is_on(bench: RackBench) -> None:
-    bench.rack.command("patch R2113=1")
+    bench.rack.operate("patch R2113=1")
     before = list(bench.words)
     with pytest.raises(NotInEmergencyStopError, match=r"axis Y is on \(R2113, bit 0\)"):
         loaded(bench, gains())
@@ -104,7 +104,7 @@ def test_the_handshake_ends_with_clear_command_registers_whoever_clears_them(
     bench: RackBench, automatic: int
 ) -> None:
     """Pages 4-22 and 4-36: the application clears the command, or register 63 has the module do it."""
-    bench.rack.command(f"patch R63={automatic}")
+    bench.rack.operate(f"patch R63={automatic}")
     file = gains(y=0)
     file.set(file.find("R63"), Value(automatic))
     assert loaded(bench, file).verified
@@ -184,7 +184,7 @@ def test_a_copy_is_recognised_decoded_and_put_back(bench: RackBench) -> None:
     assert content.startswith(KIND.encode())
     assert isinstance(kind_of(content), RegisterContent)
     assert decode_content(content).get(gains().find("R3")) == Value(17595)
-    bench.rack.command("power")
+    bench.rack.operate("power")
     outcome = download(
         bench.driver,
         WantedContent(lambda current: bench.driver.refit(content, current), gains().schema.signature),
