@@ -24,6 +24,7 @@ from PySide6.QtWidgets import (
 from pytestqt.qtbot import QtBot
 
 from amp_studio.files import Document, ParameterFile, content_of, new_file, open_file
+from amp_studio.ui.base import garbage
 from amp_studio.ui.base.menu_commands import commands
 from amp_studio.ui.base.task import ProgressDialog, Task
 from amp_studio.ui.base.translated import speak
@@ -32,6 +33,7 @@ from amp_studio.ui.main_window import MainWindow
 
 from .alt_letters import doubled, texts_of
 
+garbage.REST_MS = 3_600_000  # all objects of all tests are looked at by none but the test of that
 WAIT_MS = 20_000
 """Far more than anything takes; a test that waits ends as soon as what it waits for is there."""
 

@@ -11,18 +11,24 @@ without them it is over in a third of a millisecond.
 
 What a file needs is made in the seconds after it was opened, and is then set apart. Until then only the
 youngest objects are collected, and often: each collection is paid by one frame of a scrolling table.
+
+Everything is looked at once some seconds have passed in which no file was closed or opened. That stalls the
+window for a third of a second: files are closed one after another, and work goes on in the next one.
 """
 
 from __future__ import annotations
 
 import gc
-from functools import partial
+from collections.abc import Callable
 
 from PySide6.QtCore import QCoreApplication, QDeadlineTimer, QObject, QTimer
 
 COLLECT_MS = 100
 """Milliseconds between two looks whether there is enough to collect."""
-_NAME = "garbage"
+REST_MS = 3000
+"""Milliseconds after the last closing until everything is looked at."""
+_NAME, _REST = "garbage", "garbage of closed files"
+"""Names of the two timers."""
 _BACKGROUND_MS = 4000
 """Milliseconds until the background work after opening a file is done."""
 _opening = QDeadlineTimer(0)
@@ -32,12 +38,22 @@ _opening = QDeadlineTimer(0)
 def collect_by_timer() -> None:
     """Leave the collection of garbage to the event loop from now on; the application has one timer for it."""
     gc.disable()
-    application = QCoreApplication.instance()
-    if application is not None and application.findChild(QTimer, _NAME) is None:
-        timer = QTimer(application)
-        timer.setObjectName(_NAME)
-        timer.timeout.connect(collect)
+    timer = _timer(_NAME, collect)
+    if timer is not None and not timer.isActive():
         timer.start(COLLECT_MS)
+
+
+def _timer(name: str, act: Callable[[], None]) -> QTimer | None:
+    """Return a timer that the application has once; None without an application."""
+    application = QCoreApplication.instance()
+    if application is None:
+        return None
+    timer = application.findChild(QTimer, name)
+    if timer is None:
+        timer = QTimer(application)
+        timer.setObjectName(name)
+        timer.timeout.connect(act)
+    return timer
 
 
 def set_apart(page: QObject) -> None:
@@ -46,21 +62,25 @@ def set_apart(page: QObject) -> None:
     """
     gc.freeze()
     _opening.setRemainingTime(_BACKGROUND_MS)
+    rest = _timer(_REST, look)
+    if rest is not None and rest.isActive():
+        rest.start(REST_MS + _BACKGROUND_MS)
     QTimer.singleShot(_BACKGROUND_MS, page, gc.freeze)
 
 
-def look_again(others: bool) -> None:
-    """Look at everything again: a file was closed, and what belonged to it is garbage; ``others``:
-    files are still open.
-    """
+def look_again() -> None:
+    """Look at everything again after a rest: a file was closed, and what belonged to it is garbage."""
+    rest = _timer(_REST, look)
+    if rest is not None:
+        rest.setSingleShot(True)
+        rest.start(REST_MS)
+
+
+def look() -> None:
+    """Collect what belonged to closed files, and set apart what is left."""
     gc.unfreeze()
-    QTimer.singleShot(0, partial(_collect_all, others))
-
-
-def _collect_all(others: bool) -> None:
     gc.collect()
-    if others:
-        gc.freeze()
+    gc.freeze()
 
 
 def collect() -> None:

@@ -68,6 +68,8 @@ class ControlSession(QObject):
         self.needs_password = False
         self.notes: list[str] = []
         self._task: Task | None = None
+        self._compared: tuple[object, ImageComparison] | None = None
+        """The last comparison, after all that it was made of."""
 
     @property
     def is_busy(self) -> bool:
@@ -148,7 +150,12 @@ class ControlSession(QObject):
         """Return the file compared with what the control contains; None before it was read."""
         from amp_studio.transfer.client import verify_content
 
-        return verify_content(file, self.seen.content) if self.seen is not None else None
+        if self.seen is None:
+            return None
+        state = self.seen.content, _content_of(file)
+        if self._compared is None or self._compared[0] != state:
+            self._compared = state, verify_content(file, self.seen.content)
+        return self._compared[1]
 
     # -- writing -----------------------------------------------------------------
 
@@ -252,3 +259,12 @@ class ControlSession(QObject):
         for take in results:
             take()
         self.changed.emit()
+
+
+def _content_of(file: ParameterFile) -> tuple[object, ...]:
+    """Return all of a file that a comparison depends on, to be compared later. Values count as the same
+    objects alone: 0.0 is equal to -0.0, and a control stores them otherwise.
+    """
+    values = dict(file.values)  # as long as they exist, no other object has their ids
+    ids = tuple(map(id, values.values()))
+    return file.schema, ids, values, dict(file.forced), dict(file.unknown), dict(vars(file.header))

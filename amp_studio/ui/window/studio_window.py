@@ -87,7 +87,7 @@ class StudioWindow(QMainWindow):
         page.workspace.deleteLater()  # else it keeps, by what follows its signals, all that was made for it
         page.deleteLater()
         if not self.is_leaving:
-            look_again(bool(self.tabs.pages()))
+            look_again()
 
     @property
     def page(self) -> FilePage | None:
