@@ -33,7 +33,7 @@ from amp_studio.ui.main_window import MainWindow
 
 from .alt_letters import doubled, texts_of
 
-garbage.REST_MS = 3_600_000  # all objects of all tests are looked at by none but the test of that
+garbage.REST_MS = 3_600_000  # no test but that of the collection goes through the objects of all tests
 WAIT_MS = 20_000
 """Far more than anything takes; a test that waits ends as soon as what it waits for is there."""
 

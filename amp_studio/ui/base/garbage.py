@@ -12,7 +12,7 @@ without them it is over in a third of a millisecond.
 What a file needs is made in the seconds after it was opened, and is then set apart. Until then only the
 youngest objects are collected, and often: each collection is paid by one frame of a scrolling table.
 
-Everything is looked at once some seconds have passed in which no file was closed or opened. That stalls the
+Everything is gone through once some seconds have passed in which no file was closed or opened. That stalls the
 window for a third of a second: files are closed one after another, and work goes on in the next one.
 """
 
@@ -26,7 +26,7 @@ from PySide6.QtCore import QCoreApplication, QDeadlineTimer, QObject, QTimer
 COLLECT_MS = 100
 """Milliseconds between two looks whether there is enough to collect."""
 REST_MS = 3000
-"""Milliseconds after the last closing until everything is looked at."""
+"""Milliseconds after the last closing until everything is gone through."""
 _NAME, _REST = "garbage", "garbage of closed files"
 """Names of the two timers."""
 _BACKGROUND_MS = 4000
