@@ -12,7 +12,7 @@ without them it is over in a third of a millisecond.
 What a file needs is made in the seconds after it was opened, and is then set apart. Until then only the
 youngest objects are collected, and often: each collection is paid by one frame of a scrolling table.
 
-Everything is gone through once some seconds have passed in which no file was closed or opened. That stalls the
+Everything is gone through once no file was closed or opened for some seconds. That stalls the
 window for a third of a second: files are closed one after another, and work goes on in the next one.
 """
 
