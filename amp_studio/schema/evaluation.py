@@ -117,6 +117,8 @@ class Evaluation:
         question, keys = self._conditions.question(asked), self.keys
         given: tuple[Key, ...]
         if question.plain:
+            # Most conditions read single values alone, which need no look at what kind of reference
+            # each is.
             given = tuple([keys[a] for a in question.plain])
         else:
             given = tuple([None if r is None else self._key(r) for r in question.references])
@@ -138,6 +140,7 @@ class Evaluation:
         if found is None:
             conditions, keys = self._conditions, self.keys
             self._model = self._application()
+            # Files in which the same values decide share their answers.
             deciding = (self._model, *[keys[a] for a in conditions.deciding])
             found = self._answers = conditions.answers(deciding, self._before, self._decided)
             self._before = None
@@ -167,7 +170,9 @@ class Evaluation:
         answers = self._answers or self._present()
         kept = answers.active.get(id(groups))
         if kept is None:
+            # One of each group is asked: the others have its state whatever the values.
             found = tuple([a for alike in groups if self.state(alike[0]).is_active for a in alike])
+            # The groups are kept with it, so that no other object can get their id.
             kept = answers.active[id(groups)] = groups, found
         return kept[1]
 
@@ -244,6 +249,8 @@ class Evaluation:
         if address == (self.schema.family.machine_parameter, ""):
             self.forget()
         elif address in self._conditions.decides:
+            # Kept until they are asked for again: most edits leave all conditions as they were, and
+            # their answers with them.
             self._before = self._before or self._answers
             self._decided.add(address)
             self._answers = None

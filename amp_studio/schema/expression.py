@@ -51,6 +51,7 @@ def key_of(value: Value | None) -> Key:
         found = canonical_value(value)
         key: Key = (_TRUE if found else _FALSE) if found.__class__ is bool else 0.0 if found == 0 else found
         if value is not None:
+            # Values are frozen and shared by many files: the key is worked out once for all of them.
             object.__setattr__(value, "_key", key)
         return key
 
@@ -95,6 +96,7 @@ class Remembered(dict[Hashable, Any]):
     """What an expression came to for values it has met."""
 
     def __setitem__(self, key: Hashable, result: Any) -> None:
+        # All at once: to choose what goes would cost more at each look than to work it out again.
         if len(self) >= MOST_REMEMBERED:
             self.clear()
         super().__setitem__(key, result)
@@ -116,6 +118,7 @@ class Expression:
 
     def __init__(self, compiled: Program, functions: Mapping[str, Callable[..., Any]]) -> None:
         self.program = compiled
+        # Only what it calls: each function costs when a context is made.
         self.functions = {name: functions[name] for name in sorted(functions_called(compiled))}
         self.named = named = frozenset(compiled.variables())
         """Every name in it."""

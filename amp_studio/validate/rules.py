@@ -114,6 +114,8 @@ class RuleChecks:
             keys = self._keys(check)
             if keys is None:
                 continue
+            # Most rules depend on their values alone; those that name the machine or the instance are
+            # found by _broken_by.
             broken = check.expressions.remembered.get(keys)
             if broken is None:
                 broken = self._broken_by(check, keys)
@@ -170,6 +172,7 @@ class RuleChecks:
             return None
         if check.lists:
             keys += tuple([self._lists.get(listed) or self._list(listed) for _, listed in check.lists])
+        # A builder may write a rule over the points of a table that costs minutes.
         return None if check.is_own and _too_long(keys) else keys
 
     def _lenient_keys(self, check: RuleCheck, keys: tuple[Key, ...]) -> tuple[Key, ...]:

@@ -102,6 +102,7 @@ def bind(read: AxisParameters) -> AxisLaw:
     ferror = joint.number("ferror", 1.0)
     least = joint.number("min_ferror", ferror)
     rate = gain or MOTION.value("position_gain")
+    # Without a loop in the file the joint follows as the assumed one does, feed-forward included.
     share = (forward or 0.0) if gain else MOTION.value("feed_forward")
     limit = f"joint {joint.instance} following error"
     return AxisLaw(

@@ -114,6 +114,7 @@ def bind(read: AxisParameters) -> AxisLaw:
     parameters = _parameters(axis)
     linear = list(parameters)
     linear[sample.WHOLE] = 0.0
+    # The linear model has no steps and never stops: limits would bend it.
     linear[sample.MOST_PULSES] = linear[sample.LIMIT] = linear[sample.FATAL_LIMIT] = math.inf
     limits = {"MOT-019": axis.limits[0], "MOT-023": axis.limits[1]}
     return AxisLaw(
@@ -162,6 +163,7 @@ def _turn(read: AxisParameters, axis: _Axis) -> float:
 def predicted(axis: _Axis, feedrate: float) -> Mapping[str, Prediction]:
     """Return what the printed equations give for a steady speed in u/s."""
     pulses = abs(feedrate) * axis.period / axis.pulse
+    # More pulses than the card can send are an alarm, and no steady error.
     behind = abs(feedrate) / axis.gain if pulses <= axis.most_pulses else None
     most = axis.most_pulses * axis.pulse / axis.period * 60.0
     found = {

@@ -156,6 +156,8 @@ class Control:
 
     def open_download(self, wish: OpenDownload) -> int:
         """Begin a download or take it up again; return the offset to go on from."""
+        # The answer to the commit was lost: the client goes on to it and gets it again, with nothing to
+        # send.
         if self._record.answer_to(wish.transfer, wish.sha256) is not None:
             return wish.size
         if wish.signature != self.identity.signature and not self._record.has_contained(wish.sha256):
@@ -173,6 +175,7 @@ class Control:
         pending = PendingDownload(wish.transfer, wish.size, wish.sha256, wish.expected)
         begun = self._staging.pending
         if begun != pending:
+            # Half of one image and half of another would have the right length.
             if begun is not None and begun.transfer == pending.transfer:
                 raise RefusalError(Code.MALFORMED, "this transfer was begun with another image")
             with _storing():
@@ -283,12 +286,14 @@ class Control:
             active = initial
         self._activate(active)
         self._record.remember(self._digest)
+        # The rename had happened when the power went: what was left to write is written now.
         if intent is not None and intent["to"] == self._digest.hex():
             self._finish(intent)
         elif intent is not None:
             self._forget_intent()
         self._staging.tidy()
         pending = self._staging.pending
+        # Of a committed download nothing needs to be staged any more.
         if pending is not None and self._record.answer_to(pending.transfer, pending.sha256) is not None:
             self._staging.drop()
         self._record.estop = self._record.estop if estop is None else estop

@@ -62,6 +62,7 @@ class Staging:
             name: value.hex() if isinstance(value, bytes) else value
             for name, value in asdict(pending).items()
         }
+        # The note first: bytes without one belong to no download, and are removed at the next start.
         self._memory.replace(pending.note, to_json(note))
         self._memory.append(pending.part, b"")
         self.pending, self.size = pending, 0
