@@ -147,6 +147,8 @@ class Interpreter:
         path = file.schema.program.path
         if path is None:
             raise BlockError(f"{file.schema.family.name}: no page here prints how its programs move the axes")
+        if path.machines and file.machine not in path.machines:
+            raise BlockError(f"Programs of a {file.machine} are not run: its words are read as of one block")
         self.facts, self._retract, self._zero = path, retract, zero
         self.axes = tuple(axis for axis in fitted_axes(file) if next(self._letters(axis), None))
         self.letters = tuple(axis_name(file.evaluation, axis) or axis for axis in self.axes)
@@ -187,6 +189,9 @@ class Interpreter:
 
     def _letters(self, axis: str) -> Iterator[str]:
         """Yield the letter of an axis, X to Z and A to W."""
+        declared = self.file.schema.family.axes
+        if declared and self.file.evaluation.canonical((declared.type, axis)) == declared.types.get("S", "?"):
+            return  # a spindle turns, and no word moves it along
         name = axis_name(self.file.evaluation, axis) or axis
         if len(name) == 1 and name.isalpha():
             yield name
@@ -291,6 +296,9 @@ class Interpreter:
             code = TypedWord(each[0], each[1:], each).code
             if code in calls:
                 raise BlockError(f"{each} calls the program {calls[code].program}, which is not here")
+            if code not in known and self.facts.unknown_m and code[0] == "M":
+                self.notes.append(f"{each}, which no page here names, moves no axis.")
+                continue
             if code not in known:
                 raise BlockError(f"{each} is a code that no page here names", "unknown-code")
             facts, group = known[code].facts, known[code].group

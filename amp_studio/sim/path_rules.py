@@ -32,6 +32,8 @@ class PathLimit:
 class Corners:
     """Where a row follows another without a stop; (n,) or (n, axes)."""
 
+    axes: tuple[str, ...]
+    """Letters of the columns."""
     before: PathRows
     """Direction at the end of the first row, of length 1."""
     after: PathRows
@@ -60,6 +62,10 @@ class PathRules:
     axis_speed: Mapping[str, PathLimit] = field(default_factory=dict)
     axis_acceleration: Mapping[str, PathLimit] = field(default_factory=dict)
     """Axis -> its own limit in every move."""
+    axis_deceleration: Mapping[str, PathLimit] | None = None
+    """Axis -> that of slowing down; None for the acceleration."""
+    axis_rapid: Mapping[str, PathLimit] | None = None
+    """That of its speed in rapid; None for the same."""
     corner: CornerRule = lambda _corners: ()
     arc: Callable[[PathRows], Sequence[tuple[PathLimit, PathRows]]] | None = None
     """arc(radius in u) -> the highest speeds by what bounds them."""

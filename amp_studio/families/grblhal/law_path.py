@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 
 import numpy as np
 
@@ -37,14 +37,14 @@ def path_rules(machine: BoundMachine) -> PathRules:
         rapid_ramp=Ramp("linear"),
         axis_speed=speeds,
         axis_acceleration=accelerations,
-        corner=_corner(deviation, [each.value for each in accelerations.values()]),
+        corner=_corner(deviation, accelerations),
         chord=PathLimit(read.number(ids.arc_tolerance, everywhere=True), (ids.arc_tolerance, "")),
         look_ahead=PathLimit(blocks or MOTION.value("planner_blocks"), (ids.planner_blocks, "")),
         assumptions=ASSUMED,
     )
 
 
-def _corner(deviation: PathLimit, accelerations: Sequence[float]) -> CornerRule:
+def _corner(deviation: PathLimit, accelerations: Mapping[str, PathLimit]) -> CornerRule:
     """Return the rule of junction deviation: the speed of a circle that is so far from the corner, at what
     the axes can accelerate across it.
     """
@@ -55,7 +55,12 @@ def _corner(deviation: PathLimit, accelerations: Sequence[float]) -> CornerRule:
         size = np.sqrt((across * across).sum(axis=1))
         with np.errstate(divide="ignore", invalid="ignore"):
             unit = np.abs(across / size[:, None])
-            bound = np.min(np.where(unit > 0.0, np.array(accelerations) / unit, np.inf), axis=1)
+            bound = np.min(
+                np.where(
+                    unit > 0.0, np.array([accelerations[axis].value for axis in corners.axes]) / unit, np.inf
+                ),
+                axis=1,
+            )
             half = np.sqrt(0.5 * (1.0 - cosine))
             speed = np.sqrt(bound * deviation.value * half / (1.0 - half))
         speed[cosine > STRAIGHT] = 0.0

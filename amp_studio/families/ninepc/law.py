@@ -24,6 +24,7 @@ from .law_facts import ids
 from .law_feedback import Feedback, feedback_of
 from .law_figures import Loop, predictions
 from .law_machine_tests import machine_tests
+from .law_path import path_rules
 from .law_probing import probing
 from .law_ramps import ramps_of
 from .law_reading import above_zero, demand, if_set, not_negative
@@ -272,4 +273,5 @@ LAW = Law(
     probing=probing,
     zones=zones,
     machine_tests=machine_tests,
+    path=path_rules,
 )

@@ -268,6 +268,10 @@ class ArcTolerance(Model):
 class ProgramPath(Model):
     """What the path of a whole program needs beside its words."""
 
+    machines: tuple[Key, ...] = ()
+    """Machine types whose programs are run; all where it is empty."""
+    unknown_m: bool = False
+    """Whether an M code that no page names moves no axis."""
     first: tuple[str, ...] = ()
     """Codes of groups that are active at the start where no parameter chooses one."""
     arcs_by_radius: bool = False

@@ -72,21 +72,33 @@ def _rise(velocity: float, way: float, acceleration: float, jerk: float) -> floa
 
 
 def peaks(
-    ramp: Ramp, before: Changes, after: Changes, way: Changes, highest: Changes, acceleration: Changes
+    ramp: Ramp,
+    before: Changes,
+    after: Changes,
+    way: Changes,
+    highest: Changes,
+    acceleration: Changes,
+    deceleration: Changes,
 ) -> Changes:
     """Return the highest velocity of each block from one velocity to another within its way."""
     if ramp.kind == "none":
         return highest.copy()
     if ramp.kind == "linear" or (ramp.kind == "s-curve" and ramp.jerk == 0.0):
-        square = 0.5 * (before * before + after * after) + acceleration * way
+        # An infinite slope takes no way: its share is the limit of the quotient.
+        share = 1.0 / (1.0 + np.where(np.isfinite(deceleration), acceleration / deceleration, 0.0))
+        share = np.where(np.isfinite(acceleration), share, 0.0)
+        slope = np.where(np.isfinite(acceleration), acceleration, deceleration)
+        slope = np.where(np.isfinite(slope), slope, 1e12)
+        square = share * before * before + (1.0 - share) * after * after
+        square += 2.0 * np.where(np.isfinite(acceleration), share, 1.0) * slope * way
         return cast(Changes, np.minimum(np.sqrt(square), highest))
     low, high = np.maximum(before, after), highest.copy()
     # No closed form for both ramps together: halved until no float is between, at most as often as a float
     # has bits.
     for _ in range(60):
         middle = 0.5 * (low + high)
-        taken = change_way(ramp, before, middle, acceleration) + change_way(ramp, middle, after, acceleration)
+        taken = change_way(ramp, before, middle, acceleration) + change_way(ramp, middle, after, deceleration)
         fits = taken <= way
         low, high = np.where(fits, middle, low), np.where(fits, high, middle)
-    whole = change_way(ramp, before, highest, acceleration) + change_way(ramp, highest, after, acceleration)
+    whole = change_way(ramp, before, highest, acceleration) + change_way(ramp, highest, after, deceleration)
     return cast(Changes, np.where(whole <= way, highest, low))

@@ -61,26 +61,28 @@ class ContourError:
         return int(np.argmax(self.error)) if len(self.error) else 0
 
 
-def contour_error(plan: ProgramPlan, axes: Sequence[AxisLaw]) -> ContourError:
-    """Run the axes over a plan; raises SimulationError where it is too long or an axis cannot be run."""
+def contour_error(plan: ProgramPlan, axes: Sequence[AxisLaw | None]) -> ContourError:
+    """Run the axes over a plan, None for one that rests.
+    Raises SimulationError where it is too long or an axis cannot be run.
+    """
     if plan.time > LONGEST:
         raise SimulationError(f"The program takes {plan.time:.4g} s, more than {LONGEST:g} s")
     profiles = axis_profiles(plan)
-    after = max(SETTLES / axis.position_rate for axis in axes)
-    motions = [
-        run_axis(axis, profile, Until(plan.time + after), thin=True)
-        for axis, profile in zip(axes, profiles, strict=True)
-    ]
-    alarms = [alarm for axis, motion in zip(axes, motions, strict=True) for alarm in alarms_of(axis, motion)]
-    samples = min(len(motion.columns["time_s"][motion.driven]) for motion in motions)
-    time = motions[0].columns["time_s"][:samples]
-    place = np.column_stack(
-        [_on(motion, "position", time) + plan.path.start[n] for n, motion in enumerate(motions)]
-    )
-    commanded = np.column_stack(
-        [_on(motion, "command_position", time) + plan.path.start[n] for n, motion in enumerate(motions)]
-    )
-    following = np.column_stack([_on(motion, "following_error", time) for motion in motions])
+    moving = [(n, axis) for n, axis in enumerate(axes) if axis is not None]
+    after = max(SETTLES / axis.position_rate for _, axis in moving)
+    motions = {n: run_axis(axis, profiles[n], Until(plan.time + after), thin=True) for n, axis in moving}
+    alarms = [alarm for n, axis in moving for alarm in alarms_of(axis, motions[n])]
+    samples = min(len(motion.columns["time_s"][motion.driven]) for motion in motions.values())
+    time = next(iter(motions.values())).columns["time_s"][:samples]
+
+    def column(name: str, start: PathRows) -> PathRows:
+        resting = np.zeros(len(time))
+        return np.column_stack(
+            [start[n] + (_on(motions[n], name, time) if n in motions else resting) for n in range(len(axes))]
+        )
+
+    place, commanded = column("position", plan.path.start), column("command_position", plan.path.start)
+    following = column("following_error", np.zeros(len(axes)))
     found = np.searchsorted(plan.start, time, side="right") - 1
     rows = np.clip(found, 0, max(len(plan.start) - 1, 0)).astype(np.int64)
     error = distances(place, commanded, ways_gone(plan, commanded, rows), path_points(plan, ON_ARC)[0])

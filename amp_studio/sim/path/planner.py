@@ -57,6 +57,7 @@ class ProgramPlan:
     peak: PathRows
     leave: PathRows
     acceleration: PathRows
+    deceleration: PathRows
     times: PathRows
     """(rows, 3): faster, even, slower."""
     rest: PathRows
@@ -118,13 +119,16 @@ def plan_program(
     kind = path.kind[geometry.row]
     is_rapid = kind == RAPID
     wanted, top, top_by = _tops(path, geometry, rules, table, is_rapid)
-    acceleration, ramp_by = _accelerations(path, geometry, rules, table, is_rapid)
+    acceleration, ramp_by = _accelerations(path, geometry, rules, table, is_rapid, rules.axis_acceleration)
+    slower = rules.axis_acceleration if rules.axis_deceleration is None else rules.axis_deceleration
+    deceleration, slower_by = _accelerations(path, geometry, rules, table, is_rapid, slower)
+    slopes = acceleration, deceleration
     joint, joint_by = _joints(path, geometry, rules, table, top)
     progress(0.3)
-    entry, entry_by = _look_ahead(geometry, rules, table, is_rapid, acceleration, joint, joint_by, progress)
+    entry, entry_by = _look_ahead(geometry, rules, table, is_rapid, slopes, joint, joint_by, progress)
     leave = np.append(entry[1:], 0.0)
     leave_by = np.append(entry_by[1:], -1)
-    peak, times = _ramps(geometry, rules, is_rapid, entry, leave, top, acceleration)
+    peak, times = _ramps(geometry, rules, is_rapid, entry, leave, top, slopes)
     ahead = table.number(rules.look_ahead) if rules.look_ahead else -1
     rest, rest_by = _rests(path, geometry, rules, table, waits)
     whole = times.sum(axis=1) + rest
@@ -137,12 +141,13 @@ def plan_program(
         peak,
         leave,
         acceleration,
+        deceleration,
         times,
         rest,
         start,
         np.where(entry_by == ahead, ahead, ramp_by).astype(np.int16) if ahead >= 0 else ramp_by,
         top_by,
-        np.where(leave_by == ahead, ahead, ramp_by).astype(np.int16) if ahead >= 0 else ramp_by,
+        np.where(leave_by == ahead, ahead, slower_by).astype(np.int16) if ahead >= 0 else slower_by,
         rest_by,
         tuple(table.limits),
         (rules.feed_ramp, rules.rapid_ramp),
@@ -168,6 +173,7 @@ def _of_axes(
     path: ToolPath,
     limits: Mapping[str, PathLimit],
     table: CauseTable,
+    where: npt.NDArray[np.bool_] | None = None,
 ) -> None:
     """Lower values along the path to what the axes allow."""
     for n, axis in enumerate(path.axes):
@@ -177,7 +183,7 @@ def _of_axes(
         share = geometry.share[:, n]
         bound = np.full(len(share), math.inf)
         np.divide(limit.value, share, out=bound, where=share > SAME)
-        _lowered(value, by, bound, table.number(limit))
+        _lowered(value, by, bound, table.number(limit), where)
 
 
 def _tops(
@@ -191,7 +197,9 @@ def _tops(
     for limits, where, share in ((rules.feed, ~is_rapid, 1.0), (rules.rapid, is_rapid, rules.rapid_override)):
         for limit in limits:
             _lowered(top, by, np.full(len(top), limit.value * share), table.number(limit), where)
-    _of_axes(top, by, geometry, path, rules.axis_speed, table)
+    rapid = rules.axis_speed if rules.axis_rapid is None else rules.axis_rapid
+    _of_axes(top, by, geometry, path, rules.axis_speed, table, ~is_rapid)
+    _of_axes(top, by, geometry, path, rapid, table, is_rapid)
     if rules.rapid_override < 1.0 and not rules.rapid:
         top[is_rapid] *= rules.rapid_override
     if rules.arc is not None and geometry.is_arc.any():
@@ -211,7 +219,12 @@ def _tops(
 
 
 def _accelerations(
-    path: ToolPath, geometry: Geometry, rules: PathRules, table: CauseTable, is_rapid: npt.NDArray[np.bool_]
+    path: ToolPath,
+    geometry: Geometry,
+    rules: PathRules,
+    table: CauseTable,
+    is_rapid: npt.NDArray[np.bool_],
+    of_axes: Mapping[str, PathLimit],
 ) -> tuple[PathRows, Causes]:
     count = len(geometry.length)
     value, by = np.full(count, math.inf), np.zeros(count, np.int16)
@@ -219,7 +232,7 @@ def _accelerations(
         for limit in limits:
             bound = np.full(count, limit.value if limit.value > 0.0 else math.inf)
             _lowered(value, by, bound, table.number(limit), where)
-    axes = {name: limit for name, limit in rules.axis_acceleration.items() if limit.value > 0.0}
+    axes = {name: limit for name, limit in of_axes.items() if limit.value > 0.0}
     _of_axes(value, by, geometry, path, axes, table)
     return value, by
 
@@ -238,7 +251,7 @@ def _joints(
     corner = path.corner[geometry.row]
     inside = geometry.row[:-1] == geometry.row[1:]  # pieces of one arc: no end of a block
     slow = (corner[:-1] == SLOW) & ~inside
-    for limit, bound in rules.corner(Corners(geometry.last[:-1], geometry.first[1:], slow)):
+    for limit, bound in rules.corner(Corners(path.axes, geometry.last[:-1], geometry.first[1:], slow)):
         _lowered(joint[:-1], by[:-1], bound, table.number(limit))
     kind = path.kind[geometry.row]
     stops = (corner[:-1] == EXACT) & ~inside
@@ -254,7 +267,7 @@ def _look_ahead(
     rules: PathRules,
     table: CauseTable,
     is_rapid: npt.NDArray[np.bool_],
-    acceleration: PathRows,
+    slopes: tuple[PathRows, PathRows],
     joint: PathRows,
     joint_by: Causes,
     progress: Callable[[float], None],
@@ -268,20 +281,21 @@ def _look_ahead(
         # The rows that are known must be enough to stop in: their braking ways are added up. That bound is
         # all a shorter look-ahead changes, as every bound of a row farther ahead is higher than it.
         known = max(1, int(rules.look_ahead.value))
-        slopes = np.where(np.isfinite(acceleration), acceleration, 1e12)
-        gain = np.concatenate([[0.0], np.cumsum(2.0 * slopes * geometry.length)])
+        braking = np.where(np.isfinite(slopes[1]), slopes[1], 1e12)
+        gain = np.concatenate([[0.0], np.cumsum(2.0 * braking * geometry.length)])
         room = gain[np.minimum(np.arange(count) + known, count)] - gain[:-1]
         _lowered(most, entry_by, np.sqrt(room), table.number(rules.look_ahead))
     step = _straight_step if straight else _any_step(rules)
-    length, slope, rapid = geometry.length.tolist(), acceleration.tolist(), is_rapid.tolist()
+    length, rapid = geometry.length.tolist(), is_rapid.tolist()
+    faster, slower = (each.tolist() for each in slopes)
     speeds = most.tolist()
     for n in range(count - 2, -1, -1):
-        can = step(speeds[n + 1], length[n], slope[n], rapid[n])
+        can = step(speeds[n + 1], length[n], slower[n], rapid[n])
         speeds[n] = min(speeds[n], can)
         if n % EVERY == 0:
             progress(0.3 + 0.3 * (count - n) / count)
     for n in range(count - 1):
-        can = step(speeds[n], length[n], slope[n], rapid[n])
+        can = step(speeds[n], length[n], faster[n], rapid[n])
         speeds[n + 1] = min(speeds[n + 1], can)
         if n % EVERY == 0:
             progress(0.6 + 0.3 * n / count)
@@ -308,7 +322,7 @@ def _ramps(
     entry: PathRows,
     leave: PathRows,
     top: PathRows,
-    acceleration: PathRows,
+    slopes: tuple[PathRows, PathRows],
 ) -> tuple[PathRows, PathRows]:
     """Return the highest speed of each row, and its times faster, even, slower."""
     peak, times = np.zeros_like(entry), np.zeros((len(entry), 3))
@@ -316,14 +330,15 @@ def _ramps(
         rows = np.flatnonzero(chosen & (geometry.length > 0.0))
         if not len(rows):
             continue
-        v, w, a, way = entry[rows], leave[rows], acceleration[rows], geometry.length[rows]
+        v, w, way = entry[rows], leave[rows], geometry.length[rows]
+        a, d = slopes[0][rows], slopes[1][rows]
         most = np.maximum(np.maximum(top[rows], v), w)
-        high = np.maximum(peaks(ramp, v, w, way, most, a), np.maximum(v, w))
-        even = np.maximum(way - change_way(ramp, v, high, a) - change_way(ramp, high, w, a), 0.0)
+        high = np.maximum(peaks(ramp, v, w, way, most, a, d), np.maximum(v, w))
+        even = np.maximum(way - change_way(ramp, v, high, a) - change_way(ramp, high, w, d), 0.0)
         peak[rows] = high
         times[rows, 0] = change_time(ramp, high - v, a)
         times[rows, 1] = np.where(high > 0.0, even / np.where(high > 0.0, high, 1.0), 0.0)
-        times[rows, 2] = change_time(ramp, high - w, a)
+        times[rows, 2] = change_time(ramp, high - w, d)
     return peak, times
 
 

@@ -53,7 +53,9 @@ def axis_profiles(plan: ProgramPlan) -> list[list[float]]:
 def _pieces(plan: ProgramPlan, n: int, ramp: Ramp) -> list[Piece]:
     """Return the pieces of a row along the path."""
     entry, peak, leave = float(plan.entry[n]), float(plan.peak[n]), float(plan.leave[n])
-    own = Ramp(ramp.kind, float(plan.acceleration[n]), jerk=ramp.jerk, time=ramp.time)
+    slopes = float(plan.acceleration[n]), float(plan.deceleration[n])
+    up, down = (each if math.isfinite(each) else 0.0 for each in slopes)
+    own = Ramp(ramp.kind, up, down, ramp.jerk, ramp.time)
     even = [Piece(float(plan.times[n, 1]), peak)] if plan.times[n, 1] > 0.0 else []
     every = [*change(own, entry, peak), *even, *change(own, peak, leave)]
     return [piece for piece in every if piece.duration > 0.0]

@@ -168,12 +168,18 @@ def _contour(plan: ProgramPlan, axes: list[AxisLaw]) -> tuple[ContourError | Non
     """Return the contour error, or why there is none."""
     if not len(plan.entry):
         return None, "the program moves nothing"
-    if not all(any(gain in axis.sources for gain in axis.gains) for axis in axes):
+    # The end of a whole circle is its start: an axis moves where it has a share in a row.
+    ways = plan.geometry.share * plan.geometry.length[:, None]
+    chosen = [axis if (ways[:, n] > 1e-9).any() else None for n, axis in enumerate(axes)]
+    moving = [axis for axis in chosen if axis is not None]
+    if not moving:
+        return None, "the program moves nothing"
+    if not all(any(gain in axis.sources for gain in axis.gains) for axis in moving):
         return None, "this control has no servo loop whose gains are in the file"
-    if len({axis.unit for axis in axes}) > 1:
+    if len({axis.unit for axis in moving}) > 1:
         return None, "the axes do not move in one unit"
     try:
-        return contour_error(plan, axes), ""
+        return contour_error(plan, chosen), ""
     except SimulationError as error:
         return None, f"{error}"
 

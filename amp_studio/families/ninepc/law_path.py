@@ -1,0 +1,100 @@
+"""How a 9/PC goes along the path of a program: feedrates (9-1, 9-2), linear ramps (10-3 on), velocity step
+(10-7), exact stops (7-24).
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping, Sequence
+
+import numpy as np
+
+from amp_studio.sim import (
+    AxisParameters,
+    BoundMachine,
+    CornerRule,
+    Corners,
+    PathLimit,
+    PathRows,
+    PathRules,
+    Ramp,
+    SimulationError,
+)
+
+from .law_facts import ids
+from .law_reading import above_zero, if_set
+
+ASSUMED = (
+    (
+        "The vector feedrate is such that no axis passes its maximum cutting feedrate (9-2), or its"
+        " rapid feedrate (9-1)."
+    ),
+    (
+        "ASSUMED: the ramp along the path is such that no axis passes its linear acceleration and"
+        " deceleration (10-8, 10-10)."
+    ),
+    (
+        "ASSUMED: a corner of G62 and G64 is passed at the speed at which no axis changes its own by more"
+        " than its Velocity Step (10-7), and as many blocks are known as are needed: both are in the"
+        " programming manual, which is not among the sources."
+    ),
+)
+
+
+def path_rules(machine: BoundMachine) -> PathRules:
+    """Return the rules of a file; raises SimulationError naming what is missing or not simulated."""
+    if str(machine.parameters.value(ids.positioning_mode, everywhere=True) or "") == "exponential":
+        raise SimulationError(
+            f"Programs with exponential ramps ({ids.positioning_mode}, 10-3) are not simulated",
+            ids.positioning_mode,
+        )
+    cutting, rapid, faster, slower, steps = {}, {}, {}, {}, {}
+    for axis in machine.fitted:
+        read, letter = machine.read(axis), machine.letter(axis) or axis
+        try:
+            cutting[letter] = PathLimit(above_zero(read, ids.max_cutting) / 60.0, (ids.max_cutting, axis))
+            speed = above_zero(read, ids.feedrate_rapid) / 60.0
+            rapid[letter] = PathLimit(speed, (ids.feedrate_rapid, axis))
+        except SimulationError:
+            continue  # an axis without feedrates moves in no block; the planner names it where it does
+        faster[letter], slower[letter] = _ramp(read, axis, down=False), _ramp(read, axis, down=True)
+        steps[letter] = PathLimit(if_set(read, ids.velocity_step) / 60.0, (ids.velocity_step, axis))
+    return PathRules(
+        feed_ramp=Ramp("linear"),
+        rapid_ramp=Ramp("linear"),
+        axis_speed=cutting,
+        axis_rapid=rapid,
+        axis_acceleration=faster,
+        axis_deceleration=slower,
+        corner=_corner(steps),
+        waits=True,
+        stop=PathLimit(0.0, (ids.inposition_band, machine.fitted[0])),
+        assumptions=ASSUMED,
+    )
+
+
+def _ramp(read: AxisParameters, axis: str, *, down: bool) -> PathLimit:
+    """Return a linear ramp, 0 for none; without a deceleration it is the acceleration (10-10)."""
+    if down and (slower := if_set(read, ids.linear_deceleration)):
+        return PathLimit(slower, (ids.linear_deceleration, axis))
+    return PathLimit(if_set(read, ids.linear_acceleration), (ids.linear_acceleration, axis))
+
+
+def _corner(steps: Mapping[str, PathLimit]) -> CornerRule:
+    """Return the rule of the velocity step of each axis."""
+
+    def rule(corners: Corners) -> Sequence[tuple[PathLimit, PathRows]]:
+        change = np.abs(corners.after - corners.before)
+        found = []
+        for n, axis in enumerate(corners.axes):
+            step = steps.get(axis, PathLimit(0.0, None, "no velocity step"))
+            bound = np.full(len(change), math.inf)
+            np.divide(step.value, change[:, n], out=bound, where=change[:, n] > STRAIGHT)
+            found.append((step, bound))
+        return found
+
+    return rule
+
+
+STRAIGHT = 1e-9
+"""Change of direction below which an axis goes on evenly."""
