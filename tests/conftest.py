@@ -137,13 +137,15 @@ def pytest_xdist_setupnodes() -> None:
 
 
 @pytest.fixture(scope="session", autouse=True)
-def _controls_answer_at_once() -> Iterator[None]:
-    """Wait a tenth of a second, not half of one or two, for a Grbl to make itself known:
-    what is not one never answers.
+def _nothing_waits_for_long() -> Iterator[None]:
+    """Wait a tenth of a second, not half of one or two, for a Grbl to make itself known: what is not one
+    never answers. Simulate in Python what is not worth its machine code.
     """
     with pytest.MonkeyPatch.context() as patch:
         for name in ("RECOGNISED", "RECOGNISED_SERIAL"):
             patch.setattr(f"amp_studio.transfer.client.drivers.{name}", 0.1)
+        # In a fresh checkout machine code takes 5 s a law to be made, as long as so many steps in Python.
+        patch.setattr("amp_studio.sim.engine.compiled.PLAIN_STEPS", 600_000)
         yield
 
 

@@ -80,9 +80,12 @@ class Forked:
         self.send_signal(signal.SIGKILL)
 
     def communicate(self) -> tuple[str, str]:
-        self.stdin.close()
-        with self.stdout:
-            printed = self.stdout.read()
+        if not self.stdin.closed:
+            self.stdin.close()
+        printed = ""
+        if not self.stdout.closed:
+            with self.stdout:
+                printed = self.stdout.read()
         self.wait()
         return printed, ""
 

@@ -6,16 +6,18 @@ The programs are real ones and so are the signals; a campaign can run many seeds
 
 from __future__ import annotations
 
-import contextlib
 import json
 import random
 import signal
-import subprocess
 import sys
 import time
-from collections.abc import Iterator
+from contextlib import AbstractContextManager
 from pathlib import Path
 from typing import Any
+
+from amp_studio import cli
+from tests import forked
+from tests.forked import Program
 
 from .stopped import started
 
@@ -29,20 +31,9 @@ and would wait for 20 without."""
 FAULTS: list[dict[str, Any]] = [{}, {}, {"drop_after_bytes": 20_000}, {"lose_every": 4_001}, {"silent": True}]
 
 
-@contextlib.contextmanager
-def emulated(folder: Path, **faults: Any) -> Iterator[tuple[subprocess.Popen[str], str]]:
+def emulated(folder: Path, **faults: Any) -> AbstractContextManager[tuple[Program, str]]:
     """Start an emulated control; gives the process and where it listens."""
-    command = _command(
-        "emulate", "9pc", "--listen", "tcp://127.0.0.1:0", "--state", folder, "--faults", json.dumps(faults)
-    )
-    with subprocess.Popen(command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True) as process:
-        try:
-            assert process.stdout is not None
-            said = process.stdout.readline().strip()
-            assert said.startswith("listening on "), said
-            yield process, said.removeprefix("listening on ")
-        finally:
-            process.kill()
+    return forked.emulated("9pc", folder, "--faults", json.dumps(faults))
 
 
 def _command(*arguments: object) -> list[str]:
@@ -55,11 +46,7 @@ def download_while_stopped(path: Path, folder: Path, *, seed: int, rounds: int) 
     faults: list[str] = []
     for number in range(rounds):
         state = folder / f"control-{seed}-{number}"
-        subprocess.run(
-            _command("set", path, f"1300={chance.randrange(1, 100_000) / 1000}"),
-            check=True,
-            capture_output=True,
-        )
+        assert cli.run(["set", str(path), f"1300={chance.randrange(1, 100_000) / 1000}"]) == 0
         with emulated(state, **chance.choice(FAULTS)) as (_, address):
             before = (state / "active.img").read_bytes()
             delay, signals = chance.uniform(0.1, LONGEST), chance.choice([1, 1, 2])

@@ -13,17 +13,19 @@ from pathlib import Path
 
 import pytest
 
+from amp_studio import cli
+
 from . import stopped_exchanges as campaign
 
 pytestmark = pytest.mark.skipif(sys.platform == "win32", reason="signals")
 
 
 def test_a_download_stopped_at_any_moment_ends_with_the_truth(mill: Path, tmp_path: Path) -> None:
-    assert campaign.download_while_stopped(mill, tmp_path, seed=3, rounds=5) == []
+    assert campaign.download_while_stopped(mill, tmp_path, seed=3, rounds=2) == []
 
 
 def test_an_emulated_control_stopped_at_any_moment_says_goodbye(tmp_path: Path) -> None:
-    assert campaign.control_while_stopped(tmp_path, seed=2, rounds=6) == []
+    assert campaign.control_while_stopped(tmp_path, seed=2, rounds=2) == []
 
 
 def test_ctrl_c_while_the_control_is_silent_stops_at_once_and_the_silence_was_shown(
@@ -44,7 +46,7 @@ def test_ctrl_c_while_the_control_is_silent_stops_at_once_and_the_silence_was_sh
 def test_ctrl_c_twice_while_a_commit_is_not_answered_ends_at_once_with_not_known(
     mill: Path, tmp_path: Path
 ) -> None:
-    subprocess.run(campaign._command("set", mill, "1300=1.5"), check=True, capture_output=True)
+    assert cli.run(["set", str(mill), "1300=1.5"]) == 0
     with campaign.emulated(tmp_path / "control", die_at_commit_step=3) as (control, address):
         program = _start("download", mill, "--to", address, "--accept-errors")
         control.wait(120)  # it has died in the middle of the commit
@@ -80,7 +82,7 @@ def test_an_emulated_control_whose_output_nobody_reads_serves_on_and_ends_well(
 def test_the_result_of_a_download_that_cannot_be_printed_is_told_and_is_no_full_success(
     mill: Path, tmp_path: Path
 ) -> None:
-    subprocess.run(campaign._command("set", mill, "1300=2.5"), check=True, capture_output=True)
+    assert cli.run(["set", str(mill), "1300=2.5"]) == 0
     with campaign.emulated(tmp_path / "control") as (_, address), Path("/dev/full").open("w") as full:
         command = campaign._command("download", mill, "--to", address, "--accept-errors")
         done = subprocess.run(command, stdout=full, stderr=subprocess.PIPE, text=True, check=False)
@@ -92,20 +94,16 @@ def test_a_restore_is_complete_where_nobody_reads_its_result(mill: Path, tmp_pat
     reading, writing = os.pipe()
     os.close(reading)
     with campaign.emulated(tmp_path / "control") as (_, address):
-        first = campaign._command("download", mill, "--to", address, "--accept-errors")
-        subprocess.run(first, check=True, capture_output=True)
         image = tmp_path / "held.img"
-        subprocess.run(
-            campaign._command("upload", "--from", address, "-o", image), check=True, capture_output=True
-        )
-        subprocess.run(campaign._command("set", mill, "1300=2.5"), check=True, capture_output=True)
-        subprocess.run(first, check=True, capture_output=True)
+        download = ["download", str(mill), "--to", address, "--accept-errors"]
+        assert cli.run(download) == 0
+        assert cli.run(["upload", "--from", address, "-o", str(image)]) == 0
+        assert cli.run(["set", str(mill), "1300=2.5"]) == 0
+        assert cli.run(download) == 0
         restore = campaign._command("restore", image, "--to", address)
         assert subprocess.run(restore, stdout=writing, stderr=writing, check=False).returncode == 0
         again = tmp_path / "again.img"
-        subprocess.run(
-            campaign._command("upload", "--from", address, "-o", again), check=True, capture_output=True
-        )
+        assert cli.run(["upload", "--from", address, "-o", str(again)]) == 0
     os.close(writing)
     assert again.read_bytes() == image.read_bytes()
 

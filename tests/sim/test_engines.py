@@ -1,8 +1,14 @@
-"""The laws of all families give the same numbers as plain Python and as machine code."""
+"""The laws of all families give the same numbers as plain Python and as machine code.
+
+``make test`` compiles the samples of every law, and the kernel around those of two; ``make campaign`` the kernel of
+each, five seconds apiece.
+"""
 
 from __future__ import annotations
 
 from pathlib import Path
+from random import Random
+from typing import Any, cast
 
 import numpy as np
 import pytest
@@ -12,8 +18,10 @@ from amp_studio.sim import law_of
 from amp_studio.sim.axis.motion import Until, run_axis
 from amp_studio.sim.binding import bind_axis
 from amp_studio.sim.command.ramps import move
-from amp_studio.sim.engine.signals import POSITION_LOOP, VELOCITY_LOOP
-from amp_studio.sim.law import simulated_families
+from amp_studio.sim.engine.compiled import _machine_code
+from amp_studio.sim.engine.signals import FEED_SHARE, MODE, MONITOR, POSITION_LOOP, STOP, VELOCITY_LOOP
+from amp_studio.sim.law import AxisLaw, simulated_families
+from tests.campaigns import CAMPAIGN
 
 EXAMPLES = [
     path
@@ -29,10 +37,38 @@ ROUGH = {
 }
 
 
-@pytest.mark.parametrize("path", EXAMPLES, ids=lambda path: path.stem)
-def test_plain_python_and_machine_code_agree_for_the_law_of_every_family(path: Path) -> None:
+WHOLE = [path for path in EXAMPLES if CAMPAIGN or path.stem in {"MILL_1394", "ROUTER"}]
+"""With a velocity loop of the law, and without."""
+
+
+def axis_of(path: Path) -> AxisLaw:
     file = open_file(path).file
-    axis = bind_axis(file, law_of(file.schema.family.family), None, ROUGH)
+    return bind_axis(file, law_of(file.schema.family.family), None, ROUGH)
+
+
+@pytest.mark.parametrize("path", EXAMPLES, ids=lambda path: path.stem)
+def test_the_samples_of_a_law_agree_whatever_the_signals(path: Path) -> None:
+    numba = pytest.importorskip("numba")
+    axis, chance = axis_of(path), Random(path.stem)
+    signature = numba.void(*[numba.float64[::1]] * 3)
+    for sample in filter(None, (axis.position_sample, axis.velocity_sample)):
+        fast = _machine_code(cast(Any, sample), {}, signature)
+        plain = [[float(each) for each in axis.parameters], [0.0] * axis.state_size]
+        arrays = [np.array(each) for each in plain]
+        for n in range(200):
+            signals = [chance.uniform(-2.0, 2.0) for _ in range(MONITOR + len(axis.monitors))]
+            signals[FEED_SHARE], signals[STOP] = 1.0, 0.0
+            signals[MODE] = VELOCITY_LOOP if n % 5 == 4 else POSITION_LOOP
+            machine_signals = np.array(signals)
+            sample(*plain, signals)
+            fast(*arrays, machine_signals)
+            np.testing.assert_allclose(machine_signals, signals, rtol=1e-9, atol=1e-12)
+            np.testing.assert_allclose(arrays[1], plain[1], rtol=1e-9, atol=1e-12)
+
+
+@pytest.mark.parametrize("path", WHOLE, ids=lambda path: path.stem)
+def test_plain_python_and_machine_code_agree_for_a_whole_move(path: Path) -> None:
+    axis = axis_of(path)
     assert axis.feedrate is not None
     profile = move(0.05 * axis.feedrate, 0.5 * axis.feedrate, next(iter(axis.ramps.values())), 1e-3)
     for mode in (POSITION_LOOP, VELOCITY_LOOP):
