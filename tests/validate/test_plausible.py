@@ -4,6 +4,7 @@ All of it is a recommendation.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from pathlib import Path
 
 import pytest
@@ -147,6 +148,29 @@ def test_what_no_manual_bounds_has_a_range_of_experience(name: str, address: Add
     unit = file.values[address].unit
     findings = found(file, address, Value(value.value, unit))
     assert any(f.rule == "plausible.usual" for f in findings)
+
+
+def test_a_point_of_a_calibration_that_jumps_out_is_asked_about() -> None:
+    """Deviations of a screw that was measured: a line, a wave of the screw, and noise of a micrometre."""
+    deviations = [0, 2.1, 4.9, 6.8, 9.2, 11.1, 12.7, 13.4, 15.2, 16.1, 18.3, 19.2]
+    file = example("mill-1394")
+    address = ("calibration.table", "1")
+
+    def jumps(micrometres: Sequence[float]) -> list[str]:
+        points = " ".join(f"{-50 * (11 - n)}:{um / 1000:g}" for n, um in enumerate(micrometres))
+        file.set(address, Value(f"deviation - mm {points}"))
+        return [f.message for f in Validator(file).run() if f.rule == "plausible.jump"]
+
+    assert jumps(deviations) == []
+    (message,) = jumps([*deviations[:5], 111, *deviations[6:]])
+    assert message.endswith(
+        ", -300:0.111 is 0.111 between 0.0092 and 0.0127: it alone jumps out of its table. Is it meant?"
+    )
+    validator = Validator(file)
+    validator.run()
+    for text in ("", "deviation - mm 0:0"):
+        file.set(address, Value(text))
+        assert validator.update([address]) == Validator(file).run()
 
 
 def test_a_point_of_a_cam_that_jumps_out_is_asked_about_and_a_corner_is_not() -> None:

@@ -69,6 +69,9 @@ class Plausible(Model):
     asked about where a slip explains it."""
     smooth: tuple[ParameterId, ...] = ()
     """Tables, part after part, whose values run without a single one that jumps out."""
+    curves: dict[ParameterId, str] = {}
+    """Text with a smooth table in it -> the sign in each of its words behind which the figure is, as ``:`` of
+    ``100:0.004``."""
     steps: tuple[ParameterId, ...] = ()
     """Tables, part after part, whose values are steps of one motion: as a rule it comes back to where it
     began, or never turns back."""

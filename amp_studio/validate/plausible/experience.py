@@ -13,7 +13,7 @@ from .axis_words import NO_AXIS, AxisWords
 from .earlier import EARLIER, Earlier, EarlierValues
 from .relations import ABOVE, LADDER, NEEDS, QUOTIENT, UNEQUAL, Relations
 from .rows import ROW, EqualRows
-from .smooth import JUMP, SmoothTables
+from .smooth import JUMP, SmoothTables, TextCurves
 from .steps import NOT_CLOSED, TURN_BACK, StepTables
 from .usual import USUAL, UsualValues
 from .within import OUTSIDE, WithinTravel
@@ -42,7 +42,7 @@ class Experience:
 
     def __init__(self, file: ParameterFile, earlier: Sequence[Earlier] = ()) -> None:
         self._file = file
-        tables = SmoothTables(file), StepTables(file), EqualRows(file)
+        tables = SmoothTables(file), TextCurves(file), StepTables(file), EqualRows(file)
         words = AxisWords(file), WithinTravel(file), Relations(file)
         self._parts = (Alike(file), UsualValues(file), *tables, *words)
         self._earlier = EarlierValues(file, earlier)

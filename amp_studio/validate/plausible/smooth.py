@@ -7,6 +7,7 @@ from the second differences of the rest of the table.
 
 from __future__ import annotations
 
+import re
 from bisect import bisect_left, insort
 from collections.abc import Iterator
 
@@ -114,6 +115,51 @@ class SmoothTables:
             f" {before} and {after}: it alone jumps out of its table. Is it meant?"
         )
         return Finding(JUMP, "advice", (address,), message, reason=REASON)
+
+
+class TextCurves:
+    """The texts of one file that are smooth tables, a calibration for example; facts name them."""
+
+    def __init__(self, file: ParameterFile) -> None:
+        self._file, self._signs = file, file.schema.plausible.curves
+        self._found: dict[Address, tuple[Finding, ...]] = {}
+
+    def look_at_all(self) -> None:
+        """Look at every text."""
+        self._found.clear()
+        for address in [a for a in self._file.values if a[0] in self._signs]:
+            self.look_again(address)
+
+    def look_again(self, address: Address) -> bool:
+        """Look at one text again; returns whether anything is otherwise."""
+        if address[0] not in self._signs:
+            return False
+        before = self._found.pop(address, ())
+        value = self._file.values.get(address)
+        if value is not None and self._file.evaluation.state(address).is_active:
+            found = tuple(self._jumps(address, str(value.value)))
+            if found:
+                self._found[address] = found
+        return self._found.get(address, ()) != before
+
+    def findings(self) -> Iterator[Finding]:
+        """Yield each point that jumps out of its table."""
+        for found in self._found.values():
+            yield from found
+
+    def _jumps(self, address: Address, text: str) -> Iterator[Finding]:
+        """Yield the findings of one text; a word without a figure is none of its points."""
+        sign = re.escape(self._signs[address[0]])
+        points = re.findall(rf"(\S*?{sign}(-?[0-9]*\.?[0-9]+))(?!\S)", text)
+        table = _Table([address] * len(points), [float(figure) for _, figure in points])
+        label = self._file.schema.on(self._file.machine).label(address)
+        for n in table.jumping():
+            before, at, after = (points[m] for m in (n - 1, n, n + 1))
+            message = (
+                f"{label}, {at[0]} is {at[1]} between {before[1]} and {after[1]}: it alone jumps out of its"
+                " table. Is it meant?"
+            )
+            yield Finding(JUMP, "advice", (address,), message, reason=REASON)
 
 
 def _whole(address: Address) -> Address:
