@@ -295,6 +295,14 @@ def test_the_numbers_of_grbl_08_mean_other_settings_and_are_read_by_those_of_tod
     )
 
 
+def test_remarks_of_other_settings_beside_today_s_numbers_change_nothing() -> None:
+    """A memory in disorder lists a $151 as (x, step/mm), of an owner of a Grbl 0.9."""
+    remarks = "".join(f"${n}={n}.000 (x, step/mm)\n" for n in (101, 102, 151, 152))
+    found = everything(f"$0=10 (step pulse, usec)\n$1=25\n$100=80.000 (x, step/mm)\n{remarks}")
+    assert found.values["axis.steps", "X"] == Value(80.0, "steps/mm")
+    assert found.values["axis.steps", "Z"] == Value(102.0, "steps/mm")
+
+
 def test_a_listing_of_which_only_the_age_shows_is_refused() -> None:
     text = "".join(f"${n}={value}\n" for n, value in enumerate(OLD[:9])) + "$9=0.05\n"
     for keep in (False, True):

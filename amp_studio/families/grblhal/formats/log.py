@@ -27,6 +27,8 @@ from amp_studio.formats import FormatError
 MARK = "\ufeff"
 _ESCAPES = re.compile(r"\x1b\[[0-9;?]*[A-Za-z]|[\x00-\x08\x0b-\x1f\x7f\u200b-\u200f]")
 _NUMBER = r"[+-]?(?:[0-9]+(?:\.[0-9]*|,[0-9]+)?|[.,][0-9]+)"
+_THOUSANDS = re.compile(r"[+-]?[0-9]{1,3}(?:,[0-9]{3})+\.[0-9]+")
+_UNIT = r"(?:[uµm]?s(?:ec)?|mm(?:/\S+)?|steps?/\S+|rpm|hz)(?:\s.*)?"
 _SETTING = re.compile(r"\$(0|[1-9][0-9]{0,4})([\"'`*]{0,4})[ \t]*(:?=|[:|,;\t])[ \t]*")
 _BARE = re.compile(rf"(?:grbl_)?(0|[1-9][0-9]{{0,2}})[ \t]*=[ \t]*({_NUMBER})[ \t]*(?:[(;].*)?")
 _COLUMNS = re.compile(rf"\$(0|[1-9][0-9]{{0,4}})[ ]+({_NUMBER})(?:[ ]{{2,}}(.*)|[ ]?([(;#].*))?")
@@ -367,9 +369,14 @@ def _change(listing: LoggedListing, changes: LoggedListing) -> None:
 def figure(text: str) -> str:
     """Return the number at the beginning of a text, with a point; the text where it begins with none.
 
-    ``26,667`` is 26.667: a control writes no thousands. ``10 usec`` is 10, ``200.000ok`` is 200.000.
+    ``26,667`` is 26.667: a control writes no thousands; ``5,000.000`` has them all the same. ``10 usec`` and
+    ``10us`` are 10, ``200.000ok`` is 200.000.
     """
-    found = re.fullmatch(rf"({_NUMBER})(?:ok|[^\w.:+-].*)?", text.replace("\u2212", "-"), re.IGNORECASE)
+    if _THOUSANDS.fullmatch(text):
+        return text.replace(",", "")
+    found = re.fullmatch(
+        rf"({_NUMBER})(?:ok|{_UNIT}|[^\w.:+-].*)?", text.replace("\u2212", "-"), re.IGNORECASE
+    )
     if not found:
         return text
     return found[1].replace(",", ".")
