@@ -127,6 +127,7 @@ def _fourfold(side: list[tuple[float, float | None]]) -> float | None:
 
 
 def _repeatability(target: TargetFigures) -> float | None:
+    """Return the repeatability of both directions at one target."""
     up, down, reversal = target.spread_rising, target.spread_falling, target.reversal
     if up is None or down is None or reversal is None:
         return None
@@ -134,6 +135,7 @@ def _repeatability(target: TargetFigures) -> float | None:
 
 
 def _accuracy(side: list[tuple[float, float | None]]) -> float | None:
+    """Return the accuracy of a direction, or of both: the span of mean ± 2 standard deviations."""
     bands = [(mean - 2 * s, mean + 2 * s) for mean, s in side if s is not None]
     if not bands or len(bands) < len(side):
         return None

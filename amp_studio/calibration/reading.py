@@ -202,6 +202,7 @@ def _table(
     separator: str,
     notes: tuple[str, ...],
 ) -> RawTable:
+    """Return the runs of a table; raises MeasurementError for heads that do not name what they are."""
     heads = heads or _heads_of_two(rows[0])
     kinds = [head.kind for head in heads]
     at, values = _columns(heads)

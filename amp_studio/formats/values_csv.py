@@ -90,6 +90,7 @@ def _has_instance(schema: Schema, parameter: Parameter, instance: str) -> bool:
 def _read_row(
     found: TextRead, schema: Schema, heads: list[str], cells: list[str], line: int, keep_unknown: bool
 ) -> None:
+    """Take one row of a table; raises FormatError with line and column."""
     if len(cells) != len(heads):
         raise FormatError(f"{len(cells)} cells below {len(heads)} columns", line)
     row = dict(zip(heads, map(cell_text, cells), strict=True))

@@ -146,6 +146,7 @@ def _graded(
 
 
 def _other(file: ParameterFile, address: Address, param: str, raw: str) -> MigratedParameter:
+    """Return what becomes of a parameter that no concept was read from."""
     parameter = file.schema.parameters[address[0]]
     facts = meanings_of(file.schema.family.family)
     rest = facts.rest if facts else ()
@@ -270,6 +271,7 @@ def _lines(entries: list[MigratedParameter]) -> Iterator[str]:
 
 
 def _line(entry: MigratedParameter) -> str:
+    """Return one parameter in words, by its outcome."""
     facts = entry.facts
     match entry.outcome:
         case "exact":

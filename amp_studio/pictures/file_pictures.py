@@ -69,6 +69,7 @@ def pictures_of(file: ParameterFile) -> tuple[FilePicture, ...]:
 
 
 def _pictures(file: ParameterFile) -> Iterator[FilePicture]:
+    """Yield the pictures that the facts of the family draw, those without a part to draw too."""
     roles = file.schema.pictures
     if travel := roles.travel:
         ends = [p for span in (*travel.spans, *travel.zones) for p in (span.low, span.high)]

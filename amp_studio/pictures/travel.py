@@ -60,6 +60,7 @@ def draw_travel(
 
 
 def _drawn(file: ParameterFile, roles: TravelRoles, axes: tuple[str, ...], like: Scene | None) -> Scene:
+    """Return the picture of axes in this order; ``like`` gives the scales that stay."""
     figures = ValueReader(file)
     drawing = SceneShapes(figures)
     travels = [[_span(figures, span, axis) for axis in axes] for span in roles.spans]

@@ -188,6 +188,7 @@ def _checked_text(parameter: Parameter, value: Value, found: str) -> Value:
 
 
 def _read(parameter: Parameter, text: str, unit: str) -> Value:
+    """Read a text as the type of its parameter has it; raises InvalidValueError."""
     if parameter.type == "text":
         return Value(text)
     if parameter.choices:

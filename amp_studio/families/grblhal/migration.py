@@ -56,6 +56,7 @@ class _Settings:
         return self.out
 
     def _letter(self, axis: AxisMeaning) -> str:
+        """Return the letter of an axis; asked for where it has none of its kind, "" while that is open."""
         taken = [a.letter for a in self.machine.axes if a is not axis]
         if axis.letter in LETTERS and (axis.letter in _TURNING) == axis.turns and axis.letter not in taken:
             return axis.letter
@@ -70,6 +71,7 @@ class _Settings:
         return self.out.answer(question, self.answers, f"[{''.join(free)}]").upper()
 
     def _homing(self, places: list[tuple[AxisMeaning, int]]) -> None:
+        """Write what is for all axes that home: direction, order, and how far off the switch."""
         homed = [
             (axis, place)
             for axis, place in places
@@ -97,6 +99,7 @@ class _Settings:
             self.values[27] = not_above(number)
 
     def _axis(self, axis: AxisMeaning, n: int) -> None:
+        """Write and grade the settings of one axis."""
         self.out.grade(
             axis,
             "kind",
@@ -152,6 +155,7 @@ class _Settings:
         )
 
     def _travel(self, axis: AxisMeaning, n: int) -> None:
+        """Write and grade the travel of one axis, which the firmware counts from home."""
         low, high, home = (axis.number(c) for c in ("travel.low", "travel.high", "home.coordinate"))
         limits = axis.choice("travel.kind") == "limits" and low is not None and high is not None
         key = f"${130 + n}"
@@ -178,6 +182,7 @@ class _Settings:
         )
 
     def _home(self, axis: AxisMeaning, n: int) -> None:
+        """Write the rates of homing of one axis, and grade what becomes of its home position."""
         search, leave = axis.number("home.search"), axis.number("home.leave")
         if search:
             # Homing never faster than the axis may go.
@@ -223,6 +228,7 @@ class _Settings:
         )
 
     def _lost(self, axis: AxisMeaning) -> None:
+        """Grade what a control without feedback has nothing for."""
         for concept, what in (
             ("error.limit", "the limit of the following error"),
             ("gain", "the position loop"),
@@ -256,6 +262,7 @@ class _Settings:
             self.out.less_safe.append(f"{axis.letter}: no ceiling of the cutting speed")
 
     def _spindle(self) -> None:
+        """Write and grade the speeds of the spindle and the modes at the start."""
         for concept, number, choose in (("spindle.greatest", 30, max), ("spindle.least", 31, min)):
             figure = self.machine.figures.get(concept)
             listed = figure.value if figure and isinstance(figure.value, list) else []

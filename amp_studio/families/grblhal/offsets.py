@@ -34,6 +34,7 @@ def offset_differences(a: GrblContent, b: GrblContent) -> list[str]:
 
 
 def _is_near(a: GrblContent, b: GrblContent, name: str) -> bool:
+    """Return whether both controls have the same offset, as far as each shows it."""
     one, other = a.offsets[name], b.offsets.get(name)
     # In one unit both are shown with the same digits, and compare as texts.
     if other is None or reports_inches(a) == reports_inches(b):

@@ -110,6 +110,7 @@ class _Migration:
         return {letter: n for n, step in enumerate(steps) for letter in step}
 
     def _programs(self) -> None:
+        """Write which programs run and which files they read."""
         put, letters = self.ini.put, [self.letters[a.instance] for a in self.ordered]
         put("EMC", "VERSION", "1.1")
         put("EMC", "MACHINE", self.machine.name or self.name)
@@ -138,6 +139,7 @@ class _Migration:
         put("TRAJ", "SPINDLES", "1")
 
     def _path(self) -> None:
+        """Write and grade the speeds along a path and of jogs."""
         linear = [axis.number("rapid") for axis in self.ordered if not axis.turns]
         if linear and all(linear):
             # A limit below the diagonal would slow moves of several axes that the old control made
@@ -167,6 +169,7 @@ class _Migration:
             )
 
     def _spindle(self) -> None:
+        """Write and grade the speeds of the spindle."""
         greatest, least = self._speeds("spindle.greatest"), self._speeds("spindle.least")
         if not greatest:
             self.out.less_safe.append(
@@ -210,6 +213,7 @@ class _Migration:
         self.out.measure.append("volts per rpm of each gear of the spindle")
 
     def _speeds(self, concept: str) -> list[float]:
+        """Return the speeds above 0 of a concept, one for each gear."""
         figure = self.machine.figures.get(concept)
         values = figure.value if figure else None
         listed = values if isinstance(values, list) else [values]
@@ -218,6 +222,7 @@ class _Migration:
         ]
 
     def _startup(self) -> None:
+        """Write and grade the modes at the start."""
         figure = self.machine.figures.get("startup")
         code = f"{figure.value if figure else 'G21 G90 G94'} G17 G40 G49 G54 G64 P0.01 G80 G97"
         self.ini.put("RS274NGC", "RS274NGC_STARTUP_CODE", code)

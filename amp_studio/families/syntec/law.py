@@ -193,6 +193,7 @@ def _demand(read: AxisParameters) -> None:
 
 
 def _axis(read: AxisParameters, notes: list[str]) -> _Axis:
+    """Return what the parameters of one axis are in u and s; raises SimulationError for an impossible one."""
     unit = "mm" if read.choice(ids.axis_type) == "linear" else "deg"
     if read.choice(ids.control_blu, everywhere=True) != "standard":
         raise SimulationError(
@@ -289,6 +290,7 @@ def _acceleration(read: AxisParameters, axis: _Axis, notes: list[str]) -> float:
 
 
 def _parameters(axis: _Axis) -> list[float]:
+    """Return what the sample function takes."""
     p = [0.0] * sample.PARAMETERS
     p[sample.PULSE], p[sample.GAIN], p[sample.MOST_PULSES] = axis.pulse, axis.gain, axis.most_pulses
     p[sample.LIMIT], p[sample.FATAL_LIMIT] = axis.limits
@@ -297,6 +299,7 @@ def _parameters(axis: _Axis) -> list[float]:
 
 
 def _machine(axis: _Axis, acceleration: float) -> Machine:
+    """Return the assumed drive and mechanics."""
     return Machine(
         acceleration_per_output=acceleration / MOTION.value("acceleration_per_output"),
         velocity_per_output=1.0 / 60.0,
@@ -310,6 +313,7 @@ def _machine(axis: _Axis, acceleration: float) -> Machine:
 
 
 def _alarms(axis: _Axis) -> dict[int, AlarmText]:
+    """Return the texts of the alarms, with their limits."""
     first, fatal = (value_text(limit, axis.unit) for limit in axis.limits)
     fastest = "the greater of rapid feedrate and first homing speed / loop gain"
     return {

@@ -248,6 +248,9 @@ def _one_direction(speed: Series, width: int) -> npt.NDArray[np.bool_]:
 def _solved(
     period: float, width: int, found: tuple[Series, ...], used: npt.NDArray[np.bool_], noise: float, rows: int
 ) -> FrictionFit:
+    """Solve the equation by least squares, with the covariance of its coefficients; raises SimulationError
+    for a record that does not show them.
+    """
     time, speed, acceleration, torque = found
     forward = speed > 0.0
     table = np.column_stack([acceleration, speed, forward, ~forward]).astype(np.float64)

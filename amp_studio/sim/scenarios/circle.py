@@ -115,6 +115,7 @@ def run_circle(axis: AxisLaw, settings: Settings, second: AxisLaw | None = None)
 def _circle(
     axis: AxisLaw, other: AxisLaw, models: tuple[LinearModel, LinearModel], settings: Settings
 ) -> _Circle:
+    """Return the circle to run, at the feedrate that the control allows; raises SimulationError."""
     size = 1000.0 if axis.unit == "counts" else 1.0  # a count is taken as a thousandth
     radius = above_zero(settings, "move.radius") or RADIUS * size
     given = above_zero(settings, "move.feedrate")
@@ -241,6 +242,7 @@ def _spike(radius: float, angle: Series, deviation: Series) -> tuple[float | Non
 
 
 def _unstable(axis: AxisLaw, other: AxisLaw, models: tuple[LinearModel, LinearModel]) -> tuple[Alarm, ...]:
+    """Return the alarm of the first axis whose position loop is not stable."""
     for each, model in zip((axis, other), models, strict=True):
         if not model.is_stable():
             gain = model.margins().gain

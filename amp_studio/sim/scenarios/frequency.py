@@ -214,6 +214,7 @@ def _faster(loop: _Loop, frequencies: Series, sensed: Response) -> tuple[str, Re
 
 
 def _columns(loop: _Loop, curve: Series, swept: _Swept) -> dict[str, Series]:
+    """Return gain and phase of both loops, swept and by the model."""
     columns: dict[str, Series] = {"frequency_hz": curve}
     pairs = (
         ("closed", loop.model.follows(curve), swept.closed),
@@ -321,6 +322,7 @@ def _falls(curve: Series, size: Series, level: float) -> float | None:
 
 
 def _swept_phase(curve: Series, opened: Response) -> float | None:
+    """Return the phase margin of the swept loop in deg; None where it never has the gain 1."""
     known = np.isfinite(opened)
     at = _falls(curve, np.abs(opened), 1.0)
     if at is None:
@@ -330,6 +332,7 @@ def _swept_phase(curve: Series, opened: Response) -> float | None:
 
 
 def _swept_gain(opened: Response) -> float | None:
+    """Return the gain margin of the swept loop in dB; None where it does not cross the negative axis."""
     known = np.isfinite(opened)
     response = opened[known]
     turn = np.flatnonzero((response.imag[:-1] < 0.0) & (response.imag[1:] >= 0.0) & (response.real[1:] < 0.0))

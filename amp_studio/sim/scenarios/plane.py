@@ -181,6 +181,7 @@ def _travelled(
     *,
     is_program: bool,
 ) -> Trace:
+    """Return the trace of one straight way past the zones."""
     line = _Line(start, to, 0.0)
     line = replace(line, feed=_feedrate(axes, line.ways, line.length, settings))
     crossed = [(share, zone) for zone in zones if (share := crossing(zone, start, to)) is not None]

@@ -170,6 +170,7 @@ def _pushed_over(axis: AxisLaw, outcome: _Outcome, room: float | None) -> tuple[
 
 
 def _probed(axis: AxisLaw, meeting: _Meeting, latency_note: str, settings: Settings) -> Trace:
+    """Return the trace of one cycle, with its alarms and figures."""
     outcome = _met(axis, meeting)
     probing, speed, captured, motion = meeting.probing, meeting.speed, outcome.captured, outcome.motion
     alarms = (

@@ -139,6 +139,7 @@ def _cores(job: SweepJob, points: Matrix, cores: int | None) -> int:
 
 
 def _here(job: SweepJob, points: Matrix, starts: list[int], cores: str) -> Iterator[tuple[int, Matrix]]:
+    """Yield the parts as this computer makes them, over so many cores."""
     if cores == "1":
         for start in starts:
             yield start, figures_of(job, points[start : start + AT_ONCE])
@@ -172,6 +173,7 @@ def _beside(
 
 
 def _begin() -> None:
+    """Prepare a process that computes parts."""
     signal.signal(signal.SIGINT, signal.SIG_IGN)  # the process that waits for these ends them
     gc.freeze()
 
@@ -179,6 +181,7 @@ def _begin() -> None:
 def _on_cluster(
     job: SweepJob, points: Matrix, starts: list[int], scheduler: str
 ) -> Iterator[tuple[int, Matrix]]:
+    """Yield the parts as the workers of a cluster finish them; raises SimulationError where none answers."""
     if not scheduler.startswith(SCHEMES):
         raise SimulationError(f"'{scheduler[:80]}' is no address of a scheduler: tcp://HOST:PORT")
     try:

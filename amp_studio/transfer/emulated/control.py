@@ -273,6 +273,7 @@ class Control:
     # -- small parts -------------------------------------------------------------------------------
 
     def _boot(self, initial: bytes, estop: bool | None, autostart: bool | None) -> None:
+        """Read the memory, finish or forget a commit that was under way, and start; raises StateError."""
         # All is read before anything is written: a memory that is refused stays as it is.
         active = self.memory.read(ACTIVE)
         self._record = load_record(self.memory, self.identity)

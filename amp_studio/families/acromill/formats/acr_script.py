@@ -127,6 +127,7 @@ class _ScriptLine:
 
 
 def _read(text: str, schema: Schema, options: ReadOptions) -> TextRead:
+    """Return the values of a script; what sets nothing that is known is kept, or raises FormatError."""
     machine = schema.family.default_machine
     commands, of_programs = commands_of(schema, machine), program_commands_of(schema, machine)
     words = {command.word or _first_word(command) for command in commands}

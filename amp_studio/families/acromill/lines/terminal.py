@@ -118,6 +118,9 @@ class Terminal:
     # -- one try ----------------------------------------------------------------------------------
 
     def _typed(self, link: Link, line: bytes, seconds: float, sent: Callable[[], None]) -> list[str]:
+        """Type a line, compare its echo and have it obeyed; returns the rows of its answer.
+        Raises _DamagedError for what is to be tried again.
+        """
         if not self._is_clear:
             self._clear(link)
         try:

@@ -143,6 +143,7 @@ class Firmware:
             self._receive_byte(byte)
 
     def _receive_byte(self, byte: int) -> None:
+        """Take one byte: a real-time command, the end of a line, or a character of it."""
         character = chr(byte)
         if byte == SOFT_RESET:
             self._soft_reset()
@@ -162,6 +163,7 @@ class Firmware:
             self._line = (self._line + character)[: limit - 1]
 
     def _soft_reset(self) -> None:
+        """Start again as Ctrl-X does, in the middle of whatever is under way."""
         self._line, self._is_deaf = "", True  # this build takes no setting after a soft reset
         was = self._motion.state
         if self._motion.cancel():  # motion_control.c ``mc_reset``: the position may be lost
@@ -183,6 +185,7 @@ class Firmware:
                 self._answer_line(line)
 
     def _end_line(self, end: str) -> None:
+        """Answer the line that has come, or keep it while no line is read."""
         # The second character of CR LF ends no line; two equal ones end an empty one.
         if not self._line and self._last_end not in ("", end):
             self._last_end = ""
@@ -226,6 +229,7 @@ class Firmware:
             self._block(line.upper().replace(" ", ""))
 
     def _system(self, line: str) -> None:
+        """Do a line that begins with ``$``; raises RefusedError."""
         name, equals, text = line[1:].partition("=")
         name = name.replace(" ", "").upper()
         if found := re.fullmatch(r"N(\d)", name):

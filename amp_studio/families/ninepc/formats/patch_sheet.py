@@ -37,6 +37,7 @@ def _recognises(text: str) -> bool:
 
 
 def _write(file: ParameterFile) -> str:
+    """Return the sheet of a file."""
     lines = [
         f"{_HEAD} of {file.header.name or 'a machine'}, {file.schema.family.name}",
         f"# machine {file.machine}",
@@ -63,6 +64,7 @@ def _write(file: ParameterFile) -> str:
 
 
 def _read(text: str, schema: Schema, options: ReadOptions) -> TextRead:
+    """Return the values of a sheet; raises FormatError with line and column."""
     named = re.search(r"^# machine (\S+)$", text, re.MULTILINE)
     machine = named[1] if named else schema.family.default_machine
     if machine not in schema.machines:
@@ -102,6 +104,7 @@ def _keep(found: TextRead, number: str, cells: list[str], line: int) -> None:
 
 
 def _value(file: ParameterFile, address: tuple[str, str], cells: list[str], line: int, column: int) -> Value:
+    """Return what a stored figure means, in the unit beside it; raises FormatError."""
     parameter = file.schema.parameters[address[0]]
     try:
         number, rest = read_number(cells[0])

@@ -195,6 +195,7 @@ class PeripheralDriver(NumTableContent, LineDriver):
         raise last
 
     def _one_unload(self, stage: str, seconds: float) -> TableReader:
+        """Read one table as it comes; raises ControlSilentError, ImageDamagedError, ConnectionCutError."""
         reader, waiting, has_begun = TableReader(), self._waiting, False
         end = waiting.now() + seconds
         try:
@@ -221,6 +222,7 @@ class PeripheralDriver(NumTableContent, LineDriver):
         return reader
 
     def _nothing_came(self, reader: TableReader, seconds: float) -> TransferError:
+        """Return the error of a table that did not come, or stopped."""
         if reader.has_noise and not reader.has_begun:
             return ImageDamagedError("what has come does not begin with %, as a table does")
         if not reader.has_begun:
@@ -229,6 +231,7 @@ class PeripheralDriver(NumTableContent, LineDriver):
         return ImageDamagedError(f"the table did not come to its end: it stopped in line {line}")
 
     def _line(self) -> Link:
+        """Return the line there is, or a new one; raises NoConnectionError."""
         if self._link is None:
             try:
                 self._link = self._open_link(self._poll)

@@ -142,6 +142,7 @@ class RegisterDriver(RegisterContent, LineDriver):
     # -- parts ------------------------------------------------------------------------
 
     def _need_loops_off(self) -> None:
+        """Raise NotInEmergencyStopError while a control loop is on."""
         for axis, name in AXES.items():
             if self._line.read(axis + MODE, 1)[0] & LOOP:
                 raise NotInEmergencyStopError(
@@ -150,6 +151,7 @@ class RegisterDriver(RegisterContent, LineDriver):
                 )
 
     def _write(self, register: int, word: int) -> None:
+        """Write one register until it is read back; raises ImageRejectedError."""
         found = None
         for _ in range(WRITE_TRIES):
             found = self._line.write(register, word)

@@ -108,6 +108,7 @@ class RegisterLine:
         raise ControlSilentError(f"the rack does not answer '{request}'")
 
     def _tried(self, request: str) -> str | None:
+        """Send a request once; returns the text of its answer, None where none came in time."""
         link = self._link
         if link is None:
             link = self._link = self._open_link(self._waiting.look)
