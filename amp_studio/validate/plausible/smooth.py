@@ -148,7 +148,7 @@ class TextCurves:
             yield from found
 
     def _jumps(self, address: Address, text: str) -> Iterator[Finding]:
-        """Yield the findings of one text; a word without a figure is none of its points."""
+        """Yield the findings of one text; a word without a figure is no point."""
         sign = re.escape(self._signs[address[0]])
         points = re.findall(rf"(\S*?{sign}(-?[0-9]*\.?[0-9]+))(?!\S)", text)
         table = _Table([address] * len(points), [float(figure) for _, figure in points])

@@ -369,7 +369,7 @@ def _change(listing: LoggedListing, changes: LoggedListing) -> None:
 def figure(text: str) -> str:
     """Return the number at the beginning of a text, with a point; the text where it begins with none.
 
-    ``26,667`` is 26.667: a control writes no thousands; ``5,000.000`` has them all the same. ``10 usec`` and
+    ``26,667`` is 26.667: a control writes no thousands; ``5,000.000`` has them anyway. ``10 usec`` and
     ``10us`` are 10, ``200.000ok`` is 200.000.
     """
     if _THOUSANDS.fullmatch(text):
