@@ -13,6 +13,7 @@ from typing import Any
 import pytest
 from PySide6.QtCore import Qt
 from PySide6.QtTest import QTest
+from PySide6.QtWidgets import QLabel
 from pytestqt.qtbot import QtBot
 
 from amp_studio.files import ParameterFile, Project, ProjectInfo, content_of, new_file, open_file
@@ -20,6 +21,8 @@ from amp_studio.schema import Value
 from amp_studio.transfer.client import parameters
 from amp_studio.transfer.exchange import Exchange
 from amp_studio.ui.actions import project
+from amp_studio.ui.base.theme import colour, scheme
+from amp_studio.ui.control.differences import CONTROL
 from amp_studio.ui.main_window import MainWindow
 
 from .at_control import at_control, sent, settled
@@ -105,7 +108,7 @@ def test_a_value_of_the_control_is_kept_and_goes_back_unchanged(
     assert window.workspace.file.get(EXCESS) == Value(12.0, "mm"), "the file keeps its own"
 
 
-def test_space_changes_the_side_of_a_row_and_with_ctrl_that_of_its_group(
+def test_space_changes_the_side_of_a_row_with_ctrl_of_its_group_and_all_follow_the_theme(
     window: MainWindow, start_control: Start, qtbot: QtBot
 ) -> None:
     page = at_control(window, start_control().address, "send", qtbot)
@@ -117,6 +120,13 @@ def test_space_changes_the_side_of_a_row_and_with_ctrl_that_of_its_group(
     QTest.keyClick(page.table, Qt.Key.Key_Space)
     QTest.keyClick(page.table, Qt.Key.Key_Space, Qt.KeyboardModifier.ControlModifier)
     assert len(page.table.taken(file=True)) == before - page.table.topLevelItem(0).childCount()
+    choice = scheme().choice
+    for theme in ("dark", "light"):
+        scheme().choose(theme)
+        text = page.conditions.findChildren(QLabel)[1].text()
+        assert first.foreground(CONTROL).color() == colour("text"), "a row is in the colours of the moment"
+        assert colour("text").name() in text, "the conditions too"
+    scheme().choose(choice)
 
 
 def test_a_change_at_the_control_after_it_was_read_is_not_overwritten(

@@ -240,6 +240,7 @@ def test_findings_are_filtered_to_the_step_in_front(fresh: MainWindow) -> None:
 
 
 def test_the_side_that_was_chosen_last_is_that_of_the_next_file(fresh: MainWindow, path: Path) -> None:
+    assert not fresh.page.left.groups.isVisible(), "the steps of a fresh file are over nothing else"
     QTest.mouseClick(fresh.page.left.segment.buttons["groups"], Qt.MouseButton.LeftButton)
     assert "Axis Configuration" in fresh.page.list_title.text()
     QTest.mouseClick(fresh.page.left.segment.buttons["steps"], Qt.MouseButton.LeftButton)
@@ -252,13 +253,14 @@ def test_what_the_left_panel_shows_is_made_when_somebody_looks(window: MainWindo
     left, made = window.page.left, []
     left.take_project(lambda: made.append(QLabel("the machines")) or made[0])
     assert "steps" not in vars(left)
+    assert left.groups.isVisible()
     assert not made
     QTest.mouseClick(left.segment.buttons["project"], Qt.MouseButton.LeftButton)
     assert made[0].isVisible()
     QTest.mouseClick(left.segment.buttons["steps"], Qt.MouseButton.LeftButton)
     QTest.mouseClick(left.segment.buttons["project"], Qt.MouseButton.LeftButton)
     assert made[0].isVisible()
-    assert len(made) == 1
+    assert [left.groups.isVisible(), left.steps.isVisible(), len(made)] == [False, False, 1]
 
 
 def test_a_fresh_file_is_calm_wherever_one_looks(

@@ -16,7 +16,7 @@ from amp_studio.report import Danger, dangers_of_change
 from amp_studio.schema import Address
 from amp_studio.ui.base.figures import show_value
 from amp_studio.ui.base.places import short_place
-from amp_studio.ui.base.theme import ROW, SMALL_ICON, colour, font, icon, severity_icon
+from amp_studio.ui.base.theme import ROW, SMALL_ICON, colour, font, icon, scheme, severity_icon
 from amp_studio.ui.base.translated import facts_in_words
 
 NUMBER, NAME, AXIS, CONTROL, FILE, MIND = range(6)
@@ -62,6 +62,12 @@ class DifferenceTable(QTreeWidget):
         head.setStretchLastSection(True)
         for column in (NUMBER, AXIS):
             head.setSectionResizeMode(column, QHeaderView.ResizeMode.ResizeToContents)
+        scheme().changed.connect(self._colour)
+
+    def _colour(self) -> None:
+        """Show every row in the colours of the moment."""
+        for address in self._items:
+            self._show_side(address)
 
     def show_sides(self, control: str, file: str) -> None:
         """Name the two sides in the head."""

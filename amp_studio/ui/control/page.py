@@ -30,7 +30,7 @@ from PySide6.QtWidgets import (
 
 from amp_studio.files import ParameterFile, describe
 from amp_studio.schema import Value
-from amp_studio.ui.base.theme import GAP2, GAP3, HEAD, font, icon
+from amp_studio.ui.base.theme import GAP2, GAP3, HEAD, font, icon, scheme
 from amp_studio.ui.base.time_words import in_words
 from amp_studio.ui.base.translated import finding_in_words
 from amp_studio.ui.base.workspace import Workspace
@@ -218,6 +218,7 @@ class ControlPage(QWidget):
         self.setFocusProxy(self.states)
         # Else its width would be taken from the panels beside the table even while it is not in front.
         self.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Ignored)
+        scheme().changed.connect(self.refresh)
 
     # -- what is shown -------------------------------------------------------------
 

@@ -53,6 +53,7 @@ class LeftPanel(QWidget):
         layout.setSpacing(0)
         layout.addWidget(self._stack, 1)
         self.groups = GroupList(workspace, self._stack)
+        self._stack.addWidget(self.groups)
         self.groups.chosen.connect(self.chosen)
         self.head = self._head()
         """What the dock shows above the panel."""
@@ -62,6 +63,7 @@ class LeftPanel(QWidget):
     def steps(self) -> StepsPanel:
         """The steps, made when they are first asked for."""
         steps = StepsPanel(self._workspace, self._stack)
+        self._stack.addWidget(steps)
         steps.chosen.connect(self.chosen)
         steps.wanted.connect(self.wanted)
         steps.next_wanted.connect(self.next_wanted)
@@ -73,7 +75,9 @@ class LeftPanel(QWidget):
     @cached_property
     def project(self) -> QWidget:
         """The project, made when it is first asked for."""
-        return self._make_project()
+        project = self._make_project()
+        self._stack.addWidget(project)
+        return project
 
     def _head(self) -> QWidget:
         """Return the head of the dock: which of the three is shown."""
@@ -97,8 +101,6 @@ class LeftPanel(QWidget):
     def show_side(self, side: LeftSide) -> None:
         """Show steps, groups or the project; the table stays as it is."""
         widget = self.steps if side == "steps" else self.groups if side == "groups" else self.project
-        if self._stack.indexOf(widget) < 0:
-            self._stack.addWidget(widget)
         self._stack.setCurrentWidget(widget)
         self.side = side
         self.segment.show_choice(side)
