@@ -78,14 +78,18 @@ def _profile(window: StudioWindow) -> AxisProfile:
     return profile
 
 
+def _axis_here(window: StudioWindow) -> str:
+    """Return the axis of the selected cell, else the first one; empty without axes."""
+    file, address = window.workspace_in_front.file, window.selected()
+    axes = fitted_axes(file)
+    if address and address[1] in axes and file.evaluation.scope(address) == "axis":
+        return address[1]
+    return axes[0] if axes else ""
+
+
 def _dialog(window: StudioWindow, title: str, note: str = "") -> AxisDialog:
     """Return a dialog that offers the axis of the selected cell first."""
-    workspace = window.workspace_in_front
-    address, axes = window.selected(), fitted_axes(workspace.file)
-    here = axes[0] if axes else ""
-    if address and address[1] in axes and workspace.file.evaluation.scope(address) == "axis":
-        here = address[1]
-    return AxisDialog(workspace, title, here, window, note)
+    return AxisDialog(window.workspace_in_front, title, _axis_here(window), window, note)
 
 
 def _ask(window: StudioWindow, title: str, parameter_ids: list[str]) -> None:
@@ -184,4 +188,6 @@ def swap(window: StudioWindow) -> None:
 
 def compare(window: StudioWindow) -> None:
     """Show where two axes differ, side by side."""
-    AxisComparison(window.page_in_front, _dialog(window, "").axis(), window).show()
+    page, first = window.page_in_front, _axis_here(window)
+    if window.beside.again(AxisComparison, page.workspace, first) is None:
+        window.beside.show(AxisComparison(page, first, window), page.workspace, first)

@@ -14,6 +14,7 @@ from amp_studio.files import Document, ParameterFile, settle
 from amp_studio.ui.base.emulated_control import EmulatedControl
 from amp_studio.ui.base.known_controls import ControlVerb
 from amp_studio.ui.base.loading import load
+from amp_studio.ui.base.modal import is_alive
 from amp_studio.ui.base.questions import show_message
 from amp_studio.ui.base.task import in_background
 from amp_studio.ui.base.theme import icon
@@ -76,11 +77,9 @@ class ControlDesk(Translated):
         address = self.exchanges.chosen_address()
         if address is None:
             return
-        if self._live is not None:
-            self._live.close()
         family = workspace.file.schema.family.family
         page = self._live = LivePage(address, family, self.window.follow, self.window)
-        page.show()
+        self.window.beside.show(page)
         page.start()
 
     def check_in_motion(self) -> None:
@@ -88,13 +87,14 @@ class ControlDesk(Translated):
         load("amp_studio.sim", "amp_studio.ui.motion.check_window")
         from amp_studio.ui.motion.check_window import CheckWindow
 
-        window = CheckWindow(self.window.workspace_in_front.file.copy(), self.window.follow, self.window)
-        window.show()
+        workspace = self.window.workspace_in_front
+        window = CheckWindow(workspace.file.copy(), self.window.follow, self.window)
+        self.window.beside.show(window, workspace)
         window.start()
 
     def _end_live(self, session: ControlSession) -> None:
         """End the readings before an exchange takes the line."""
-        if self._live is not None and session.is_busy:
+        if self._live is not None and is_alive(self._live) and session.is_busy:
             self._live.stop(self.tr("Stopped: an exchange is under way."))
 
     # -- the emulated control --------------------------------------------------
@@ -139,7 +139,7 @@ class ControlDesk(Translated):
         """Stop the emulated control."""
         for session in self._sessions.values():
             session.cancel()
-        if self._live is not None:
+        if self._live is not None and is_alive(self._live):
             self._live.close()
         if self._page is not None:
             self._page.several.stop_all()

@@ -94,7 +94,9 @@ class Edits(Translated):
         """Show the steps that were made, to go back to one."""
         from amp_studio.ui.page.step_list import StepList
 
-        StepList(self.window.workspace_in_front, self.window).show()
+        workspace, beside = self.window.workspace_in_front, self.window.beside
+        if beside.again(StepList, workspace) is None:
+            beside.show(StepList(workspace, self.window), workspace)
 
     # -- by number, by name ----------------------------------------------------
 
@@ -102,9 +104,10 @@ class Edits(Translated):
         """Open quick edit by number."""
         from amp_studio.ui.table.quick_edit import QuickEdit
 
-        page = self.window.page_in_front
-        commit = partial(self.commit_to, page.workspace)
-        QuickEdit(page.table, commit, page.go_to, self.window).show()
+        page, beside = self.window.page_in_front, self.window.beside
+        if beside.again(QuickEdit, page.workspace) is None:
+            commit = partial(self.commit_to, page.workspace)
+            beside.show(QuickEdit(page.table, commit, page.go_to, self.window), page.workspace)
 
     def calculator(self) -> None:
         """Open the calculators, with the formulas of the selected parameter first."""
@@ -117,16 +120,20 @@ class Edits(Translated):
                     name=workspace.file.schema.family.name
                 )
             )
-        commit = partial(self.commit_to, workspace)
-        CalculatorDialog(workspace, self.window.selected(), commit, self.window).show()
+        address, beside = self.window.selected(), self.window.beside
+        if beside.again(CalculatorDialog, workspace, address) is None:  # its result goes to that value
+            commit = partial(self.commit_to, workspace)
+            beside.show(CalculatorDialog(workspace, address, commit, self.window), workspace, address)
 
     def tables(self) -> None:
         """Open the manual's tables, with those of the selected parameter first."""
         from amp_studio.ui.dialogs.tables_dialog import TablesDialog
 
-        dialog = TablesDialog(self.window.workspace_in_front, self.window.selected(), self.window)
-        dialog.linked.connect(self.window.page_in_front.follow)
-        dialog.show()
+        page, address, beside = self.window.page_in_front, self.window.selected(), self.window.beside
+        if beside.again(TablesDialog, page.workspace, address) is None:
+            dialog = TablesDialog(page.workspace, address, self.window)
+            dialog.linked.connect(page.follow)
+            beside.show(dialog, page.workspace, address)
 
     # -- findings ---------------------------------------------------------------
 
@@ -151,9 +158,8 @@ class Edits(Translated):
         """Open the explanation of a finding."""
         from amp_studio.ui.findings.dialogs import WhyDialog
 
-        WhyDialog(
-            self.window.workspace_in_front, finding, self.window.page_in_front.go_to, self.window
-        ).show()
+        page = self.window.page_in_front
+        self.window.beside.show(WhyDialog(page.workspace, finding, page.go_to, self.window), page.workspace)
 
     def suppress(self, finding: Finding) -> None:
         """Suppress a finding; asks for a reason and a name."""

@@ -11,7 +11,7 @@ from PySide6.QtWidgets import QMessageBox
 
 from amp_studio.find import Entry, Finder, Hit, SearchIndex, elsewhere, index_of, prepare_synonyms
 from amp_studio.report import facts
-from amp_studio.schema import family_ids, load_schema
+from amp_studio.schema import Schema, family_ids, load_schema
 from amp_studio.ui.base.menu_commands import commands
 from amp_studio.ui.base.modal import is_alive
 from amp_studio.ui.base.questions import show_message
@@ -71,7 +71,9 @@ class FindSearch(Translated):
         self._finders[page] = Finder(file.schema, file.machine, file)
         page.workspace.changed.connect(lambda *_: self._changed(page))
         page.destroyed.connect(lambda: self._finders.pop(page, None))
-        page.detail.message_wanted.connect(lambda message: self._show_message(page, message))
+        page.detail.message_wanted.connect(
+            lambda message: self._show_message(page.workspace.file.schema, message, page)
+        )
         self._soon.start()
 
     def _changed(self, page: FilePage) -> None:
@@ -248,7 +250,7 @@ class FindSearch(Translated):
             self._show_fact(row.family, row.hit)
         elif row.hit is not None and self.window.page is None:
             family, _, message = row.hit.key.partition(":")
-            MessageWindow(self.window, load_schema(family), message).show()
+            self._show_message(load_schema(family), message)
         elif row.every and self.window.page is not None:
             self.window.guarded(
                 partial(self.window.page.show_found, self.box.text().strip(), row.every), self.tr("Find")
@@ -258,7 +260,7 @@ class FindSearch(Translated):
 
     def _follow(self, hit: Hit, page: FilePage) -> None:
         if hit.kind == "message":
-            self._show_message(page, hit.key)
+            self._show_message(page.workspace.file.schema, hit.key, page)
             return
         if hit.kind == "group":
             group = next(g for g in page.workspace.file.schema.groups if g.key == hit.key)
@@ -274,15 +276,18 @@ class FindSearch(Translated):
         """Show what another family has: a message on its page, a parameter as the manual pages have it."""
         schema = load_schema(family)
         if hit.kind == "message":
-            MessageWindow(self.window, schema, hit.key).show()
+            self._show_message(schema, hit.key)
         else:
             parameter = schema.parameters.get(hit.key)
             listed = facts(schema, parameter) if parameter is not None else []
             text = "\n".join(f"{worded(title)}: {fact}" for title, fact in listed) or hit.detail
             show_message(self.window, hit.title, text, QMessageBox.Icon.Information)
 
-    def _show_message(self, page: FilePage, message: str) -> None:
-        MessageWindow(self.window, page.workspace.file.schema, message, page).show()
+    def _show_message(self, schema: Schema, message: str, page: FilePage | None = None) -> None:
+        file, beside = page.workspace if page is not None else None, self.window.beside
+        asked = (schema.family.family, message)
+        if beside.again(MessageWindow, file, asked) is None:
+            beside.show(MessageWindow(self.window, schema, message, page), file, asked)
 
     def _focus_table(self) -> None:
         if self.window.table_view is not None:

@@ -135,7 +135,7 @@ def check(window: StudioWindow) -> None:
     found = run_patiently(
         tr("Check All Files"), lambda progress, cancelled: check_files(paths, progress, cancelled), window
     )
-    ProjectCheckDialog(found, partial(show_at, window), window).show()
+    window.beside.show(ProjectCheckDialog(found, partial(show_at, window), window))
 
 
 def compare(window: StudioWindow) -> None:
@@ -146,10 +146,13 @@ def compare(window: StudioWindow) -> None:
     front = [window.workspace] if window.workspace is not None else []
     opened = list(dict.fromkeys([*front, *(page.workspace for page in pages)]))
     paths = project.files() if project is not None else []
+    asked = (opened, paths)
+    if window.beside.again(MachinesDialog, asked=asked) is not None:
+        return
     dialog = MachinesDialog(
         opened, paths, partial(show_at, window), window, window.report_choice.contents.language
     )
-    dialog.show()
+    window.beside.show(dialog, asked=asked)
     dialog.begin()
 
 

@@ -19,12 +19,15 @@ def tune(window: StudioWindow, exchanges: ControlExchange) -> None:
     from amp_studio.ui.motion.tuning_window import TuningWindow
 
     workspace = window.workspace_in_front
+    if window.beside.again(TuningWindow, workspace) is not None:
+        return
     offered = compensation_of(workspace.file.schema.family.family)
     if not offered.pages and not offered.reversal:
         raise ValueError(
             f"The manual of {workspace.file.schema.family.name} names nothing that is tuned on line."
         )
-    TuningWindow(workspace, partial(_connect, workspace, exchanges), window).show()
+    made = TuningWindow(workspace, partial(_connect, workspace, exchanges), window)
+    window.beside.show(made, workspace)
 
 
 def _connect(workspace: Workspace, exchanges: ControlExchange) -> LiveTuning | None:

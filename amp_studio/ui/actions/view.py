@@ -107,7 +107,11 @@ def open_settings(window: StudioWindow, page: str = "general") -> None:
     """Open the settings at one of their pages."""
     from amp_studio.ui.dialogs.settings_dialog import SettingsDialog
 
-    SettingsDialog(window, page).show()
+    shown = window.beside.again(SettingsDialog, asked=window.workspace)  # whose units it shows
+    if shown is None:
+        shown = SettingsDialog(window)
+        window.beside.show(shown, asked=window.workspace)
+    shown.show_page(page)
 
 
 def open_keys(window: StudioWindow) -> None:
@@ -139,10 +143,12 @@ def open_motion(window: StudioWindow) -> None:
     if reason := why_not_simulated(page.workspace.file.schema.family):
         page.bar.say(reason)
         return
-    view = in_background(
-        window, tr("Loading the simulator"), partial(_motion_view, page.workspace.file.copy())
-    )
-    view(page.workspace, window.selected(), page.go_to, window).show()
+    workspace, address = page.workspace, window.selected()
+    kind = in_background(window, tr("Loading the simulator"), partial(_motion_view, workspace.file.copy()))
+    if (shown := window.beside.again(kind, workspace)) is None:
+        window.beside.show(kind(workspace, address, page.go_to, window), workspace)
+    elif address is not None:
+        shown.show_axis(address[1])
 
 
 def open_program(window: StudioWindow) -> None:

@@ -47,13 +47,13 @@ PLACES = 4
 
 
 class StatusReadings(QObject):
-    """Asks a control for its status in a separate thread, until it is stopped."""
+    """Asks a control for its status in a separate thread, until it is stopped; may outlast its page."""
 
     read = Signal(object)
     failed = Signal(object)
 
-    def __init__(self, address: str, family: str, parent: QObject | None = None) -> None:
-        super().__init__(parent)
+    def __init__(self, address: str, family: str) -> None:
+        super().__init__()
         self._address, self._family = address, family
         self._task: Task | None = None
 
@@ -66,7 +66,7 @@ class StatusReadings(QObject):
         """Begin to ask."""
         if self._task is not None:
             return
-        task = self._task = Task(self._ask, self)
+        task = self._task = Task(self._ask)
         task.failed.connect(self._over)
         task.done.connect(self._over)  # a method: it is called in the window's thread
         task.begin()
@@ -106,9 +106,10 @@ class LivePage(QDialog):
         readings: StatusReadings | None = None,
     ) -> None:
         super().__init__(parent)
+        self.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
         self.address = address
         self._show_parameter = show_parameter
-        self.readings = readings or StatusReadings(address, family, self)
+        self.readings = readings or StatusReadings(address, family)
         self.readings.read.connect(self.show_status)
         self.readings.failed.connect(self._over)
         self._errors: dict[str, deque[tuple[float, float]]] = {}

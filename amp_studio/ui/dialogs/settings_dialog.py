@@ -37,7 +37,7 @@ _PLACE = Qt.ItemDataRole.UserRole
 class SettingsDialog(QDialog):
     """The settings; each takes effect at once, or its page names when."""
 
-    def __init__(self, window: StudioWindow, page: str = "general") -> None:
+    def __init__(self, window: StudioWindow) -> None:
         super().__init__(window)
         self.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
         self.setWindowTitle(tr("Settings"))
@@ -79,6 +79,9 @@ class SettingsDialog(QDialog):
         self._list_keys()
         self._list_folders()
         self.tabs.currentChanged.connect(self._turn)
+
+    def show_page(self, page: str) -> None:
+        """Turn to one of the ``PAGES``."""
         self.tabs.setCurrentIndex(PAGES.index(page))
 
     def _button(self, text: str, act: Callable[[], object]) -> QPushButton:

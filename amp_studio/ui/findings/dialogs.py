@@ -46,6 +46,7 @@ class WhyDialog(QDialog):
         layout = QVBoxLayout(self)
         layout.addWidget(self.page)
         layout.addWidget(buttons)
+        workspace.closed.connect(self.close)
 
     def _written(self, workspace: Workspace, finding: Finding) -> str:
         file, why = workspace.file, explain(workspace.validator, finding)

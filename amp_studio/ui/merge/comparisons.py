@@ -24,6 +24,7 @@ from amp_studio.files import (
     text_of_name,
     write_atomic,
 )
+from amp_studio.ui.base.side_windows import bring
 from amp_studio.ui.base.task import in_background
 from amp_studio.ui.window.studio_window import StudioWindow
 
@@ -56,10 +57,13 @@ class Comparisons(QObject):
 
     def compare(self) -> None:
         """Compare the file in front: with what is saved where there is unsaved work, else with its backup,
-        else its defaults.
+        else its defaults. A comparison in which something was chosen is brought back instead.
         """
         page = self.window.page_in_front
         workspace = page.workspace
+        if begun := self._with_choices(workspace):
+            bring(begun[-1])
+            return
         opened = self.open(page)
         if workspace.is_dirty:
             opened.use(B, opened.sources.as_saved())
@@ -99,9 +103,15 @@ class Comparisons(QObject):
         opened.use(B, opened.sources.of_content(page.workspace.file.copy(), image, address))
 
     def open(self, page: FilePage) -> MergeWindow:
-        """Open the window on a file, which is both of its sources at first."""
+        """Open the window on a file, which is both of its sources at first, in the place of those in which
+        nothing was chosen.
+        """
         from .window import MergeWindow
 
+        begun = self._with_choices(page.workspace)
+        for older in self.window.beside.of(MergeWindow, page.workspace):
+            if older not in begun:
+                older.close()
         sources = MergeSources(page.workspace)
         others = partial(self._others, page)
         opened = MergeWindow(
@@ -118,8 +128,14 @@ class Comparisons(QObject):
         )
         opened.went_to.connect(page.go_to)
         opened.merged.connect(partial(self._merged, page))
-        opened.show()
+        self.window.beside.show_too(opened, page.workspace)
         return opened
+
+    def _with_choices(self, workspace: Workspace) -> list[MergeWindow]:
+        """Return the open windows of a file in which something was chosen, the oldest first."""
+        from .window import MergeWindow
+
+        return [each for each in self.window.beside.of(MergeWindow, workspace) if each.merge.choices]
 
     def _others(self, page: FilePage) -> list[Workspace]:
         return [each.workspace for each in self.window.tabs.pages() if each is not page]

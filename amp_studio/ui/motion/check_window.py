@@ -8,7 +8,7 @@ import threading
 from collections import Counter
 from collections.abc import Callable
 
-from PySide6.QtCore import Qt, Signal
+from PySide6.QtCore import QObject, Qt, Signal
 from PySide6.QtGui import QCloseEvent
 from PySide6.QtWidgets import (
     QDialog,
@@ -36,20 +36,40 @@ MARKS: dict[str, tuple[str, Token]] = {
 """Verdict -> its icon."""
 
 
-class CheckWindow(QDialog):
-    """Runs every scenario in a thread and shows each check as soon as it is done."""
+class _Checking(QObject):
+    """The checks of a file, made in a thread that may outlast the window."""
 
     checked = Signal(object)
+
+    def __init__(self, file: ParameterFile) -> None:
+        super().__init__()
+        self._file = file
+
+    def run(self, _progress: TaskProgress, cancelled: threading.Event) -> str:
+        """Emit each check; returns why there are none, or no more."""
+        try:
+            for check in check_motion(self._file):
+                if cancelled.is_set():
+                    break
+                self.checked.emit(check)
+        except SimulationError as error:
+            return error.what
+        return ""
+
+
+class CheckWindow(QDialog):
+    """Runs every scenario in a thread and shows each check as soon as it is done."""
 
     def __init__(
         self, file: ParameterFile, show_parameter: Callable[[str], object], parent: QWidget | None = None
     ) -> None:
         """``file`` is a copy that nobody else changes."""
         super().__init__(parent)
-        self._file, self._show_parameter = file, show_parameter
+        self.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
+        self._checking, self._show_parameter = _Checking(file), show_parameter
         self.checks: list[MotionCheck] = []
         self._task: Task | None = None
-        self.checked.connect(self.show_check)
+        self._checking.checked.connect(self.show_check)
         self.setWindowTitle(self.tr("Check in Motion"))
         self.setModal(False)
         self.summary = QLabel()
@@ -95,21 +115,11 @@ class CheckWindow(QDialog):
 
     def start(self) -> None:
         """Begin to check."""
-        task = self._task = Task(self._check, self)
+        task = self._task = Task(self._checking.run)
         task.done.connect(self._over)
         task.failed.connect(self._over)
         task.begin()
         self._sum_up()
-
-    def _check(self, _progress: TaskProgress, cancelled: threading.Event) -> str:
-        try:
-            for check in check_motion(self._file):
-                if cancelled.is_set():
-                    break
-                self.checked.emit(check)
-        except SimulationError as error:
-            return error.what
-        return ""
 
     def _over(self, why: object) -> None:
         self._task = None

@@ -227,6 +227,11 @@ class MotionView(QWidget):
         self.machine.offer_settings(found.model, ("", ""))
         self._above.setFixedHeight(min(MOST_HEIGHT, self.settings.sizeHint().height()))
 
+    def show_axis(self, axis: str) -> None:
+        """Choose an axis where it can be simulated; another instance than of an axis changes nothing."""
+        if (row := self.axis.findData(axis)) >= 0:
+            self.axis.setCurrentIndex(row)
+
     def _units(self) -> tuple[str, str]:
         """Return the units of distance and feedrate for the chosen axis."""
         if self._counts:

@@ -4,6 +4,7 @@ again.
 
 from __future__ import annotations
 
+from PySide6.QtCore import Qt
 from PySide6.QtWidgets import QDialog, QLabel, QUndoView, QVBoxLayout, QWidget
 
 from amp_studio.ui.base.theme import GAP2, GAP3, icon
@@ -15,6 +16,7 @@ class StepList(QDialog):
 
     def __init__(self, workspace: Workspace, parent: QWidget | None = None) -> None:
         super().__init__(parent)
+        self.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
         self.setWindowTitle(self.tr("Steps: {name}").format(name=workspace.path.name))
         self.resize(460, 420)
         self.view = QUndoView(workspace.undo_stack)

@@ -105,7 +105,7 @@ class ProjectFiles(QObject):
             lambda progress, cancelled: check_files(paths, progress, cancelled),
             self.window,
         )
-        ProjectCheckDialog(found, self._show_at, self.window).show()
+        self.window.beside.show(ProjectCheckDialog(found, self._show_at, self.window))
 
     # -- in and out ---------------------------------------------------------------------
 

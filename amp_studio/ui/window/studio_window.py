@@ -19,6 +19,7 @@ from amp_studio.files import ChangedOnDiskError, Project, same_file
 from amp_studio.schema import Address
 from amp_studio.ui.base.garbage import look_again
 from amp_studio.ui.base.questions import ask, show_message
+from amp_studio.ui.base.side_windows import SideWindows
 from amp_studio.ui.base.task import in_background
 from amp_studio.ui.base.workspace import Workspace
 from amp_studio.ui.findings.panel import FindingsPanel
@@ -55,6 +56,7 @@ class StudioWindow(QMainWindow):
         self.is_leaving = False
         """Whether the whole window closes: what its files leave is no longer checked."""
         self.tabs = FileTabs()
+        self.beside = SideWindows()
         self.summaries = FileSummaries(self)
         self.settings = UserSettings()
         self.docks = Docks(self, self.settings)

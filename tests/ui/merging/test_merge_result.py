@@ -189,9 +189,25 @@ def test_without_a_base_there_are_no_conflicts_to_show(three: MergeWindow) -> No
     assert three.chosen[BASE].title == "Last saved"
 
 
-def test_it_closes_with_escape_and_with_its_file(shown: MergeWindow, window: MainWindow, qtbot) -> None:
+def test_it_closes_with_escape_and_with_its_file(three: MergeWindow, window: MainWindow, qtbot) -> None:
+    three.merge.take("b")
     again = window.files.comparing.open(window.page)
     with qtbot.waitSignal(again.destroyed, timeout=WAIT_MS):
         QTest.keyClick(again, Qt.Key.Key_Escape)
-    with qtbot.waitSignal(shown.destroyed, timeout=WAIT_MS):
-        window.files.close()
+    with qtbot.waitSignal(three.destroyed, timeout=WAIT_MS):
+        window.close_page(window.page)
+
+
+def test_another_comparison_takes_the_place_of_one_without_choices(
+    three: MergeWindow, window: MainWindow, qtbot
+) -> None:
+    comparing = window.files.comparing
+    with qtbot.waitSignal(three.destroyed, timeout=WAIT_MS):
+        second = comparing.open(window.page)
+    other = window.workspace.file.copy()
+    other.set(EXCESS, Value(14.0, "mm"))
+    second.use(B, MergeSource("CNC_1", "", other))
+    second.merge.take("b")
+    comparing.compare()
+    comparing.open(window.page).close()
+    assert window.beside.of(MergeWindow, window.workspace) == [second], "with what was chosen in it"
