@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 import pickle
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from datetime import datetime
 from pathlib import Path
 from typing import BinaryIO
@@ -46,10 +46,12 @@ def write_report(
     date: datetime | None = None,
     own: BuilderRules = NO_RULES,
     notify: Notify = lambda _note: None,
+    motion: Callable[[ParameterFile], Iterable[PrintedFigure]] | None = None,
 ) -> bool:
     """Write the documentation of a file, as ``print_report`` does, with its motion and its exchanges.
 
-    Returns and raises as ``print_report`` does, and OSError for a record of exchanges that cannot be read.
+    ``motion`` draws the motion: ``motion_figures`` where it is None, ``motion_apart`` for a program that goes
+    on. Returns and raises as ``print_report`` does; OSError for a record of exchanges that cannot be read.
     """
     path, source, contents = Path(path), Path(source) if source else None, contents or Contents()
     has_drawings = path.suffix.lower() in _DRAWN and "motion" not in contents.without
@@ -61,7 +63,7 @@ def write_report(
         date=date,
         own=own,
         notify=notify,
-        motion=tuple(motion_figures(file)) if has_drawings else (),
+        motion=tuple((motion or motion_figures)(file)) if has_drawings else (),
         exchanges=() if "exchanges" in contents.without or source is None else tuple(exchanges_of(source)),
     )
 

@@ -1,9 +1,7 @@
-"""Reports are made in a process apart where the program goes on after them,
-and where a project's template makes them.
+"""Reports are made in a process apart where their pages are seen, and where a project's template makes them.
 
-Typst runs in the process that calls it, keeps about 100 MB of each document for those after it, cannot be
-interrupted, and ends the process where memory is over: a template without an end, or with too much,
-ends alone.
+Typst cannot be interrupted, and ends its process where memory is over: a template without an end, or with too
+much, ends alone.
 """
 
 from __future__ import annotations
@@ -11,14 +9,13 @@ from __future__ import annotations
 import contextlib
 import json
 import pickle
-import subprocess
-import sys
 from pathlib import Path
 from typing import BinaryIO, Literal
 
 from amp_studio.errors import AmpStudioError
 
 from .model import Report
+from .process import ReportNotMadeError, run_apart
 from .templating.folder_copy import copied_template
 from .templating.templates import TemplateMistakeError
 
@@ -26,36 +23,7 @@ _PATIENCE_S = 40.0
 """Of both: jinja2 has half of it (``templating``)."""
 _MOST_MEMORY = 3 * 2**30
 """Bytes of address space, where the system can bound it."""
-_CHILD = (
-    "import sys; sys.path.insert(0, sys.argv.pop()); from {module} import answer; answer(sys.stdin.buffer,"
-    " sys.stdout.buffer)"
-)
-
 What = Literal["pdf", "html", "pages"]
-
-
-class ReportNotMadeError(AmpStudioError, RuntimeError):
-    """The process that makes a report, or a part of it, did not; the text names the cause."""
-
-
-def run_apart(module: str, question: bytes, patience_s: float | None = None) -> bytes:
-    """Return what ``answer(asked, out)`` of a module writes in a process apart, where it reads the question.
-
-    Raises ReportNotMadeError.
-    """
-    command = [sys.executable, "-P", "-c", _CHILD.format(module=module), str(Path(__file__).parents[2])]
-    try:
-        done = subprocess.run(command, input=question, capture_output=True, timeout=patience_s, check=False)
-    except subprocess.TimeoutExpired:
-        raise ReportNotMadeError("works without end") from None
-    except OSError as error:
-        raise ReportNotMadeError(f"needs a process, which cannot be started: {error.strerror}") from error
-    if done.returncode:
-        lacks_memory = b"memory" in done.stderr.lower()
-        raise ReportNotMadeError(
-            "needs too much memory" if lacks_memory else "ended the process that sets it"
-        )
-    return done.stdout
 
 
 def made_apart(what: What, report: Report, own: Path | None, ppi: int = 0) -> list[bytes]:

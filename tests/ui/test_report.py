@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import sys
 from pathlib import Path
 
 import pytest
@@ -18,8 +19,11 @@ from .conftest import Person, action
     ("ending", "begins"), [("pdf", b"%PDF"), ("html", b"<!"), ("csv", b""), ("txt", b"")]
 )
 def test_a_report_in_each_format(
-    window: MainWindow, tmp_path: Path, accept, ending: str, begins: bytes
+    window: MainWindow, tmp_path: Path, accept, ending: str, begins: bytes, monkeypatch: pytest.MonkeyPatch
 ) -> None:
+    # neither the simulator nor Typst is loaded into the window: together they keep 250 MB
+    monkeypatch.setattr("amp_studio.dossier.motion_figures", None)
+    monkeypatch.setitem(sys.modules, "typst", None)
     path = tmp_path / f"report.{ending}"
     accept(ReportDialog, lambda d: d.form.set_answer("path", str(path)))
 

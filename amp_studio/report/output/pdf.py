@@ -22,6 +22,8 @@ from amp_studio.report.model import MARKS, Report, printable
 from amp_studio.report.templating.templates import TEMPLATES, TemplateMistakeError, filled, line_of_source
 from amp_studio.schema import Address
 
+from .typesetter import set_pdf
+
 _BREAK = "\u200b"
 """Zero-width space: a possible line break."""
 _LONG_RUN = re.compile(r"[^\s\u200b]{17,}")
@@ -33,9 +35,6 @@ FONT = "Libertinus Serif"
 """The font of a PDF, also in its drawings."""
 _PACKAGE = re.compile(r'(?:import|include)\s*"@')
 _FAMILY = re.compile(r'font-family="[^"]*"')
-_KEPT = 11
-"""Compilations after which Typst has forgotten one."""
-_has_compiled = False
 _BRIEF = 40
 """Most characters of a text in the page header."""
 
@@ -135,12 +134,17 @@ def _drawing(svg: str) -> Exact:
 
 
 def render_pdf(report: Report, own: Path | None = None) -> bytes:
-    """Return the PDF; equal reports have equal bytes. ``own`` is a template of the project.
-    Raises TemplateMistakeError.
+    """Return the PDF; equal reports have equal bytes. ``own`` is a template of the project: for a process
+    apart. Raises TemplateMistakeError, ReportNotMadeError.
     """
     source = typst_source(report, own)
+    if own is None:
+        return typeset(source)
+    import typst
+
     with _mistakes(source, own):
-        return _as_pdf(source, own.parent if own else TEMPLATES)
+        pdf: bytes = typst.compile(source.encode("utf-8"), format="pdf", **_options(source, own.parent))
+        return pdf
 
 
 def set_pages(report: Report, ppi: int, own: Path | None = None) -> SetReport:
@@ -182,33 +186,12 @@ def _mistakes(source: str, own: Path | None) -> Iterator[None]:
 
 
 def typeset(source: str) -> bytes:
-    """Return the PDF of Typst source."""
-    return _as_pdf(source, TEMPLATES)
-
-
-def _as_pdf(source: str, root: Path) -> bytes:
-    """Return the PDF of Typst source that may read the files under ``root``."""
-    import typst
-
-    _forget_earlier()
-    pdf: bytes = typst.compile(source.encode("utf-8"), format="pdf", **_options(source, root))
-    return pdf
-
-
-def _forget_earlier() -> None:
-    """Let Typst drop what it keeps of earlier documents: about 100 MB each, for ten compilations more."""
-    global _has_compiled  # noqa: PLW0603  # Typst keeps its documents for the whole process too
-    if _has_compiled:
-        from typst import Compiler, Fonts
-
-        bare = Compiler(font_paths=Fonts(include_system_fonts=False, include_embedded_fonts=False))
-        for _ in range(_KEPT):
-            bare.compile(b" ", format="pdf")
-    _has_compiled = True
+    """Return the PDF of Typst source; raises ReportNotMadeError."""
+    return set_pdf(source, _options(source, TEMPLATES))
 
 
 def _options(source: str, root: Path) -> dict[str, Any]:
     """Return how Typst reads a source; the root is given because Typst takes the working folder otherwise,
     which may be gone.
     """
-    return {"root": root, "ignore_system_fonts": re.search(_FOREIGN, source) is None}
+    return {"root": str(root), "ignore_system_fonts": re.search(_FOREIGN, source) is None}

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import threading
 from collections.abc import Callable
 from functools import partial
 from itertools import pairwise
@@ -56,7 +57,9 @@ class MergeWindow(QDialog):
         first = sources.now()
         self.chosen: dict[int, MergeSource] = {A: first, B: first}
         """Column -> its source; without a base there is no entry for it."""
-        self._reading: dict[int, Task] = {}
+        self._reading: dict[int, threading.Event] = {}
+        """Column -> what cancels the reading of its source. Not the task: a connection of a task that leads
+        to the task itself keeps both, and this window, for good."""
         self.check = MergeCheck(workspace, self)
         self._warned = False
         units = None if workspace.as_entered else workspace.file.header.units
@@ -171,34 +174,34 @@ class MergeWindow(QDialog):
     def read(self, column: int, read: ReadSource) -> None:
         """Read a source in the background."""
         task = Task(read)
-        self._reading[column] = task
+        cancelled = self._reading[column] = task.cancelled
         task.progressed.connect(self.reading.show_stage)
-        task.done.connect(partial(self._read_done, column, task))
-        task.failed.connect(partial(self._read_failed, column, task))
+        task.done.connect(partial(self._read_done, column, cancelled))
+        task.failed.connect(partial(self._read_failed, column, cancelled))
         self.reading.show_stage()
         self._patience.start()
         task.begin()
 
     def stop_reading(self) -> None:
         """Cancel what is being read; the sources stay as they were."""
-        for task in self._reading.values():
-            task.cancelled.set()
+        for cancelled in self._reading.values():
+            cancelled.set()
         self.reading.stage.setText(self.tr("Stopping at the next safe point …"))
 
-    def _read_done(self, column: int, task: Task, source: MergeSource) -> None:
-        if self._reading.get(column) is not task:
+    def _read_done(self, column: int, cancelled: threading.Event, source: MergeSource) -> None:
+        if self._reading.get(column) is not cancelled:
             return
         self._is_read(column)
-        if not task.cancelled.is_set():
+        if not cancelled.is_set():
             self.use(column, source)
 
-    def _read_failed(self, column: int, task: Task, error: Exception) -> None:
-        if self._reading.get(column) is not task:
+    def _read_failed(self, column: int, cancelled: threading.Event, error: Exception) -> None:
+        if self._reading.get(column) is not cancelled:
             return
         self._is_read(column)
         if column == BASE and BASE not in self.chosen:
             self.view.two.setChecked(True)
-        if not task.cancelled.is_set():
+        if not cancelled.is_set():
             self.message.say(str(error), "error")
 
     def _is_read(self, column: int) -> None:
@@ -382,7 +385,7 @@ class MergeWindow(QDialog):
 
     def done(self, result: int) -> None:
         """Close, and stop what is being read."""
-        for task in self._reading.values():
-            task.cancelled.set()
+        for cancelled in self._reading.values():
+            cancelled.set()
         self._reading.clear()
         super().done(result)

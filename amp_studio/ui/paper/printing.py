@@ -51,11 +51,17 @@ def write_to(window: StudioWindow, workspace: Workspace, path: Path) -> None:
     notes: list[str] = []
 
     def work(_: TaskProgress, __: threading.Event) -> None:
-        load("amp_studio.sim", "amp_studio.dossier")
-        from amp_studio.dossier import write_report
+        load("amp_studio.dossier")
+        from amp_studio.dossier import motion_apart, write_report
 
         write_report(
-            file, path, contents, source=workspace.path, own=workspace.validator.own, notify=notes.append
+            file,
+            path,
+            contents,
+            source=workspace.path,
+            own=workspace.validator.own,
+            notify=notes.append,
+            motion=motion_apart,
         )
 
     ProgressDialog(

@@ -1,0 +1,38 @@
+"""A process apart: for what keeps memory, cannot be interrupted, or may end the process that runs it."""
+
+from __future__ import annotations
+
+import subprocess
+import sys
+from pathlib import Path
+
+from amp_studio.errors import AmpStudioError
+
+_CHILD = (
+    "import sys; sys.path.insert(0, sys.argv.pop()); from {module} import answer; answer(sys.stdin.buffer,"
+    " sys.stdout.buffer)"
+)
+
+
+class ReportNotMadeError(AmpStudioError, RuntimeError):
+    """The process that makes a report, or a part of it, did not; the text names the cause."""
+
+
+def run_apart(module: str, question: bytes, patience_s: float | None = None) -> bytes:
+    """Return what ``answer(asked, out)`` of a module writes in a process apart, where it reads the question.
+
+    Raises ReportNotMadeError.
+    """
+    command = [sys.executable, "-P", "-c", _CHILD.format(module=module), str(Path(__file__).parents[2])]
+    try:
+        done = subprocess.run(command, input=question, capture_output=True, timeout=patience_s, check=False)
+    except subprocess.TimeoutExpired:
+        raise ReportNotMadeError("works without end") from None
+    except OSError as error:
+        raise ReportNotMadeError(f"needs a process, which cannot be started: {error.strerror}") from error
+    if done.returncode:
+        lacks_memory = b"memory" in done.stderr.lower()
+        raise ReportNotMadeError(
+            "needs too much memory" if lacks_memory else "ended the process that sets it"
+        )
+    return done.stdout
