@@ -105,7 +105,7 @@ def _clicked(seed: int, runs: int, folder: Path) -> list[str]:
     """Click and type in the window of one family for as many seconds as there are runs;
     a seed after another goes through the families.
     """
-    family = monkey.FAMILIES[seed % len(monkey.FAMILIES)]
+    family = monkey.RUNS[seed % len(monkey.RUNS)]
     log = folder / f"{family}.jsonl"
     command = [sys.executable, "-m", "tests.faults.monkey", family, str(seed), str(runs), str(log)]
     done = subprocess.run(command, capture_output=True, text=True, check=False, errors="replace")
@@ -297,5 +297,5 @@ CAMPAIGNS = (
     Campaign("damaged facts", partial(_damaged_in, stored.fuzz_facts), MANY, 50, 5_000),
     Campaign("damaged settings", partial(_damaged_in, stored.fuzz_settings), MANY, 100, 5_000),
     Campaign("every offered fix, machines of random values", _fixes, 1_000, 2, 50),
-    Campaign("clicks and keys at random, seconds", _clicked, 600 * len(monkey.FAMILIES), 0, 600),
+    Campaign("clicks and keys at random, seconds", _clicked, 600 * len(monkey.RUNS), 0, 600),
 )

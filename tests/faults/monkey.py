@@ -1,5 +1,8 @@
 """Types and clicks at random in the window: ``python -m tests.faults.monkey FAMILY SEED SECONDS [LOG]``.
 
+FAMILY ``all`` opens the examples of every family, one after another; the folder is a project. An emulated
+control is started and stopped as the actions go.
+
 The same seed makes the same choices; what they meet depends on how fast work in the background is. Each
 action is written to the log as it is done, one JSON list a line; ``python -m tests.faults.monkey FAMILY
 --replay LOG`` does them again, and leaves out what is not there. Prints each error with the actions before
@@ -31,13 +34,16 @@ if TYPE_CHECKING:
 Action = list[Any]
 """What is done, and with what: a line of the log."""
 
-FAMILIES = ("9pc", "num", "syntec", "57c422b", "acromill", "grblhal")
+FAMILIES = ("9pc", "num", "syntec", "57c422b", "acromill", "grblhal", "linuxcnc")
+ALL = "all"
+"""In the place of a family: the files of each."""
+RUNS = (*FAMILIES, ALL)
 MOST_MEMORY = 700
 """MB that the window may take."""
 LONGEST_S = 60
 """Seconds after which an action that is not over is an error."""
-_LEFT_ALONE = ("quit", "exit", "emulated", "beenden")
-"""Words of actions that end the program, or start another one."""
+_LEFT_ALONE = ("quit", "exit", "beenden")
+"""Words of actions that end the program."""
 _TEXTS = ("5 mm", "=1+1", "-1", "x" * 300, "1e9", "0", "yes", "10000 mm/min")
 _PASTED = (*_TEXTS, "", "\t1\t2\n3\t4", "•", "a\nb")
 _PAUSE_MS = 10
@@ -87,6 +93,7 @@ class Monkey:
         from PySide6.QtWidgets import QApplication
 
         import amp_studio.ui  # its guard comes before every other class of the window
+        from amp_studio.files import Project, ProjectInfo
         from amp_studio.files.example_files import examples
         from amp_studio.ui.main_window import MainWindow
 
@@ -103,8 +110,11 @@ class Monkey:
         sys.excepthook = self._failed
         self.files = []
         for example in examples():
-            if example.family == family:
+            if family in (ALL, example.family):
                 self.files.append(Path(shutil.copy(example.path, folder / example.path.name)))
+        self.project = folder if family == ALL else None
+        if self.project is not None:
+            Project.create(self.project, ProjectInfo("Monkey", FAMILIES[0]))
         self.window = MainWindow()
         self.window.resize(1366, 768)
         self.window.show()
@@ -122,6 +132,7 @@ class Monkey:
         """Print what was found and end, wherever the window is."""
         for error in self.errors:
             print(error)
+        self.window.control.emulated.stop(wait=True)
         memory = _memory()
         if memory > MOST_MEMORY:
             print(f"the window takes {memory} MB")
@@ -253,7 +264,7 @@ class Monkey:
         return [self.random.choice(_PASTED)]
 
     def _any_open(self, _: QWidget) -> Action:
-        return [self.random.choice(self.files).name]
+        return [self.random.choice([each.name for each in self.files] + [""] * (self.project is not None))]
 
     # -- what is there -------------------------------------------------------------------
 
@@ -328,6 +339,7 @@ class Monkey:
         clipboard.setText(text) if text else clipboard.clear()
 
     def _open(self, name: str) -> None:
+        """Open a file by its name, the project without one."""
         self.window.open_first(self.folder / name)
 
 

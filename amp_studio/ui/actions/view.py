@@ -107,11 +107,11 @@ def open_settings(window: StudioWindow, page: str = "general") -> None:
     """Open the settings at one of their pages."""
     from amp_studio.ui.dialogs.settings_dialog import SettingsDialog
 
-    shown = window.beside.again(SettingsDialog, asked=window.workspace)  # whose units it shows
-    if shown is None:
-        shown = SettingsDialog(window)
-        window.beside.show(shown, asked=window.workspace)
-    shown.show_page(page)
+    opened = window.beside.again(SettingsDialog, asked=window.workspace)  # whose units it shows
+    if opened is None:
+        opened = SettingsDialog(window)
+        window.beside.show(opened, asked=window.workspace)
+    opened.show_page(page)
 
 
 def open_keys(window: StudioWindow) -> None:
@@ -145,10 +145,10 @@ def open_motion(window: StudioWindow) -> None:
         return
     workspace, address = page.workspace, window.selected()
     kind = in_background(window, tr("Loading the simulator"), partial(_motion_view, workspace.file.copy()))
-    if (shown := window.beside.again(kind, workspace)) is None:
+    if (opened := window.beside.again(kind, workspace)) is None:
         window.beside.show(kind(workspace, address, page.go_to, window), workspace)
     elif address is not None:
-        shown.show_axis(address[1])
+        opened.show_axis(address[1])
 
 
 def open_program(window: StudioWindow) -> None:

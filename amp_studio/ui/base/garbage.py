@@ -14,11 +14,16 @@ youngest objects are collected, and often: each collection is paid by one frame 
 
 Everything is gone through once no file was closed or opened for some seconds. That stalls the
 window for a third of a second: files are closed one after another, and work goes on in the next one.
+
+What is freed goes back to the system after a whole collection. The C library keeps free pages between those
+in use, in an area for each thread that has ever run: 40 to 110 MB of the 500 that a long day takes.
 """
 
 from __future__ import annotations
 
+import ctypes
 import gc
+import sys
 from collections.abc import Callable
 
 from PySide6.QtCore import QCoreApplication, QDeadlineTimer, QObject, QTimer
@@ -80,6 +85,7 @@ def look() -> None:
     """Collect what belonged to closed files, and set apart what is left."""
     gc.unfreeze()
     gc.collect()
+    _give_back()
     gc.freeze()
 
 
@@ -90,4 +96,12 @@ def collect() -> None:
     for generation in (2, 1, 0) if _opening.hasExpired() else (0,):
         if gc.get_count()[generation] > gc.get_threshold()[generation]:
             gc.collect(generation)
+            if generation == 2:
+                _give_back()
             return
+
+
+def _give_back() -> None:
+    """Give free pages back to the system, where the C library is glibc; it takes 1 to 20 ms."""
+    if sys.platform == "linux" and (trim := getattr(ctypes.CDLL(None), "malloc_trim", None)) is not None:
+        trim(0)

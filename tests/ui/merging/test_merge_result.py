@@ -2,20 +2,24 @@
 
 from __future__ import annotations
 
+import gc
+import weakref
 from pathlib import Path
 
-from PySide6.QtCore import Qt
+from PySide6.QtCore import QEvent, Qt
 from PySide6.QtTest import QTest
+from PySide6.QtWidgets import QApplication
 
 from amp_studio.files import content_of, open_file
 from amp_studio.schema import Value
+from amp_studio.ui.base.task import Task
 from amp_studio.ui.main_window import MainWindow
 from amp_studio.ui.merge.model import BASE, NAME, RESULT, A, B
 from amp_studio.ui.merge.sources import MergeSource
 from amp_studio.ui.merge.window import MergeWindow
 from tests.ui.conftest import WAIT_MS, Person, on_disk
 
-from .steps import CALIBRATION, EXCESS, RAPID, merge, press, result, show
+from .steps import CALIBRATION, EXCESS, RAPID, is_read, merge, press, result, show
 
 
 def test_the_result_goes_into_the_file_as_one_step_once_no_conflict_is_left(
@@ -196,6 +200,19 @@ def test_it_closes_with_escape_and_with_its_file(three: MergeWindow, window: Mai
         QTest.keyClick(again, Qt.Key.Key_Escape)
     with qtbot.waitSignal(three.destroyed, timeout=WAIT_MS):
         window.close_page(window.page)
+
+
+def test_a_comparison_that_has_read_a_source_is_freed(window: MainWindow, qtbot) -> None:
+    """A connection of its task that leads to the task keeps the window, with both files."""
+    shown = window.files.comparing.open(window.page)
+    shown.start(B, shown.sources.defaults)
+    qtbot.waitUntil(is_read(shown), timeout=WAIT_MS)
+    qtbot.waitUntil(lambda: not Task.running, timeout=WAIT_MS)
+    kept = weakref.ref(shown.merge)
+    shown.close()
+    del shown
+    QApplication.sendPostedEvents(None, QEvent.Type.DeferredDelete)
+    qtbot.waitUntil(lambda: gc.collect(1) >= 0 and kept() is None, timeout=WAIT_MS)
 
 
 def test_another_comparison_takes_the_place_of_one_without_choices(
