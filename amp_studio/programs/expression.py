@@ -101,7 +101,7 @@ class _Reading:
             return value
         if sign in _FUNCTIONS:
             return _FUNCTIONS[sign](self._single(depth + 1))
-        if sign[0] in "P#":
+        if sign[0] in "P#" and sign[1:].strip().isdigit():
             number = int(sign[1:])
             if number not in self._parameters:
                 raise ProgramBlockError(f"P{number} has no value here")

@@ -35,8 +35,8 @@ from .toolpath import (
 from .words import ProgramBlockError as BlockError
 from .words import TypedWord, words_of
 
-MOST_BLOCKS = 2_000_000
-"""Blocks that are executed, repeated ones every time; a program that needs more has no end."""
+MOST_REPEATED = 150_000
+"""Blocks that are executed more often than once; a program that needs more counts as one without an end."""
 MOST_ROWS = 4_000_000
 MOST_REPEATS = 10_000
 LARGEST = 1e7
@@ -222,8 +222,8 @@ class Interpreter:
             self.blocks += 1
             if self.blocks % EVERY == 0 and progress is not None:
                 progress(self.blocks)
-            if self.blocks > MOST_BLOCKS or len(self.rows.kind) > MOST_ROWS:
-                raise BlockError(f"The program has no end within {MOST_BLOCKS} blocks")
+            if self.blocks > len(lines) + MOST_REPEATED or len(self.rows.kind) > MOST_ROWS:
+                raise BlockError(f"The program has no end within {self.blocks - 1} blocks")
             if statements and ("=" in line or "GO" in line or "RET" in line or "$" in line):
                 target = self._statement(line, returns, at)
                 if target is not None:

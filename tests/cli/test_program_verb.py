@@ -49,6 +49,8 @@ def test_text_csv_and_picture(amp: Callable[..., Said], plate: Path, tmp_path: P
     assert len(rows) == 7
     assert amp("program", plate, "--machine", ROUTER, "--no-contour", "-o", tmp_path / "a.svg").code == 0
     assert "path" in (tmp_path / "a.svg").read_text()
+    assert amp("program", plate, "--machine", ROUTER, "--no-contour", "-o", tmp_path / "a.pdf").code == 0
+    assert (tmp_path / "a.pdf").read_bytes().startswith(b"%PDF")
 
 
 def test_a_block_that_cannot_be_used_ends_with_1_and_is_named(
@@ -76,7 +78,7 @@ def test_two_changes_are_tried_each_and_together(amp: Callable[..., Said], plate
         (("--start", "X"), "has to be places of axes"),
         (("--override", "0"), "takes per cent"),
         (("--retract", "much"), "takes a length"),
-        (("-o", "a.txt"), "is written as .csv or .svg"),
+        (("-o", "a.txt"), "is written as .csv, .svg, .pdf"),
         (("--what-if", "nothing=1"), "nothing"),
         (("--what-if", "speeds.rapid"), "is not PARAM=VALUE"),
         (("--what-if", "control.default_units=+5%"), "has no number"),

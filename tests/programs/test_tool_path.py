@@ -9,7 +9,7 @@ import pytest
 
 from amp_studio.files import ParameterFile
 from amp_studio.programs import ARC, DWELL, RAPID, ProgramBlockError, ToolPath, read_program, tool_path
-from amp_studio.programs.interpreter import MOST_BLOCKS
+from amp_studio.programs.interpreter import MOST_REPEATED
 from amp_studio.programs.toolpath import LINE
 from amp_studio.programs.words import LONGEST
 
@@ -140,6 +140,7 @@ def test_a_cycle_is_repeated_by_distances_and_ended_by_g80(router: ParameterFile
         ("RET", "without a GOSUB"),
         ("GOTO 70", "No block has the number N70"),
         ("X1e300", "no such word"),
+        ("P5=P", "is no expression"),
         ("X99999999999", "beyond every machine"),
         ("G3 X-1 Y-1 R1", "No page prints arcs by R"),
         ("F0", "must be above 0"),
@@ -175,11 +176,11 @@ def test_subroutines_return_and_end_at_ten_levels(router: ParameterFile) -> None
 
 
 def test_a_program_without_an_end_is_bounded(router: ParameterFile, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("amp_studio.programs.interpreter.MOST_BLOCKS", 500)
+    monkeypatch.setattr("amp_studio.programs.interpreter.MOST_REPEATED", 498)
     found = path(router, "N1 F1|GOTO 1")
     assert found.fault is not None
     assert "no end within 500" in found.fault.message
-    assert MOST_BLOCKS >= 1_000_000
+    assert MOST_REPEATED >= 100_000
 
 
 def test_expressions_are_calculated_as_printed(router: ParameterFile) -> None:

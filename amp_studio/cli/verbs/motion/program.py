@@ -45,7 +45,7 @@ VERB = Verb(
     VerbArgument("--rapid-override", metavar="PERCENT", help="override of the rapid (default: 100)"),
     VerbArgument("--retract", metavar="LENGTH", help="retract distance of a chip-breaking cycle, as '1 mm'"),
     VerbArgument("--no-contour", action="store_true", help="leave out the simulation of the servo loops"),
-    OUTPUT.but(required=False, help="file to write: .csv (a row for each move), .svg (path, speed, error)"),
+    OUTPUT.but(required=False, help="file to write: .csv (a row for each move), .svg or .pdf (path)"),
     JSON,
     writes=("output",),
     examples=(
@@ -54,7 +54,7 @@ VERB = Verb(
         "amp-studio program plate.nc --machine ROUTER.amp -o path.svg",
     ),
 )
-ENDINGS = (".csv", ".svg")
+ENDINGS = (".csv", ".svg", ".pdf")
 
 
 def run(options: Options) -> int:
@@ -72,7 +72,7 @@ def run(options: Options) -> int:
     if options.output:
         check_replaced(options.output, options.path, options.program)
         if options.output.suffix.lower() not in ENDINGS:
-            raise UsageError(f"{options.output}: a program is written as {' or '.join(ENDINGS)}")
+            raise UsageError(f"{options.output}: a program is written as {', '.join(ENDINGS)}")
     file = opened(options.path).file
     show = progress()
 
@@ -108,9 +108,23 @@ def _write(options: Options, file: ParameterFile, found: ProgramRun) -> None:
     from amp_studio.files import write_atomic
     from amp_studio.sim import path_picture, program_csv
 
-    is_csv = options.output.suffix.lower() == ".csv"
-    content = program_csv(file, found) if is_csv else picture_svg(path_picture(file, found))
-    write_atomic(options.output, content.encode(), keep_backup=False)
+    ending = options.output.suffix.lower()
+    if ending == ".csv":
+        content = program_csv(file, found).encode()
+    else:
+        picture = picture_svg(path_picture(file, found))
+        content = picture.encode() if ending == ".svg" else _pdf(picture)
+    write_atomic(options.output, content, keep_backup=False)
+
+
+def _pdf(picture: str) -> bytes:
+    """Return a page as large as the picture."""
+    import json
+
+    from amp_studio.report import typeset
+
+    image = f'#image(bytes({json.dumps(picture, ensure_ascii=False)}), format: "svg")'
+    return typeset(f"#set page(width: auto, height: auto, margin: 10mm)\n{image}\n")
 
 
 def _start(options: Options, file: ParameterFile) -> Sequence[float] | None:
