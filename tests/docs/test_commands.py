@@ -155,6 +155,7 @@ def stage(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Stage]:
     monkeypatch.setattr(
         "amp_studio.ui.main", lambda files: int(not all(Path(file).is_file() for file in files))
     )
+    monkeypatch.setattr("os.cpu_count", lambda: 1)  # tests/sim/test_sweep.py has more processes
     shutil.copytree(EXAMPLES, "examples")
     if not os.environ.get(
         "AMP_STUDIO_FULL"

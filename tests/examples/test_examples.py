@@ -12,7 +12,7 @@ import pytest
 from amp_studio.cli import run
 from amp_studio.files import Document, ParameterFile, Project, fitted_axes, open_file
 from amp_studio.files.axes import axis_type
-from amp_studio.report import print_report
+from amp_studio.report import Contents, print_report
 from amp_studio.schema import Address, read_address
 from amp_studio.sim import simulate, simulated_axes
 from amp_studio.sim.law import simulated_families
@@ -161,16 +161,19 @@ def test_a_value_put_back_leaves_the_file_as_it_was(example: Path) -> None:
     assert before == example.read_bytes()
 
 
-def test_it_can_be_printed(example: Path, tmp_path: Path) -> None:
+def test_what_is_changed_in_it_can_be_printed(example: Path, tmp_path: Path) -> None:
     path = tmp_path / "example.pdf"
-    print_report(open_file(example).file, path, source=example)
+    print_report(open_file(example).file, path, Contents(changed_only=True), source=example)
     assert path.read_bytes().startswith(b"%PDF-")
 
 
-def test_nothing_but_the_file_its_project_and_its_readme_is_shipped(example: Path) -> None:
+def test_nothing_but_the_file_its_project_and_what_its_readme_names_is_shipped(example: Path) -> None:
     shipped = {p.name for p in example.parent.iterdir() if not p.name.startswith(".")}  # not: open just now
-    measured = {"laser-x.csv"} if example.name == "MILL_1394.amp" else set()
-    assert shipped == {example.name, "project.yaml", "README.md"} | measured
+    others = shipped - {example.name, "project.yaml", "README.md"}
+    assert {"project.yaml", "README.md"} <= shipped
+    assert {Path(name).suffix for name in others} <= {".csv", ".nc"}
+    readme = (example.parent / "README.md").read_text("utf-8")
+    assert [name for name in others if name not in readme] == []
 
 
 def test_the_measured_points_of_the_mill_give_back_the_lost_motion_they_were_made_with(

@@ -62,7 +62,7 @@ class Campaign:
     ``run`` gets a seed, how many runs it is to make, and an empty folder; it returns one sentence a
     violation.
     ``whole`` and ``short`` are the runs of ``make faults`` and of the tests (0: it has no part that takes
-    seconds), ``at_once`` those made with one seed.
+    seconds, or tests/cli and tests/transfer have it), ``at_once`` those made with one seed.
     """
 
     name: str
@@ -170,8 +170,8 @@ CAMPAIGNS = (
     ),
     Campaign("Ctrl-C at any moment of a change", _stopped, 400, 4, 20),
     Campaign("kill -9 of the editor", _killed, 60, 1, 5),
-    Campaign("Ctrl-C and SIGTERM at any moment of a download", _stopped_downloads, 100, 1, 5),
-    Campaign("Ctrl-C at any moment of an emulated control", _stopped_controls, 100, 1, 10),
+    Campaign("Ctrl-C and SIGTERM at any moment of a download", _stopped_downloads, 100, 0, 5),
+    Campaign("Ctrl-C at any moment of an emulated control", _stopped_controls, 100, 0, 10),
     Campaign("download over a bad line, TCP, TLS and pty", download_over_bad_lines, 300, 1, 10),
     Campaign(
         "NUM table over a bad line, power off in the load", _own(own_protocols.table_run), 2_000, 3, 100
@@ -197,8 +197,8 @@ CAMPAIGNS = (
         4,
         100,
     ),
-    Campaign("hostile control", partial(_hostile, exchange_with_hostile_control), 1_000, 3, 50),
-    Campaign("hostile clients", partial(_hostile, clients_beside_hostile_ones), 500, 2, 50),
+    Campaign("hostile control", partial(_hostile, exchange_with_hostile_control), 1_000, 0, 50),
+    Campaign("hostile clients", partial(_hostile, clients_beside_hostile_ones), 500, 0, 50),
     Campaign("damaged YAML", partial(_damaged, texts.fuzz_yaml), MANY, 100, 5_000),
     Campaign("damaged parameter file", partial(_damaged, texts.fuzz_parameter_files), MANY, 30, 2_000),
     Campaign(

@@ -34,13 +34,13 @@ def simulated(program: str, path: Path, *arguments: str) -> str:
 
 
 @pytest.mark.parametrize(
-    ("example", "arguments"),
+    "arguments",
     [
-        ("mill-1394/MILL_1394.amp", ["procedure"]),  # asks for machine code whatever its length
-        # 60 s, more than PLAIN_STEPS of the kernel: machine code is used where it is.
-        ("num-1060-mill/MILL_1060.amp", ["step", "--set", "move.distance=6000"]),
+        ["procedure"],  # asks for machine code whatever its length
+        # More than PLAIN_STEPS of the kernel: machine code is used where it is.
+        ["step", "--set", "move.distance=6000"],
     ],
 )
-def test_a_simulation_needs_no_machine_code(checkout: Path, example: str, arguments: list[str]) -> None:
-    path = checkout / "examples" / example
+def test_a_simulation_needs_no_machine_code(checkout: Path, arguments: list[str]) -> None:
+    path = checkout / "examples" / "mill-1394" / "MILL_1394.amp"
     assert simulated(WITHOUT, path, *arguments) == simulated(PROGRAM, path, *arguments)
