@@ -32,6 +32,7 @@ READS = {
     "machine-tests": "RAW",
     "simulate": "RAW --list",
     "check": "RAW --axis none",
+    "program": "end.nc --machine RAW --override none",
     "note": "RAW",
     "axis": "RAW",
     "form": "RAW -o form.csv",
@@ -43,7 +44,7 @@ READS = {
     "download": f"RAW --to {NOWHERE} --accept-errors",
     "verify": f"RAW --with {NOWHERE}",
 }
-"""Verb -> its words. A check in motion takes seconds: it is asked for an axis that there is not."""
+"""Verb -> its words. A check or a program in motion takes seconds: it is asked for what there is not."""
 WRITES = {
     "set": "RAW A=1",
     "fix": "RAW",
@@ -81,7 +82,8 @@ REFUSED = (
     "the soft limits of the axis are not set",
     "neither a calibration table nor a reversal error",
     "the file is one of",
-    "its configuration file is edited at the computer of the control",
+    "--override",
+    "is no folder",
     "no connection to the control",
 )
 """What is refused of a parameter file of that family too, and at a control that is not there."""
@@ -124,6 +126,7 @@ def test_every_verb_reads_a_text(
     capsys: pytest.CaptureFixture[str],
 ) -> None:
     monkeypatch.chdir(tmp_path)
+    Path("end.nc").write_text("M30\n", "utf-8")
     family = texts[key].name.partition(".")[0]
     for verb, words in READS.items():
         named = words.replace("RAW", str(texts[key])).replace("FAMILY", family)
