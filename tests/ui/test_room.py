@@ -209,6 +209,23 @@ def test_a_panel_that_opens_while_the_window_becomes_small_is_seen_below(
     assert window.page.detail.isVisible()
 
 
+def test_a_size_that_the_window_gets_while_a_panel_is_turned_is_taken_after_it(opened, qtlog) -> None:
+    """What is shown lays the window out, which can resize it at once: here with the preview afloat by then,
+    so that the parameter has its side again.
+    """
+    window = opened("mill-1394", 1300)
+    docks = window.docks
+    docks.show_preview(True)
+    assert docks.chooser.isVisible(), "the parameter is beside the findings"
+    docks.preview.setFloating(True)
+    docks._bottom.currentChanged.connect(lambda _: docks.fit(window.size()))
+    docks.toggle("Parameter")
+    assert [record.message for record in qtlog.records if "not contained" in record.message] == []
+    parameter = window.findChild(QDockWidget, "Parameter")
+    assert parameter.isVisible()
+    assert parameter.widget().isAncestorOf(window.focusWidget())
+
+
 def test_an_explanation_that_outlasts_its_file_leads_nowhere(open_window, path: Path) -> None:
     window = open_window(path)
     page = window.page

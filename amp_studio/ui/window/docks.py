@@ -6,6 +6,9 @@ left panel goes, the findings fold to their head. It all comes back with the roo
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+from contextlib import contextmanager
+
 from PySide6.QtCore import QByteArray, QSize, Qt
 from PySide6.QtWidgets import (
     QDockWidget,
@@ -73,6 +76,9 @@ class Docks(Translated):
         self._arranged: QByteArray | None = None
         """How the docks were when the last file was closed; None while they are there."""
         self._size = QSize(WIDE, LOW)
+        self._is_moving = False
+        self._asked_size: QSize | None = None
+        """Size that the window got while panels were moved."""
         self._is_first = True
         self._width_before = _PANELS[1][2]
         """Width of the parameter before the preview came beside it."""
@@ -261,9 +267,31 @@ class Docks(Translated):
 
     def fit(self, size: QSize) -> None:
         """Keep the table usable in a window of this size; what was taken away for room comes back with it."""
+        if self._is_moving:
+            self._asked_size = size
+            return
         is_narrower, self._size = size.width() < self._size.width(), size
         if self._is_first or self._arranged is not None:
             return
+        with self._moving():
+            self._make_room(is_narrower)
+
+    @contextmanager
+    def _moving(self) -> Iterator[None]:
+        """Let panels be moved and turned whole. A widget that is shown lays the window out, which can resize
+        it at once: what fits that size is made when the move is over.
+        """
+        self._is_moving, was_moving = True, self._is_moving
+        try:
+            yield
+        finally:
+            self._is_moving = was_moving
+        if not was_moving and self._asked_size is not None:
+            size, self._asked_size = self._asked_size, None
+            self.fit(size)
+
+    def _make_room(self, is_narrower: bool) -> None:
+        size = self._size
         is_beside = not self.preview.isHidden() and not self.preview.isFloating()
         width = size.width() - (self._preview_width if is_beside else 0)
         if is_beside and is_narrower and self.preview.width() > size.width() * _PREVIEW_WIDEST:
@@ -279,7 +307,7 @@ class Docks(Translated):
         if title == "Parameter" and title in self._taken:
             self.chooser.show_choice(title)
             self._turn_bottom(title)
-            dock = self._dock("Findings")
+            dock = self._dock("Findings" if title in self._taken else title)
         elif title == "Findings":
             self.chooser.show_choice(title)
             self._turn_bottom(title)
@@ -334,22 +362,30 @@ class Docks(Translated):
             self._window.resizeDocks([below], [height], Qt.Orientation.Vertical)
 
     def _set_small(self, title: str, is_small: bool) -> None:
-        if is_small == (title in self._taken):
-            return
+        if is_small != (title in self._taken):
+            with self._moving():
+                self._take(title) if is_small else self._put_back(title)
+
+    def _take(self, title: str) -> None:
+        """Take a dock away that is seen; the parameter comes beside the findings."""
         dock = self._dock(title)
-        if is_small and not dock.isHidden() and not dock.isFloating():
-            self._taken.add(title)
-            dock.hide()
-            if title == "Parameter":
-                self._move_parameter(self._bottom, self._bottom_heads)
-        elif not is_small:
-            self._taken.discard(title)
-            if title == "Parameter":
-                self._move_parameter(None, None)
-            dock.show()
-            if title == "Parameter" and not self.preview.isHidden() and not self.preview.isFloating():
-                widths = [self._width_of(title), self._preview_width]  # else Qt leaves it a strip
-                self._window.resizeDocks([dock, self.preview], widths, Qt.Orientation.Horizontal)
+        if dock.isHidden() or dock.isFloating():
+            return
+        self._taken.add(title)
+        dock.hide()
+        if title == "Parameter":
+            self._move_parameter(self._bottom, self._bottom_heads)
+
+    def _put_back(self, title: str) -> None:
+        """Show a dock again where it was."""
+        dock = self._dock(title)
+        self._taken.discard(title)
+        if title == "Parameter":
+            self._move_parameter(None, None)
+        dock.show()
+        if title == "Parameter" and not self.preview.isHidden() and not self.preview.isFloating():
+            widths = [self._width_of(title), self._preview_width]  # else Qt leaves it a strip
+            self._window.resizeDocks([dock, self.preview], widths, Qt.Orientation.Horizontal)
 
     def _move_parameter(self, into: QStackedWidget | None, heads: QStackedWidget | None) -> None:
         """Put the panel of the parameter beside the findings, or back into its own dock."""
@@ -371,7 +407,9 @@ class Docks(Translated):
         self._turn_bottom("Findings")
 
     def _turn_bottom(self, title: str) -> None:
-        if self._bottom.indexOf(self._stacks[title]) >= 0:
+        if self._bottom.indexOf(self._stacks[title]) < 0:
+            return
+        with self._moving():
             self._bottom.setCurrentWidget(self._stacks[title])
             self._bottom_heads.setCurrentWidget(self._heads[title])
             self._bottom.setFocusProxy(self._stacks[title])
