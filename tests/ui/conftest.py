@@ -3,10 +3,14 @@
 from __future__ import annotations
 
 import gc
+import queue
 import subprocess
 import sys
+import threading
 from collections.abc import Callable, Iterator
+from functools import partial
 from pathlib import Path
+from typing import Any
 
 import pytest
 from PySide6.QtCore import QEvent, QSettings, Qt, QTimer
@@ -23,7 +27,12 @@ from PySide6.QtWidgets import (
 )
 from pytestqt.qtbot import QtBot
 
+from amp_studio.families.ninepc.emulated.panel import NinePcPanel, axes_supported
 from amp_studio.files import Document, ParameterFile, content_of, new_file, open_file
+from amp_studio.transfer import decode_image, encode_image, patch_image
+from amp_studio.transfer.emulated.control import Control as EmulatedMemory
+from amp_studio.transfer.emulated.emulator import serve
+from amp_studio.transfer.emulated.record import Identity
 from amp_studio.ui.base import garbage
 from amp_studio.ui.base.menu_commands import commands
 from amp_studio.ui.base.task import ProgressDialog, Task
@@ -301,9 +310,48 @@ def editor(window: MainWindow) -> QWidget:
 
 
 class Control:
-    """An emulated control in a separate process."""
+    """An emulated 9/PC with its operator, in a thread: a process would load the program for each."""
 
-    def __init__(self, state: Path, *options: str, family: str = "9pc", machine: str = "mill") -> None:
+    def __init__(self, state: Path, *, estop: bool = True) -> None:
+        file = new_file("9pc", "mill")
+        identity = Identity("9pc", file.schema.signature, "CNC_1", "emulated")
+        state.mkdir(exist_ok=True)
+        memory = EmulatedMemory(
+            state, identity, encode_image(file), estop=estop, autostart=True, accept=decode_image
+        )
+        typed, heard = queue.SimpleQueue[str](), queue.SimpleQueue[str]()
+        self._typed, self._stop = typed, threading.Event()
+        self._thread = threading.Thread(
+            target=serve,
+            args=("tcp://127.0.0.1:0", memory),
+            kwargs={
+                "patch": patch_image,
+                "panel": NinePcPanel(axes_supported({})),
+                "commands": iter(typed.get, ""),
+                "say": heard.put,
+                "stop": self._stop,
+            },
+            daemon=True,
+        )
+        self._thread.start()
+        lines = iter(partial(heard.get, timeout=60), "")
+        self.address = next(line for line in lines if line.startswith("listening on ")).split()[-1]
+
+    def says(self, command: str) -> None:
+        """Type a command at its panel: ``estop on``."""
+        self._typed.put(command)
+
+    def stop(self) -> None:
+        """End it, with its line; stopping twice is no fault."""
+        self._stop.set()
+        self._typed.put("")  # the operator leaves
+        self._thread.join(timeout=60)
+
+
+class ControlProcess:
+    """An emulated control of any family in a separate process."""
+
+    def __init__(self, state: Path, family: str, machine: str) -> None:
         command = [
             sys.executable,
             "-m",
@@ -316,18 +364,11 @@ class Control:
             str(state),
             "--listen",
             "tcp://127.0.0.1:0",
-            *options,
         ]
         self._process = subprocess.Popen(command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True)
         assert self._process.stdout is not None
         lines = (line for line in self._process.stdout if line.startswith("listening on "))
         self.address = next(lines).removeprefix("listening on ").strip()
-
-    def says(self, command: str) -> None:
-        """Type a command at its panel: ``estop on``."""
-        assert self._process.stdin is not None
-        self._process.stdin.write(f"{command}\n")
-        self._process.stdin.flush()
 
     def stop(self) -> None:
         """End the process; stopping twice is no fault."""
@@ -342,13 +383,15 @@ class Control:
 
 
 @pytest.fixture
-def start_control(tmp_path: Path) -> Iterator[Callable[..., Control]]:
+def start_control(tmp_path: Path) -> Iterator[Callable[..., Control | ControlProcess]]:
     """Return what starts an emulated control; it ends with the test."""
-    controls: list[Control] = []
+    controls: list[Control | ControlProcess] = []
 
-    def start(*options: str, **kind: str) -> Control:
-        controls.append(Control(tmp_path / f"control-{len(controls)}", *options, **kind))
-        return controls[-1]
+    def start(family: str = "9pc", **kind: Any) -> Control | ControlProcess:
+        state = tmp_path / f"control-{len(controls)}"
+        made = Control(state, **kind) if family == "9pc" else ControlProcess(state, family, **kind)
+        controls.append(made)
+        return made
 
     yield start
     for control in controls:

@@ -182,7 +182,7 @@ def test_a_header_that_differs_is_said_by_a_comparison(
 def test_e_stop_is_asked_before_anything_is_sent_and_again_until_it_is_pressed(
     window: MainWindow, start_control: Start, qtbot: QtBot
 ) -> None:
-    control = start_control("--no-estop")
+    control = start_control(estop=False)
     held = parameters.fetch_file(control.address).values
     page = at_control(window, control.address, "send", qtbot)
     page.checked.setChecked(True)
