@@ -46,6 +46,7 @@ from amp_studio.sim import (
 from amp_studio.ui.base.plot import Plot
 from amp_studio.ui.base.task import Task, TaskProgress
 from amp_studio.ui.base.theme import GAP2, GAP3, font
+from amp_studio.ui.base.translated import worded
 from amp_studio.ui.forms.form import Field, FieldForm
 from amp_studio.ui.forms.segment import Segment
 
@@ -265,7 +266,7 @@ class ProgramWindow(QDialog):
             [
                 (
                     row["letter"],
-                    f"{row['name']}  {row['param']}".rstrip(),
+                    f"{worded(row['name'])}  {row['param']}".rstrip(),
                     f"{row['time_s']:.3g}",
                     f"{100 * row['share']:.0f}",
                 )
