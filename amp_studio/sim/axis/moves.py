@@ -35,6 +35,8 @@ LONGEST_SETTLING = 5.0
 """s more than that."""
 LONG_STRETCH = 1e5
 """s of a move that reaches its feedrate by any ramp."""
+FOLLOWED = 5.0
+"""Time constants of the position loop, or of an exponential ramp, until the axis follows its command."""
 STEADY_LAGS = 6.0
 """Number of time constants of the position loop after which a constant speed can be steady."""
 
@@ -155,3 +157,13 @@ def ramp_of(axis: AxisLaw, settings: Settings) -> Ramp:
             f"Unknown ramp '{kind}'. Axis {axis.axis} has: {', '.join(axis.ramps)}", "move.mode"
         )
     return found
+
+
+def time_to_speed(ramp: Ramp, speed: float) -> float:
+    """Return how long the command takes from rest to a speed in u/s, s."""
+    return FOLLOWED * ramp.time + (speed / ramp.acceleration if ramp.acceleration else 0.0)
+
+
+def run_up(axis: AxisLaw, speed: float, ramp: Ramp) -> float:
+    """Return a distance in u over which an axis reaches a speed in u/s from rest, and follows it."""
+    return speed * (time_to_speed(ramp, speed) + FOLLOWED / axis.position_rate)

@@ -17,6 +17,7 @@ from amp_studio.sim.law import AlarmText, AxisLaw
 from amp_studio.sim.rounding import rounded_up
 
 from .homing import Homed, home_axis
+from .moves import time_to_speed
 from .moving_axis import GoOrder, MoveOrder, MovingAxis, Orders, StopOrder, Watch
 
 COAST = 10.0
@@ -223,8 +224,7 @@ def moved(around: Around, way: float) -> Around:
 def reach(axis: AxisLaw, velocity: float, ramp: Ramp) -> float:
     """Return a distance in u over which the axis reaches a velocity and follows it."""
     speed = abs(velocity)
-    time = 5.0 * ramp.time + (speed / ramp.acceleration if ramp.acceleration else 0.0)
-    return rounded_up(speed * (time + 3.0 / axis.position_rate + 0.2), 2)
+    return rounded_up(speed * (time_to_speed(ramp, speed) + 3.0 / axis.position_rate + 0.2), 2)
 
 
 class SimulatedMachine:

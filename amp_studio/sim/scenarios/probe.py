@@ -8,6 +8,7 @@ import math
 from dataclasses import dataclass
 
 from amp_studio.sim.axis.motion import Motion
+from amp_studio.sim.axis.moves import run_up
 from amp_studio.sim.axis.moving_axis import MovingAxis, Seen, Watch
 from amp_studio.sim.command.events import Ramp
 from amp_studio.sim.errors import SimulationError
@@ -34,8 +35,6 @@ SETTINGS = {
     "move.latency": "from the signal to the position that is taken (s); default: that of the control",
     "move.overtravel": "how far the probe can be pushed over (mm or deg); default: not checked",
 }
-RUN_UP = 5.0
-"""Time constants of the position loop until the axis follows its command."""
 COUNTS = 100.0
 """Counts to the probe at least."""
 FARTHER = 2.0
@@ -98,19 +97,15 @@ class _Outcome:
 def _meeting(axis: AxisLaw, probing: Probing, speed: float, latency: float, settings: Settings) -> _Meeting:
     """Return where the probe is met; raises SimulationError for a place that is none."""
     ramp = probing.ramp or next(iter(axis.ramps.values()))
-    run_up = speed * (
-        5.0 * ramp.time
-        + (speed / ramp.acceleration if ramp.acceleration else 0.0)
-        + RUN_UP / axis.position_rate
-    )
+    way = run_up(axis, speed, ramp)
     expected = number(settings, "move.expected")
     if expected is None:
         least = COUNTS * axis.machine.position_count
-        expected = probing.approach_distance + max(run_up * FARTHER, least)
+        expected = probing.approach_distance + max(way * FARTHER, least)
     if expected == 0.0:
         raise SimulationError("move.expected is 0; the probe must be somewhere else", "move.expected")
     sign = math.copysign(1.0, expected)
-    return _Meeting(probing, speed, latency, ramp, expected, sign, run_up, _touch(settings, expected))
+    return _Meeting(probing, speed, latency, ramp, expected, sign, way, _touch(settings, expected))
 
 
 def _met(axis: AxisLaw, meeting: _Meeting) -> _Outcome:

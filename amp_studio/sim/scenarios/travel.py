@@ -8,7 +8,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from amp_studio.sim.axis.motion import Motion
-from amp_studio.sim.axis.moves import feedrate_of
+from amp_studio.sim.axis.moves import feedrate_of, run_up
 from amp_studio.sim.axis.moving_axis import MovingAxis, Seen, Watch
 from amp_studio.sim.command.events import Travel
 from amp_studio.sim.engine.kernel import STANDSTILL
@@ -114,14 +114,9 @@ def _approach(axis: AxisLaw, settings: Settings) -> _Approach:
         )
     if given is None:
         found = _met_from_far(travel, sign, is_zone=zone is not None) or found
-    run_up = feedrate * (
-        5.0 * ramp.time
-        + (feedrate / ramp.acceleration if ramp.acceleration else 0.0)
-        + 5.0 / axis.position_rate
-    )
-    name, edge = found
-    start = edge - sign * run_up if given is None else given
-    return _Approach(travel, feedrate, sign, ramp, name, edge, run_up, start)
+    way, (name, edge) = run_up(axis, feedrate, ramp), found
+    start = edge - sign * way if given is None else given
+    return _Approach(travel, feedrate, sign, ramp, name, edge, way, start)
 
 
 def _met_from_far(travel: Travel, sign: float, *, is_zone: bool) -> tuple[str, float] | None:
