@@ -295,6 +295,19 @@ def test_the_numbers_of_grbl_08_mean_other_settings_and_are_read_by_those_of_tod
     )
 
 
+def test_remarks_of_what_grbl_has_no_more_show_the_age_of_a_few_lines() -> None:
+    text = (
+        "$0=25.464 (x, step/mm)\n$1=24.615 (y, step/mm)\n$4=15000.000 (default feed, mm/min)\n"
+        "$8=100.000 (acceleration, mm/sec^2)\n"
+    )
+    found = everything(text)
+    assert found.values == {
+        ("axis.steps", "X"): Value(25.464, "steps/mm"),
+        ("axis.steps", "Y"): Value(24.615, "steps/mm"),
+    }
+    assert len(found.unknown) == 2
+
+
 def test_remarks_of_other_settings_beside_today_s_numbers_change_nothing() -> None:
     """A memory in disorder lists a $151 as (x, step/mm), of an owner of a Grbl 0.9."""
     remarks = "".join(f"${n}={n}.000 (x, step/mm)\n" for n in (101, 102, 151, 152))

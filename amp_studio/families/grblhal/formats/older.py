@@ -112,8 +112,12 @@ _REMARKS = {
     r"homing seek": "search",
     r"homing debounce": "debounce",
     r"homing pull-off": "pulloff",
+    r"default (?:feed|seek)|mm/min default|acceleration(?:,| in)|arc, mm|mm/arc": "older",
+    r"n-arc|n-decimals|auto start": "older",
 }
-"""What a remark begins with -> the name; of an axis behind which its letter comes."""
+"""What a remark begins with -> the name; of an axis behind which its letter comes. ``older`` are settings
+that Grbl has no more.
+"""
 _BYTES = {1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 13, *range(14, 24), 26}
 """Numbers below 29 whose figures have no point since 0.9g, in grblHAL too."""
 _LEAST, _LEAST_SETTINGS = 3, 8
@@ -173,7 +177,7 @@ def _by_remarks(listing: LoggedListing) -> dict[int, str]:
     number does today.
     """
     names = {n: name for n, remark in listing.remarks.items() if (name := _name_of(remark))}
-    return names if sum(_TODAY[name] != n for n, name in names.items()) >= _LEAST else {}
+    return names if sum(_TODAY.get(name) != n for n, name in names.items()) >= _LEAST else {}
 
 
 def _name_of(remark: str) -> str:
@@ -193,7 +197,7 @@ def _by_layout(listing: LoggedListing, release: str) -> dict[int, str]:
     named = next((key for letters, key in _NAMED.items() if re.match(letters, release)), "")
     odd = sum("." in texts[n] for n in _BYTES & texts.keys())
     is_whole = len(texts) >= _LEAST_SETTINGS and texts.keys() >= {0, 1, 2}
-    is_odd = any(name and _TODAY[name] != n for n, r in listing.remarks.items() for name in [_name_of(r)])
+    is_odd = any(name and _TODAY.get(name) != n for n, r in listing.remarks.items() for name in [_name_of(r)])
     if not named and not is_odd and not (odd > 1 and is_whole):
         return {}
     fits = [
@@ -218,8 +222,11 @@ def _by_layout(listing: LoggedListing, release: str) -> dict[int, str]:
 
 
 def _release_of(listing: LoggedListing, names: dict[int, str]) -> str:
-    """Return the release that has these names at these numbers; one before 0.9g where there is none."""
-    for release, layout in _LAYOUTS.items():
-        if max(listing.settings) < len(layout) and all(layout[n] == name for n, name in names.items()):
-            return release
-    return "before 0.9g"
+    """Return the one release that has these names at these numbers; one before 0.9g where several could."""
+    known = {n: name for n, name in names.items() if name in _TODAY}
+    fits = [
+        release
+        for release, layout in _LAYOUTS.items()
+        if max(listing.settings) < len(layout) and all(layout[n] == name for n, name in known.items())
+    ]
+    return fits[0] if len(fits) == 1 else "before 0.9g"
