@@ -73,6 +73,9 @@ GENERAL: dict[str, Callable[..., Any]] = {
 }
 
 
+_TEXT = ("str", str)
+
+
 @cache
 def formulas(family: str) -> dict[str, Callable[..., Any]]:
     """Return name -> function of a family's published formulas."""
@@ -87,22 +90,23 @@ def rule_functions(family: str) -> Mapping[str, Callable[..., Any]]:
 
 
 def _guarded(function: Callable[..., Any]) -> Callable[..., Any]:
-    """Return a function that takes for numbers nothing but doubles.
+    """Return a function that takes for numbers nothing but doubles, and for texts nothing but texts.
 
-    A rule may hand over anything: Python would repeat a text a billion times for a whole number, and reckon a
-    power of ten with a billion digits.
+    A rule may hand over anything, also the null of a value that is not set: Python would repeat a text a
+    billion times for a whole number, and reckon a power of ten with a billion digits.
     """
 
     @cache
-    def takes_number() -> list[bool]:  # of most functions of a family no rule of a file asks
-        places = inspect.signature(function).parameters.values()
-        return [parameter.annotation in NUMBER_ANNOTATIONS for parameter in places]
+    def annotations() -> list[object]:  # of most functions of a family no rule of a file asks
+        return [place.annotation for place in inspect.signature(function).parameters.values()]
 
     @wraps(function)
     def called(*arguments: Any) -> Any:
-        for argument, is_number in zip(arguments, takes_number(), strict=False):
-            if is_number and type(argument) in (str, list, dict):
+        for argument, annotation in zip(arguments, annotations(), strict=False):
+            if annotation in NUMBER_ANNOTATIONS and type(argument) in (str, list, dict):
                 raise TypeError(f"{argument!r:.20} is no number")
+            if annotation in _TEXT and type(argument) is not str:
+                raise TypeError(f"{argument!r:.20} is no text")
         return function(*map(_with_doubles, arguments))
 
     return called

@@ -6,14 +6,16 @@ control is started and stopped as the actions go.
 The same seed makes the same choices; what they meet depends on how fast work in the background is. Each
 action is written to the log as it is done, one JSON list a line; ``python -m tests.faults.monkey FAMILY
 --replay LOG`` does them again, and leaves out what is not there. Prints each error with the actions before
-it, then how much was done; ends with 1 where an error was found: an exception, a message of Qt, an action
-that takes longer than a minute, more memory than the budget, a connection to another machine.
+it, then how much was done; ends with 1 where an error was found: an exception, a message of Qt, a logged
+warning, an action that takes longer than a minute, more memory than the budget, a connection to another
+machine.
 """
 
 from __future__ import annotations
 
 import faulthandler
 import json
+import logging
 import os
 import shutil
 import sys
@@ -21,7 +23,7 @@ import tempfile
 import time
 import traceback
 from collections import deque
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import suppress
 from pathlib import Path
 from random import Random
@@ -105,6 +107,7 @@ class Monkey:
         self.replayed: Iterator[Action] | None = iter(actions) if actions is not None else None
         self.done = 0
         qInstallMessageHandler(self._qt_message)
+        logging.lastResort = _Reporting(self._report)  # what would be printed where nobody looks
         self.application = QApplication([])
         self._answer_system_dialogs()
         sys.excepthook = self._failed
@@ -341,6 +344,17 @@ class Monkey:
     def _open(self, name: str) -> None:
         """Open a file by its name, the project without one."""
         self.window.open_first(self.folder / name)
+
+
+class _Reporting(logging.Handler):
+    """Takes a warning that the program logs for an error."""
+
+    def __init__(self, report: Callable[[str, str], None]) -> None:
+        super().__init__(logging.WARNING)
+        self._report = report
+
+    def emit(self, record: logging.LogRecord) -> None:
+        self._report(f"log of {record.name}", record.getMessage())
 
 
 def _memory() -> int:

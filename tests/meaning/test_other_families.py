@@ -34,6 +34,15 @@ def settings(file: ParameterFile, **answers: str) -> dict[str, str]:
     return dict(line.split("=", 1) for line in text.splitlines() if line.startswith("$"))
 
 
+def test_a_grbl_whose_axes_are_not_set_means_less_and_reports_no_fault(
+    caplog: pytest.LogCaptureFixture,
+) -> None:
+    file = example("grblhal-router")
+    file.set(("build.axes", ""), None)
+    assert "home.search" not in read_meaning(file).axes[0].figures
+    assert caplog.records == []
+
+
 def test_a_mill_is_settings_of_a_grblhal_in_an_order_that_it_takes(tmp_path: Path) -> None:
     found = settings(example("mill-1394"), home_order="Z, X Y, B", home_pull_off="2", steps_X="400")
     assert next(iter(found)) == "$22"

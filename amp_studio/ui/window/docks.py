@@ -364,9 +364,9 @@ class Docks(Translated):
     def _set_small(self, title: str, is_small: bool) -> None:
         if is_small != (title in self._taken):
             with self._moving():
-                self._take(title) if is_small else self._put_back(title)
+                self._make_way(title) if is_small else self._put_back(title)
 
-    def _take(self, title: str) -> None:
+    def _make_way(self, title: str) -> None:
         """Take a dock away that is seen; the parameter comes beside the findings."""
         dock = self._dock(title)
         if dock.isHidden() or dock.isFloating():
