@@ -6,6 +6,7 @@ from __future__ import annotations
 
 import json
 import os
+import re
 import subprocess
 import sys
 import sysconfig
@@ -88,8 +89,15 @@ def test_the_wheel_holds_the_package_the_facts_and_the_examples(checkout: Path, 
         *(f"amp_studio/{name}" for name in files_below(checkout / "parameter_db", within=checkout)),
         *(f"amp_studio/{name}" for name in files_below(checkout / "examples", within=checkout)),
     }
-    held = {name for name in zipfile.ZipFile(wheel).namelist() if ".dist-info/" not in name}
-    assert expected == held
+    names = zipfile.ZipFile(wheel).namelist()
+    assert expected == {name for name in names if not re.search(r"\.(dist-info|data)/", name)}
+    shared = {name.partition(".data/data/")[2] for name in names if ".data/" in name}
+    assert shared == {
+        "share/man/man1/amp-studio.1",
+        "share/bash-completion/completions/amp-studio",
+        "share/zsh/site-functions/_amp-studio",
+        "share/fish/vendor_completions.d/amp-studio.fish",
+    }
 
 
 def test_the_installed_program_reads_the_facts_of_the_wheel(installed: Installed, tmp_path: Path) -> None:

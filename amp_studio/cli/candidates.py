@@ -90,7 +90,14 @@ def axes(named: str, current: str) -> Sequence[str]:  # noqa: ARG001  # every co
 
 
 def parameters(named: str, current: str) -> Iterator[str]:
-    """Yield numbers and ids, those of active parameters; an instance only once its ``@`` is typed."""
+    """Yield numbers and ids, of a family all, of a file those of parameters that its machine has; an instance
+    only once its ``@`` is typed.
+    """
+    from amp_studio.schema import family_ids
+
+    if named in family_ids():
+        yield from _of_family(named, current)
+        return
     for file in _files(named):
         for address in file.addresses():
             if file.evaluation.state(address).state == "hidden":
@@ -102,6 +109,20 @@ def parameters(named: str, current: str) -> Iterator[str]:
                 yield "@".join(filter(None, address))
             else:
                 yield address[0]
+
+
+def _of_family(family: str, current: str) -> Iterator[str]:
+    """Yield what a person may call a parameter of a family, on any machine type."""
+    from amp_studio.schema import load_schema
+
+    schema = load_schema(family)
+    everywhere = [schema.on(machine) for machine in schema.machines]
+    for parameter in schema.parameters.values():
+        numbers = dict.fromkeys(n for here in everywhere for n in here.numbers(parameter).values())
+        yield from (number for number in numbers if number.casefold().startswith(current.casefold()))
+        instances = dict.fromkeys(i for here in everywhere for i in here.instances(parameter) if i)
+        yield from (f"{parameter.id}@{i}" for i in instances if "@" in current)
+        yield parameter.id
 
 
 def assignments(named: str, current: str) -> Iterator[str]:

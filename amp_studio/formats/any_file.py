@@ -2,27 +2,28 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Callable
 from pathlib import Path
 
 from amp_studio.files import ENDING, ParameterFile, ParameterFileError, file_content, read_content
 
 from .import_export import all_formats, import_file
+from .report_pdf import HEAD, is_pdf
 from .text_format import FamilyNotGivenError, FormatError, text_to_recognise
-
-_HEAD = re.compile(rb"(?m)^(?:\xef\xbb\xbf)?amp_studio[ \t]*:")
-"""The line by which a parameter file is known, under whatever name."""
 
 
 def is_text_of_control(path: Path) -> bool:
-    """Return whether a file is a control's own text; raises ParameterFileError where it cannot be read."""
+    """Return whether a file is a control's own text, or a report with its machine; raises ParameterFileError
+    where it cannot be read.
+    """
     return path.suffix.casefold() != ENDING and _is_text(file_content(path))
 
 
 def _is_text(content: bytes) -> bool:
+    if is_pdf(content):
+        return True
     text = text_to_recognise(content)
-    return not _HEAD.search(content) and any(each.recognises(text) for each in all_formats())
+    return not HEAD.search(content) and any(each.recognises(text) for each in all_formats())
 
 
 def open_for_reading(

@@ -11,7 +11,9 @@ from amp_studio.files import (
     Header,
     Notify,
     ParameterFile,
+    ParameterFileError,
     erased_question,
+    read_content,
     secret_values,
     set_value_note,
     without_secrets,
@@ -32,6 +34,7 @@ from amp_studio.schema import (
 
 from . import values_csv
 from .account import Account, account_of_export, account_of_import
+from .report_pdf import attached_machine, is_pdf
 from .text_format import (
     FamilyNotGivenError,
     FormatError,
@@ -46,6 +49,8 @@ GENERAL: tuple[TextFormat, ...] = (values_csv.FORMAT,)
 """Formats of every family."""
 _MOST_BYTES = 4 * 2**20
 """Some ten times what the largest family would fill in its longest format."""
+_MOST_PDF = 64 * 2**20
+"""Some ten times the longest report."""
 
 
 def all_formats() -> tuple[TextFormat, ...]:
@@ -85,7 +90,9 @@ def import_file(
     path = Path(path)
     if family:
         load_schema(family)  # of an unknown one nothing is a format
-    content = _as_utf8(read_file(path, _MOST_BYTES))
+    content = _as_utf8(read_file(path, _MOST_PDF if path.suffix.casefold() == ".pdf" else _MOST_BYTES))
+    if is_pdf(content):
+        return _machine_of_report(path, content, family, take_account)
     chosen = _format_for_reading(content, family, format_key)
     text = _decoded(content, chosen)
     schema = load_schema(family or _only_family(chosen, text))
@@ -102,10 +109,29 @@ def import_file(
     return file
 
 
+def _machine_of_report(
+    path: Path, content: bytes, family: str | None, take_account: Callable[[Account], object]
+) -> ParameterFile:
+    """Return the machine that is attached to a report; secrets are not in it. Raises FormatError."""
+    attached = attached_machine(content)
+    if attached is None:
+        raise FormatError("is a PDF that has no machine with it: a report of this program has one")
+    try:
+        file = read_content(path, attached)
+    except ParameterFileError as error:
+        raise FormatError(f"the machine in it {error.what}") from None
+    if family and family != file.schema.family.family:
+        raise FormatError(f"the machine in it is one of {file.schema.family.name}")
+    take_account(Account(written=len(file.values)))
+    return file
+
+
 def offer_of(path: Path, family: str | None = None) -> TextOffer | None:
     """Return what may be decided about a text before it is imported; None if there is nothing.
     Raises OSError.
     """
+    if path.suffix.casefold() == ".pdf":
+        return None
     content = _as_utf8(read_file(path, _MOST_BYTES))
     try:
         chosen = _format_for_reading(content, family, None)

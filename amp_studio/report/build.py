@@ -101,6 +101,10 @@ def build_report(
         else tuple(_in_words(figure, language) for figure in motion),
         power_up=() if "power-up" in contents.without else tuple(_power_up(file, language)),
         exchanges=() if "exchanges" in contents.without else tuple(exchanges),
+        family_id=family.family,
+        file_data=_file_data(file, source),
+        totals=_totals(file, found, now),
+        machine_file=content_of(without_secrets(file)).decode("utf-8"),
         help={i: tuple(_help(file.schema, i, language)) for i in dict.fromkeys(row.id for row in printed)},
     )
 
@@ -168,7 +172,7 @@ def _machine(file: ParameterFile, of_project: ProjectInfo | None) -> list[tuple[
 def _facts(file: ParameterFile, source: Path | None, contents: Contents) -> list[tuple[str, str]]:
     units = file.header.units if contents.units == "file" else UNIT_CHOICES[contents.units]
     return [
-        ("File", str(source) if source else "not saved yet"),
+        ("File", source.name if source else "not saved yet"),
         _checksum(file, source),
         ("Schema signature", _signature(file)),
         ("Unit system", units),
@@ -228,6 +232,37 @@ def _counts(file: ParameterFile, found: Rows, printed: int, now: Present) -> lis
     if file.unknown:
         counts.append(("Unknown entries, kept in the file", str(len(file.unknown))))
     return counts
+
+
+def _file_data(file: ParameterFile, source: Path | None) -> dict[str, str | bool | None]:
+    """Return what is known of the file as data; the checksum is that of the values that are printed."""
+    return {
+        "sha256": _digest(without_secrets(file)),
+        "without_secrets": without_secrets(file) is not file,
+        "saved": source is not None,
+        "signature": file.schema.signature,
+        "written_under": file.header.signature or None,
+        "units": file.header.units,
+    }
+
+
+def _totals(file: ParameterFile, found: Rows, now: Present) -> dict[str, int]:
+    rows = found.rows
+    return {
+        "errors": _severity(now.findings, "error"),
+        "warnings": _severity(now.findings, "warning"),
+        "advice": _severity(now.findings, "advice"),
+        "values": len(rows),
+        "changed": sum(r.is_changed for r in rows),
+        "no_default": sum(r.no_default for r in rows),
+        "forced": len(file.forced),
+        "not_set": sum(_is_missing(r) for r in rows),
+        "ignored": sum(r.state == "ignored" for r in rows),
+        "unusable": sum(r.state == "unusable" for r in rows),
+        "hidden": found.hidden,
+        "unfitted": found.unfitted,
+        "unknown": len(file.unknown),
+    }
 
 
 def _severity(findings: Sequence[Finding], severity: str) -> int:

@@ -6,7 +6,7 @@ Texts are not escaped; each format escapes them itself.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from datetime import datetime
 
 from amp_studio.schema import MASKED, ParameterState
@@ -92,6 +92,10 @@ class ReportRow:
     """When and by whom it was forced out of range; empty when it was not."""
     note: str = ""
     """What a person noted about it."""
+    data: float | bool | str | None = None
+    """The value as data: a number in ``unit``, the label of a choice; None when it is not set, or secret."""
+    default_data: float | bool | str | None = None
+    """The default likewise."""
 
     @property
     def anchor(self) -> str:
@@ -314,6 +318,29 @@ class Report:
     exchanges: tuple[ExchangeLine, ...]
     help: dict[str, tuple[tuple[str, str], ...]]
     """Id of a printed parameter -> (title, text) of its help and its page."""
+    family_id: str = ""
+    file_data: dict[str, str | bool | None] = field(default_factory=dict)
+    """Of the file: checksum, signature, unit system, as data."""
+    totals: dict[str, int] = field(default_factory=dict)
+    """The counts of the cover as data."""
+    machine_file: str = ""
+    """The parameter file that is printed, without its secrets."""
+
+    @property
+    def machine_name(self) -> str:
+        """The name of the parameter file that a PDF has with it."""
+        return self.file_name or f"{self.title}.amp"
+
+    @property
+    def subject(self) -> str:
+        """What the report is about, in a line."""
+        text = language_of(self.contents.language).text
+        return f"{text('Machine parameters')} {text(self.order)}, {self.family}"
+
+    @property
+    def keywords(self) -> tuple[str, ...]:
+        """By what a search finds it: family, machine and file."""
+        return tuple(dict.fromkeys(filter(None, (self.family, self.title, self.file_name))))
 
     @property
     def order(self) -> str:

@@ -21,6 +21,7 @@ from amp_studio.schema import (
 
 from .axes import axis_label, place_of, printed_axes, scope_of
 from .contents import UnitChoice
+from .data_values import data_of
 from .language import ENGLISH, Language
 from .model import ReportRow
 
@@ -131,6 +132,8 @@ def row_of(
         state_mark=state_mark,
         forced=with_local_times(file.forced.get(address, "")),
         note=" ".join(value_note(file, address).split()),
+        data=None if parameter.secret else data_of(parameter, value),
+        default_data=data_of(parameter, _converted(default, unit)),
     )
 
 

@@ -13,9 +13,10 @@ from .apart import What, made_apart
 from .build import build_report
 from .contents import Contents
 from .model import ExchangeLine, PrintedFigure, Report
-from .output.everything import render_json, render_workbook
+from .output.data import render_json
+from .output.everything import render_workbook
 from .output.page import render_html
-from .output.pdf import SetReport, render_pdf
+from .output.pdf import PdfContent, SetReport, render_pdf
 from .output.table_csv import render_csv
 from .output.text import render_text
 from .templating.templates import TemplateMistakeError, own_template
@@ -68,6 +69,8 @@ def print_report(
     )
     content, mistake = _rendered(report, path.suffix.lower(), folder)
     write_atomic(path, content, keep_backup=False, notify=notify)
+    if isinstance(content, PdfContent) and content.note:
+        notify(content.note)
     if mistake:
         notify(mistake.then("The standard report was written"))
     return mistake is None

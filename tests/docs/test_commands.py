@@ -160,7 +160,7 @@ def stage(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Stage]:
     if not os.environ.get(
         "AMP_STUDIO_FULL"
     ):  # a second a paper, which tests/report sets; all else of a paper is made
-        monkeypatch.setattr("amp_studio.report.output.pdf.set_pdf", lambda source, options: b"%PDF-")
+        monkeypatch.setattr("amp_studio.report.output.pdf.set_pdf", lambda source, options: (b"%PDF-", ""))
     stage = Stage(tmp_path)
     yield stage
     stage.close()

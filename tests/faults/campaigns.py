@@ -218,6 +218,7 @@ CAMPAIGNS = (
         100,
         5_000,
     ),
+    Campaign("damaged reports", partial(_damaged, own_contents.fuzz_reports), MANY, 100, 5_000),
     Campaign("damaged pins of LinuxCNC", partial(_damaged, own_contents.fuzz_pins), MANY, 100, 5_000),
     Campaign(
         "damaged unloads of a NUM control", partial(_damaged, own_contents.fuzz_unloads), MANY, 200, 5_000

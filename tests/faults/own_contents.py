@@ -6,6 +6,7 @@ from __future__ import annotations
 
 import contextlib
 import random
+import zlib
 from collections.abc import Iterator
 from pathlib import Path
 
@@ -16,6 +17,7 @@ from amp_studio.families.linuxcnc.control.content import Configuration, Configur
 from amp_studio.families.num.emulated.control import NumControl
 from amp_studio.families.num.lines.content import NumTableContent, content_of_table, words_of_table
 from amp_studio.families.num.lines.table_reader import TableReader
+from amp_studio.formats.report_pdf import attached_machine
 from amp_studio.transfer.content import kind_of
 from amp_studio.transfer.emulated.line_device import DeviceSetup, LineDevice
 from amp_studio.transfer.emulated.memory import Memory
@@ -114,6 +116,20 @@ def fuzz_pins(seed: int, count: int) -> list[str]:
         running.status_from(file, shown, "configuration")
 
     return violations((damaged(PINS, chance) for _ in range(count)), look, (TransferError,))
+
+
+REPORT = (
+    b"%PDF-1.7\n1 0 obj\n<</Type /EmbeddedFile /Filter /FlateDecode>>\nstream\n"
+    + zlib.compress(b"amp_studio: 1\nfamily: 9pc\n" * 40)
+    + b"\nendstream\nendobj\n"
+)
+"""As much of a report as its reader needs."""
+
+
+def fuzz_reports(seed: int, count: int) -> list[str]:
+    """Read the machine of damaged reports."""
+    chance = random.Random(seed)
+    return violations((damaged(REPORT, chance) for _ in range(count)), attached_machine, ())
 
 
 def _unload(data: bytes) -> None:

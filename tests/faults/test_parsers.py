@@ -110,6 +110,7 @@ READERS = {
     "formats/spreadsheet_block.py": "pasted blocks of cells",
     "formats/values_csv.py": "damaged texts of controls",
     "programs/source.py": "damaged part programs",
+    "report/build.py": "",  # the values of the open file, written by the program
     "report/output/page.py": "",  # the program's own drawings, in letters of base64
     "report/output/pdf.py": "",  # what Typst found on pages that it has set
     "report/templating/starting.py": "",  # a file of the program itself

@@ -217,10 +217,7 @@ def test_the_report_as_json_and_as_workbook_has_every_value(tmp_path: Path, mill
         print_report(mill, tmp_path / f"r{ending}", Contents(inactive=True), date=DATE)
     document = json.loads((tmp_path / "r.json").read_text("utf-8"))
     values = {(v["id"], v["instance"]): v for v in document["values"]}
-    assert (values["home.calibration", "1"]["value"], values["home.calibration", "1"]["unit"]) == (
-        "12.5",
-        "mm",
-    )
+    assert (values["home.calibration", "1"]["value"], values["home.calibration", "1"]["unit"]) == (12.5, "mm")
     assert document["title"] == "Mill 7"
     assert any(f["severity"] == "error" for f in document["findings"])
     from openpyxl import load_workbook
@@ -229,7 +226,7 @@ def test_the_report_as_json_and_as_workbook_has_every_value(tmp_path: Path, mill
     assert book.sheetnames[0] == "Values"
     rows = list(book["Values"].iter_rows(values_only=True))
     assert len(rows) == len(document["values"]) + 1
-    assert (12.5, "mm") in {(row[5], row[6]) for row in rows}
+    assert (12.5, "mm") in {(row[6], row[7]) for row in rows}
     notes = list(book["Notes"].iter_rows(values_only=True))
     assert notes == [
         ("about", "note"),
@@ -237,8 +234,23 @@ def test_the_report_as_json_and_as_workbook_has_every_value(tmp_path: Path, mill
         ("Home Parameters", NASTY),
     ]
     assert [row[1] for row in book["Axes"].iter_rows(values_only=True)] == ["Name", "X", "Y", "Z", "B", "S"]
-    assert [axis["Name"] for axis in document["axes"]] == ["X", "Y", "Z", "B", "S"]
-    assert (document["notes"], document["noted"]) == (
-        "Rebuilt in 2019.\nNew drives.",
-        [{"about": "Home Parameters", "note": NASTY}],
-    )
+    assert [axis["letter"] for axis in document["axes"]] == ["X", "Y", "Z", "B", "S"]
+    assert document["notes"] == {
+        "machine": "Rebuilt in 2019.\nNew drives.",
+        "others": [{"about": "Home Parameters", "text": NASTY}],
+    }
+
+
+def test_a_workbook_is_ready_to_print(tmp_path: Path, mill: ParameterFile) -> None:
+    from openpyxl import load_workbook
+
+    print_report(mill, tmp_path / "r.xlsx", Contents(paper="letter"), date=DATE)
+    book = load_workbook(tmp_path / "r.xlsx")
+    assert book.properties.title == "Mill 7 – Machine parameters by group, Allen-Bradley 9/PC AMP"
+    assert book.properties.creator.startswith("AMP Studio ")
+    values = book["Values"]
+    assert (values.page_setup.orientation, values.page_setup.paperSize) == ("landscape", 1)
+    assert (values.page_setup.fitToWidth, values.page_setup.fitToHeight) == (1, 0)
+    assert values.sheet_properties.pageSetUpPr.fitToPage
+    assert values.print_title_rows == "$1:$1"
+    assert {"X", "Y", "Z", "B", "S"} <= {row[3] for row in values.iter_rows(values_only=True)}

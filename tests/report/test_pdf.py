@@ -7,6 +7,7 @@ import shutil
 import subprocess
 import sys
 from collections.abc import Callable
+from datetime import UTC, datetime
 from pathlib import Path
 
 import pytest
@@ -17,6 +18,8 @@ from amp_studio.report.build import build_report
 from amp_studio.report.contents import Sort
 from amp_studio.report.output.pdf import typeset
 from tests.report.conftest import IN_EVERY_ORDER
+
+DATE = datetime(2026, 7, 1, 14, 5, tzinfo=UTC)
 
 poppler = pytest.mark.skipif(shutil.which("pdfinfo") is None, reason="needs poppler's tools")
 
@@ -113,4 +116,4 @@ def test_only_fonts_that_travel_in_the_file_are_used(printed: Callable[..., Path
 def test_typst_runs_in_a_process_apart(monkeypatch: pytest.MonkeyPatch) -> None:
     """It keeps about 100 MB of each document where it runs."""
     monkeypatch.setitem(sys.modules, "typst", None)
-    assert typeset("one").startswith(b"%PDF")
+    assert typeset("one", DATE).startswith(b"%PDF")

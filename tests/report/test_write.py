@@ -163,7 +163,7 @@ def test_writing_a_report_changes_nothing_in_the_file(
     tmp_path: Path, mill: ParameterFile, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(
-        "amp_studio.report.output.pdf._as_pdf", lambda source, root: b"%PDF-"
+        "amp_studio.report.output.pdf.set_pdf", lambda source, options: (b"%PDF-", "")
     )  # knows no file
     before, forced = dict(mill.values), dict(mill.forced)
     for ending in FORMATS:

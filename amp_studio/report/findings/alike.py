@@ -8,6 +8,7 @@ from itertools import groupby
 
 from amp_studio.files import ParameterFile, axis_letter
 from amp_studio.report.axes import axis_label, scope_of
+from amp_studio.report.data_values import data_of
 from amp_studio.report.language import ENGLISH, Language
 from amp_studio.report.wording import joined_places, severity_name
 from amp_studio.schema import Address, show_value
@@ -90,8 +91,16 @@ def _note(
         message=language.finding(same[0]) + effective,
         fix="; ".join(_settings(file, fix, language)) + brought,
         page=same[0].page or language.title(same[0].reason),
+        rule=same[0].rule,
+        addresses=tuple(dict.fromkeys(a for f in same for a in f.addresses)),
+        changes=tuple((s.address, _new_value(file, s), s.value.unit) for s in fix),
         is_own=same[0].is_own or bool(same[0].reason),
     )
+
+
+def _new_value(file: ParameterFile, setting: AddressedValue) -> float | bool | str | None:
+    parameter = file.schema.parameters[setting.address[0]]
+    return None if parameter.secret else data_of(parameter, setting.value)
 
 
 def _places(file: ParameterFile, addresses: Sequence[Address]) -> str:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Literal
 
-from amp_studio.schema import Severity
+from amp_studio.schema import Address, Severity
 
 NoteKind = Severity | Literal["suppressed"]
 
@@ -23,6 +23,11 @@ class Note:
     message: str
     fix: str
     page: str
+    rule: str = ""
+    addresses: tuple[Address, ...] = ()
+    """All values that it is about."""
+    changes: tuple[tuple[Address, float | bool | str | None, str], ...] = ()
+    """What its fix sets: address, new value as data (None for a secret) and its unit."""
     is_own: bool = False
     """Whether ``page`` is a source in words: the place in a builder's rules file,
     or why a rule is so that no manual states."""

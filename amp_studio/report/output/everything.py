@@ -1,8 +1,6 @@
-"""The whole report as data: JSON, and a workbook with a sheet for each kind of it."""
+"""The whole report as a workbook with a sheet for each kind of it."""
 
 from __future__ import annotations
-
-import json
 
 from amp_studio.report.model import Report, ReportRow
 from amp_studio.schema import write_figure
@@ -11,57 +9,20 @@ from .table_csv import HEADS, line_of
 from .workbook import WorkbookCell, WorkbookSheet, workbook
 
 
-def render_json(report: Report) -> bytes:
-    """Return the report as one JSON document; every value to its last digit, as text with its unit beside
-    it.
-    """
-    document = {
-        "title": report.title,
-        "family": report.family,
-        "printed": report.date.isoformat(timespec="seconds"),
-        "program": report.program,
-        "machine": dict(report.machine),
-        "document": dict(report.facts),
-        "counts": dict(report.counts),
-        "notes": report.remarks,
-        "noted": [{"about": about, "note": text} for about, text in report.remarked],
-        "axes": [dict(zip(report.axis_heads, line, strict=True)) for line in report.axes],
-        "values": [
-            dict(zip(HEADS, line_of(row), strict=True)) | {"place": row.place, "why": row.why}
-            for row in report.rows()
-        ],
-        "findings": [
-            {
-                "severity": note.severity,
-                "count": note.count,
-                "place": note.place,
-                "about": [label for _, label in note.about],
-                "message": note.message,
-                "fix": note.fix,
-                "page": note.page,
-            }
-            for note in report.notes
-        ],
-        "not_set": [
-            {"number": number, "name": name, "place": place} for number, name, place in report.not_set
-        ],
-        "power_up": [{name: getattr(each, name) for name in each.__slots__} for each in report.power_up],
-        "exchanges": [{name: getattr(each, name) for name in each.__slots__} for each in report.exchanges],
-    }
-    return (json.dumps(document, ensure_ascii=False, indent=1) + "\n").encode("utf-8")
-
-
 def render_workbook(report: Report) -> bytes:
     """Return the report as XLSX: values, findings, what is not set, exchanges, notes, axes, machine.
     Numbers are numbers.
     """
-    heads = tuple(head.replace("_", " ") for head in HEADS)
+    heads = [head.replace("_", " ") for head in HEADS]
+    place = HEADS.index("instance") + 1
+    heads.insert(place, "belongs to")
     number_columns = {HEADS.index("value"), HEADS.index("default")}
-    values = [
-        tuple(_number(text, row) if n in number_columns else text for n, text in enumerate(line_of(row)))
-        for row in report.rows()
-    ]
-    sheets = [WorkbookSheet("Values", heads, values)]
+    values = []
+    for row in report.rows():
+        line = [_number(text, row) if n in number_columns else text for n, text in enumerate(line_of(row))]
+        line.insert(place, row.place)
+        values.append(tuple(line))
+    sheets = [WorkbookSheet("Values", tuple(heads), values)]
     findings = [
         (n.severity, n.count, n.place, ", ".join(x for _, x in n.about), n.message, n.fix, n.page)
         for n in report.notes
@@ -85,7 +46,8 @@ def render_workbook(report: Report) -> bytes:
     if report.axes:
         sheets.append(WorkbookSheet("Axes", report.axis_heads, report.axes))
     about = (("", report.title), ("Printed", report.when), *report.machine, *report.facts, *report.counts)
-    return workbook([*sheets, WorkbookSheet("Machine", ("", ""), about)])
+    every = [*sheets, WorkbookSheet("Machine", ("", ""), about)]
+    return workbook(every, f"{report.title} – {report.subject}", report.program, report.contents.paper)
 
 
 def _number(text: str, row: ReportRow) -> WorkbookCell:

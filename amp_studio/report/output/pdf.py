@@ -14,6 +14,7 @@ import re
 import tempfile
 from collections.abc import Iterator
 from dataclasses import dataclass
+from datetime import datetime
 from pathlib import Path
 from typing import Any
 
@@ -22,7 +23,8 @@ from amp_studio.report.model import MARKS, Report, printable
 from amp_studio.report.templating.templates import TEMPLATES, TemplateMistakeError, filled, line_of_source
 from amp_studio.schema import Address
 
-from .typesetter import set_pdf
+from .data import render_json
+from .typesetter import compiled, set_pdf
 
 _BREAK = "\u200b"
 """Zero-width space: a possible line break."""
@@ -37,6 +39,20 @@ _PACKAGE = re.compile(r'(?:import|include)\s*"@')
 _FAMILY = re.compile(r'font-family="[^"]*"')
 _BRIEF = 40
 """Most characters of a text in the page header."""
+
+
+class PdfContent(bytes):
+    """A PDF, and what a person has to know about it."""
+
+    note: str = ""
+    """Why it is no PDF/A and PDF/UA; empty where it is."""
+
+    @classmethod
+    def noted(cls, content: bytes, note: str) -> PdfContent:
+        """Return a content with its note."""
+        pdf = cls(content)
+        pdf.note = note
+        return pdf
 
 
 class Exact(str):
@@ -133,18 +149,16 @@ def _drawing(svg: str) -> Exact:
     )
 
 
-def render_pdf(report: Report, own: Path | None = None) -> bytes:
+def render_pdf(report: Report, own: Path | None = None) -> PdfContent:
     """Return the PDF; equal reports have equal bytes. ``own`` is a template of the project: for a process
     apart. Raises TemplateMistakeError, ReportNotMadeError.
     """
     source = typst_source(report, own)
+    attached = {"machine": report.machine_file, "report": render_json(report).decode("utf-8")}
     if own is None:
-        return typeset(source)
-    import typst
-
+        return PdfContent.noted(*set_pdf(source, _options(source, TEMPLATES) | {"sys_inputs": attached}))
     with _mistakes(source, own):
-        pdf: bytes = typst.compile(source.encode("utf-8"), format="pdf", **_options(source, own.parent))
-        return pdf
+        return PdfContent.noted(*compiled(source, _options(source, own.parent) | {"sys_inputs": attached}))
 
 
 def set_pages(report: Report, ppi: int, own: Path | None = None) -> SetReport:
@@ -185,9 +199,10 @@ def _mistakes(source: str, own: Path | None) -> Iterator[None]:
         raise TemplateMistakeError(own, f"{line}Typst: {error}") from None
 
 
-def typeset(source: str) -> bytes:
-    """Return the PDF of Typst source; raises ReportNotMadeError."""
-    return set_pdf(source, _options(source, TEMPLATES))
+def typeset(source: str, date: datetime) -> PdfContent:
+    """Return the PDF of Typst source, made at a date with its zone; raises ReportNotMadeError."""
+    when = {"timestamp": date.replace(microsecond=0).isoformat()}
+    return PdfContent.noted(*set_pdf(source, _options(source, TEMPLATES) | when))
 
 
 def _options(source: str, root: Path) -> dict[str, Any]:

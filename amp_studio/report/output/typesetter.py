@@ -7,28 +7,56 @@ The process loads this module and Typst, and nothing else of the program: it tak
 from __future__ import annotations
 
 import json
+import re
 
 TYPE_CHECKING = False  # the typing module is not loaded for it
 if TYPE_CHECKING:
     from typing import Any, BinaryIO
 
 
-def set_pdf(source: str, options: dict[str, Any]) -> bytes:
-    """Return the PDF of Typst source; ``options`` are those of ``typst.compile`` that JSON can have.
+_STANDARDS = ["a-3a", "ua-1"]
+"""PDF/A-3a, to be kept, which may have files attached (PDF/A-2a may not), and PDF/UA-1, to be read aloud."""
+_NO_FONT = re.compile(r'the text `"(.+?)"` could not be displayed')
 
-    Raises ReportNotMadeError.
-    """
+
+def set_pdf(source: str, options: dict[str, Any]) -> tuple[bytes, str]:
+    """Return what ``compiled`` returns, from a process apart. Raises ReportNotMadeError."""
     from amp_studio.report.process import ReportNotMadeError, run_apart
 
     try:
-        return run_apart(__name__, json.dumps([source, options]).encode("ascii"))
+        answered = run_apart(__name__, json.dumps([source, options]).encode("ascii"))
     except ReportNotMadeError as error:
         raise ReportNotMadeError(f"The PDF {error}") from None
+    note, _, pdf = answered.partition(b"\n")
+    return pdf, json.loads(note)
 
 
 def answer(asked: BinaryIO, out: BinaryIO) -> None:
     """Set what ``set_pdf`` asks for, in the process apart."""
+    pdf, note = compiled(*json.load(asked))
+    out.write(json.dumps(note).encode("ascii") + b"\n" + pdf)
+
+
+def compiled(source: str, options: dict[str, Any]) -> tuple[bytes, str]:
+    """Return the PDF of Typst source, and why it does not keep to the standards; empty where it does.
+
+    It does not where no font here has a script, or where a drawing of a project's template has no words.
+    ``options`` are those of ``typst.compile`` that JSON can have, a timestamp as its text.
+    Raises TypstError.
+    """
+    from datetime import datetime
+
     import typst
 
-    source, options = json.load(asked)
-    out.write(typst.compile(source.encode("utf-8"), format="pdf", **options))
+    given: dict[str, Any] = {**options, "format": "pdf"}
+    if "timestamp" in given:
+        given["timestamp"] = datetime.fromisoformat(given["timestamp"])
+    content = source.encode("utf-8")
+    standards: Any = _STANDARDS
+    try:
+        return typst.compile(content, pdf_standards=standards, **given), ""
+    except typst.TypstError as error:
+        plain = typst.compile(content, **given)
+        lacks = _NO_FONT.search(str(error))
+        why = f"no font here has the character {lacks[1]}" if lacks else str(error.message)
+        return plain, f"The PDF does not keep to PDF/A and PDF/UA: {why}"

@@ -10,6 +10,9 @@ import re
 import zipfile
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
+from typing import Any
+
+from amp_studio.report.contents import PaperSize
 
 WorkbookCell = str | float | int | None
 
@@ -18,6 +21,12 @@ _MOST_NAME = 31
 _WIDEST = 60
 _TIME = re.compile(rb"\d{4}-\d\d-\d\dT\d\d:\d\d:\d\dZ")
 _MOST_TEXT = 32_767
+_MOST_FOOT = 100
+"""Characters of the title at the foot of a page; all of a foot are 255 at most."""
+_PAPERS: dict[PaperSize, int] = {"a4": 9, "letter": 1}
+"""Paper -> its number in a workbook."""
+_MARGIN = 0.35
+"""Inches."""
 
 
 @dataclass(frozen=True)
@@ -29,13 +38,20 @@ class WorkbookSheet:
     rows: Sequence[Sequence[WorkbookCell]]
 
 
-def workbook(sheets: Iterable[WorkbookSheet]) -> bytes:
-    """Return the file; heads stay in view and can be filtered by."""
+def workbook(
+    sheets: Iterable[WorkbookSheet], title: str = "", creator: str = "", paper: PaperSize = "a4"
+) -> bytes:
+    """Return the file; heads stay in view and can be filtered by.
+
+    It is ready to print: across the page and as wide as it, with the heads on each page, and title, sheet and
+    page number at the foot.
+    """
     from openpyxl import Workbook
-    from openpyxl.styles import Font
+    from openpyxl.styles import Alignment, Font
 
     book = Workbook()
     book.remove(book.active)
+    book.properties.title, book.properties.creator = _text(title) or None, _text(creator) or None
     names: set[str] = set()
     for sheet in sheets:
         page = book.create_sheet(_name(sheet.title, names))
@@ -52,14 +68,31 @@ def workbook(sheets: Iterable[WorkbookSheet]) -> bytes:
                     cell.value = content
                 if has_heads and at == 1:
                     cell.font = Font(bold=True)
+                elif isinstance(content, str) and len(content) > _WIDEST:
+                    cell.alignment = Alignment(wrap_text=True, vertical="top")
         for column, width in _widths(sheet).items():
             page.column_dimensions[page.cell(1, column).column_letter].width = width
         if has_heads:
             page.freeze_panes = "A2"
             page.auto_filter.ref = page.dimensions
+        _set_up_print(page, title, paper, has_heads=has_heads)
     stream = io.BytesIO()
     book.save(stream)
     return _without_times(stream)
+
+
+def _set_up_print(page: Any, title: str, paper: PaperSize, *, has_heads: bool) -> None:
+    """Set up a sheet of openpyxl for paper."""
+    setup = page.page_setup
+    setup.orientation, setup.paperSize = "landscape", _PAPERS[paper]
+    setup.fitToWidth, setup.fitToHeight = 1, 0
+    page.sheet_properties.pageSetUpPr.fitToPage = True
+    page.page_margins.left = page.page_margins.right = _MARGIN
+    page.page_margins.top = page.page_margins.bottom = 2 * _MARGIN
+    if has_heads:
+        page.print_title_rows = "1:1"
+    page.oddFooter.left.text = _text(title).replace("&", "&&")[:_MOST_FOOT]
+    page.oddFooter.center.text, page.oddFooter.right.text = "&A", "&P / &N"
 
 
 def _without_times(content: io.BytesIO) -> bytes:

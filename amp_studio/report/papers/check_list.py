@@ -74,10 +74,15 @@ class CheckList:
     """Whose order the steps have."""
     summary: str
     steps: tuple[ListedStep, ...]
-    when: str
+    date: datetime
     program: str = f"AMP Studio {__version__}"
     language: str = "en"
     """Code of the language of the list's own words."""
+
+    @property
+    def when(self) -> str:
+        """Date and time in printed form."""
+        return language_of(self.language).moment(self.date)
 
 
 def build_check_list(
@@ -102,7 +107,7 @@ def build_check_list(
         order=source,
         summary=done,
         steps=tuple(_listed(file, each, words) for each in now.needed),
-        when=words.moment(date or datetime.now().astimezone()),
+        date=date or datetime.now().astimezone(),
         language=language,
     )
 
@@ -194,7 +199,8 @@ def render_check_list_html(checks: CheckList) -> bytes:
 
 def render_check_list_pdf(checks: CheckList) -> bytes:
     """Return the PDF."""
-    return typeset(filled_template("check_list.typ.j2", language=language_of(checks.language), checks=checks))
+    words = language_of(checks.language)
+    return typeset(filled_template("check_list.typ.j2", language=words, checks=checks), checks.date)
 
 
 CHECK_LIST_FORMATS: dict[str, Callable[[CheckList], bytes]] = {

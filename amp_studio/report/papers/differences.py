@@ -2,19 +2,31 @@
 
 from __future__ import annotations
 
+import hashlib
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from datetime import datetime
 from itertools import groupby
+from pathlib import Path
 
-from amp_studio.files import Comparison, Difference, ParameterFile, by_schema, in_order
+from amp_studio.files import (
+    Comparison,
+    Difference,
+    ParameterFile,
+    by_schema,
+    content_of,
+    in_order,
+    without_secrets,
+)
 from amp_studio.report.axes import place_of
-from amp_studio.report.language import language_of
+from amp_studio.report.dangers import dangers_of_change
+from amp_studio.report.language import Language, language_of
 from amp_studio.report.wording import counted
 from amp_studio.schema import Address, Value, same_value, show_value
 
 from .paper import Paper, PaperTable
 
+_DANGER_SHARES = (8.0, 1.2, 6.0)
 _SHARES = (2.2, 5.0, 2.0, 3.4, 3.4)
 SIDE_BY_SIDE = 6
 """Machines that have a column each; more of them are grouped."""
@@ -38,9 +50,17 @@ def differences_paper(
     if more:
         tables += _by_group(*more, language)
     count = len(found.differences) + (len(more[1]) if more else 0)
+    words = language_of(language, file.schema.family.family)
+    if dangers := dangers_of_change(file, found.differences, words):
+        rows = tuple((d.says, d.page, "; ".join(label for _, label in d.about)) for d in dangers)
+        tables.insert(
+            0, PaperTable(words.text("Dangers"), ("Danger", "Page", "Parameters"), rows, _DANGER_SHARES)
+        )
+    known = {title for title, _ in facts}
+    sides = zip("AB", names, (file, more[0] if more else None), strict=True)
+    own = [fact for side in sides for fact in _side(*side, words) if fact[0] not in known]
     counts = [
-        ("A", names[0]),
-        ("B", names[1]),
+        *own,
         *facts,
         ("Differ", str(count)),
         ("The same", str(found.same)),
@@ -55,8 +75,22 @@ def differences_paper(
         tuple(tables),
         date or datetime.now().astimezone(),
         "Nothing differs.",
+        signed=("Checked by", "Released by"),
         language=language,
     )
+
+
+def _side(letter: str, name: str, file: ParameterFile | None, words: Language) -> Iterator[tuple[str, str]]:
+    """Yield what one side is: its name without its folder, when it was saved, its checksum without
+    secrets.
+    """
+    path = Path(name)
+    is_there = path.is_file()
+    yield letter, path.name if is_there else name
+    if is_there:
+        yield f"{letter} saved", words.moment(datetime.fromtimestamp(path.stat().st_mtime).astimezone())
+    if file is not None:
+        yield f"SHA-256 of {letter}", hashlib.sha256(content_of(without_secrets(file))).hexdigest()
 
 
 def _by_group(file: ParameterFile, differences: Sequence[Difference], language: str) -> Iterator[PaperTable]:

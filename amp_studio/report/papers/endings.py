@@ -7,6 +7,7 @@ from pathlib import Path
 from typing import TypeVar
 
 from amp_studio.files import Notify, write_atomic
+from amp_studio.report.output.pdf import PdfContent
 
 T = TypeVar("T")
 
@@ -22,4 +23,7 @@ def write_by_ending(
         raise ValueError(
             f"{path.name}: unknown format of {what}. Use the file extension {', '.join(formats)}"
         )
-    write_atomic(path, render(printed), keep_backup=False, notify=notify)
+    content = render(printed)
+    write_atomic(path, content, keep_backup=False, notify=notify)
+    if isinstance(content, PdfContent) and content.note:
+        notify(content.note)

@@ -41,7 +41,7 @@ def form_paper(
         tuple((k, v or "_" * 40) for k, v in facts),
         tuple(_tables(file, everything, language_of(language))),
         date or datetime.now().astimezone(),
-        signed=True,
+        signed=("Filled in by", "Checked by"),
         language=language,
     )
 

@@ -11,11 +11,13 @@ from dataclasses import dataclass
 from datetime import datetime
 from pathlib import Path
 
-from amp_studio.files import Notify, text_cell, write_atomic
+from amp_studio.files import Notify, text_cell
 from amp_studio.report.language import Language, language_of
 from amp_studio.report.output.page import filled_page
 from amp_studio.report.output.pdf import filled_template, typeset
 from amp_studio.version import __version__
+
+from .endings import write_by_ending
 
 _OWN_FACTS = frozenset({"Differ", "The same"})
 """Facts in words of the paper."""
@@ -51,8 +53,8 @@ class Paper:
     date: datetime
     empty: str = ""
     """What is printed where there is no table."""
-    signed: bool = False
-    """Whether there are lines for signatures."""
+    signed: tuple[str, ...] = ()
+    """Who signs it: a line each."""
     language: str = "en"
     """Code of the language of the paper's own words."""
 
@@ -90,7 +92,7 @@ def _pdf(paper: Paper) -> bytes:
         raise ValueError(
             f"more than {_MOST_COLUMNS} columns are too many for paper: write it as .html, .xlsx or .csv"
         )
-    return typeset(filled_template("paper.typ.j2", language=paper.words, paper=paper))
+    return typeset(filled_template("paper.typ.j2", language=paper.words, paper=paper), paper.date)
 
 
 def _page(paper: Paper) -> bytes:
@@ -108,7 +110,8 @@ def _workbook(paper: Paper) -> bytes:
     ]
     about = (("", paper.title), *facts, (text("Printed"), paper.when))
     # The tables come first: what takes one sheet alone, as a spreadsheet without a window does, takes them.
-    return workbook([*sheets, WorkbookSheet(text("This document"), ("", ""), about)])
+    every = [*sheets, WorkbookSheet(text("This document"), ("", ""), about)]
+    return workbook(every, f"{paper.title} – {text(paper.kind)}", paper.program)
 
 
 def _csv(paper: Paper) -> bytes:
@@ -148,4 +151,4 @@ def write_paper(paper: Paper, path: Path, notify: Notify = lambda _note: None) -
     SaveError.
     """
     check_paper_ending(path)
-    write_atomic(path, PAPER_FORMATS[path.suffix.lower()](paper), keep_backup=False, notify=notify)
+    write_by_ending(path, PAPER_FORMATS, paper, "a table", notify)

@@ -55,7 +55,12 @@ class PrintedSheet:
     @property
     def when(self) -> str:
         """Date and time in printed form."""
-        return self.words.moment(self.date or datetime.now().astimezone())
+        return self.words.moment(self.printed)
+
+    @property
+    def printed(self) -> datetime:
+        """The moment of printing."""
+        return self.date or datetime.now().astimezone()
 
     @property
     def words(self) -> Language:
@@ -207,9 +212,8 @@ def render_sheet_html(printed: PrintedSheet) -> bytes:
 
 def render_sheet_pdf(printed: PrintedSheet) -> bytes:
     """Return the PDF."""
-    return typeset(
-        filled_template("sheet.typ.j2", language=printed.words, printed=printed, sheet=printed.sheet)
-    )
+    source = filled_template("sheet.typ.j2", language=printed.words, printed=printed, sheet=printed.sheet)
+    return typeset(source, printed.printed)
 
 
 SHEET_FORMATS: dict[str, Callable[[PrintedSheet], bytes]] = {

@@ -13,7 +13,7 @@ from PySide6.QtWidgets import QDialog, QTextBrowser, QVBoxLayout, QWidget
 from amp_studio.find import LinkedParameter, LinkedRule, MessagePage, message_page
 from amp_studio.schema import Address, Schema
 from amp_studio.ui.base.theme import GAP3, colour, scheme
-from amp_studio.ui.base.translated import finding_in_words
+from amp_studio.ui.base.translated import finding_in_words, worded
 
 from .file_page import FilePage
 
@@ -56,24 +56,29 @@ class MessageWindow(QDialog):
         self.text.verticalScrollBar().setValue(at)
 
     def _html(self, page: MessagePage) -> str:
-        message = page.message
-        parts = [f"<p style='font-size:large; font-weight:600'>{escape(message.name)}</p>"]
+        message, family = page.message, self._schema.family.family
+
+        def own(text: str) -> str:
+            return escape(worded(text, family))
+
+        name = own(message.title) if message.title else escape(message.name)
+        parts = [f"<p style='font-size:large; font-weight:600'>{name}</p>"]
         if self._page is None:
             parts.append(f"<p>{escape(self._schema.family.name)}</p>")
         if message.title:
             parts.append(f"<p>{escape(self.tr('The manual does not print the text of this message.'))}</p>")
-        parts.append(f"<p>{escape(message.means)}</p>")
+        parts.append(f"<p>{own(message.means)}</p>")
         parts += self._broken(page.broken)
-        parts += self._listed(self.tr("How to find the cause"), [escape(text) for text in message.causes])
-        parts += self._listed(self.tr("What helps"), [escape(text) for text in message.cures])
+        parts += self._listed(self.tr("How to find the cause"), [own(text) for text in message.causes])
+        parts += self._listed(self.tr("What helps"), [own(text) for text in message.cures])
         parts += self._listed(
             self.tr("Parameters to look at"), [self._parameter(each) for each in page.parameters]
         )
-        rest = [escape(linked.rule.title) for linked in page.rules if not linked.findings]
+        rest = [own(linked.rule.title) for linked in page.rules if not linked.findings]
         title = self.tr("Rules that find it") if self._page is None else self.tr("Rules that are met here")
         parts += self._listed(title, rest)
         if message.note:
-            parts.append(f"<p>{escape(message.note)}</p>")
+            parts.append(f"<p>{own(message.note)}</p>")
         pages = ", ".join(message.every_page)
         parts.append(f"<p>{escape(self.tr('Page {pages}').format(pages=pages))}</p>")
         return "".join(parts)

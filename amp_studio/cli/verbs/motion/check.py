@@ -88,13 +88,15 @@ def _write(options: Options, file: ParameterFile, checks: Sequence[MotionCheck])
 
 def _pdf(title: str, summary: str, head: Sequence[str], rows: Sequence[Sequence[str]]) -> bytes:
     import json
+    from datetime import datetime
 
     from amp_studio.report import typeset
 
     cells = ", ".join(f"[#{json.dumps(cell, ensure_ascii=False)}]" for row in (head, *rows) for cell in row)
     source = (
+        f"#set document(title: {json.dumps(title, ensure_ascii=False)})\n"
         '#set page(paper: "a4", flipped: true, margin: 15mm)\n#set text(size: 9pt)\n'
         f"= #{json.dumps(title, ensure_ascii=False)}\n#{json.dumps(summary)}\n"
         f"#table(columns: (auto, auto, auto, 1fr, 1fr), stroke: 0.4pt, {cells})\n"
     )
-    return typeset(source)
+    return typeset(source, datetime.now().astimezone())

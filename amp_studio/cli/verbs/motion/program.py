@@ -120,11 +120,14 @@ def _write(options: Options, file: ParameterFile, found: ProgramRun) -> None:
 def _pdf(picture: str) -> bytes:
     """Return a page as large as the picture."""
     import json
+    from datetime import datetime
 
     from amp_studio.report import typeset
 
-    image = f'#image(bytes({json.dumps(picture, ensure_ascii=False)}), format: "svg")'
-    return typeset(f"#set page(width: auto, height: auto, margin: 10mm)\n{image}\n")
+    title = '"Path of a part program"'
+    image = f'#image(bytes({json.dumps(picture, ensure_ascii=False)}), format: "svg", alt: {title})'
+    page = f"#set document(title: {title})\n#set page(width: auto, height: auto, margin: 10mm)\n{image}\n"
+    return typeset(page, datetime.now().astimezone())
 
 
 def _start(options: Options, file: ParameterFile) -> Sequence[float] | None:

@@ -1,0 +1,122 @@
+"""The report as data: one JSON document whose keys are names and never headings of a page.
+
+Numbers are numbers in the unit beside them, yes and no are true and false, and what a person or a control
+wrote stays as it is. ``docs/report.schema.json`` describes it; ``FORMAT`` is another where a key changes its
+meaning.
+"""
+
+from __future__ import annotations
+
+import json
+from typing import Any
+
+from amp_studio.report.findings.note import Note
+from amp_studio.report.model import Report, ReportRow
+
+FORMAT = 1
+_FACTS = {
+    "Machine": "name",
+    "Project": "project",
+    "Builder": "builder",
+    "Serial number": "serial_number",
+    "Built": "built",
+    "Machine type": "type",
+    "Application": "application",
+    "Control": "control",
+    "Control software revision": "revision",
+    "Options": "options",
+    "People": "people",
+}
+"""Fact of the cover -> its key; what else the cover has is in other places of the document."""
+_NOTHING = "–"
+
+
+def render_json(report: Report) -> bytes:
+    """Return the report as one JSON document."""
+    return (json.dumps(report_data(report), ensure_ascii=False, indent=1) + "\n").encode("utf-8")
+
+
+def report_data(report: Report) -> dict[str, Any]:
+    """Return the report as plain data."""
+    contents = report.contents
+    rows = list(report.rows())
+    return {
+        "amp_studio_report": FORMAT,
+        "program": report.program,
+        "printed": report.date.isoformat(timespec="seconds"),
+        "language": contents.language,
+        "title": report.title,
+        "family": {"id": report.family_id, "name": report.family},
+        "machine": {
+            _FACTS[title]: None if body == _NOTHING else body
+            for title, body in report.machine
+            if title in _FACTS
+        },
+        "file": {"name": report.file_name or None, **report.file_data},
+        "contents": {
+            "order": contents.sort,
+            "changed_only": contents.changed_only,
+            "inactive": contents.inactive,
+            "units": contents.units,
+        },
+        "counts": report.totals | {"printed": len(rows)},
+        "notes": {
+            "machine": report.remarks,
+            "others": [{"about": about, "text": text} for about, text in report.remarked],
+        },
+        "axes": [
+            {"axis": line[0], "letter": None if line[1] == _NOTHING else line[1], "values": int(line[-3])}
+            for line in report.axes
+        ],
+        "values": [_value(row) for row in rows],
+        "findings": [_finding(note) for note in report.notes],
+        "not_set": [{"number": n or None, "name": name, "place": place} for n, name, place in report.not_set],
+        "dangers": [
+            {"text": danger.says, "page": danger.page, "about": [_address(a) for a, _ in danger.about]}
+            for danger in report.dangers
+        ],
+        "power_up": [{name: getattr(each, name) for name in each.__slots__} for each in report.power_up],
+        "exchanges": [{name: getattr(each, name) for name in each.__slots__} for each in report.exchanges],
+    }
+
+
+def _address(anchor: str) -> dict[str, str]:
+    parameter, _, instance = anchor.rpartition("@")
+    return {"id": parameter, "instance": instance}
+
+
+def _value(row: ReportRow) -> dict[str, Any]:
+    return {
+        "id": row.id,
+        "instance": row.instance,
+        "number": row.number or None,
+        "name": row.name,
+        "group": row.group,
+        "place": row.place or None,
+        "value": row.data,
+        "unit": row.unit or None,
+        "default": row.default_data,
+        "set": row.is_set,
+        "changed": row.is_changed,
+        "default_printed": not row.no_default,
+        "state": row.state,
+        "why": row.why or None,
+        "forced": row.forced or None,
+        "note": row.note or None,
+    }
+
+
+def _finding(note: Note) -> dict[str, Any]:
+    return {
+        "rule": note.rule,
+        "severity": note.severity,
+        "count": note.count,
+        "about": [{"id": parameter, "instance": instance} for parameter, instance in note.addresses],
+        "message": note.message,
+        "fix": [
+            {"id": parameter, "instance": instance, "value": value, "unit": unit or None}
+            for (parameter, instance), value, unit in note.changes
+        ],
+        "page": None if note.is_own else note.page or None,
+        "source": note.page if note.is_own else None,
+    }

@@ -1,0 +1,61 @@
+"""The report as data: numbers are numbers, keys are names, and the schema in the documents describes it."""
+
+import json
+from pathlib import Path
+from typing import Any
+
+import pytest
+from jsonschema import Draft7Validator
+
+from amp_studio.files import open_file
+from amp_studio.files.example_files import examples_folder
+from amp_studio.report import Contents
+from amp_studio.report.build import build_report
+from amp_studio.report.output.data import report_data
+from amp_studio.schema import Value
+
+EXAMPLES = sorted(examples_folder().glob("*/*.amp"))
+
+
+@pytest.fixture(scope="module")
+def schema(checkout: Path) -> Draft7Validator:
+    return Draft7Validator(json.loads((checkout / "docs/report.schema.json").read_text("utf-8")))
+
+
+@pytest.fixture(scope="module")
+def broken() -> dict[str, Any]:
+    file = open_file(examples_folder() / "mill-1394" / "MILL_1394.amp").file
+    file.set(("servo.excess_error", "1"), Value(0.2, "in"))
+    return report_data(build_report(file, Contents(language="de", inactive=True)))
+
+
+@pytest.mark.parametrize("path", EXAMPLES, ids=lambda path: path.parent.name)
+def test_the_data_of_every_example_are_as_the_schema_describes_them(
+    path: Path, schema: Draft7Validator
+) -> None:
+    data = report_data(build_report(open_file(path).file))
+    assert [f"{'/'.join(map(str, e.absolute_path))}: {e.message}" for e in schema.iter_errors(data)] == []
+
+
+def test_a_finding_has_its_rule_its_values_and_what_its_fix_sets(
+    broken: dict[str, Any], schema: Draft7Validator
+) -> None:
+    assert list(schema.iter_errors(broken)) == []
+    found = {entry["rule"]: entry for entry in broken["findings"]}["9pc.servo.excess-below-following-error"]
+    assert {"id": "servo.excess_error", "instance": "1"} in found["about"]
+    (first, *_) = found["fix"]
+    assert (first["id"], first["instance"], first["unit"]) == ("servo.excess_error", "1", "in")
+    assert isinstance(first["value"], float)
+    assert "Eilgänge enden im Not-Halt" in found["message"]
+
+
+def test_values_are_numbers_in_their_unit_yes_and_no_and_labels(broken: dict[str, Any]) -> None:
+    values = {(each["id"], each["instance"]): each for each in broken["values"]}
+    assert (values["servo.excess_error", "1"]["value"], values["servo.excess_error", "1"]["unit"]) == (
+        0.2,
+        "in",
+    )
+    assert values["zone.overtravel_used", "1"]["value"] is True
+    assert values["axis.type", "4"]["value"] == "rotary"
+    assert values["password.character", "1"]["value"] is None
+    assert values["password.character", "1"]["set"] is True

@@ -1,0 +1,82 @@
+"""A PDF keeps to PDF/A and PDF/UA, and has the machine with it."""
+
+import json
+import re
+import zlib
+from pathlib import Path
+
+import pytest
+
+from amp_studio.files import ParameterFile, open_file, without_secrets
+from amp_studio.files.example_files import examples_folder
+from amp_studio.formats import open_for_reading
+from amp_studio.formats.report_pdf import attached_machine
+from amp_studio.report import Contents, print_report, results_paper, write_paper
+
+MILL = examples_folder() / "mill-1394" / "MILL_1394.amp"
+SHORT = Contents(changed_only=True, without=frozenset({"pictures", "motion", "power-up", "signatures"}))
+
+
+@pytest.fixture(scope="module")
+def printed(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    path = tmp_path_factory.mktemp("report") / "mill.pdf"
+    notes: list[str] = []
+    print_report(open_file(MILL).file, path, SHORT, source=MILL, notify=notes.append)
+    assert notes == []
+    return path
+
+
+def test_a_report_keeps_to_the_standards_for_archives_and_for_readers_aloud(printed: Path) -> None:
+    content = printed.read_bytes()
+    assert b"<pdfaid:part>3</pdfaid:part>" in content
+    assert b"<pdfaid:conformance>A</pdfaid:conformance>" in content
+    assert b"<pdfuaid:part>1</pdfuaid:part>" in content
+
+
+def test_a_paper_of_tables_keeps_to_them_too(tmp_path: Path) -> None:
+    notes: list[str] = []
+    paper = results_paper("Results", ("Who", "What"), [("X", "1 mm")])
+    write_paper(paper, tmp_path / "results.pdf", notes.append)
+    assert notes == []
+    assert b"<pdfuaid:part>1</pdfuaid:part>" in (tmp_path / "results.pdf").read_bytes()
+
+
+def test_a_report_has_its_subject_and_its_keywords_but_not_the_folder_of_its_author(printed: Path) -> None:
+    content = printed.read_bytes()
+    assert b"Machine parameters by group, Allen-Bradley 9/PC AMP" in content
+    assert b"Allen-Bradley 9/PC AMP, MILL_1394, MILL_1394.amp" in content
+    assert str(examples_folder()).encode() not in content
+
+
+def test_opening_a_report_gives_the_machine_back_without_its_secrets(printed: Path) -> None:
+    file = open_file(MILL).file
+    back = open_for_reading(printed)
+    assert back.values == without_secrets(file).values
+    assert len(back.values) < len(file.values)
+
+
+def test_a_report_has_itself_as_data(printed: Path) -> None:
+    packed = re.findall(rb"/EmbeddedFile\b.*?stream\r?\n(.*?)endstream", printed.read_bytes(), re.DOTALL)
+    documents = [text for text in map(_unpacked, packed) if text[:1] == b"{"]
+    assert json.loads(documents[0])["family"]
+
+
+def _unpacked(packed: bytes) -> bytes:
+    return zlib.decompressobj().decompress(packed)
+
+
+def test_a_script_without_a_font_is_told_and_printed_all_the_same(
+    mill: ParameterFile, tmp_path: Path
+) -> None:
+    mill.header.name = "\u2d30"  # Tifinagh, for which no font of the system is asked
+    notes: list[str] = []
+    print_report(mill, tmp_path / "odd.pdf", SHORT, notify=notes.append)
+    assert (tmp_path / "odd.pdf").read_bytes().startswith(b"%PDF")
+    assert notes == ["The PDF does not keep to PDF/A and PDF/UA: no font here has the character \u2d30"]
+
+
+@pytest.mark.parametrize(
+    "content", [b"%PDF-1.7\n", b"%PDF-1.7\n<</Type /EmbeddedFile>>\nstream\nnothing\nendstream"]
+)
+def test_a_pdf_without_a_machine_has_none(content: bytes) -> None:
+    assert attached_machine(content) is None
