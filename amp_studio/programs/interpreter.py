@@ -440,6 +440,8 @@ class Interpreter:
     def _keep(self, roles: dict[str, float], shape: _Shape) -> None:
         """Take the words that stay active."""
         feed = roles.get("feed")
+        if roles.get("move-time", 0.0) > 0.0:
+            feed = 60.0 / roles["move-time"]  # as moves a minute, in which other controls count it
         if feed is not None:
             if feed <= 0.0:
                 raise BlockError(f"F{feed:g} is no feed: it must be above 0", "no-feed")

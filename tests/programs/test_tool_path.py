@@ -205,6 +205,16 @@ def test_reference_points_are_reached_by_way_of_the_point() -> None:
     assert set(found.kind.tolist()) == {RAPID}
 
 
+def test_inverse_time_is_minutes_for_the_move_on_a_9pc_and_moves_a_minute_on_a_grbl() -> None:
+    """Page 16-7 of the 9/PC: 0.5 minutes for 60 mm; gcode.c: 4 moves a minute."""
+    mill = path(example("mill-1394"), "G21 G90|G93 G01 X60. F0.5")
+    assert mill.feed.tolist() == pytest.approx([60.0 / 30.0])
+    router = path(example("grblhal-router"), "G93 G1 X60 F4|X0")
+    assert router.feed.tolist() == pytest.approx([60.0 / 15.0])
+    assert router.fault is not None
+    assert router.fault.code == "error:22"
+
+
 def test_scale_and_turn_are_around_their_points(router: ParameterFile) -> None:
     found = path(router, "G20 F10|G51 X-1 Y-1 P2|X-2 Y-1|G50|G68 X0 Y0 R90|X-1 Y0")
     assert np.round(found.ends[:, :2] / 25.4, 6).tolist() == [[-3, -1], [0, -1]]

@@ -52,6 +52,7 @@ CodeAction = Literal[
 """What a code does to the path of a program; ``nothing`` for one that moves no axis."""
 WordRole = Literal[
     "feed",
+    "move-time",
     "dwell",
     "spindle",
     "repeats",
