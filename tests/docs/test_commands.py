@@ -182,6 +182,10 @@ def prepare(page: str, stage: Stage, monkeypatch: pytest.MonkeyPatch) -> None:
             stage.replaced["baud=9600"] = (
                 "baud=115200"  # the program keeps to the rate of a line, also of one that has none
             )
+    if page == "docs/reports.md":
+        Path("REPORT.pdf").write_bytes(
+            b"%PDF-1.7\n<</Type /EmbeddedFile>>\nstream\n" + MILL.read_bytes() + b"\nendstream\n"
+        )
     if page.startswith("examples/"):
         os.chdir(Path(page).parent)
     for shown in (*BEGINS_WITH.get(page, ()), page):
