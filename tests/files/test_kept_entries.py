@@ -214,7 +214,7 @@ def test_rare_line_ends_survive_a_save_that_does_not_touch_them(sign: str, told:
 def test_a_line_end_that_no_editor_shows_is_refused(sign: str) -> None:
     """Readers of YAML differ on it: what comes after it on the screen would be a separate entry."""
     content = content_of(ParameterFile(load_schema("9pc"))).decode("utf-8")
-    with pytest.raises(ParameterFileError, match=f"sign U.{ord(sign):04X} has no place") as error:
+    with pytest.raises(ParameterFileError, match=f"character U.{ord(sign):04X} has no place") as error:
         read_content(HERE, content.replace("amp_studio: 1", f"name: a{sign}b\namp_studio: 1").encode())
     assert error.value.line == content[: content.index("amp_studio: 1")].count("\n") + 1
 

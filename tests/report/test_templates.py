@@ -75,7 +75,7 @@ def test_logo_colours_header_and_a_chapter_of_a_pdf(machine: Path, mill: Paramet
     )
     template = (
         EXTENDS_PDF
-        + '{% block logo %}#image("logo.svg", width: 20mm){% endblock %}\n'
+        + '{% block logo %}#image("logo.svg", width: 20mm, alt: "Works"){% endblock %}\n'
         + '{% block colours %}#let accent = rgb("#006633"){% endblock %}\n'
         + "{% block header %}Works department #h(1fr) #{{ report.title }}{% endblock %}\n"
         + "{% block chapters %}\n= Service\nCall #{{ report.title }}.\n{% endblock %}\n"

@@ -73,7 +73,6 @@ def test_a_verdict_is_that_of_both_expressions_together(when: str) -> None:
 def test_what_depends_on_the_instance_is_not_remembered_by_its_values_alone() -> None:
     expressions = Expressions(rule("instance == '2'", "a < b"), {})
     assert expressions.verdict((5.0, 3.0), Circumstances("mill", "", "1")) is False
-    assert expressions.remembered == {}
     assert expressions.verdict((5.0, 3.0), Circumstances("mill", "", "2")) is True
 
 
