@@ -432,6 +432,10 @@ class _Migration:
                 loses="homing as it was",
                 do="choose a way of homing at the new control",
             )
+            self.out.measure.append(
+                f"{axis.letter}: how it homes; Home All leaves it out until then, and no program runs before"
+                " every joint is homed"
+            )
             return
         if search is not None and leave is not None:
             self._home_speeds(axis, j, search, leave, alone=kind == "marker")
