@@ -8,8 +8,9 @@ from pathlib import Path
 
 import pytest
 
+from amp_studio.files import examples_folder, open_file
 from amp_studio.schema import Value
-from amp_studio.sheet import make_sheet
+from amp_studio.sheet import make_sheet, order
 from amp_studio.sheet.order import safe_order
 from amp_studio.validate import read_builder_rules
 from amp_studio.validate.interim import Interim, NewValue
@@ -152,3 +153,21 @@ def test_a_sheet_of_all_values_of_a_large_file_is_made_within_seconds(present, c
     sheet = make_sheet(wanted, present)
     assert len(sheet.entries) > 200
     assert time.process_time() - began < 20
+
+
+def test_values_that_cannot_be_ordered_come_as_they_are_given_after_a_bounded_search(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    """A search of every order of these 60 values would look at thousands of states for each of them."""
+    file = open_file(examples_folder() / "57c422b-label-press" / "LABEL_PRESS.amp").file
+    empty = file.copy()
+    empty.values.clear()
+    steps = [NewValue(address, value) for address, value in list(file.values.items())[:60]]
+    start, asked = Interim(empty), list[NewValue]()
+    kept = start.set
+    monkeypatch.setattr(start, "set", lambda step: (asked.append(step), kept(step))[1])
+    monkeypatch.setattr(start, "checks_of", lambda _address: frozenset({"all"}))
+    monkeypatch.setattr(order, "bad", lambda *_: ["something"])
+    monkeypatch.setattr(order, "_TRIES", 100)
+    assert sorted(safe_order(start, steps, ()), key=str) == sorted(steps, key=str)
+    assert len(asked) < 1_000
