@@ -16,15 +16,15 @@ from amp_studio.validate import Finding, Interim, NewValue
 
 _TRIES_A_VALUE = 4
 _TRIES = 4_000
-"""States that all searches together may look at, of which one takes 0.2 to 0.6 ms; the steps that are left
-then come in the order in which they are given. A thousand values that cannot be ordered would be looked at a
+"""States that all searches together may try, of which one takes 0.2 to 0.6 ms; the steps that are left
+then come in the order in which they are given. A thousand values that cannot be ordered would be tried a
 million times else.
 """
 
 
 @dataclass
 class _Budget:
-    """How many states may be looked at yet."""
+    """How many states may be tried yet."""
 
     left: int
 
