@@ -170,3 +170,19 @@ def test_a_program_that_runs_uses_what_its_pins_show(folder: Path, monkeypatch: 
     assert found.is_same
     assert not found.agrees
     assert control.identify().restart_needed
+
+
+def test_a_user_who_cannot_ask_the_program_may_send_and_is_refused_a_verdict(
+    folder: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def refused(_kind: str) -> dict[str, str]:
+        raise TransferError("the running LinuxCNC does not show its values", "")
+
+    monkeypatch.setattr(running, "pins", refused)
+    monkeypatch.setattr(driver_module, "is_running", lambda _path: True)
+    file = read(folder)
+    file.set(("joint.ferror", "0"), Value(2.25, "mm"))
+    sent(folder, file)
+    assert b"2.25" in (folder / "joints.inc").read_bytes()
+    with pytest.raises(TransferError, match="does not show its values"):
+        connect(f"folder:{folder}").verify(MachineParameters(file))

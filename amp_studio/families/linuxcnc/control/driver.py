@@ -13,13 +13,12 @@ from pathlib import Path
 from typing import ClassVar
 
 from amp_studio.families.linuxcnc.formats.ini import FAMILY, FORMAT
-from amp_studio.files import ChangedOnDiskError, SaveError, write_atomic
+from amp_studio.files import ChangedOnDiskError, ParameterFile, SaveError, write_atomic
 from amp_studio.formats import ReadOptions
 from amp_studio.schema import Address, Value, load_schema
 from amp_studio.transfer import (
     QUIET,
     Abilities,
-    CancelledError,
     ControlIdentity,
     ControlStatus,
     Exchange,
@@ -29,6 +28,7 @@ from amp_studio.transfer import (
     Receipt,
     Replacement,
     TransferError,
+    Waiting,
     WrongFamilyError,
 )
 from amp_studio.transfer.links import Endpoint
@@ -49,6 +49,7 @@ class ConfigurationDriver(ConfigurationContent):
 
     def __init__(self, endpoint: Endpoint) -> None:
         self.endpoint = endpoint
+        self._waiting = Waiting()
 
     @classmethod
     def at(cls, endpoint: Endpoint, family: str = "") -> ConfigurationDriver:
@@ -72,16 +73,27 @@ class ConfigurationDriver(ConfigurationContent):
             family=FAMILY,
             protocol=PROTOCOL,
             name=file.header.name,
-            revision=load_schema(FAMILY).on(file.machine).machine,
+            revision=file.machine,
             signature=load_schema(FAMILY).signature,
             size=len(content),
             sha256=hashlib.sha256(content).digest(),
-            restart_needed=any(value != file.get(at) for at, value in self.in_use(content).items()),
+            restart_needed=self._uses_others(file),
         )
+
+    def _uses_others(self, file: ParameterFile) -> bool:
+        """Return whether the running program uses other values; False where it does not show them to this
+        user, who may write its files anyway.
+        """
+        try:
+            used = values_in_use(file) if is_running(self.path) else {}
+        except TransferError:
+            return False
+        return any(value != file.get(address) for address, value in used.items())
 
     def fetch(self, exchange: Exchange = QUIET, stage: str = "upload") -> bytes:
         """Return the configuration with all files that it names in its folder; raises TransferError."""
-        _go_on(exchange)
+        self._waiting.begin(exchange)
+        self._waiting.look()
         files = {MAIN: self._read(self.path)}
 
         def beside(name: str) -> str | None:
@@ -92,14 +104,15 @@ class ConfigurationDriver(ConfigurationContent):
             return files[name].decode("latin-1")
 
         FORMAT.read(files[MAIN].decode("latin-1"), load_schema(FAMILY), ReadOptions(True, beside=beside))
-        exchange.progress(stage, 1, 1)
+        self._waiting.notify(stage, 1, 1)
         return Configuration(files).written()
 
     def send(self, replacement: Replacement, exchange: Exchange = QUIET) -> Receipt:
         """Write the files that change, the configuration last; what is written already is put back where one
         cannot be written.
         """
-        _go_on(exchange)
+        self._waiting.begin(exchange)
+        self._waiting.look()
         old = Configuration.read(replacement.current).files
         new = Configuration.read(replacement.content).files
         changed = sorted((n for n in new if new[n] != old.get(n)), key=lambda name: (name == MAIN, name))
@@ -112,7 +125,7 @@ class ConfigurationDriver(ConfigurationContent):
             except (ChangedOnDiskError, SaveError) as error:
                 raise self._broken(error, written, old, new) from error
             written.append(name)
-            exchange.progress("send", len(written), len(changed))
+            self._waiting.notify("send", len(written), len(changed))
         return Receipt(restart_needed=is_running(self.path))
 
     def close(self) -> None:
@@ -165,12 +178,17 @@ class ConfigurationDriver(ConfigurationContent):
         old: Mapping[str, bytes],
         new: Mapping[str, bytes],
     ) -> TransferError:
-        """Put back what was written, and return the error with what the folder contains then."""
+        """Put back what was written, and return the error with what the folder contains then.
+
+        A file that was not there before stays: nothing is deleted in the folder of a control.
+        """
+        is_back = all(name in old for name in written)
         try:
-            for name in reversed(written):
-                if name in old:
-                    self._write(name, old[name], new[name])
+            for name in reversed([name for name in written if name in old]):
+                self._write(name, old[name], new[name])
         except (ChangedOnDiskError, SaveError):
+            is_back = False
+        if not is_back:
             return TransferError(str(error), "mixed")
         kind: Callable[..., TransferError] = (
             ImageChangedError if isinstance(error, ChangedOnDiskError) else TransferError
@@ -191,8 +209,3 @@ def _configuration_in(path: Path) -> Path:
     raise NoConnectionError(
         f"{path} has {len(found)} configurations ({names}): name one, folder:NAME.ini", ""
     )
-
-
-def _go_on(exchange: Exchange) -> None:
-    if exchange.is_stopped:
-        raise CancelledError("stopped")

@@ -22,8 +22,6 @@ TASK = b"milltask"
 SECONDS = 3.0
 DIGITS = 1e-6
 """halcmd prints seven digits."""
-_UNLIMITED = 1e99
-"""A limit that a configuration does not set."""
 _STATES = {
     "homed": "homed",
     "homing": "homing",
@@ -38,9 +36,8 @@ _STATES = {
 
 def is_running(path: Path) -> bool:
     """Return whether a LinuxCNC runs with this configuration on this computer, as far as it shows that."""
-    expanded = path.with_name(
-        f"{path.name}.expanded"
-    )  # what the start script makes of one that includes files
+    # The start script runs one that includes files by this copy of it (LN345).
+    expanded = path.with_name(f"{path.name}.expanded")
     return any(found.resolve() in (path, expanded) for found in _configurations())
 
 

@@ -253,7 +253,7 @@ def _encoded(text: str, encoding: str) -> bytes:
         return text.encode(encoding)
     except UnicodeEncodeError as error:
         raise FormatError(
-            f"'{error.object[error.start]}' is no sign of latin-1, in which this text is"
+            f"'{error.object[error.start]}' is no character of latin-1, in which this text is"
         ) from None
 
 
